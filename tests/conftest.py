@@ -52,13 +52,13 @@ class CommandRun:
 
 @pytest.fixture(scope="session")
 def demo(tmp_path_factory: pytest.TempPathFactory) -> CommandRun:
-    """`demo --json`, run once: both cases of the grasp, 300 steps each."""
+    """`demo --fast --json`, run once: both cases of the grasp, 300 steps each."""
     from quasistatic_ref.cli.main import main  # here, so that light tests stay light
 
     folder = tmp_path_factory.mktemp("demo") / "out"
     output, errors = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
-        status = main(["demo", "--json", "--out", str(folder)])
+        status = main(["demo", "--fast", "--json", "--out", str(folder)])
     return CommandRun(status, output.getvalue(), errors.getvalue(), folder)
 
 
@@ -83,6 +83,6 @@ def load(tmp_path: Path) -> Callable[..., Scenario]:
         for old, new in changes:
             assert text.count(old) == 1, old
             text = text.replace(old, new)
-        return load_scenario(written_scenario(tmp_path, text), settings)
+        return load_scenario(written_scenario(tmp_path, text), settings, fast=True)
 
     return loaded

@@ -7,9 +7,9 @@ import numpy as np
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
+from quasistatic_ref.optional.fast.backends import sparse_from
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.solve.engines import sparse_from
 from quasistatic_ref.step.data import Contacts, StepData
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
@@ -32,7 +32,7 @@ def changed(contacts, **changes):
 
 def always_in_blocks(patch):
     """Have simulators hand over contacts in blocks, however few, where the backend takes them."""
-    where = "quasistatic_ref.simulate.simulator.sparse_from"  # which needs more than steps do
+    where = "quasistatic_ref.optional.fast.simulator.sparse_from"  # which needs more than steps do
     patch.setattr(where, lambda *arguments: min(sparse_from(*arguments), 1))
 
 

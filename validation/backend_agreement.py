@@ -18,8 +18,8 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.backends import BACKENDS, installed_backends
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -39,7 +39,7 @@ def main() -> int:
     """Print the table."""
     steps: list[StepData] = []
     for own in CASES.values():
-        run = load_scenario("bunny_grasp", [*own, f"solver.backend='{TRUTH}'"]).run()
+        run = load_scenario("bunny_grasp", [*own, f"solver.backend='{TRUTH}'"], fast=True).run()
         steps += [run.step_data(k) for k in range(run.steps)]
     truth = [solve_step(step, TRUTH).delta_q for step in steps]
     print(f"{len(steps)} steps; error against {TRUTH} at 1e-12")

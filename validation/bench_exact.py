@@ -27,7 +27,7 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY
@@ -75,7 +75,7 @@ def families(steps: int) -> Iterator[tuple[str, list[StepData]]]:
     """So many steps of each family; those of bunny_grasp spread over both of its runs."""
     grasp = []
     for own in CASES.values():
-        run = load_scenario("bunny_grasp", own).run()
+        run = load_scenario("bunny_grasp", own, fast=True).run()
         grasp += [run.step_data(k) for k in range(run.steps)]
     yield GRASP, [grasp[int(k)] for k in np.linspace(0, len(grasp) - 1, min(steps, len(grasp)))]
     for family, size in FAMILIES.items():

@@ -29,9 +29,9 @@ from tqdm import tqdm
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.compiled import compiled
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
 from quasistatic_ref.solve.units import Units, natural_units, to_natural

@@ -92,7 +92,7 @@ def pushes(per_couple):
 
 def states(name, count, away=1e-3):
     """(error, reasons) of states about the run of a scenario."""
-    scenario = load_scenario(name)
+    scenario = load_scenario(name, fast=True)
     simulator, system = scenario.simulator(), scenario.system
     run = scenario.run(progress=False)
     rng = np.random.default_rng(len(name))
@@ -113,7 +113,7 @@ def compared(simulator, q, q_bar_a, found, rng):
 
 def milliseconds(count=60):
     """Median processor time of all derivatives of a step of bunny_grasp, the step included."""
-    scenario = load_scenario("bunny_grasp", steps=count + 20)
+    scenario = load_scenario("bunny_grasp", steps=count + 20, fast=True)
     simulator, run = scenario.simulator(), scenario.run(progress=False)
     spent = []
     for k in range(20, count + 20):

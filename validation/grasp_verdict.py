@@ -55,7 +55,7 @@ def verdict(scenario: Path, settings: list[str], h: float = 0.01) -> tuple[str, 
         lift = [f"h={h}", f"steps={round(TOP / h)}"]
         # The case comes last, so that mu_omega = 0 is not overruled.
         try:
-            loaded = load_scenario(scenario, [*lift, *settings, *own])
+            loaded = load_scenario(scenario, [*lift, *settings, *own], fast=True)
             report = grasp_report(loaded, loaded.run(progress=False))
         except RunFailed as failure:
             return ("-", "-", f"not solved: {failure.reason}")

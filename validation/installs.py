@@ -45,7 +45,7 @@ ENGINES: Final = ("quasistatic-ref validate mujoco_rows",)
 FAST: Final = (
     'python -c "import os, sys; '
     "os.environ['QUASISTATIC_REF_CC'] = sys.executable + ' -m ziglang cc'; "
-    'from quasistatic_ref.compiled import why_not; sys.exit(why_not())"',
+    'from quasistatic_ref.optional.fast.compiled import why_not; sys.exit(why_not())"',
     "quasistatic-ref run sphere_spin --set steps=20 --json",
 )
 """With the compiler that comes along, also where the system has one."""
@@ -73,7 +73,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         *shell_lines(WALK),
         *(f"quasistatic-ref run {name} --json" for name in OWN if name != "bunny_grasp"),
         "quasistatic-ref run bunny_grasp --set contacts.grip.mu_omega=0 --set steps=20 --json",
-        "quasistatic-ref run sphere_spin --set steps=5 --backend osqp --engine cvxpy --json",
+        "quasistatic-ref run sphere_spin --set steps=5 --backend osqp --json",
         "quasistatic-ref run sphere_spin --set steps=5 --cone ellipsoid",
         "quasistatic-ref extract results/stack.npz --step 5 -o step.json",
         "quasistatic-ref solve step.json -o solution.json",

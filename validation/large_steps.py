@@ -13,12 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.environment import machine
 from quasistatic_ref.lab.study.large import CHAINS
+from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import constants
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 
@@ -79,8 +79,8 @@ def cost(shape: Shape, way: str, steps: int = STEPS, k: int = 4, certify: str = 
     backend, form = way.split()
     some, other = (pile(shape, k, backend=name, certify=certify) for name in (backend, "clarabel"))
     simulator = some.simulator
-    simulator.fast = None  # compiled rows are dense ones'
-    geometry = BlockGeometry if form == "sparse" else ContactGeometry
+    simulator.compiled = None  # compiled rows are dense ones'
+    geometry = BlockGeometry if form == "sparse" else PosedGeometry
     simulator.geometry = geometry(simulator.layout, simulator.system.motion)
     system = simulator.system
     M_u = system.mass_blocks if form == "sparse" else system.M_u(some.q)

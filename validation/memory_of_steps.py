@@ -40,7 +40,7 @@ def growth(steps: int, marks: list[int]) -> Iterator[tuple[int, int, int]]:
     marks : list of int
         After how many steps to look.
     """
-    scenario, draw = load_scenario("sphere_spin"), np.random.default_rng(1)
+    scenario, draw = load_scenario("sphere_spin", fast=True), np.random.default_rng(1)
     simulator, q, force = scenario.simulator(), scenario.system.q_start, np.zeros(6)
     tracemalloc.start()
     for k in range(1, steps + 1):

@@ -4,7 +4,9 @@ Writes down what a change of the code must not change, and compares it with what
 
 - ``runs``: SHA-256 of q, delta_q, A'lam and the slacks of every scenario, each step certified, and
   of bunny_grasp without torsion too. A'lam and the slacks are those of the exact optimum that the
-  run's own multipliers lead to: lam itself is not unique.
+  run's own multipliers lead to: lam itself is not unique. They are taken with ``fast``;
+  ``--set fast=false`` takes them on the plain path, ``--set solver.backend=osqp`` with another
+  backend, and the record is the same.
 - ``vectors``: SHA-256 of each file that ``vectors generate`` writes in full.
 - ``claims``: each quantity that ``validate`` measures, as its page shows it (six digits), but for
   times.
@@ -61,7 +63,7 @@ def sha256(*arrays: np.ndarray) -> str:
 
 def run_record(name: str, settings: list[str]) -> Record:
     """The hashes of one run, each step certified."""
-    run = load_scenario(name, [*settings, "record=full"]).run(progress=False)
+    run = load_scenario(name, ["fast=true", "record=full", *settings]).run(progress=False)
     nets, slacks = [], []
     for k in range(run.steps):
         optimum = exact_step(run.step_data(k), np.flatnonzero(run["lam"][k] > 0).tolist())
@@ -77,14 +79,14 @@ def run_record(name: str, settings: list[str]) -> Record:
     }
 
 
-def runs() -> Record:
+def runs(settings: list[str]) -> Record:
     """Every scenario that comes with the package, and the bunny without torsion."""
-    found = {name: run_record(name, []) for name in scenario_names()}
-    found[f"bunny_grasp {WITHOUT_TORSION}"] = run_record("bunny_grasp", [WITHOUT_TORSION])
-    return found
+    found = {name: run_record(name, settings) for name in scenario_names()}
+    bunny = run_record("bunny_grasp", [WITHOUT_TORSION, *settings])
+    return found | {f"bunny_grasp {WITHOUT_TORSION}": bunny}
 
 
-def vectors() -> Record:
+def vectors(settings: list[str]) -> Record:
     """Every file of the reference vectors, made from nothing."""
     with TemporaryDirectory() as folder:
         generated(vectors_folder(), Path(folder), progress=False)
@@ -95,7 +97,7 @@ def vectors() -> Record:
         }
 
 
-def claims() -> Record:
+def claims(settings: list[str]) -> Record:
     """Every quantity of every claim, measured and expected, to six digits."""
     found = {}
     for claim in BY_NAME.values():
@@ -128,12 +130,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--parts", nargs="+", choices=PARTS, default=list(PARTS))
     parser.add_argument("--out", type=Path, metavar="FILE", help="write the record here")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE", dest="settings",
+        help="change a field of every scenario of the runs",
+    )  # fmt: skip
     parser.add_argument("--against", type=Path, metavar="FILE", help="compare with this record")
     options = parser.parse_args()
     record: Record = {"kernel": kernel()}
     for part in options.parts:
         print(f"{part} ...", file=sys.stderr, flush=True)
-        record[part] = PARTS[part]()
+        record[part] = PARTS[part](options.settings)
     if options.out:
         text_written(options.out, json.dumps(record, indent=1) + "\n")
     if options.against is None:

@@ -204,7 +204,7 @@ def all_cases(folder: Path, whole: bool) -> Iterator[Case]:
         if whole or k % 9 == 0:
             yield from cases.solved("vectors, layer step", step)
     for name, settings in CASES.items():
-        run = load_scenario("bunny_grasp", settings).run(progress=False)
+        run = load_scenario("bunny_grasp", settings, fast=True).run(progress=False)
         for k in range(0, len(run), 1 if whole else 30):
             yield from cases.solved(f"bunny_grasp, {name}", run.step_data(k))
     for family, step in random_steps(2000 if whole else 60):

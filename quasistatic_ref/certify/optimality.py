@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.step.arrays import largest
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 
 @dataclass(frozen=True)
@@ -56,12 +56,13 @@ def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Resi
     return Residuals(*map(largest, sizes))
 
 
-def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
+def optimality_residuals(form: StandardForm, delta_q: Array, lam: Array) -> Residuals:
     """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at an answer.
 
     Parameters
     ----------
-    step : StepData
+    form : StandardForm
+        The step's H, g, A and b, in SI or in natural units; H and A may be sparse.
     delta_q : ndarray, shape (n_v,)
     lam : ndarray, shape (m,)
         Multipliers, contact-major, the user's own rows last.
@@ -70,12 +71,8 @@ def optimality_residuals(step: StepData, delta_q: Array, lam: Array) -> Residual
     -------
     Residuals
     """
-    h, n_a = step.h, step.n_a
-    A, b = (form := standard_form(step)).A, form.b
-    delta_q_a, delta_q_u = delta_q[:n_a], delta_q[n_a:]
-    actuated = h * step.K_q @ (delta_q_a - step.delta_q_bar_a) - h * step.tau_a
-    unactuated = step.M_u @ delta_q_u / h - h * step.tau_u
-    balance = np.concatenate([actuated, unactuated]) - A.T @ lam  # Eq. (9), mended
+    H, g, A, b = form
+    balance = H @ delta_q - g - A.T @ lam  # Eq. (9), as (13) has it
     slack = A @ delta_q - b
     short = -slack  # Eq. (10): slack >= 0
     pull = -lam  # Eq. (11): lam >= 0

@@ -3,17 +3,15 @@
 import argparse
 
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
-    DEFAULT_OF_RUNS,
     QPSOLVERS,
     installed,
     installed_backends,
 )
-
-DEFAULTS = {DEFAULT: " (default of solve)", DEFAULT_OF_RUNS: " (default of run)"}
-"""Of a run without DAQP it is Clarabel too, which then has the second word."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -24,16 +22,28 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Print the table of backends."""
     known, native = installed_backends(), installed("native")
+    quick = fast_default()
     if options.json:
-        defaults = {"default": DEFAULT_OF_RUNS, "default_of_solve": DEFAULT}
+        defaults = {"default": DEFAULT, "default_of_fast": quick}
         shared.print_json({**defaults, "installed": known, "native": native})
         return 0
     rows: list[tuple[str, ...]] = [
-        ("backend", "through cvxpy", "through qpsolvers", "native", "method")
+        ("backend", "through cvxpy", "through qpsolvers", "with --fast", "method")
     ]
     for entry in (entry for entry in BACKENDS.values() if entry.steps):
-        name = f"{entry.name}{DEFAULTS.get(entry.name, '')}"
+        name = entry.name
+        name += " (default)" if name == DEFAULT else ""
+        name += " (default with --fast)" if entry.name == quick else ""
         reached = [key if key in known else "-" for key in (entry.name, QPSOLVERS + entry.name)]
         rows.append((name, *reached, "yes" if entry.name in native else "-", entry.method))
     shared.print_rows(rows)
     return 0
+
+
+def fast_default() -> str | None:
+    """The backend of `fast` where none is named; None if that folder is not there."""
+    try:
+        name: str = needed_part("fast.backends", "fast").DEFAULT_OF_FAST
+    except InputError:
+        return None
+    return name

@@ -11,7 +11,6 @@ import numpy as np
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.ignored import ignored_lines
 from quasistatic_ref.cli.named_fields import field_lines, named_fields
-from quasistatic_ref.compiled import compiled, why_not
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.contact.separations import OWN, SAYS
@@ -49,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
         body = Body(name=body_name(path), urdf=path, actuated="all", package_dirs=folders)
         record = {"read_as": READ_AS, **system_record(System([body]))}
     else:
-        record = scenario_record(load_scenario(options.file, options.settings))
+        record = scenario_record(load_scenario(options.file, shared.scenario_settings(options)))
     if options.json:
         shared.print_json(record)
     else:
@@ -98,7 +97,7 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
         if coordinate["actuated"]:
             coordinate["K_q"] = scenario.K_q[i, i]
     record |= {"h": scenario.h, "steps": scenario.steps, "backend": scenario.backend}
-    record |= {"engine": scenario.engine, "cone": scenario.cone, "steps_by": steps_by(scenario)}
+    record |= {"fast": scenario.fast, "cone": scenario.cone, "steps_by": steps_by(scenario)}
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["tied"] = tied_at_start(scenario)
@@ -108,8 +107,12 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
 
 def steps_by(scenario: Scenario) -> str:
     """What takes the steps of a scenario, in words."""
-    fast = compiled("step")
-    return f"NumPy: {why_not()}" if fast is None else fast.taken_by(scenario.simulator())
+    if not scenario.fast:
+        return "the plain path, which is the definition; --fast takes the same steps sooner"
+    from quasistatic_ref.optional.fast.compiled import compiled, why_not
+
+    in_c = compiled("step")
+    return f"NumPy: {why_not()}" if in_c is None else in_c.taken_by(scenario.simulator())
 
 
 def tied_at_start(scenario: Scenario) -> list[str]:
@@ -171,7 +174,7 @@ def _print(record: dict[str, Any]) -> None:
         shared.print_rows(rows, notes)
         variables, constraints = record["size"]
         print(f"\neach step: {variables} variables, {constraints} rows; h = {record['h']:g} s")
-        print(f"solved by {record['backend']}, engine {record['engine']}")
+        print(f"solved by {record['backend']}")
         shared.print_wrapped(f"steps are taken by {record['steps_by']}", "")
     if record.get("tied"):
         print("\nnormals that are one of several at the start:")

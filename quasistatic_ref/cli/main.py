@@ -59,6 +59,8 @@ class Parser(argparse.ArgumentParser):
     def parse_known_args(self, *arguments: Any) -> Any:  # type: ignore[override]  # one method for all of typeshed's overloads
         """Nothing is left over: the command or action that was given it prints its own usage."""
         found, unknown = super().parse_known_args(*arguments)
+        if any(word.partition("=")[0] == "--engine" for word in unknown):
+            self.error("--engine is no option any more; --fast has the quick interface")
         if unknown:
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
         return found, unknown

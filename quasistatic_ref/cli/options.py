@@ -19,7 +19,10 @@ from quasistatic_ref.step.files import step_read, step_written
 OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "--out": {"type": Path, "metavar": "FOLDER", "help": "folder for the results"},
     "--backend": {"metavar": "NAME", "help": "solver; see 'quasistatic-ref backends'"},
-    "--engine": {"metavar": "NAME", "help": "native or cvxpy: the interface to it"},
+    "--fast": {
+        "action": "store_true",
+        "help": "take the same steps sooner, to the same certified bits",
+    },
     "--cone": {
         "metavar": "NAME",
         "help": f"friction cone in place of the file's: {', '.join(CONES)}",
@@ -34,7 +37,7 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
     },
     "--json": {"action": "store_true", "help": "print one JSON object, nothing else"},
 }
-SOLVER: Final = ("--backend", "--engine", "--cone", "--certify")
+SOLVER: Final = ("--backend", "--fast", "--cone", "--certify")
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.trajectory import Trajectory
@@ -42,7 +45,7 @@ if TYPE_CHECKING:
 
 COMPLETED = "completed"
 """The attribute of an argument by which ``completion`` knows what it may be."""
-ENGINES, CERTIFY = ("cvxpy", "native"), ("full", "residual", "off")
+CERTIFY = ("full", "residual", "off")
 """As in ``solve``, which takes a second to import; a test holds them equal."""
 
 
@@ -54,7 +57,6 @@ def _backends() -> Sequence[str]:
 
 WORDS: Final[dict[str, Callable[[], Iterable[str]]]] = {
     "--backend": _backends,
-    "--engine": lambda: ENGINES,
     "--cone": lambda: [name.replace("-K", "-8") for name in CONES],
     "--certify": lambda: CERTIFY,
 }
@@ -101,10 +103,12 @@ def progress_line(options: argparse.Namespace, line: str, end: str = "\n") -> No
 def scenario_settings(options: argparse.Namespace) -> list[str]:
     """``--set`` and the options of ``SOLVER`` as changes of a scenario."""
     settings: list[str] = list(getattr(options, "settings", []))
-    for key in ("backend", "engine", "certify"):
+    for key in ("backend", "certify"):
         value = getattr(options, key, None)
         if value is not None:
             settings.append(f"solver.{key}={json_text(value)}")
+    if getattr(options, "fast", False):
+        settings.append("fast=true")
     if getattr(options, "cone", None) is not None:
         settings.append(f"cone={json_text(options.cone)}")
     return settings

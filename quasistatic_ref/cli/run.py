@@ -94,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
         "trajectory": str(path),
         "steps": trajectory.steps,
         "backend": scenario.backend,
-        "engine": scenario.engine,
+        "fast": scenario.fast,
         "variables": scenario.system.n_v,
         "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
@@ -120,9 +120,11 @@ def run(options: argparse.Namespace) -> int:
         return status
     print(f"{summary['steps']} steps of {summary['variables']} variables x {summary['rows']} rows")
     x = summary["worst_residual"]
+    speed = "fast" if scenario.fast else "plain"
     worst = "not computed" if x is None else f"{x:.1e} (natural units)"
-    backend = f"{summary['backend']} ({summary['engine']})"
-    print(f"{summary['certified']}; backend {backend}, worst residual {worst}")
+    print(
+        f"{summary['certified']}; backend {scenario.backend}, {speed} path, worst residual {worst}"
+    )
     if part("doctor.warnings") is not None:
         print(_artifacts(trajectory.header))
     for line in _moved(summary["free_bodies"]):

@@ -11,9 +11,9 @@ from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.engines import CERTIFY, CVXPY, solver_for
+from quasistatic_ref.solve.backends import CERTIFY
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution
@@ -45,13 +45,12 @@ def run(options: argparse.Namespace) -> int:
     InputError
         If files or options do not go together.
     """
-    backend = DEFAULT if options.backend is None else options.backend
     certify = CERTIFY[0] if options.certify is None else options.certify
     step = shared.step_given(options)
     if options.digits is not None:
         _check_digits(options.digits, certify, step)
     try:
-        solver = solver_for(step, backend, options.engine or CVXPY)
+        solver = solver_for(step, options.backend, options.fast)
         solution = solve_step(step, solver, certify=certify)
     except StepInfeasible as proof:
         _write(options.output, infeasible_text(step, proof.farkas.exact))
@@ -61,7 +60,7 @@ def run(options: argparse.Namespace) -> int:
     if options.digits is None or options.output is not None:
         _write(options.output, solution_text(solution))
     digits = solution.statistics.digits
-    own_digits = "" if digits is None else f" ({backend} had {digits:.1f} correct digits)"
+    own_digits = "" if digits is None else f" ({solver.name} had {digits:.1f} correct digits)"
     print(f"{in_words(solution.certificate)}{own_digits}", file=sys.stderr)
     return 0
 

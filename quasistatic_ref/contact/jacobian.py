@@ -8,8 +8,7 @@ from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.optional.fast.posed import PosedContacts
-from quasistatic_ref.step.contacts import Contacts, friction_coefficients
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array
 
 AXES = np.eye(3)
@@ -25,19 +24,11 @@ class ContactGeometry:
         Which links the points belong to; 0 is the world.
     motion : Motion
         How the links move.
-
-    Attributes
-    ----------
-    in_blocks : bool
-        Whether J is in blocks.
     """
 
-    in_blocks = False
-
     def __init__(self, layout: ContactLayout, motion: Motion) -> None:
-        self.layout, self.motion = layout, motion
-        self.named: tuple[list[int], tuple[str, ...]] = [], ()
-        self.mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
+        self.layout = layout
+        self.motion = motion
         # 1 where a column of J moves alpha's (first) or beta's link, else 0.
         self.moves = motion.moves[np.stack([layout.link_alpha, layout.link_beta])]
 
@@ -50,19 +41,19 @@ class ContactGeometry:
         kinematics : Kinematics
             At the same configuration.
         """
-        phi, n, layout = points.phi, points.n, self.layout
-        d1, d2 = tangents(n)
-        J = self.jacobian(kinematics.columns, points.alpha, points.beta, n)
-        names = self.names(points.point)
-        constant = layout.mu_v, layout.mu_omega, layout.rows, self.mu
-        return PosedContacts(names, phi, n, d1, d2, J, *constant)
-
-    def names(self, point: NDArray[np.int64]) -> tuple[str, ...]:
-        """A name for each contact, from its point's number, shape (n_c,): mostly those before."""
-        listed = point.tolist()
-        if listed != self.named[0]:
-            self.named = listed, self.layout.contact_names(point)
-        return self.named[1]
+        layout = self.layout
+        d1, d2 = tangents(points.n)
+        return Contacts(
+            name=layout.contact_names(points.point),
+            phi=points.phi,
+            n=points.n,
+            d1=d1,
+            d2=d2,
+            J=self.jacobian(kinematics.columns, points.alpha, points.beta, points.n),
+            mu_v=layout.mu_v,
+            mu_omega=layout.mu_omega,
+            rows=layout.rows,
+        )
 
     def jacobian(self, columns: Array, alpha: Array, beta: Array, n: Array) -> Array:
         """J of Eq. :eq:`eq-3`: relative velocity and spin, Eq. :eq:`eq-2`, per unit of delta_q.

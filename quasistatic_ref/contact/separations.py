@@ -125,7 +125,7 @@ def mean_direction(ways: Array) -> Array:
 
 
 def refuse_unless_touching(name: str, phi: float, ways: Array, within: float) -> None:
-    """Refuse bodies that are as deep in each other along several normals.
+    """Refuse bodies that are as deep in each other along several normals, or along opposite ones.
 
     Parameters
     ----------
@@ -140,9 +140,11 @@ def refuse_unless_touching(name: str, phi: float, ways: Array, within: float) ->
     Raises
     ------
     ContactError
-        If phi is not about zero.
+        If phi is not about zero, or the normals have no mean: a body is thinner than rounding.
     """
-    if phi < -TOUCHING_FACES / TIED_FACES * within:
+    mean = ways.sum(axis=0)
+    opposite = mean @ mean < SAME_NORMAL
+    if opposite or phi < -TOUCHING_FACES / TIED_FACES * within:
         one, other = (np.array2string(way + 0.0, precision=4, separator=", ") for way in ways[:2])
         raise ContactError(
             f"the bodies are as deep in each other along {one} as along {other}, {-phi:.3g} m: "

@@ -17,7 +17,7 @@ def ran(name: str, *settings: str) -> tuple[Scenario, Trajectory]:
     settings : str
         Changes of it, as ``dotted.key=value``.
     """
-    scenario = load_scenario(name, settings)
+    scenario = load_scenario(name, settings, fast=True)
     return scenario, scenario.run(progress=False)
 
 

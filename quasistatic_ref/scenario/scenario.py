@@ -15,6 +15,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import System
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
 from quasistatic_ref.scenario.checks import check_motion, check_sizes
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
@@ -34,8 +35,7 @@ from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.solve.backends import DEFAULT_OF_RUNS
-from quasistatic_ref.solve.engines import CERTIFY, check_solver, default_backend, default_engine
+from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
 from quasistatic_ref.step.arrays import Array, keep
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.extension import Extension
@@ -66,7 +66,7 @@ class Scenario(Plain, Shown):
         External wrenches [N, N m] in the world frame, each at the centre of mass of a root link.
     backend, accuracy, certify, record, cone
         The fields of these names in the scenario's file.
-    engine : str, optional
+    fast : bool
         As for :class:`~quasistatic_ref.simulate.simulator.Simulator`.
     limits : Limits
         Beyond which no step is taken.
@@ -82,14 +82,14 @@ class Scenario(Plain, Shown):
     gravity_acts: Array
     targets: Targets
     wrenches: tuple[Wrenches, ...] = ()
-    backend: str = DEFAULT_OF_RUNS
+    backend: str = DEFAULT
     accuracy: float = ACCURACY
     certify: str = CERTIFY[0]
     record: str = "full"
     cone: str = PYRAMID
     limits: Limits = field(default_factory=Limits)
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
-    engine: str | None = None
+    fast: bool = False
 
     def __post_init__(self) -> None:
         keep(self, "gravity", "K_q", "gravity_acts")
@@ -103,8 +103,8 @@ class Scenario(Plain, Shown):
             K_q=self.K_q,
             gravity=self.gravity.tolist(),
             gravity_acts=self.gravity_acts,
-            solver=self.backend,
-            engine=self.engine,
+            backend=self.backend,
+            fast=self.fast,
             accuracy=self.accuracy,
             certify=self.certify,
             cone=self.cone,
@@ -185,6 +185,9 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     )
     named = cone(value(top, TOP, "cone")).name
     solver = value(top, TOP, "solver")
+    if "engine" in solver.names():
+        problem = "is no field any more; fast = true, next to h and steps, has the quick interface"
+        raise solver.fail("engine", problem)
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")
     accuracy = value(solver, SOLVER, "accuracy")
@@ -200,7 +203,8 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     pairs = contact_pairs(value(top, TOP, "contacts"), shapes)
     blocks = system.constant_mass_matrix
     entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if blocks else 0
-    backend, engine = _backend_and_engine(solver, certify, named, entries_of_J)
+    fast = value(top, TOP, "fast")
+    backend = _backend(solver, certify, named, entries_of_J, fast)
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
@@ -232,23 +236,24 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         cone=named,
         limits=limits,
         bodies=entries,
-        engine=engine,
+        fast=fast,
     )
 
 
-def _backend_and_engine(
-    solver: Fields, certify: str, cone_name: str, entries: int
-) -> tuple[str, str]:
-    """Names of the backend and the engine, looked up here rather than in the first step."""
-    named = value(solver, SOLVER, "engine")
-    default = default_backend(named, cone_name, certify, entries)
-    name = value(solver, SOLVER, "backend", default)
-    engine = named or default_engine(name, cone_name)
+def _backend(solver: Fields, certify: str, cone_name: str, entries: int, fast: bool) -> str:
+    """The name of the backend, looked up here rather than in the first step."""
+    name: str | None = value(solver, SOLVER, "backend")
     try:
-        check_solver(name, engine, cone_name, certify)
+        if fast:
+            found: str = needed_part("fast.backends", "fast").fast_backend(
+                name, cone_name, certify, entries
+            )
+            return found
+        name = DEFAULT if name is None else name
+        check_backend(name, cone_name, certify)
     except BackendError as error:
         raise solver.fail(error.field or "backend", error.problem, error.value) from None
-    return name, engine
+    return name
 
 
 def _limits(table: Fields) -> Limits:

@@ -14,7 +14,7 @@ from quasistatic_ref.scenario.world_solids import SOLIDS
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.simulator import GRAVITY
-from quasistatic_ref.solve.engines import CERTIFY, ENGINES
+from quasistatic_ref.solve.backends import CERTIFY
 from quasistatic_ref.step.cones import CONES, PYRAMID
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -43,6 +43,10 @@ TABLES = Tables({
             "text", f"friction cone of every contact: {', '.join(CONES)} (K even, from 4 on)",
             default=PYRAMID, schema={"pattern": rf"^({'|'.join(CONES)})$".replace("-K", "-[0-9]+")},
         ),
+        "fast": Field(
+            "boolean", "whether to take the same steps sooner, to the same certified bits",
+            default=False,
+        ),
         "record": Field(
             "text", "what a trajectory holds; light leaves the quadratic programs out",
             default=RECORDS[0], choices=RECORDS,
@@ -55,7 +59,6 @@ TABLES = Tables({
     },
     SOLVER: {
         "backend": Field("text", "name of a solver; quasistatic-ref backends", default=None),
-        "engine": Field("text", "the interface to the backend", default=None, choices=ENGINES),
         "accuracy": Field(
             "number", "of the backend, in natural units", "-", ACCURACY, above=0.0,
         ),

@@ -1,6 +1,5 @@
 """What one step of a simulator came to."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from quasistatic_ref.contact.distance import ClosestPoints
@@ -39,7 +38,3 @@ class StepResult(Plain, Shown):
         """The contacts whose normal was one of several, and how it was chosen, by their names."""
         chosen = zip(self.step.contacts.name, self.points.tie.tolist(), strict=True)
         return {name: SAYS[tie] for name, tie in chosen if tie != OWN}
-
-
-CompiledStep = Callable[..., StepResult | None]
-"""A step of (simulator, q, q_bar_a, force) in compiled code; None where a bit would differ."""

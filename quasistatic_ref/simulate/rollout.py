@@ -1,14 +1,16 @@
 """Steps in sequence: where a step becomes a trajectory."""
 
-from collections.abc import Iterable, Sequence
+import sys
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from quasistatic_ref.errors import QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, warnings_of_runs
+from quasistatic_ref.simulate.pace import Pace
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -56,7 +58,7 @@ def rollout(
         ``"full"``, or ``"light"`` to leave out the quadratic programs.
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal, and to print
-        there, at the end of a run, what it warns of
+        there that `fast` would save ten seconds or more, and, at the end of a run, what it warns of
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.warnings`).
     save : str or Path, optional
         The trajectory's file, written when the run ends, also when it ends early: then next to it,
@@ -97,9 +99,11 @@ def rollout(
         if first:
             runs.resumed(saved, recorder, simulator, q_bar_a, pushed, STRETCH)
     left = range(recorder.steps, steps)
-    bar: Iterable[int] = progress_bar(
-        left, unit="step", total=steps, done=left.start, shown=progress
-    )
+    pace = Pace(simulator.fast or not progress, len(left))
+    bar: Any = progress_bar(left, unit="step", total=steps, done=left.start, shown=progress)
+    entries = 4 * len(simulator.layout.rows) * simulator.system.n_v
+    if (opening := pace.opening(entries)) is not None:
+        bar.write(f"quasistatic-ref: {opening}", file=sys.stderr)
     with Interrupt() as interrupt:
         for k in bar:
             t, q = recorder.t, recorder.q
@@ -119,6 +123,8 @@ def rollout(
                 file = None if saved is None else saved.written
                 raise RunFailed(reason, trajectory, step, file) from failure
             recorder.add(goal, result)
+            if (advice := pace.advice(result.seconds)) is not None:
+                bar.write(f"quasistatic-ref: {advice}", file=sys.stderr)
     return recorder.trajectory()
 
 

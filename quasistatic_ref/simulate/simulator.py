@@ -1,40 +1,27 @@
 """The simulator: one step as the algorithm of the paper."""
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.compiled import compiled
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.distance import ClosestPoints, closest_points
+from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
-from quasistatic_ref.optional.fast.posed import constants
-from quasistatic_ref.optional.fast.spare import Spare
-from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
-from quasistatic_ref.optional.large.sparse_jacobian import contact_geometry
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.one_thread import by_one_thread
-from quasistatic_ref.simulate.result import CompiledStep, StepResult
+from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.stopwatch import Stopwatch
-from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.engines import (
-    CVXPY,
-    check_solver,
-    default_backend,
-    default_engine,
-    solver_for,
-    sparse_from,
-)
+from quasistatic_ref.solve.backends import DEFAULT, check_backend
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.solve.solver import Solver, solver_for
+from quasistatic_ref.step.arrays import definite
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.contacts import Points
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
@@ -52,10 +39,10 @@ def _remade(
 class Simulator(Shown):
     """A system, what may touch in it, and how each step is solved.
 
-    A simulator keeps what is slow to make and serves many steps: which points of the clouds may
-    come among the closest, which coordinates move which contact, the solver. A copy is a new
-    simulator with the same settings. Simulators of one system are for one thread: a step that is
-    asked for while another thread takes one is refused. A deep copy has a system of its own.
+    A simulator keeps what is slow to make and serves many steps: which coordinates move which
+    contact, the solver. A copy is a new simulator with the same settings. Simulators of one system
+    are for one thread: a step that is asked for while another thread takes one is refused. A deep
+    copy has a system of its own.
 
     Parameters
     ----------
@@ -70,16 +57,13 @@ class Simulator(Shown):
     gravity_acts : ndarray of bool, shape (n_a,), optional
         Whether gravity acts on each actuated coordinate; by default on none, as if the robot
         compensated its own weight.
-    solver : str, optional
-        Name of a backend; by default that of
-        :func:`~quasistatic_ref.solve.engines.default_backend`. If that default, named here or
-        not, fails at a step that is not certified in full, Clarabel solves the step. `solver`,
-        `accuracy` and `certify` are otherwise as in
-        :func:`~quasistatic_ref.solve.solve.solve_step`.
-    engine : str, optional
-        As in :func:`~quasistatic_ref.solve.engines.solver_for`; by default ``"native"`` where that
-        reaches the backend and the cone, and ``"cvxpy"`` for extensions that are not linear
-        constraints alone.
+    backend : str, optional
+        Name of a backend, as `solver` of :func:`~quasistatic_ref.solve.solve.solve_step`, of which
+        `accuracy` and `certify` are arguments too.
+    fast : bool
+        Whether to take the same steps sooner: as a
+        :class:`~quasistatic_ref.optional.fast.simulator.FastSimulator`, which this then is.
+        Wherever an answer is certified exactly, q, delta_q, A'lam and slacks have the same bits.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
     extension : callable, optional
@@ -92,9 +76,6 @@ class Simulator(Shown):
     ----------
     backend : str
         Name of the backend.
-    fast : callable or None
-        The compiled implementation of :meth:`step`, with the same bits; None if there is none for
-        this simulator.
     solver : Solver or None
         The object that solved the last step; it solves the next one, too, if that step fits it.
 
@@ -103,8 +84,15 @@ class Simulator(Shown):
     StepDataError
         If K_q, or M_u at the start, is not symmetric positive definite, or h not positive.
     BackendError
-        If the backend is unknown or not installed, or the engine does not reach it.
+        If the backend is unknown or not installed, or does not take the cone.
+    InputError
+        If `fast` is wanted, and its folder is not there.
     """
+
+    def __new__(cls, *given: Any, fast: bool = False, **settings: Any) -> "Simulator":
+        """A simulator, or the one of `optional/fast`."""
+        kind: type[Simulator] = needed_part("fast.simulator", "fast").FastSimulator if fast else cls
+        return super().__new__(kind)
 
     def __init__(
         self,
@@ -115,42 +103,50 @@ class Simulator(Shown):
         K_q: Array,
         gravity: Sequence[float] = GRAVITY,
         gravity_acts: Array | None = None,
-        solver: str | None = None,
-        engine: str | None = None,
+        backend: str | None = None,
+        fast: bool = False,
         accuracy: float = ACCURACY,
         certify: str = "full",
         cone: str = PYRAMID,
         extension: Callable[[Array], Extension] | None = None,
         limits: Limits | None = None,
     ) -> None:
-        self.system, self.pairs, self.layout = system, tuple(pairs), contact_layout(pairs)
+        self.system = system
+        self.pairs = tuple(pairs)
+        self.layout = contact_layout(pairs)
+        self.h = seconds(h)
+        self.K_q = definite("K_q", K_q, system.n_a)
         self.gravity = tuple(np.asarray(gravity, dtype=np.float64).tolist())
         self.gravity_acts = np.ones(system.n_v)
         self.gravity_acts[: system.n_a] = False if gravity_acts is None else gravity_acts
-        self.extension, self.limits = extension, Limits() if limits is None else limits
-        self.requested_backend, self.requested_engine = solver, engine
-        self.accuracy, self.certify = accuracy, certify
-        blocks = extension is None and system.constant_mass_matrix
-        entries = 4 * len(self.layout.rows) * system.n_v if blocks else 0
-        default = default_backend(engine, cone, certify, entries)
-        self.backend = default if solver is None else solver
-        self.engine = default_engine(self.backend, cone) if engine is None else engine
-        check_solver(self.backend, self.engine, cone, certify)
+        self.fast = fast
+        self.accuracy = accuracy
+        self.certify = certify
+        self.cone = cone
+        self.extension = extension
+        self.limits = Limits() if limits is None else limits
+        self.named_backend = backend
+        self.backend = self.usable_backend()
         self.solver: Solver | None = None
-        self.spare = Spare(default, self.engine, accuracy, certify)
-        self.tracker = ContactTracker(self.pairs)
-        least = sparse_from(self.engine, self.backend, certify, cone) if blocks else 0
-        self.geometry = contact_geometry(self.layout, system.motion, least)
-        M_u = system.mass_blocks if self.geometry.in_blocks else system.M_u(system.q_start)
-        self.constant = constants(h, K_q, system.n_a, M_u, self.layout.rows, cone)
-        self.h, self.K_q, self.cone = self.constant.h, self.constant.K_q, cone
-        fast = compiled("step")
-        self.fast: CompiledStep | None = None if fast is None else fast.compiled_step(self)
+        self.prepare()
+
+    def usable_backend(self) -> str:
+        """The backend that was named, or the default; BackendError if it does not serve."""
+        name = DEFAULT if self.named_backend is None else self.named_backend
+        check_backend(name, self.cone, self.certify)
+        return name
+
+    def prepare(self) -> None:
+        """Check and form what all steps have in common."""
+        system = self.system
+        M_u = definite("M_u", system.M_u(system.q_start), system.n_u)
+        hessian(self.h, self.K_q, M_u)  # of Eq. (13): refused where it leaves float64's range
+        self.geometry = ContactGeometry(self.layout, system.motion)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        same = ("h", "K_q", "gravity", "accuracy", "certify", "cone", "extension", "limits")
+        same = ("h", "K_q", "gravity", "fast", "accuracy", "certify", "cone", "extension", "limits")
         settings: dict[str, Any] = {name: getattr(self, name) for name in same}
-        settings |= {"solver": self.requested_backend, "engine": self.requested_engine}
+        settings["backend"] = self.named_backend
         settings["gravity_acts"] = self.gravity_acts[: self.system.n_a]
         return _remade, (type(self), self.system, self.pairs, settings)
 
@@ -184,21 +180,29 @@ class Simulator(Shown):
             If the backend's answer cannot be trusted, the step has no solution, or it
             starts or ends beyond the limits.
         """
-        if self.fast is not None and (taken := self.fast(self, q, q_bar_a, force)) is not None:
-            return taken  # the same numbers, by compiled code
         lap = Stopwatch()
         kinematics = self.system.kinematics(q)
-        points = self.tracker.closest_points(kinematics.R, kinematics.t)
+        points = self.closest_points(kinematics)
         lap("distances")
         step, own = self.extended(self.step_data(q, q_bar_a, force, points, kinematics), q)
         lap("rows")
-        solution = self.solution(step, own)  # Eq. (13)
+        solution = self.solution(step, own)  # Eq. (13), certified
         self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
         self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)
+
+    def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
+        """The contacts of all pairs, in order, each pair's in ascending distance.
+
+        Raises
+        ------
+        ContactError
+            If a pair has no trustworthy normal, or a pose is not finite.
+        """
+        return closest_points(self.pairs, kinematics)
 
     def step_data(
         self,
@@ -215,25 +219,25 @@ class Simulator(Shown):
         StepDataError
             If the force has another shape.
         """
-        contacts = self.geometry.contacts(points, kinematics)  # Eqs. (2)-(3)
-        delta_q_bar_a = self.system.actuated_difference(q, q_bar_a)  # q_bar_a(t + h) (-) q_a
-        return self.posed(q, force, delta_q_bar_a, contacts)
+        n_a, tau = self.system.n_a, self.load(q, force)
+        return StepData(
+            h=self.h,
+            K_q=self.K_q,
+            M_u=self.system.M_u(q),
+            tau_a=tau[:n_a],
+            tau_u=tau[n_a:],
+            delta_q_bar_a=self.system.actuated_difference(q, q_bar_a),  # q_bar_a(t + h) (-) q_a
+            contacts=self.geometry.contacts(points, kinematics),  # Eqs. (2)-(3)
+            cone=self.cone,
+        )
 
-    def posed(
-        self,
-        q: Array,
-        force: Array | float,
-        delta_q_bar_a: Array,
-        contacts: Points,
-    ) -> StepData:
-        """The problem of a step with this target and these contacts; StepDataError as above."""
-        system, n_a = self.system, self.system.n_a
+    def load(self, q: Array, force: Array | float) -> Array:
+        """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
         if np.shape(force) not in {(), self.gravity_acts.shape}:
             problem = f"must have shape {self.gravity_acts.shape}"
             raise StepDataError(problem, field="force", value=np.shape(force))
-        tau = self.gravity_acts * system.gravity_force(q, self.gravity) + force
-        constant = self.constant if system.constant_mass_matrix else self.constant.at(system.M_u(q))
-        return constant.kind(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
+        tau: Array = self.gravity_acts * self.system.gravity_force(q, self.gravity) + force
+        return tau
 
     def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
         """The step with the user's own rows at q, shape (n_q,); and the extension or None.
@@ -251,13 +255,12 @@ class Simulator(Shown):
     def fitting(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""
         if self.solver is None or not self.solver.fits(step):
-            self.solver = solver_for(step, self.backend, self.engine)
+            self.solver = solver_for(step, self.backend, self.fast)
         return self.solver
 
     def solution(self, step: StepData, extension: Extension | None = None) -> StepSolution:
         """A step solved, perhaps with nonlinear constraints or costs of an extension."""
-        own = self.fitting(step)
-        by_name = extension is not None and (self.requested_engine or CVXPY) == CVXPY
-        solver = (self.requested_backend or DEFAULT) if by_name else own
-        first = partial(solve_step, step, solver, accuracy=self.accuracy, certify=self.certify)
-        return self.spare.after(step, partial(first, extension=extension))
+        solver = self.fitting(step) if extension is None else self.backend
+        return solve_step(
+            step, solver, accuracy=self.accuracy, certify=self.certify, extension=extension
+        )

@@ -2,7 +2,7 @@
 
 A backend is a solver of another project. There are three interfaces to it: through CVXPY under its
 name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands over the standard
-form; and natively, where ``solve/adapters/`` has a file of its name.
+form; and its own, where ``solve/adapters/`` has a file of its name, which ``fast`` takes.
 """
 
 from collections.abc import Callable
@@ -11,8 +11,9 @@ from functools import cache
 from importlib.util import find_spec
 from typing import Any
 
-from quasistatic_ref.errors import BackendError
+from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import SPARSE_FROM, SPARSE_FROM_PIQP
 
 Options = dict[str, Any]
@@ -46,7 +47,7 @@ class Backend:
         ``"cvxpy"``, ``"qpsolvers"``: interfaces that hand on a start; others drop it. (Of an
         interior point a warm start reuses the set-up, not the point.)
     adapter : str
-        Class in ``adapters/NAME.py``, where the native engine reaches it.
+        Class in ``adapters/NAME.py``, where it is reached by its own interface.
     sparse : int
         Entries of a step's dense J, 4 n_c n_v, from which that class is given sparse matrices, if
         steps are not certified exactly; 0 if it takes none.
@@ -207,13 +208,7 @@ BACKENDS: dict[str, Backend] = {
 UNSAFE = frozenset(b.name for b in BACKENDS.values() if not b.returns)
 """Backends that did not return from every step."""
 DEFAULT = "clarabel"
-"""Backend of a single step, through CVXPY: it takes every cone and every extension."""
-DEFAULT_OF_RUNS = "daqp" if find_spec("daqp") else DEFAULT
-"""Backend of small steps of runs, natively: the fastest; certified steps have the same bits with
-any backend."""
-DEFAULT_OF_LARGE = "piqp" if find_spec("piqp") else DEFAULT
-"""Backend of large steps that are not certified exactly: with sparse matrices, in half of the time
-that DEFAULT takes."""
+"""The backend where none is named: it takes every cone and every extension."""
 NONE = "none"
 """No backend: the exact method from a cold start."""
 
@@ -282,3 +277,49 @@ def cone_backend(name: str, what: str) -> None:
         able = ", ".join(b.name for b in BACKENDS.values() if b.cones)
         raise BackendError(f"takes linear rows only; {what} needs one of {able}", field="backend",
                            value=name)  # fmt: skip
+
+
+CERTIFY = ("full", "residual", "off")
+"""Ways to certify an answer; :func:`~quasistatic_ref.solve.solve.solve_step` says what each is."""
+
+
+def check_backend(name: str, cone_name: str, certify: str = CERTIFY[0]) -> None:
+    """Refuse what no step can be solved with: before a run, rather than in its first step.
+
+    Parameters
+    ----------
+    name : str
+        Of a backend, or ``"none"``.
+    cone_name : str
+    certify : str
+
+    Raises
+    ------
+    BackendError
+        If the backend is unknown, not installed, does not take the cone, or gives no answer that
+        could be certified so.
+    InputError
+        If there is no such way to certify.
+    """
+    check_certify(name, certify)
+    if name != NONE:
+        backend(name)
+        if not cone(cone_name).polyhedral:
+            cone_backend(name, f"the {cone_name}")
+
+
+def check_certify(name: str | None, certify: str) -> None:
+    """Refuse a way to certify.
+
+    Raises
+    ------
+    InputError
+        If it does not exist.
+    BackendError
+        If it does not without a backend.
+    """
+    if certify not in CERTIFY:
+        raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
+    if name == NONE and certify != CERTIFY[0]:
+        problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
+        raise BackendError(problem, field="backend", value=NONE)

@@ -1,4 +1,4 @@
-"""The native engine: a step handed to a backend's own interface, without CVXPY.
+"""A step handed to a backend's own interface, without CVXPY.
 
 What CVXPY would make of a step is its standard form (a test holds them equal); the matrices are
 written into arrays that are kept, in natural units, and the backend is updated in place. Where it
@@ -13,46 +13,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import BackendError
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, SparseProgram
-from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, installed
-from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
+from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.solve.solver import Attempt, Solver
-from quasistatic_ref.solve.units import Metric, Units, reach_of_rows
+from quasistatic_ref.solve.units import Metric, reach_of_rows
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
 
 
 def native_backends(cone_name: str) -> tuple[str, ...]:
-    """Backends that the native engine reaches here for steps in a cone of that name."""
+    """Backends with an interface of their own here for steps in a cone of that name."""
     rows = cone(cone_name).polyhedral
     return tuple(name for name in installed("native") if rows or BACKENDS[name].cones)
 
 
 def check_native(name: str, cone_name: str) -> None:
-    """Refuse a backend or a cone that the native engine cannot take.
+    """Refuse a backend that has no interface of its own here, or does not take a cone by it.
 
     Raises
     ------
     BackendError
-        In one sentence that says which it can.
+        In one sentence that says which do.
     """
-    if name == NONE or name in native_backends(cone_name):
+    if name in native_backends(cone_name):
         return
     there = ", ".join(native_backends(cone_name))
-    entry = BACKENDS.get(str(name).removeprefix(QPSOLVERS))
-    if entry is None or not entry.steps:
-        problem = f"is not a backend{suggestion(str(name), installed('native'))}"
-    elif entry.adapter and entry.name == name and name not in installed("native"):
-        problem = f"is not installed; {entry.to_install_it}"
-    elif entry.adapter and entry.name == name:
-        problem = "takes linear rows only"
-    else:
-        problem = "has no native interface here; use engine = 'cvxpy'"
-    problem += f"; engine = 'native' reaches {there}"
-    problem += "" if cone(cone_name).polyhedral else f" with cone = {cone_name!r}"
+    problem = f"has no interface of its own here that takes the cone {cone_name!r}; {there} have"
     raise BackendError(problem, field="backend", value=name)
 
 
@@ -67,11 +54,6 @@ class NativeSolver(Solver):
         Of a backend with an adapter.
     warm : bool
         Whether to start from the answer to the step before, where the backend can.
-
-    Attributes
-    ----------
-    written : Units or None
-        Natural units of the step whose g, A and b compiled code has written into the arrays.
 
     Raises
     ------
@@ -91,7 +73,6 @@ class NativeSolver(Solver):
         self.sizes = sizes(like)
         self.warm = warm and self.adapter.WARM
         self.metric: Metric | None = None
-        self.written: Units | None = None
         self.program: Program | SparseProgram = self.empty()
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -111,31 +92,26 @@ class NativeSolver(Solver):
         alike = step.layout is self.like.layout and sizes(step) == self.sizes
         return alike or super().takes(step)
 
-    def scaled(
-        self, step: StepData, form: StandardForm | None = None, units: Units | None = None
-    ) -> NaturalStep:
-        """The step in natural units; what H gives of them is kept while H is the same array."""
-        return DenseStep(step, self.metric, form, units)
-
     def write(self, scaled: Any) -> NDArray[np.bool_] | None:
         """Write the program in natural units; tell which rows, shape (m,), are out of reach."""
-        form, units, program = scaled.form, scaled.units, self.program
-        S, ell, rho = units.coordinate, units.length, units.size
-        if self.metric is not scaled.metric:
-            program.H[:] = scaled.metric.natural
-            self.metric = scaled.metric
-        if self.written is not units:
-            np.multiply(form.g, S / -rho, out=program.f)
-            np.multiply(form.A, S / ell, out=program.A)
-            np.multiply(form.b, 1 / (rho * ell), out=program.b)
-        self.written = None
+        self.write_program(scaled)
+        program = self.program
         if not self.adapter.NEAR or program.b.min(initial=0.0) >= -FAR:
-            if self.adapter.ORDER == "C":  # no program with cones is in C order
-                scaled.written = program
             return None
-        reach = -reach_of_rows(scaled.step, units)
+        reach = -reach_of_rows(scaled.step, scaled.units)
         np.maximum(program.b, reach, out=program.b)
         return np.asarray(program.b == reach)
+
+    def write_program(self, scaled: Any) -> None:
+        """Write the program in natural units as it is; H only where it is another array."""
+        form, program = scaled.form, self.program
+        S, ell, rho = scaled.units.coordinate, scaled.units.length, scaled.units.size
+        if self.metric is None or self.metric.H is not scaled.metric.H:
+            program.H[:] = scaled.metric.natural
+            self.metric = scaled.metric
+        np.multiply(form.g, S / -rho, out=program.f)
+        np.multiply(form.A, S / ell, out=program.A)
+        np.multiply(form.b, 1 / (rho * ell), out=program.b)
 
     def reply(self, attempt: Attempt, scaled: Any) -> Reply:
         """One attempt: from the answer before, if there is one; cold if not, or if that fails."""

@@ -5,12 +5,12 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Protocol
 
-from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, residuals_of
+import numpy as np
+
+from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.bound import error_bound
-from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.units import (
-    Metric,
     Units,
     metric,
     natural_form,
@@ -46,18 +46,6 @@ class DenseStep:
     ----------
     step : StepData
         SI units.
-    like : Metric, optional
-        Of an earlier step: taken over if H is the same array.
-    form : StandardForm, optional
-        That of the step, where it is known.
-    units : Units, optional
-        Its natural units, where they are known.
-
-    Attributes
-    ----------
-    written : Program or None
-        The solver's program in natural units, stored row by row; valid until the solver writes the
-        next step.
 
     Raises
     ------
@@ -65,19 +53,14 @@ class DenseStep:
         If products of its numbers leave the range of float64.
     """
 
-    written: Program | None = None
-
-    def __init__(
-        self,
-        step: StepData,
-        like: Metric | None = None,
-        form: StandardForm | None = None,
-        units: Units | None = None,
-    ) -> None:
-        self.step, self.form = step, standard_form(step) if form is None else form
-        kept = like if like is not None and like.H is self.form.H else None
-        self.metric = metric(self.form.H) if kept is None else kept
-        self.units = units_of(self.form, self.metric) if units is None else units
+    def __init__(self, step: StepData) -> None:
+        self.step = step
+        self.form = standard_form(step)
+        try:
+            self.metric = metric(self.form.H)
+            self.units = units_of(self.form, self.metric)
+        except np.linalg.LinAlgError:
+            raise out_of_range(step) from None
         check_units(self.units, step, self.metric.usable)
 
     @cached_property
@@ -91,9 +74,6 @@ class DenseStep:
     @cached_property
     def natural_form(self) -> StandardForm:
         """Its standard form in natural units."""
-        p = self.written
-        if p is not None:
-            return StandardForm(p.H, -p.f, p.A, p.b)
         return natural_form(self.form, self.units, self.metric.natural)
 
     @property
@@ -107,10 +87,7 @@ class DenseStep:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
         if self.step.cone == ELLIPSOID:
             return ellipsoid_residuals(self.natural, delta_q, lam)
-        form = self.natural_form
-        balance = form.H.dot(delta_q) - form.g - form.A.T.dot(lam)  # Eq. (9), as (13) has it
-        slack = form.A.dot(delta_q) - form.b
-        return residuals_of(balance, -slack, -lam, slack * lam)  # Eqs. (10)-(12)
+        return optimality_residuals(self.natural_form, delta_q, lam)
 
     def bound(self, delta_q: Array, lam: Array) -> float:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""

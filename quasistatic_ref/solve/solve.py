@@ -1,7 +1,6 @@
 """One step, solved: natural units, a solver, the judge, and back to SI units."""
 
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,22 +8,15 @@ import numpy as np
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.digits import relative_digits
-from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.exact_step import exact_step, relative_length, well_posed
-from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
-from quasistatic_ref.certify.warm import warm_rows
-from quasistatic_ref.compiled import compiled
+from quasistatic_ref.certify.exact_step import relative_length
 from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
 from quasistatic_ref.optional.ellipsoid.ellipsoid import enclosure_certificate
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
-from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
-from quasistatic_ref.optional.fast.guess.exchange import proved_nearby
 from quasistatic_ref.optional.large.uncertified import uncertified_solution
-from quasistatic_ref.solve.backends import DEFAULT, NONE
-from quasistatic_ref.solve.engines import check_certify, solver_for
-from quasistatic_ref.solve.scaled import DenseStep, out_of_range
-from quasistatic_ref.solve.solver import Answer, Solver
-from quasistatic_ref.solve.units import Units, from_natural, in_natural
+from quasistatic_ref.solve.backends import DEFAULT, NONE, check_certify
+from quasistatic_ref.solve.scaled import DenseStep, NaturalStep, out_of_range
+from quasistatic_ref.solve.solver import Answer, Solver, solver_for
+from quasistatic_ref.solve.units import from_natural, in_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
@@ -35,7 +27,6 @@ from quasistatic_ref.step.solution import (
     StepSolution,
     step_solution,
 )
-from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ACCURACY, ILL_POSED
 
 LARGE = 2.0**200
@@ -44,8 +35,9 @@ LARGE = 2.0**200
 
 def solve_step(
     step: StepData,
-    solver: str | Solver = DEFAULT,
+    solver: str | Solver | None = None,
     *,
+    fast: bool = False,
     accuracy: float = ACCURACY,
     certify: str = "full",
     extension: Extension | None = None,
@@ -56,12 +48,15 @@ def solve_step(
     ----------
     step : StepData
         SI units.
-    solver : str or Solver
-        A name from :func:`~quasistatic_ref.solve.backends.installed_backends`; or ``"none"``,
-        with ``certify="full"`` only: the exact method from a cold start; or what
-        :func:`~quasistatic_ref.solve.engines.solver_for` makes of a name: an object that holds a
-        compiled problem and is kept between steps of one kind. What is certified does not depend
-        on it.
+    solver : str or Solver, optional
+        A name from :func:`~quasistatic_ref.solve.backends.installed_backends`, by default
+        Clarabel's, with `fast` DAQP's; or ``"none"``, with ``certify="full"`` only: the exact
+        method from a cold start; or what :func:`~quasistatic_ref.solve.solver.solver_for` makes of
+        a name: an object that holds a compiled problem and is kept between steps of one kind. What
+        is certified does not depend on it.
+    fast : bool
+        As for :func:`~quasistatic_ref.solve.solver.solver_for`; not with a Solver, which is made
+        fast or not.
     accuracy : float
         Of the backend's answer, in natural units [-].
     certify : str
@@ -94,12 +89,15 @@ def solve_step(
     BackendError
         If the backend is unknown or not installed, or does not support `certify` or the cone.
     InputError
-        If a solver object does not fit the step, if `certify` is none of these words, if
-        `accuracy` is not greater than 0, or, with ``"full"`` and ``"residual"``, if nothing can
-        be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
+        If a solver object does not fit the step or is given with `fast`, if `certify` is none of
+        these words, if `accuracy` is not greater than 0, or, with ``"full"`` and ``"residual"``, if
+        nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
     """
     if not accuracy > 0:
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)
+    if isinstance(solver, Solver) and fast:
+        problem = "is read where a solver is made; give it to solver_for"
+        raise InputError(problem, field="fast", value=fast)
     check_certify(solver.name if isinstance(solver, Solver) else solver, certify)
     if extension is not None:
         from quasistatic_ref.optional.extensions import (
@@ -109,37 +107,29 @@ def solve_step(
         own = extended.extension_rows(step, extension)
         if own is not None:
             step = extended.with_rows(step, own)
-        elif isinstance(solver, str):
-            return extended.extended_solution(step, extension, solver, accuracy, certify)
-        else:
+        elif isinstance(solver, Solver):
             problem = "takes linear constraints only; for a cost or a nonlinear constraint pass "
-            problem += "the name of a backend, and in a simulator engine = 'cvxpy'"
+            problem += "the name of a backend"
             raise BackendError(problem, field="solver", value=f"{solver.name}, {solver.engine}")
+        else:
+            name = DEFAULT if solver is None else solver
+            return extended.extended_solution(step, extension, name, accuracy, certify)
     if isinstance(solver, Solver):
         solver.check(step)
     else:
-        solver = solver_for(step, solver)
-    return solved(step, solver, accuracy, certify)
+        solver = solver_for(step, solver, fast)
+    scaled = QUIET.copy().run(solver.scaled, step)
+    return solved(scaled, solver, accuracy, certify)
 
 
-def solved(
-    step: StepData,
-    solver: Solver,
-    accuracy: float,
-    certify: str,
-    form: StandardForm | None = None,
-    units: Units | None = None,
-) -> StepSolution:
-    """The optimum of a step that fits a solver; arguments and errors are :func:`solve_step`'s.
+def solved(scaled: NaturalStep, solver: Solver, accuracy: float, certify: str) -> StepSolution:
+    """The optimum of a step that fits a solver, from the step in natural units.
 
     Parameters
     ----------
-    step, solver, accuracy, certify
-        As there.
-    form : StandardForm, optional
-        That of the step, where the caller has it; not kept.
-    units : Units, optional
-        Its natural units, likewise.
+    scaled : NaturalStep
+    solver, accuracy, certify
+        As of :func:`solve_step`, and its errors.
 
     Raises
     ------
@@ -151,26 +141,20 @@ def solved(
     if certify == "full" and not solver.certifies:
         problem = "is sparse and certifies no exact optimum; use certify = 'residual'"
         raise BackendError(problem, field="solver", value=solver.name)
-    solution = QUIET.copy().run(_solved, step, solver, accuracy, certify, form, units)
+    solution = QUIET.copy().run(_solved, scaled, solver, accuracy, certify)
     if solution is None:
-        raise out_of_range(step)
+        raise out_of_range(scaled.step)
     return solution
 
 
 def _solved(
-    step: StepData,
-    solver: Solver,
-    accuracy: float,
-    certify: str,
-    form: StandardForm | None,
-    units: Units | None,
+    scaled: NaturalStep, solver: Solver, accuracy: float, certify: str
 ) -> StepSolution | None:
     """The solution, or None if it is not finite."""
-    scaled = solver.scaled(step, form, units)
     if certify != "full" or not isinstance(scaled, DenseStep):
         solution = uncertified_solution(scaled, solver, solver.answer(scaled, accuracy), certify)
     else:
-        certified = _enclosed if step.cone == ELLIPSOID else _exact
+        certified = _enclosed if scaled.step.cone == ELLIPSOID else _exact
         solution = certified(scaled, solver, accuracy)
     good = finite(solution.delta_q) and finite(solution.lam)
     if certify != "off" or solution.lam_extra.size:
@@ -188,43 +172,9 @@ def _far_from_largest(solution: StepSolution) -> bool:
 
 def _exact(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
     """The exact optimum; a backend that fails costs its warm start, not the answer."""
-    step = scaled.step
     answer, statistics = _attempt(scaled, solver, accuracy)
-    hessian = solver.kept_hessian(step)
-    norm = hessian.norm
-    free = norm.impulse(scaled.form.g)
-    optimum, warm = None, list[int]()
-    if answer is not None:
-        optimum = _proved(scaled, solver, answer, hessian)
-    if optimum is None:
-        if answer is not None:
-            form = scaled.natural_form
-            warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
-        prove, guess = BallStep(step, hessian).confirmed, np.array(warm, dtype=np.int64)
-        optimum = proved_nearby(prove, guess, scaled.form, hessian.rough)
-    if optimum is None:
-        optimum = exact_step(step, warm)
-    else:
-        well_posed(step, optimum, norm, free)
-    return _certified(scaled, answer, statistics, optimum, exact_certificate, norm, free)
-
-
-def _proved(
-    scaled: DenseStep, solver: Solver, answer: Answer, hessian: BallHessian
-) -> ExactOptimum | None:
-    """The optimum proved on a working set guessed from the answer: in C, or in balls; or None."""
-    step, form, fast = scaled.step, scaled.natural_form, compiled("certificate")
-    if np.count_nonzero(answer.lam) > step.n_v:  # rows that depend on each other
-        return None
-    if fast is not None:
-        solver.prover = fast.prover(step, scaled.units.coordinate, solver.prover)
-    slack = form.A.dot(answer.delta_q) - form.b
-    (guess,) = (answer.lam > np.maximum(slack, 0)).nonzero()  # as warm_rows has it
-    if solver.prover is None:
-        prove = BallStep(step, hessian).confirmed
-    else:
-        prove = partial(solver.prover.optimum, step, units=scaled.units)
-    return proved_nearby(prove, guess, scaled.form, hessian.rough)
+    optimum = solver.optimum(scaled, answer)
+    return _certified(scaled, solver, answer, statistics, optimum, exact_certificate)
 
 
 def _enclosed(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
@@ -243,25 +193,25 @@ def _enclosed(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolutio
     length = relative_length(step, found.delta_q)
     if not length <= ILL_POSED:
         raise StepIllPosed(step, found.delta_q, length)
-    norm = energy_norm(step.H)
-    free = norm.impulse(scaled.form.g)
-    return _certified(scaled, answer, statistics, found, enclosure_certificate, norm, free)
+    return _certified(scaled, solver, answer, statistics, found, enclosure_certificate)
 
 
 def _certified(
     scaled: DenseStep,
+    solver: Solver,
     answer: Answer | None,
     statistics: SolverStatistics,
     optimum: Any,
     certificate: Callable[..., Certificate],
-    norm: EnergyNorm,
-    free: float,
 ) -> StepSolution:
     """A certified optimum with its residuals, and the correct digits of the backend's answer."""
-    step, units, delta_q, lam = scaled.step, scaled.units, optimum.delta_q, optimum.lam
+    step, units = scaled.step, scaled.units
+    delta_q, lam = optimum.delta_q, optimum.lam
     if answer is not None:
-        said, _ = from_natural(answer.delta_q, answer.lam, units)
-        digits = relative_digits(norm.displacement(said - delta_q), free)
+        norm = solver.norm(scaled)
+        answered, _ = from_natural(answer.delta_q, answer.lam, units)
+        error = norm.displacement(answered - delta_q)
+        digits = relative_digits(error, norm.impulse(scaled.form.g))
         statistics = statistics._replace(digits=digits)
     residuals = vars(scaled.residuals(*in_natural(delta_q, lam, units)))
     return step_solution(step, delta_q, lam, certificate(step, optimum, residuals), statistics)
@@ -271,8 +221,9 @@ def _attempt(
     scaled: DenseStep, solver: Solver, accuracy: float
 ) -> tuple[Answer | None, SolverStatistics]:
     """A backend's answer, or None and why not."""
-    said = solver.name, "not called", None, None, accuracy
-    statistics = SolverStatistics(*said, engine=solver.engine)
+    statistics = SolverStatistics(
+        solver.name, "not called", None, None, accuracy, engine=solver.engine
+    )
     if solver.name == NONE:
         return None, statistics
     answer = None

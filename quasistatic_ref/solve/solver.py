@@ -2,8 +2,8 @@
 
 It knows its backend (``name``), the interface by which it reaches that
 (``engine``) and the kind of step that its problem was compiled for
-(:meth:`Solver.fits`). Each interface is one class in a file of its own, and
-:func:`~quasistatic_ref.solve.engines.solver_for` chooses among them.
+(:meth:`Solver.fits`). Each interface is one class in a file of its own, and :func:`solver_for`
+chooses among them.
 """
 
 from abc import ABC, abstractmethod
@@ -13,18 +13,27 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
+from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError, StepNotSolved
-from quasistatic_ref.optional.fast.guess.confirm import BallHessian
-from quasistatic_ref.optional.large.rounded_bound import FloatBound
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import BACKENDS, NONE, QPSOLVERS, UNSAFE, Options
+from quasistatic_ref.solve.backends import (
+    BACKENDS,
+    DEFAULT,
+    NONE,
+    QPSOLVERS,
+    UNSAFE,
+    Options,
+    check_backend,
+)
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
-from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import SolverStatistics
-from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ALIKE
 
 RELAXED = (1.0, 1e2, 1e4)
@@ -98,12 +107,6 @@ class Solver(ABC):
 
     Attributes
     ----------
-    hessian : BallHessian or None
-        Of the step that was certified last, for those of the same H.
-    prover : Prover or None
-        Proofs in compiled code for steps of the same kind.
-    bound : FloatBound or None
-        Of the step whose error was bounded last, for those of the same H and units.
     engine : str
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
@@ -126,9 +129,6 @@ class Solver(ABC):
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
         self._attempts: dict[float, list[Attempt]] = {}
         self._fitting: StepData | None = None
-        self.hessian: BallHessian | None = None
-        self.prover: Any = None
-        self.bound: FloatBound | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.like, self.name)
@@ -163,23 +163,26 @@ class Solver(ABC):
         """Whether the numbers of a step can be written into the problem."""
         return not self.differences(step)
 
-    def scaled(
-        self, step: StepData, form: StandardForm | None = None, units: Units | None = None
-    ) -> NaturalStep:
-        """The step in natural units; with its matrices and units, where these are known."""
-        return DenseStep(step, form=form)
+    def scaled(self, step: StepData) -> NaturalStep:
+        """The step in natural units."""
+        return DenseStep(step)
 
-    def kept_hessian(self, step: StepData) -> BallHessian:
-        """H of a step in balls: the one that is kept, if it is the same.
+    def optimum(self, scaled: DenseStep, answer: Answer | None) -> ExactOptimum:
+        """The exact optimum, sought from where an answer shows it to be, or from cold.
 
         Raises
         ------
-        StepDataError
-            If H is not positive definite without rounding.
+        StepInfeasible, StepIllPosed
         """
-        if self.hessian is None or not self.hessian.fits(step):
-            self.hessian = BallHessian(step)
-        return self.hessian
+        return exact_step(scaled.step, warm_start(scaled, answer))
+
+    def norm(self, scaled: DenseStep) -> EnergyNorm:
+        """The norm ||.||_H of a step, in which errors and lengths are measured."""
+        return energy_norm(scaled.form.H)
+
+    def error_bound(self, scaled: NaturalStep, delta_q: Array, lam: Array) -> float:
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
+        return scaled.bound(delta_q, lam)
 
     @abstractmethod
     def write(self, scaled: Any) -> Mask | None:
@@ -276,3 +279,48 @@ class NoSolver(Solver):
     def reply(self, attempt: Attempt, scaled: Any) -> Reply:
         """No reply."""
         return Reply(None, None, False, "not called")
+
+
+def warm_start(scaled: DenseStep, answer: Answer | None) -> list[int]:
+    """Rows that an answer shows to be active, from which the exact method starts; none without."""
+    if answer is None:
+        return []
+    form = scaled.natural_form
+    return warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
+
+
+def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> Solver:
+    """A solver of steps like this one.
+
+    Parameters
+    ----------
+    step : StepData
+    name : str, optional
+        Of the backend; with ``qpsolvers:`` it is reached through qpsolvers, otherwise through
+        CVXPY. By default Clarabel; with `fast` DAQP.
+    fast : bool
+        Whether to solve as :mod:`~quasistatic_ref.optional.fast` does: by the backend's own
+        interface where it has one, and with a quick proof of the optimum before the exact method.
+
+    Raises
+    ------
+    BackendError
+        If the backend is unknown or not installed, or does not take the cone.
+    InputError
+        If `fast` is wanted, and its folder is not there.
+    """
+    if fast:
+        solver: Solver = needed_part("fast.solver", "fast").fast_solver(step, name)
+        return solver
+    name = DEFAULT if name is None else name
+    check_backend(name, step.cone)
+    if name == NONE:
+        return NoSolver(step)
+    # The classes are imported where they are used: their packages take longer than a short run.
+    if name.startswith(QPSOLVERS):
+        from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
+
+        return QpsolversSolver(step, name)
+    from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+
+    return CvxpySolver(step, name)

@@ -8,14 +8,13 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.errors import BackendError
-from quasistatic_ref.optional.ellipsoid.cone_problem import cone_problem
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import DEFAULT, QPSOLVERS, Options, backend
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem, cvxpy_problem
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import KIND, Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.data import Array, Mask, StepData
-from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import StandardForm
 
 CANON = cp.CPP_CANON_BACKEND
@@ -50,7 +49,7 @@ class CvxpySolver(Solver):
             problem = f"is not reached through CVXPY; leave out {QPSOLVERS!r}"
             raise BackendError(problem, field="backend", value=name)
         super().__init__(like, name)
-        self.problem = cone_problem(like)
+        self.problem = cvxpy_problem(like)
 
     def write(self, scaled: DenseStep) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
@@ -68,13 +67,13 @@ class CvxpySolver(Solver):
 
 
 def cvxpy_reply(
-    compiled: "StepProblem | PlainProgram", name: str, options: Options, warm: bool
+    compiled: "CvxpyProblem | PlainProgram", name: str, options: Options, warm: bool
 ) -> Reply:
     """The reply of a backend to a problem as its parameters stand.
 
     Parameters
     ----------
-    compiled : StepProblem or PlainProgram
+    compiled : CvxpyProblem or PlainProgram
     name : str
         Of the backend.
     options : dict

@@ -19,9 +19,8 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.norm import rough_inverse
-from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep
-from quasistatic_ref.step.arrays import finite, read_only
-from quasistatic_ref.step.data import Array, Extra, Mask, StepData, hessian
+from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.data import Array, Extra, Mask, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR
 
@@ -173,24 +172,17 @@ def to_natural(step: StepData, units: Units) -> StepData:
     """
     S, ell, rho = units.coordinate, units.length, units.size
     S_a, S_u = S[: step.n_a], S[step.n_a :]
-    c, extra = step.contacts.dense(), step.extra
-    same = c.mu_v, c.mu_omega, c.rows, c.mu
+    c, extra = step.contacts, step.extra
     phi, J = c.phi / (rho * ell), c.J * (S / ell)
-    K_q = read_only(step.K_q * np.outer(S_a, S_a))
-    M_u = read_only(step.M_u * np.outer(S_u, S_u))
-    if extra.names:
-        extra = Extra(extra.names, extra.A * (S / ell), extra.b / (rho * ell))
-    H = hessian(step.h, K_q, M_u)
-    tau_a, tau_u = step.tau_a * S_a / rho, step.tau_u * S_u / rho
-    natural = PosedStep(
-        Constants(step.h, step.cone, K_q, M_u, extra, H, step.layout),
-        tau_a,
-        tau_u,
-        step.delta_q_bar_a / (rho * S_a),
-        PosedContacts(c.name, phi, c.n, c.d1, c.d2, J, *same),
+    return step.replace(
+        K_q=step.K_q * np.outer(S_a, S_a),
+        M_u=step.M_u * np.outer(S_u, S_u),
+        tau_a=step.tau_a * S_a / rho,
+        tau_u=step.tau_u * S_u / rho,
+        delta_q_bar_a=step.delta_q_bar_a / (rho * S_a),
+        contacts=Contacts(c.name, phi, c.n, c.d1, c.d2, J, c.mu_v, c.mu_omega, c.rows),
+        extra=Extra(extra.names, extra.A * (S / ell), extra.b / (rho * ell)),
     )
-    own = (phi, J.ravel(), H.ravel(), tau_a, tau_u, natural.delta_q_bar_a)
-    return natural if all(map(finite, own)) else natural.replace()  # its check names the number
 
 
 def within_reach(natural: StepData) -> StepData:

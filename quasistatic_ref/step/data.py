@@ -120,7 +120,7 @@ class StepData(Plain, Shown):
 
     Notes
     -----
-    Each field is checked, and copied read-only. The steps of a simulator are
+    Each field is checked, and copied read-only. The steps of a simulator with ``fast`` are
     :class:`~quasistatic_ref.optional.fast.posed.PosedStep`.
     """
 

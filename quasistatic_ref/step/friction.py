@@ -33,8 +33,6 @@ from quasistatic_ref.step.data import row_layout
 
 Rows: TypeAlias = "tuple[Any, ...]"
 ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
-Friction: TypeAlias = "ConeFunction | None"
-"""The paper's cone, where it is None."""
 
 
 def pyramid(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:

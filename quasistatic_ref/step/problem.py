@@ -8,93 +8,139 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.extension import Own, none
-from quasistatic_ref.step.friction import Friction, frame_jacobian
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.friction import frame_jacobian
 
 
 class StepProblem:
-    """Eq. :eq:`eq-13`; ``problem`` is an ordinary :class:`cvxpy.Problem`: print it, extend it.
+    """Eq. :eq:`eq-13`, for the steps of one h, mu_v, mu_omega, row count and size.
 
-    Extensions read ``delta_q``, ``contact_rows`` (a constraint for each row of the cone) and
-    ``motion``: gap, slip_1, slip_2 and spin [m], shapes (n_c,), mu included in the last three.
+    ``problem`` is an ordinary :class:`cvxpy.Problem`: print it, solve it, extend it. Other cones,
+    rows of a user's own and the order of the multipliers build on it in
+    :class:`~quasistatic_ref.solve.cvxpy_problem.CvxpyProblem`.
 
     Parameters
     ----------
     like : StepData
-        A step of the same kind: its h, mu_v, mu_omega, cone and sizes are constants of the problem.
-    friction : callable, optional
-        A cone of :mod:`~quasistatic_ref.step.friction`, in place of the paper's.
-    constraints, costs : callable, optional
-        Functions of this StepProblem that return a list of additional constraints, or costs. Where
-        a cost replaces the springs, set K_q and tau_k to zero after each :meth:`fill`.
+        A step of that kind.
+
+    Attributes
+    ----------
+    parameters : dict of str to cvxpy.Parameter
+        What changes from step to step, by name; :meth:`fill` sets it.
+    motion : tuple of cvxpy.Expression
+        gap, slip_1, slip_2 and spin [m], shapes (n_c,), mu included in the last three.
+    contact_rows : list of cvxpy.Constraint
+        Eq. :eq:`eq-4` in the paper's order, one constraint for that row of the contacts that have
+        it; none where no contact has.
+
+    Raises
+    ------
+    StepDataError
+        If the step is in another cone, or has rows of a user's own.
     """
 
-    def __init__(
-        self, like: StepData, friction: Friction = None, constraints: Own = none, costs: Own = none
-    ) -> None:
-        if friction is None and like.cone != PYRAMID:
-            raise StepDataError("needs its own friction function", field="cone", value=like.cone)
-        h, n_a, n_u, n_v, n_c = like.h, like.n_a, like.n_u, like.n_v, like.contacts.n_c
-        mu_v, _, mu_omega = like.contacts.mu.T
-        torsional = like.contacts.rows == 6
-        delta_q_a, delta_q_u = cp.Variable(n_a, "delta_q_a"), cp.Variable(n_u, "delta_q_u")
-        delta_q = cp.hstack([delta_q_a, delta_q_u])
-        K_q, M_u = (cp.Parameter((n, n), s, PSD=True) for s, n in (("K_q", n_a), ("M_u", n_u)))
-        tau_k, tau_a = cp.Parameter(n_a, "tau_k"), cp.Parameter(n_a, "tau_a")
-        tau_u, phi = cp.Parameter(n_u, "tau_u"), cp.Parameter(n_c, "phi")
-        J_n, J_1, J_2, J_w = (cp.Parameter((n_c, n_v), f"J_{axis}") for axis in "n12w")
-        A_x, b_x = cp.Parameter(like.extra.A.shape, "A_x"), cp.Parameter(like.extra.b.shape, "b_x")
+    def __init__(self, like: StepData) -> None:
+        self.like = like
+        self.check_kind()
+        n_a, n_u, n_v, n_c = like.n_a, like.n_u, like.n_v, like.contacts.n_c
 
-        gap = phi + J_n @ delta_q  # Eqs. (3), (4): J along n, d1, d2 and about n
+        # What all these steps have in common.
+        h = like.h
+        mu_v = like.contacts.mu[:, 0]
+        mu_omega = like.contacts.mu[:, 2]
+        torsional = like.contacts.rows == 6
+
+        # What changes from step to step.
+        K_q = cp.Parameter((n_a, n_a), "K_q", PSD=True)  # stiffness of the actuated coordinates
+        M_u = cp.Parameter((n_u, n_u), "M_u", PSD=True)  # mass matrix of the un-actuated ones
+        tau_k = cp.Parameter(n_a, "tau_k")  # force of the springs, K_q delta_q_bar_a, Eq. (1)
+        tau_a = cp.Parameter(n_a, "tau_a")  # other forces on the actuated coordinates
+        tau_u = cp.Parameter(n_u, "tau_u")  # forces on the un-actuated ones
+        phi = cp.Parameter(n_c, "phi")  # signed distances
+        J_n = cp.Parameter((n_c, n_v), "J_n")  # J of Eq. (3) along n
+        J_1 = cp.Parameter((n_c, n_v), "J_1")  # along d1
+        J_2 = cp.Parameter((n_c, n_v), "J_2")  # along d2
+        J_w = cp.Parameter((n_c, n_v), "J_w")  # about n
+
+        # What is sought: the displacement.
+        delta_q_a = cp.Variable(n_a, "delta_q_a")
+        delta_q_u = cp.Variable(n_u, "delta_q_u")
+        delta_q = cp.hstack([delta_q_a, delta_q_u])
+
+        # Where it brings each contact, Eqs. (3), (4).
+        gap = phi + J_n @ delta_q
         slip_1 = cp.multiply(mu_v, J_1 @ delta_q)
         slip_2 = cp.multiply(mu_v, J_2 @ delta_q)
         spin = cp.multiply(mu_omega, J_w @ delta_q)
-        pyramid = [gap + slip_1 >= 0, gap + slip_2 >= 0]  # Eq. (5)
-        pyramid += [gap - slip_1 >= 0, gap - slip_2 >= 0]  # Eq. (6)
-        torsion = [(gap + spin)[torsional] >= 0, (gap - spin)[torsional] >= 0]  # Eq. (7)
-        rows = pyramid + torsion  # Eq. (10)
-        if friction is not None:
-            sides = friction(gap, slip_1, slip_2, spin)  # no sides in the ellipsoid
-            rows = [side[j] >= 0 for side, j in zip(sides, like.mask.T, strict=bool(sides))]
 
-        stiffness = h / 2 * cp.quad_form(delta_q_a, K_q) if n_a else 0  # Eq. (13)
+        # Eq. (10): the rows of Eq. (4), of which each contact has four or six.
+        rows = [
+            gap + slip_1 >= 0,  # Eq. (5)
+            gap + slip_2 >= 0,
+            gap - slip_1 >= 0,  # Eq. (6)
+            gap - slip_2 >= 0,
+            (gap + spin)[torsional] >= 0,  # Eq. (7)
+            (gap - spin)[torsional] >= 0,
+        ]
+
+        # Eq. (13). CVXPY refuses a quadratic form of no coordinates.
+        stiffness = h / 2 * cp.quad_form(delta_q_a, K_q) if n_a else 0
         inertia = 1 / (2 * h) * cp.quad_form(delta_q_u, M_u) if n_u else 0
         work = h * (tau_k + tau_a) @ delta_q_a + h * tau_u @ delta_q_u
-
-        self.delta_q_a, self.delta_q_u, self.delta_q = delta_q_a, delta_q_u, delta_q
-        self.motion = gap, slip_1, slip_2, spin
         self.contact_rows = [row for row in rows if row.size]
-        self.like, self.extra = like, [A_x @ delta_q >= b_x] if like.extra.names else []
-        self.parameters = (K_q, M_u, tau_k, tau_a, tau_u, phi, J_n, J_1, J_2, J_w, A_x, b_x)
-        objective = cp.Minimize(sum(costs(self), stiffness + inertia - work))
-        self.problem = cp.Problem(objective, [*self.contact_rows, *self.extra, *constraints(self)])
+        self.problem = cp.Problem(cp.Minimize(stiffness + inertia - work), self.contact_rows)
 
-    def fits(self, step: StepData) -> bool:
-        """Tell whether a step can be filled in without building another problem."""
-        kinds = [(s.h, s.cone, s.n_a, s.n_u, s.extra.A.shape) for s in (self.like, step)]
-        fixed = [(s.contacts.rows, s.contacts.mu) for s in (self.like, step)]
-        return kinds[0] == kinds[1] and all(map(np.array_equal, *fixed))
+        self.delta_q = delta_q
+        self.delta_q_a = delta_q_a
+        self.delta_q_u = delta_q_u
+        self.motion = (gap, slip_1, slip_2, spin)
+        named = (K_q, M_u, tau_k, tau_a, tau_u, phi, J_n, J_1, J_2, J_w)
+        self.parameters = {parameter.name(): parameter for parameter in named}
 
     def fill(self, step: StepData) -> None:
-        """Set every parameter from one step; StepDataError if it is of another kind."""
-        if not self.fits(step):
-            raise StepDataError("the step has another h, cone, size, mu_v, mu_omega or row count")
-        tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
-        J = frame_jacobian(step.contacts, step.contacts.J)
-        forces, own = (tau_k, step.tau_a, step.tau_u), (step.extra.A, step.extra.b)
-        values = (step.K_q, step.M_u, *forces, step.contacts.phi, *J, *own)
-        for parameter, value in zip(self.parameters, values, strict=True):
-            if not np.array_equal(parameter.value, value):  # CVXPY checks each matrix that is set
-                parameter.value = value
+        """Set every parameter from one step.
 
-    def primal(self) -> Array:
-        """delta_q of the last solve, shape (n_v,)."""
-        return np.concatenate([x.value for x in (self.delta_q_a, self.delta_q_u) if x.size])
+        Raises
+        ------
+        StepDataError
+            If this is not the step's problem, naming what differs.
+        """
+        self.check(step)
+        J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
+        self.parameters["K_q"].value = step.K_q
+        self.parameters["M_u"].value = step.M_u
+        self.parameters["tau_k"].value = step.K_q @ step.delta_q_bar_a  # Eq. (1)
+        self.parameters["tau_a"].value = step.tau_a
+        self.parameters["tau_u"].value = step.tau_u
+        self.parameters["phi"].value = step.contacts.phi
+        self.parameters["J_n"].value = J_n
+        self.parameters["J_1"].value = J_1
+        self.parameters["J_2"].value = J_2
+        self.parameters["J_w"].value = J_w
 
-    def dual(self) -> Array:
-        """Multipliers of the last solve, contact-major, the user's own rows last; shape (m,)."""
-        lam, mask = np.zeros(self.like.mask.shape), self.like.mask
-        for i, row in zip(np.flatnonzero(mask.any(axis=0)), self.contact_rows, strict=True):
-            lam[mask[:, i], i] = row.dual_value
-        return np.concatenate([lam[mask], *(row.dual_value for row in self.extra)])
+    def check(self, step: StepData) -> None:
+        """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
+        like = self.like
+        for name, own, other in (
+            ("cone", like.cone, step.cone),
+            ("h", like.h, step.h),
+            ("n_a", like.n_a, step.n_a),
+            ("n_u", like.n_u, step.n_u),
+            ("contacts.rows", like.contacts.rows, step.contacts.rows),
+            ("contacts.mu_v", like.contacts.mu[:, 0], step.contacts.mu[:, 0]),
+            ("contacts.mu_omega", like.contacts.mu[:, 2], step.contacts.mu[:, 2]),
+            ("extra", len(like.extra.names), len(step.extra.names)),
+        ):
+            if not np.array_equal(own, other):
+                problem = f"is {own} in this problem; make a problem like this step"
+                raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
+
+    def check_kind(self) -> None:
+        """Refuse steps that are not the paper's, with StepDataError."""
+        cone, names = self.like.cone, list(self.like.extra.names)
+        elsewhere = "solve/cvxpy_problem.py has what is not in the paper"
+        if cone != PYRAMID:
+            raise StepDataError(f"is not the pyramid; {elsewhere}", field="cone", value=cone)
+        if names:
+            raise StepDataError(f"holds a user's own rows; {elsewhere}", field="extra", value=names)

@@ -10,7 +10,7 @@ G, H = 9.81, 0.01
 
 def test_a_pushed_block_makes_its_pusher_lag_by_friction_and_drag() -> None:
     mu_v, m, v, K_q = 0.4, 0.5, 0.01, 1000.0
-    trajectory = load_scenario("block_push").run(progress=False)
+    trajectory = load_scenario("block_push", fast=True).run(progress=False)
     lag = trajectory["q_bar_a"][:, 0] - trajectory["q"][1:, 0]
     expected = (mu_v * m * G + m * v / H) / K_q
     np.testing.assert_allclose(lag[200:], expected, rtol=SCENARIO, atol=0)
@@ -19,7 +19,7 @@ def test_a_pushed_block_makes_its_pusher_lag_by_friction_and_drag() -> None:
 
 
 def test_on_a_slope_the_rough_block_holds_and_the_smooth_one_slides() -> None:
-    scenario = load_scenario("block_incline")
+    scenario = load_scenario("block_incline", fast=True)
     q = scenario.run(progress=False)["q"]
     rough, smooth = (scenario.system.joint(f"{name}/base").q for name in ("rough", "smooth"))
     np.testing.assert_allclose(q[-1, rough], q[0, rough], rtol=0, atol=SCENARIO)
@@ -30,7 +30,7 @@ def test_on_a_slope_the_rough_block_holds_and_the_smooth_one_slides() -> None:
 
 
 def test_a_stack_stands_and_each_contact_carries_what_is_above() -> None:
-    trajectory = load_scenario("stack").run(progress=False)
+    trajectory = load_scenario("stack", fast=True).run(progress=False)
     q, n_z = trajectory["q"], trajectory["wrench"][-1][:, 2]
     np.testing.assert_allclose(q[-1], q[0], rtol=0, atol=SCENARIO)
     loads = n_z.reshape(3, 4).sum(axis=1)

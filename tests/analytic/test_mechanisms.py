@@ -19,7 +19,7 @@ def test_of_two_pinched_bars_one_is_held_and_one_pivots_and_slips() -> None:
         * (m * G * (a + offset) - 2 * mu_omega * N_0)
         / (m * (a + offset) ** 2 + inertia + 2 * K_q * mu_omega**2 * H**2)
     )
-    scenario = load_scenario("two_finger_pinch")
+    scenario = load_scenario("two_finger_pinch", fast=True)
     trajectory = scenario.run(progress=False)
     assert certified(trajectory) == "100 of 100 steps exact"
     q = trajectory["q"]
@@ -36,7 +36,7 @@ def test_of_two_pinched_bars_one_is_held_and_one_pivots_and_slips() -> None:
 
 def test_a_door_follows_the_tip_that_pushes_it_and_stops_with_it() -> None:
     inertia, K_q, r, w = 0.1 + 2 * 0.4**2, 2000.0, 0.6, 0.045
-    scenario = load_scenario("door")
+    scenario = load_scenario("door", fast=True)
     trajectory = scenario.run(progress=False)
     assert certified(trajectory) == "500 of 500 steps exact"
     M_u = scenario.system.M_u(scenario.system.q_start)
@@ -60,7 +60,7 @@ def test_a_door_follows_the_tip_that_pushes_it_and_stops_with_it() -> None:
 def test_a_peg_finds_its_hole_and_lags_by_the_friction_of_two_walls() -> None:
     v, mu_v, c, K = 0.01, 0.2, 0.0005, np.array([500.0, 500.0, 2000.0])
     e = np.array([0.003, 0.002])
-    trajectory = load_scenario("peg_in_hole").run(progress=False)
+    trajectory = load_scenario("peg_in_hole", fast=True).run(progress=False)
     assert certified(trajectory) == "400 of 400 steps exact"
     b = mu_v * H * v
     N = K[:2] * (e - c + b)

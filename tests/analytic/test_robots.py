@@ -11,7 +11,7 @@ G, H = 9.81, 0.01
 
 def test_a_panda_that_pushes_a_block_yields_by_the_torques_of_the_push() -> None:
     m, mu_v, K_q = 0.4, 0.4, 7000.0
-    scenario = load_scenario("panda_push")
+    scenario = load_scenario("panda_push", fast=True)
     trajectory = scenario.run(progress=False)
     assert certified(trajectory) == "400 of 400 steps exact"
     system, q = scenario.system, trajectory["q"]
@@ -30,7 +30,7 @@ def test_a_panda_that_pushes_a_block_yields_by_the_torques_of_the_push() -> None
 
 def test_a_finger_of_the_allegro_hand_rolls_on_the_drum_that_it_turns() -> None:
     R, rho, axle = 0.03, 0.012, np.array([0.055, 0.0, 0.0525])
-    scenario = load_scenario("allegro_turn")
+    scenario = load_scenario("allegro_turn", fast=True)
     trajectory = scenario.run(progress=False)
     assert certified(trajectory) == "300 of 300 steps exact"
     system = scenario.system
@@ -49,7 +49,7 @@ def test_a_finger_of_the_allegro_hand_rolls_on_the_drum_that_it_turns() -> None:
 
 
 def test_without_friction_the_hand_does_not_turn_the_drum() -> None:
-    scenario = load_scenario("allegro_turn", ["contacts.tips.mu_v=0"])
+    scenario = load_scenario("allegro_turn", ["contacts.tips.mu_v=0"], fast=True)
     trajectory = scenario.run(progress=False)
     assert (trajectory["wrench"][-1, :, 2] > 0).all()
     drum = scenario.system.joint("roller/axle")

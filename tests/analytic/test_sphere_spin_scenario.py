@@ -24,7 +24,7 @@ def torque(k):
 
 @pytest.fixture(scope="module")
 def scenario():
-    return load_scenario("sphere_spin")
+    return load_scenario("sphere_spin", fast=True)
 
 
 @pytest.fixture(scope="module")

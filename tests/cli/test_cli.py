@@ -26,7 +26,7 @@ def test_run_writes_the_trajectory_and_tells_of_it(scene, out, capsys):
     assert main(["run", scene, "--out", str(out)]) == 0
     printed = capsys.readouterr().out
     assert printed.startswith(
-        "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend daqp (native), "
+        "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend clarabel, plain path, "
     )
     assert printed.endswith(f"wrote {out / 'scene.npz'}\n")
     assert trajectory_read(out / "scene.npz").steps == 5
@@ -37,7 +37,7 @@ def test_run_prints_one_json_object(scene, out, capsys):
     printed = json.loads(capsys.readouterr().out)
     assert printed["trajectory"] == str(out / "scene.npz")
     assert (printed["steps"], printed["variables"], printed["rows"]) == (5, 8, 10)
-    assert printed["backend"] == "daqp"
+    assert (printed["backend"], printed["fast"]) == ("clarabel", False)
     assert 0 <= printed["worst_residual"] < MULTIPLIERS
     assert set(printed["milliseconds_per_step"]) == {"distances", "rows", "solve", "integrate"}
 
@@ -245,12 +245,12 @@ def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, capsys):
 def test_backends_lists_what_is_installed(capsys):
     assert main(["backends", "--json"]) == 0
     printed = json.loads(capsys.readouterr().out)
-    assert (printed["default"], printed["default_of_solve"]) == ("daqp", "clarabel")
+    assert (printed["default"], printed["default_of_fast"]) == ("clarabel", "daqp")
     assert {"clarabel", "osqp", "piqp", "daqp"} <= set(printed["installed"])
     assert main(["backends"]) == 0
     page = capsys.readouterr().out
-    assert "daqp (default of run)" in page
-    assert "clarabel (default of solve)" in page
+    assert "daqp (default with --fast)" in page
+    assert "clarabel (default)" in page
 
 
 def test_demo_prints_one_json_object_and_writes_what_it_names(demo):

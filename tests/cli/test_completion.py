@@ -10,8 +10,7 @@ from quasistatic_ref.cli.main import COMMANDS, command_parser, main
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.study.spec import study_names
-from quasistatic_ref.solve.backends import installed_backends
-from quasistatic_ref.solve.engines import CERTIFY, ENGINES
+from quasistatic_ref.solve.backends import CERTIFY, installed_backends
 from quasistatic_ref.step.cones import CONES, cone
 
 
@@ -64,7 +63,6 @@ def test_scenarios_are_offered_by_name_and_files_of_theirs(offered):
 
 def test_values_of_options_are_offered(offered):
     assert offered("run", "block_push", "--backend", "") == set(installed_backends())
-    assert offered("run", "block_push", "--engine", "") == set(ENGINES)
     assert offered("solve", "step.json", "--certify", "r") == {"residual"}
     cones = offered("run", "block_push", "--cone", "")
     assert len([cone(name) for name in cones]) == len(CONES)  # each is one that can be asked for
@@ -87,6 +85,5 @@ def test_other_shells_get_the_same_words(capsys, shell):
     assert all(word in script for word in (*COMMANDS, *scenario_names(), "resume", "daqp"))
 
 
-def test_what_the_command_line_says_of_engines_and_certificates_is_so():
-    assert options.ENGINES == ENGINES
+def test_what_the_command_line_says_of_certificates_is_so():
     assert options.CERTIFY == CERTIFY

@@ -29,7 +29,7 @@ def test_the_residual_is_the_largest_product(seed):
     rng = np.random.default_rng(seed)
     step, delta_q, lam = random_step(rng), rng.normal(size=7), rng.normal(size=16)
     expected = max(abs(product) for product in products(step, delta_q, lam))
-    actual = optimality_residuals(step, delta_q, lam).complementarity
+    actual = optimality_residuals(standard_form(step), delta_q, lam).complementarity
     np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)
 
 

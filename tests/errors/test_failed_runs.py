@@ -76,7 +76,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, cap
     failed = step_read(out / "scene_failed_step.json")
     assert f"the failing step in {out / 'scene_failed_step.json'}" in captured.err
     # It is the step that starts where the trajectory ends.
-    scenario = load_scenario(path)
+    scenario = load_scenario(path, fast=True)
     with pytest.raises(RunFailed) as caught:
         scenario.run(progress=False)
     assert caught.value.step == failed
@@ -96,7 +96,7 @@ def test_the_failing_step_fails_again_by_itself(tmp_path, capsys):
 
 def test_each_failure_is_of_its_own_kind(tmp_path):
     for changes, kind in ((WEDGE, StepInfeasible), (SUNK, LimitExceeded)):
-        scenario = load_scenario(scene_written(tmp_path, changed(SCENE, *changes)))
+        scenario = load_scenario(scene_written(tmp_path, changed(SCENE, *changes)), fast=True)
         with pytest.raises(RunFailed) as caught:
             scenario.run(progress=False)
         assert isinstance(caught.value.__cause__, kind)
@@ -106,7 +106,7 @@ def test_each_failure_is_of_its_own_kind(tmp_path):
 def test_the_depth_that_is_allowed_is_the_scenario_s(tmp_path, depth, fails):
     alone = (("contacts/push", ...), ("bodies/ball/wrenches", ...))
     scene = changed(SCENE, *SUNK, *alone, ("limits/penetration", depth), ("steps", 1))
-    scenario = load_scenario(scene_written(tmp_path, scene))
+    scenario = load_scenario(scene_written(tmp_path, scene), fast=True)
     if fails:
         with pytest.raises(RunFailed, match=r"is 0\.08 m deep"):
             scenario.run(progress=False)
@@ -117,7 +117,7 @@ def test_the_depth_that_is_allowed_is_the_scenario_s(tmp_path, depth, fails):
 
 
 def test_limits_have_defaults_and_signs(tmp_path):
-    scenario = load_scenario(scene_written(tmp_path, changed(SCENE, ("limits", ...))))
+    scenario = load_scenario(scene_written(tmp_path, changed(SCENE, ("limits", ...))), fast=True)
     assert scenario.limits == Limits(penetration=0.05, reach=100.0)
     for name in ("penetration", "reach"):
         for value in (0.0, -1.0, float("nan")):
@@ -134,7 +134,8 @@ def test_a_position_that_is_no_number_is_out_of_the_scene():
 def test_ctrl_c_leaves_a_trajectory_of_whole_steps(tmp_path):
     path, out = scene_written(tmp_path, changed(SCENE, ("steps", 1_000_000))), tmp_path / "out"
     run = subprocess.Popen(
-        [sys.executable, "-m", "quasistatic_ref.cli.main", "run", str(path), "--out", str(out)],
+        [sys.executable, "-m", "quasistatic_ref.cli.main", "run", str(path), "--fast",
+         "--out", str(out)],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
         env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
@@ -155,7 +156,7 @@ def test_ctrl_c_leaves_a_trajectory_of_whole_steps(tmp_path):
     assert complained.splitlines() == [f"quasistatic-ref: {sentence}" for sentence in sentences]
     assert os.listdir(out) == ["scene.npz"]
     # The same steps as of a run that was set to end there, bit for bit.
-    short = load_scenario(path, [f"steps={min(n, 3)}"]).run(progress=False)
+    short = load_scenario(path, [f"steps={min(n, 3)}"], fast=True).run(progress=False)
     for name in ("q", "delta_q", "lam"):
         length = len(short[name])
         np.testing.assert_allclose(trajectory[name][:length], short[name], rtol=EXACT, atol=EXACT)
@@ -195,7 +196,7 @@ def test_somebody_else_s_handler_is_left_alone():
 
 
 def test_a_run_in_another_thread_needs_no_signals(tmp_path):
-    scenario, runs = load_scenario(scene_written(tmp_path)), []
+    scenario, runs = load_scenario(scene_written(tmp_path), fast=True), []
     thread = threading.Thread(target=lambda: runs.append(scenario.run(progress=False)))
     thread.start()
     thread.join()

@@ -68,9 +68,7 @@ KINDS = {
         {"solver.backend": "clarabel", "solver.certify": "residual"}, None,
     ),
     "by splitting": ({"solver.backend": "osqp", "solver.certify": "off", "record": "light"}, None),
-    "through CVXPY": (
-        {"solver.engine": "cvxpy", "solver.backend": "osqp", "solver.certify": "off"}, None,
-    ),
+    "on the plain path": ({"solver.backend": "osqp", "solver.certify": "off", "fast": False}, None),
     "with an extension": ({}, above_the_floor),
     "in the ellipsoid": ({"cone": "ellipsoid"}, None),
     "without a backend": ({"solver.backend": "none"}, None),
@@ -80,7 +78,7 @@ KINDS = {
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_run_that_was_ended_twice_ends_with_the_bits_of_one_that_was_not(tmp_path, scene, kind):
     settings, extension = KINDS[kind]
-    scenario = load_scenario(scene, {**settings, "steps": STEPS})
+    scenario = load_scenario(scene, {"fast": True, **settings, "steps": STEPS})
     whole, parted = tmp_path / "whole.npz", tmp_path / "parted.npz"
     ran(scenario, whole, extension=extension)
     # Within the first stretch, and where another has just begun and gone on by two steps.
@@ -96,7 +94,7 @@ def test_a_run_that_was_ended_twice_ends_with_the_bits_of_one_that_was_not(tmp_p
 
 def test_what_the_solver_keeps_of_earlier_steps_decides_bits(tmp_path, scene, monkeypatch):
     """So that the test above would fail if a resumed run did not ask the solver again."""
-    scenario = load_scenario(scene, {**KINDS["by splitting"][0], "steps": STEPS})
+    scenario = load_scenario(scene, {**KINDS["by splitting"][0], "steps": STEPS}, fast=True)
     ran(scenario, tmp_path / "whole.npz")
     monkeypatch.setattr(module, "STRETCH", 1)  # cold at each step
     ran(scenario, tmp_path / "cold.npz")
@@ -105,7 +103,7 @@ def test_what_the_solver_keeps_of_earlier_steps_decides_bits(tmp_path, scene, mo
 
 def test_a_killed_process_is_resumed_from_the_command_line(tmp_path, scene, capsys, monkeypatch):
     monkeypatch.setattr(module, "STRETCH", 1000)  # as in the other process
-    arguments = ["run", str(scene), "--set", "steps=200"]
+    arguments = ["run", str(scene), "--fast", "--set", "steps=200"]
     once, again = tmp_path / "once", tmp_path / "again"
     command = [sys.executable, "-m", "quasistatic_ref.cli.main", *arguments, "--save-every", "0"]
     process = subprocess.Popen([*command, "--out", str(again)], stderr=subprocess.DEVNULL)
@@ -172,36 +170,36 @@ OTHERS = {
 def test_another_run_is_not_resumed_and_what_differs_is_named(tmp_path, scene, record, other):
     changes, says = OTHERS[other]
     path, settings = tmp_path / "run.npz", {"steps": STEPS, "record": record}
-    ran(load_scenario(scene, settings), path, killed_at=STRETCH + 1)
+    ran(load_scenario(scene, settings, fast=True), path, killed_at=STRETCH + 1)
     before = sorted(saved_folder(path).iterdir())
     with pytest.raises(InputError) as caught:
-        ran(load_scenario(scene, settings | changes), path, resume=True)
+        ran(load_scenario(scene, settings | changes, fast=True), path, resume=True)
     assert says in str(caught.value)
     assert sorted(saved_folder(path).iterdir()) == before
 
 
 def test_a_changed_urdf_another_record_and_another_version_are_named(tmp_path, scene, monkeypatch):
     path = tmp_path / "run.npz"
-    ran(load_scenario(scene), path, killed_at=2)
+    ran(load_scenario(scene, fast=True), path, killed_at=2)
     urdf = tmp_path / "ball.urdf"
     text = urdf.read_text()
     urdf.write_text(text.replace('"0.3"', '"0.4"'))
     with pytest.raises(InputError, match=r"differs in bodies\.ball; run what it is of"):
-        ran(load_scenario(scene), path, resume=True)
+        ran(load_scenario(scene, fast=True), path, resume=True)
     urdf.write_text(text)
     with pytest.raises(InputError, match="differs in record: full then, light now"):
-        ran(load_scenario(scene, {"record": "light"}), path, resume=True)
+        ran(load_scenario(scene, {"record": "light"}, fast=True), path, resume=True)
     monkeypatch.setattr(saved, "__version__", "9.9")
     says = r"differs in version of quasistatic_ref: 0\.1\.0 then, 9\.9 now; run what it is of"
     with pytest.raises(InputError, match=says):
-        ran(load_scenario(scene), path, resume=True)
+        ran(load_scenario(scene, fast=True), path, resume=True)
 
 
 @pytest.mark.parametrize("steps", [4, STEPS])
 def test_a_resumed_run_may_end_where_it_was_saved_or_later(tmp_path, scene, steps):
     path, plain = tmp_path / "run.npz", tmp_path / "plain.npz"
-    ran(load_scenario(scene, {"steps": 6}), path, killed_at=4)
-    other = load_scenario(scene, {"steps": steps})
+    ran(load_scenario(scene, {"steps": 6}, fast=True), path, killed_at=4)
+    other = load_scenario(scene, {"steps": steps}, fast=True)
     ran(other, path, resume=True)
     ran(other, plain)
     assert path.read_bytes() == plain.read_bytes()
@@ -220,13 +218,13 @@ def test_a_resumed_run_that_is_shorter_is_refused_and_nothing_is_removed(tmp_pat
 def test_a_run_that_ends_leaves_its_trajectory_and_nothing_else(tmp_path, changes):
     path = tmp_path / "out" / "run.npz"
     with pytest.raises(RunFailed) if changes else contextlib.nullcontext():
-        ran(load_scenario(scene_written(tmp_path, changed(SCENE, *changes))), path)
+        ran(load_scenario(scene_written(tmp_path, changed(SCENE, *changes)), fast=True), path)
     assert [file.name for file in path.parent.iterdir()] == ["run.npz"]
 
 
 @pytest.mark.parametrize(("every", "kept"), [(0.0, True), (3600.0, False)])
 def test_ctrl_c_keeps_the_saved_steps_of_a_run_that_was_long(tmp_path, scene, every, kept, capsys):
-    scenario, path = load_scenario(scene), tmp_path / "run.npz"
+    scenario, path = load_scenario(scene, fast=True), tmp_path / "run.npz"
 
     def target(t):
         if t > 0.025:
@@ -247,7 +245,7 @@ def test_a_full_disk_ends_no_run(tmp_path, scene, monkeypatch, capsys):
         raise InputError("cannot be written: No space left on device", file=path)
 
     monkeypatch.setattr(saved, "written_whole", full)
-    run = ran(load_scenario(scene), tmp_path / "run.npz")
+    run = ran(load_scenario(scene, fast=True), tmp_path / "run.npz")
     said = capsys.readouterr().err.splitlines()
     assert len(said) == 1
     assert said[0].endswith("No space left on device; the run goes on")
@@ -265,7 +263,7 @@ def test_steps_that_could_not_be_saved_are_saved_with_the_next(tmp_path, scene, 
 
     monkeypatch.setattr(saved, "written_whole", now_and_then)
     path, plain = tmp_path / "run.npz", tmp_path / "plain.npz"
-    scenario = load_scenario(scene, {"steps": STEPS})
+    scenario = load_scenario(scene, {"steps": STEPS}, fast=True)
     ran(scenario, path, killed_at=6)
     assert calls == ["000000000.npz", *["000000001.npz"] * 3, "000000004.npz", "000000005.npz"]
     ran(scenario, path, resume=True)
@@ -297,4 +295,4 @@ def test_spoilt_files_are_refused_in_one_sentence(tmp_path, scene, capsys, spoil
 @pytest.mark.parametrize("every", [-1.0, float("nan")])
 def test_a_time_that_is_none_is_refused(tmp_path, scene, every):
     with pytest.raises(InputError, match="save_every: must be at least 0"):
-        ran(load_scenario(scene), tmp_path / "run.npz", every=every)
+        ran(load_scenario(scene, fast=True), tmp_path / "run.npz", every=every)

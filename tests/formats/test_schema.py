@@ -87,7 +87,7 @@ MISTAKES = {
     "solver a word": ("solver", "osqp"),
     "a misspelt backend": ("solver/bakend", "osqp"),
     "a backend that is a number": ("solver/backend", 3),
-    "an unknown engine": ("solver/engine", "diesel"),
+    "an engine": ("solver/engine", "native"),
     "accuracy zero": ("solver/accuracy", 0.0),
     "certify true": ("solver/certify", True),
     "certify something": ("solver/certify", "everything"),

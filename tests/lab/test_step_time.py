@@ -82,7 +82,7 @@ def planted(solve, backend="x", distances=TRACKER):
 
 
 def test_profiled_steps_are_those_of_numpy_with_a_compiler_too():
-    assert _Run("daqp", "off").simulator.fast is None
+    assert _Run("daqp", "off").simulator.compiled is None
 
 
 def test_a_share_is_that_of_the_sum():

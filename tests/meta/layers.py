@@ -5,7 +5,7 @@ from pathlib import Path
 
 # The core, in this order: a folder imports only from folders before it, and from itself.
 CORE = (
-    ("formats", "errors", "tolerances", "parts", "compiled"),
+    ("formats", "errors", "tolerances", "parts"),
     ("step",),
     ("certify",),
     ("solve",),
@@ -50,23 +50,14 @@ LAB = (
 # list only shrinks.
 REMAINING = {
     "certify/certificate.py": {"optional/ellipsoid", "optional/large"},
-    "contact/jacobian.py": {"optional/fast"},
-    "simulate/simulator.py": {"optional/fast", "optional/large"},
-    "solve/engines.py": {"optional/ellipsoid", "optional/large"},
+    "solve/cvxpy_problem.py": {"optional/ellipsoid"},
     "solve/scaled.py": {"optional/large"},
-    "solve/solve.py": {
-        "optional/ellipsoid",
-        "optional/extensions",
-        "optional/fast",
-        "optional/large",
-    },
-    "solve/solver.py": {"optional/fast", "optional/large"},
-    "solve/through_cvxpy.py": {"optional/ellipsoid"},
-    "solve/units.py": {"optional/fast"},
+    "solve/solve.py": {"optional/ellipsoid", "optional/extensions", "optional/large"},
     "optional/derivatives/contact/couples.py": {"optional/fast"},
     "optional/derivatives/contact/point_ties.py": {"optional/fast"},
-    "optional/extensions/extended.py": {"optional/ellipsoid"},
     "optional/fast/compiled/answer.py": {"optional/large"},
+    "optional/fast/geometry.py": {"optional/large"},
+    "optional/fast/solver.py": {"optional/ellipsoid", "optional/large"},
     "optional/large/rounded_bound.py": {"optional/fast"},
 }
 

@@ -4,9 +4,9 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
 from quasistatic_ref.solve.backends import NONE, UNSAFE
-from quasistatic_ref.solve.engines import CVXPY, NATIVE, solver_for
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.tolerances import ALIKE
 from tests.tolerances import ROUNDING
 from validation.fuzz import outcomes
@@ -43,8 +43,7 @@ def test_a_backend_that_may_not_return_is_asked_only_where_rows_are_alike():
         step = unlike_step(ratio)
         exact = solve_step(step, NONE).delta_q
         for name in UNSAFE:
-            other = NATIVE if name == "quadprog" else CVXPY
-            for solver in (solver_for(step, name, other), f"qpsolvers:{name}"):
+            for solver in (solver_for(step, name, name == "quadprog"), f"qpsolvers:{name}"):
                 solution = solve_step(step, solver)
                 assert solution.statistics.status.startswith(status)
                 np.testing.assert_array_equal(solution.delta_q, exact)

@@ -1,8 +1,10 @@
 """The README's commands are the ones that CI runs."""
 
 import re
+import sys
 from pathlib import Path
 
+from quasistatic_ref.scenario.scenario import load_scenario
 from validation.installs import COMMANDS, shell_lines
 
 ROOT = Path(__file__).parents[2]
@@ -18,19 +20,35 @@ def test_commands_are_read_from_shell_blocks_only():
     assert shell_lines(text) == ("one --two",)
 
 
-ABOUT = 50
-"""Lines to which the README rounds the length of the files to be read first."""
+NAMED = re.compile(r"^\d\. `(\w+/\w+\.py)`: (.*)$", re.MULTILINE)
 
 
-def test_the_files_to_be_read_first_are_there_and_as_long_as_it_says():
+def test_the_functions_to_be_read_first_are_those_that_a_run_executes():
+    """Every function that the reading path names runs in the first steps of bunny_grasp."""
     text = (ROOT / "README.md").read_text()
-    files = re.findall(r"^\d\. `(\w+/\w+\.py)`", text, re.MULTILINE)
-    assert [Path(name).stem for name in files] == [
-        "problem", "friction", "standard_form", "optimality", "simulator",
-    ]  # fmt: skip
     package = ROOT / "quasistatic_ref"
-    lines = sum(len((package / name).read_text().splitlines()) for name in files)
-    assert f"five files of about {ABOUT * round(lines / ABOUT)} lines in total" in text
+    wanted = {
+        (str(package / file), name.partition(".")[2] or name)
+        for file, words in NAMED.findall(text)
+        for name in re.findall(r"`([A-Za-z_]+(?:\.\w+)?)`", words)
+        if name != "StepProblem"
+    } | {(str(package / "step/problem.py"), "__init__")}
+    assert 5 <= len(NAMED.findall(text)) <= 6
+    executed = set()
+
+    def note(frame, event, argument):
+        if event == "call":
+            executed.add((frame.f_code.co_filename, frame.f_code.co_name))
+
+    scenario = load_scenario("bunny_grasp", steps=2)
+    sys.setprofile(note)
+    try:
+        scenario.run(progress=False)
+    finally:
+        sys.setprofile(None)
+    assert wanted - executed == set()
+    quick = package / "optional" / "fast"
+    assert [file for file, _ in executed if file.startswith(str(quick))] == []
     named = re.findall(r"`(\w+/\w+\.py)`", text[text.index("## Read it") :])
     assert [name for name in named if not (package / name).is_file()] == []
 

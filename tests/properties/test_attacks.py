@@ -12,9 +12,9 @@ from quasistatic_ref.errors import QuasistaticError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.large import uncertified
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.files import step_text
 from quasistatic_ref.step.solution_files import infeasible_text, solution_text
 from validation.attacked_steps import steps
@@ -64,7 +64,7 @@ def test_what_is_written_is_verified_in_every_mode(attack, family, cone):
         posed = step.replace(cone=cone)
         for certify in ("full", "residual", "off"):
             try:
-                solver = solver_for(posed, "clarabel", "native")
+                solver = solver_for(posed, "clarabel", fast=True)
                 solution = solve_step(posed, solver, certify=certify)
                 text, claims = solution_text(posed, solution), solution.certificate
                 kind = json.loads(text)["certificate"]["kind"]
@@ -82,7 +82,7 @@ def test_what_is_written_is_verified_in_every_mode(attack, family, cone):
 def test_the_bound_of_a_subnormal_answer_is_of_the_answer_as_given(attack, tau):
     """A mass of 3 kg in a second: x* = tau / 3, of which delta_q has few digits."""
     step = free_step(np.array([[3.0]]), np.array([tau]), no_contacts(1), 1.0)
-    solution = solve_step(step, solver_for(step, "daqp", "native"), certify="residual")
+    solution = solve_step(step, solver_for(step, "daqp", fast=True), certify="residual")
     error = abs(Fraction(solution.delta_q[0]) / (Fraction(tau) / 3) - 1)
     assert Fraction(solution.certificate.error_bound) >= error
     assert attack.refused(step_text(step), solution_text(step, solution)) is None
@@ -93,7 +93,7 @@ def test_a_bound_above_one_is_no_useful_bound(monkeypatch):
     monkeypatch.setattr(uncertified, "BOUNDED", -1.0)
     for bound, said in ((1.0, 1.0), (np.nextafter(1.0, 2.0), None), (3e276, None), (np.inf, None)):
         monkeypatch.setattr(DenseStep, "bound", lambda *_, bound=bound: bound)
-        solver = solver_for(step, "daqp", "native")
+        solver = solver_for(step, "daqp", fast=True)
         certificate = solve_step(step, solver, certify="residual").certificate
         assert certificate.error_bound == said
         assert ("no useful bound" in in_words(step, certificate)) == (said is None)

@@ -17,7 +17,7 @@ from validation.random_steps import mixed_step
 def test_every_backend_ends_at_the_same_bits_of_a_grasp(mu_omega):
     """Approach, closing, squeeze and the first of the lift."""
     settings = ["steps=106", f"contacts.grip.mu_omega={mu_omega}", "solver.certify='residual'"]
-    run = load_scenario("bunny_grasp", settings).run(progress=False)
+    run = load_scenario("bunny_grasp", settings, fast=True).run(progress=False)
     checks = [checked(run.step_data(k)) for k in range(0, run.steps, 21)]
     assert [check.faults for check in checks] == [[]] * 6
     assert all(check.kinds == {"optimal"} for check in checks)

@@ -8,7 +8,7 @@ from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import StepInfeasible, StepNotSolved
-from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY
 from validation.random_steps import mixed_step

@@ -101,7 +101,13 @@ def answer(
         ContactPair("ground", ground, cloud, mu, 0.0, 4, 2),
     )
     simulator = Simulator(
-        system, pairs, h=H, K_q=np.zeros((0, 0)), gravity=(W @ GRAVITY).tolist(), solver="none"
+        system,
+        pairs,
+        h=H,
+        K_q=np.zeros((0, 0)),
+        gravity=(W @ GRAVITY).tolist(),
+        backend="none",
+        fast=True,
     )
     q = system.q_start
     force = sum(

@@ -19,7 +19,7 @@ STEPS = 4
 
 @pytest.fixture
 def scenario(tmp_path):
-    return load_scenario(written_scenario(tmp_path))
+    return load_scenario(written_scenario(tmp_path), fast=True)
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ from tests.tolerances import ROUNDING
 
 def run_of(out, scenario, *settings):
     flags = [part for setting in settings for part in ("--set", setting)]
-    assert main(["run", scenario, "--out", str(out), "--json", *flags]) == 0
+    assert main(["run", scenario, "--out", str(out), "--fast", "--json", *flags]) == 0
 
 
 def test_a_run_tells_how_far_a_free_body_turned_and_rose(tmp_path, capsys):
@@ -38,7 +38,7 @@ def test_a_body_that_falls_has_not_risen(tmp_path, capsys):
 
 
 def test_driven_bodies_are_not_among_the_free_ones():
-    scenario = load_scenario("bunny_grasp", ["steps=1"])
+    scenario = load_scenario("bunny_grasp", ["steps=1"], fast=True)
     assert list(free_body_motions(scenario.system, scenario.run(progress=False))) == ["bunny"]
 
 

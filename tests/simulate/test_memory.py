@@ -30,7 +30,7 @@ def test_certified_steps_leave_nothing_behind():
 
 @pytest.mark.parametrize("record", ["light", "full"])
 def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more(record):
-    scenario = load_scenario("sphere_spin", record=record)
+    scenario = load_scenario("sphere_spin", record=record, fast=True)
     simulator, q, target = scenario.simulator(), scenario.system.q_start, np.zeros(0)
     recorder, result = Recorder(simulator, q, record), simulator.step(q, target)
     gc.collect()

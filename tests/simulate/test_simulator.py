@@ -24,7 +24,7 @@ GRAVITY = 9.81
 
 @pytest.fixture
 def scenario(tmp_path):
-    return load_scenario(written_scenario(tmp_path))
+    return load_scenario(written_scenario(tmp_path), fast=True)
 
 
 @pytest.fixture
@@ -187,7 +187,7 @@ def test_gravity_may_point_anywhere(tmp_path):
 
 
 def test_the_problem_is_compiled_once(scenario):
-    simulator, q = replace(scenario, engine="cvxpy").simulator(), scenario.system.q_start
+    simulator, q = replace(scenario, fast=False).simulator(), scenario.system.q_start
     compiled = []
     for k in range(4):
         result = simulator.step(q, scenario.targets(0.01 * (k + 1)))

@@ -31,7 +31,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def scenario(folder):
-    return load_scenario(written_scenario(folder))
+    return load_scenario(written_scenario(folder), fast=True)
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def run(scenario):
 
 @pytest.fixture(scope="module")
 def failure(folder):
-    swing = load_scenario(written_scenario(folder, SWING, "swing.toml"))
+    swing = load_scenario(written_scenario(folder, SWING, "swing.toml"), fast=True)
     with pytest.raises(RunFailed) as caught:
         swing.run(progress=False)
     return caught.value
@@ -141,7 +141,7 @@ def test_wall_times_are_kept_in_memory_only(tmp_path, run):
 
 
 def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
-    light = load_scenario(folder / "scene.toml", ["record=light"]).run(progress=False)
+    light = load_scenario(folder / "scene.toml", ["record=light"], fast=True).run(progress=False)
     assert set(light.arrays) == LIGHT
     back = trajectory_read(light.save(tmp_path / "run.npz"))
     np.testing.assert_allclose(back["q"], run["q"], rtol=EXACT, atol=EXACT)
@@ -158,14 +158,14 @@ def test_a_step_that_does_not_exist_is_refused(run, k):
 def test_the_worst_residual_is_that_of_all_steps(tmp_path, run, folder):
     assert worst_residual(run) == max(run["worst_residual"])
     settings = ["solver.certify=off"]
-    uncertified = load_scenario(folder / "scene.toml", settings).run(progress=False)
+    uncertified = load_scenario(folder / "scene.toml", settings, fast=True).run(progress=False)
     assert worst_residual(uncertified) is None
     back = trajectory_read(uncertified.save(tmp_path / "off.npz"))
     assert np.isnan(back["digits"]).all()
 
 
 def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
-    empty = load_scenario(folder / "scene.toml", ["steps=0"]).run(progress=False)
+    empty = load_scenario(folder / "scene.toml", ["steps=0"], fast=True).run(progress=False)
     back = trajectory_read(empty.save(tmp_path / "run.npz"))
     assert (back.steps, back.failed, back["q"].shape) == (0, None, (1, 10))
     assert worst_residual(back) is None
@@ -223,5 +223,5 @@ def test_what_a_run_leaves_cannot_be_written(tmp_path, scenario, run):
 )
 def test_each_step_says_how_it_was_certified(folder, certify, kind):
     settings = ["steps=2", f"solver.certify={certify}"]
-    run = load_scenario(folder / "scene.toml", settings).run(progress=False)
+    run = load_scenario(folder / "scene.toml", settings, fast=True).run(progress=False)
     assert run["certificate"].tolist() == [kind, kind]

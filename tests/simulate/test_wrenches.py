@@ -17,7 +17,7 @@ from tests.tolerances import EXACT, ROUNDING
 @pytest.fixture(scope="module")
 def scenario(tmp_path_factory):
     """A plate pushes a ball over the floor; 5 mm apart at the start."""
-    return load_scenario(written_scenario(tmp_path_factory.mktemp("scene")), steps=40)
+    return load_scenario(written_scenario(tmp_path_factory.mktemp("scene")), steps=40, fast=True)
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +31,7 @@ def run(scenario):
 @pytest.fixture(scope="module")
 def pinch():
     """Two fingers on a bar: a body of three links, whose fingers are alpha."""
-    scenario = load_scenario("two_finger_pinch", steps=10)
+    scenario = load_scenario("two_finger_pinch", steps=10, fast=True)
     return scenario, scenario.run(progress=False)
 
 
@@ -151,12 +151,12 @@ def test_a_trajectory_from_a_file_or_a_pickle_is_given_its_scene(scenario, run, 
 
 
 def test_a_light_record_has_the_same_forces(scenario, run, tmp_path):
-    light = load_scenario(scenario.path, steps=40, record="light").run(progress=False)
+    light = load_scenario(scenario.path, steps=40, record="light", fast=True).run(progress=False)
     np.testing.assert_allclose(light.wrench_on("ball"), run.wrench_on("ball"), rtol=EXACT)
 
 
 def test_a_run_without_steps_has_no_forces(scenario):
-    empty = load_scenario(scenario.path, steps=0).run(progress=False)
+    empty = load_scenario(scenario.path, steps=0, fast=True).run(progress=False)
     assert empty.wrench_on("ball").shape == (0, 6)
     assert [force.shape for force in empty.pair_forces().values()] == [(0, 3), (0, 3)]
 
@@ -166,6 +166,6 @@ def test_other_names_and_scenes_are_refused(scenario, run, pinch, tmp_path):
         run.wrench_on("bal")
     with pytest.raises(InputError, match="scene: is another one than that of the trajectory"):
         run.wrench_on("held", pinch[0])
-    swing = load_scenario(written_scenario(tmp_path, SWING))
+    swing = load_scenario(written_scenario(tmp_path, SWING), fast=True)
     with pytest.raises(InputError, match="scene: is another one than that of the trajectory"):
         run.wrench_on("post", swing)

@@ -8,16 +8,16 @@ import pytest
 
 from quasistatic_ref.errors import BackendError, InputError, StepDataError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.optional.fast.backends import DEFAULT_OF_FAST
 from quasistatic_ref.optional.large import uncertified
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
-    DEFAULT_OF_RUNS,
     backend,
     installed_backends,
 )
-from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import (
@@ -54,7 +54,7 @@ def test_the_solvers_of_these_tests_are_installed_so_that_green_means_ran():
 
 def test_the_required_backends_are_those_of_the_package():
     assert tuple(name for name, entry in BACKENDS.items() if entry.required) == REQUIRED
-    assert {DEFAULT, DEFAULT_OF_RUNS} <= set(REQUIRED)
+    assert {DEFAULT, DEFAULT_OF_FAST} <= set(REQUIRED)
 
 
 @every_interface

@@ -1,4 +1,4 @@
-"""Which backend and engine a run has that names none."""
+"""Which backend a run has that names none."""
 
 import subprocess
 import sys
@@ -9,13 +9,13 @@ import pytest
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast.backends import default_backend, sparse_from
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.adapters.clarabel import Clarabel
 from quasistatic_ref.solve.adapters.daqp import Daqp
 from quasistatic_ref.solve.adapters.piqp import Piqp
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.engines import default_backend, default_engine, sparse_from
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.tolerances import DENSE_BELOW, SPARSE_FROM_PIQP
@@ -25,51 +25,47 @@ from tests.tolerances import OPTIMUM
 FAILED = Reply(None, None, False, "at a loss")
 
 
-def test_the_default_is_native_where_it_reaches():
-    assert default_engine("clarabel", "pyramid") == "native"
-    assert default_engine("clarabel", "ellipsoid") == "native"
-    assert default_engine("scs", "ellipsoid") == "cvxpy"
-    assert default_engine("highs", "pyramid") == "cvxpy"
-    assert default_engine("none", "pyramid") == "cvxpy"
-
-
-def test_the_default_of_uncertified_rows_is_daqp_then_piqp():
+def test_the_default_of_fast_and_uncertified_rows_is_daqp_then_piqp():
     for certify, least in (("off", DENSE_BELOW), ("residual", SPARSE_FROM_PIQP)):
-        assert default_backend(None, "pyramid", certify, least - 1) == "daqp"
-        assert default_backend("native", "product", certify, least) == "piqp"
-        assert sparse_from("native", "piqp", certify, "product") == SPARSE_FROM_PIQP
-        assert sparse_from("native", "daqp", certify, "product") == 0
-        assert sparse_from("cvxpy", "piqp", certify, "product") == 0
-    assert default_backend(None, "pyramid", "full", 10**9) == "daqp"
-    assert sparse_from("native", "piqp", "full", "pyramid") == 0
+        assert default_backend("pyramid", certify, least - 1) == "daqp"
+        assert default_backend("product", certify, least) == "piqp"
+        assert sparse_from("piqp", certify, "product") == SPARSE_FROM_PIQP
+        assert sparse_from("daqp", certify, "product") == 0
+        assert sparse_from("qpsolvers:piqp", certify, "product") == 0
+    assert default_backend("pyramid", "full", 10**9) == "daqp"
+    assert sparse_from("piqp", "full", "pyramid") == 0
     few, many = pile((2, 1, 1), certify="residual"), pile((8, 1, 1), certify="residual")
     for some, named in ((few, "daqp"), (many, "piqp")):
         own = some.simulator
-        made = Simulator(own.system, own.pairs, h=own.h, K_q=own.K_q, certify="residual")
+        made = Simulator(own.system, own.pairs, h=own.h, K_q=own.K_q, certify="residual", fast=True)
         answer = made.step(some.q, np.zeros(0), some.force).solution
         assert (made.backend, answer.backend) == (named, named)
         assert answer.certificate.error_bound < 1e-4
 
 
-def test_the_default_backend_of_certified_native_rows_is_daqp():
-    assert default_backend(None, "pyramid", "full") == "daqp"
-    assert default_backend("native", "facets-8", "full") == "daqp"
-    for others in (("cvxpy", "pyramid", "full"), (None, "ellipsoid", "off")):
-        assert default_backend(*others, 10**9) == "clarabel"
-    assert load_scenario("sphere_spin").backend == "daqp"
-    assert load_scenario("sphere_spin", {"solver.engine": "cvxpy"}).backend == "clarabel"
-    assert load_scenario("sphere_spin", cone="ellipsoid").backend == "clarabel"
+def test_the_default_backend_is_clarabel_and_with_fast_daqp():
+    assert default_backend("facets-8", "full", 0) == "daqp"
+    assert default_backend("ellipsoid", "off", 10**9) == "clarabel"
+    for settings, named in (
+        ({}, "clarabel"),
+        ({"fast": True}, "daqp"),
+        ({"fast": True, "cone": "ellipsoid"}, "clarabel"),
+        ({"fast": True, "solver.backend": "osqp"}, "osqp"),
+        ({"solver.backend": "osqp"}, "osqp"),
+    ):
+        scenario = load_scenario("sphere_spin", settings)
+        assert scenario.backend == scenario.simulator().backend == named
 
 
 WITHOUT_DAQP = """
 import sys
 sys.modules["daqp"] = sys.modules["piqp"] = None
 from quasistatic_ref import load_scenario
-from quasistatic_ref.solve.engines import default_backend
+from quasistatic_ref.optional.fast.backends import default_backend
 from quasistatic_ref.cli.main import main
-run = load_scenario("sphere_spin", steps=2).run(progress=False)
+run = load_scenario("sphere_spin", steps=2, fast=True).run(progress=False)
 print(run.header["backend"], *run["certificate"], main(["bench", "--out", sys.argv[1]]))
-print(default_backend(None, "pyramid", "off"), default_backend(None, "pyramid", "off", 10**9))
+print(default_backend("pyramid", "off", 0), default_backend("pyramid", "off", 10**9))
 """
 
 
@@ -83,9 +79,9 @@ def test_without_daqp_and_piqp_clarabel_takes_their_place_but_in_bench(tmp_path)
 
 @pytest.mark.parametrize("by_code", [True, False])
 def test_clarabel_takes_steps_on_which_the_default_backend_fails(monkeypatch, by_code):
-    scenario = load_scenario("sphere_spin", ["solver.certify=off"])
+    scenario = load_scenario("sphere_spin", ["solver.certify=off"], fast=True)
     simulator, honest, q = scenario.simulator(), Daqp.reply, scenario.system.q_start
-    simulator.fast = simulator.fast if by_code else None
+    simulator.compiled = simulator.compiled if by_code else None
     backends = []
     for k in range(4):
         fails = k in (1, 2)
@@ -103,14 +99,17 @@ def test_a_failure_of_both_backends_is_that_of_the_first(monkeypatch):
     monkeypatch.setattr(Clarabel, "reply", lambda *_: FAILED)
     monkeypatch.setattr(Piqp, "reply", lambda *_: FAILED)
     for backend in ("daqp", "piqp"):
-        scenario = load_scenario("sphere_spin", ["solver.certify=off", f"solver.backend={backend}"])
+        settings = ["solver.certify=off", f"solver.backend={backend}"]
+        scenario = load_scenario("sphere_spin", settings, fast=True)
         with pytest.raises(StepNotSolved, match=f"{backend} did not solve the step [(]at a loss"):
             scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
 
 
 def test_a_simulator_that_names_no_backend_takes_curved_extensions():
     scenario = load_scenario("sphere_spin")
-    simulator = Simulator(scenario.system, scenario.pairs, h=scenario.h, K_q=scenario.K_q)
+    simulator = Simulator(
+        scenario.system, scenario.pairs, h=scenario.h, K_q=scenario.K_q, fast=True
+    )
     assert simulator.backend == "daqp"  # which takes rows only
     simulator.extension = lambda q: Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
     answer = simulator.step(scenario.system.q_start, scenario.targets(scenario.h)).solution

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepDataError, StepNotSolved
+from quasistatic_ref.optional.fast import solver as fast_solver
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
-from quasistatic_ref.solve.solver import KIND
+from quasistatic_ref.solve.solver import KIND, solver_for
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.solution import step_solution
 from tests.helpers import pinch, point_on_floor, random_step
@@ -29,9 +29,8 @@ def test_only_backends_that_may_not_return_are_kept_from_unlike_rows():
     step = pushed_point()
     unlike = step.replace(extra=Extra(("far",), [[1e4, 0.0, 0.0]], [-1.0]))
     for name, refused in (("qpsolvers:quadprog", True), ("daqp", False)):
-        engine = "cvxpy" if refused else "native"
-        assert solver_for(unlike, name, engine).unsafe == refused
-        solver_for(step, name, engine).answer(DenseStep(step), 1e-9)
+        assert solver_for(unlike, name, not refused).unsafe == refused
+        solver_for(step, name, not refused).answer(DenseStep(step), 1e-9)
     with pytest.raises(StepNotSolved, match="not called: its rows differ by"):
         solver_for(unlike, "qpsolvers:quadprog").answer(DenseStep(unlike), 1e-9)
 
@@ -44,7 +43,7 @@ def test_mu_omega_of_a_kind_is_zero_where_it_is_not_used(rng):
 
 def test_h_in_balls_is_kept_while_it_is_the_same():
     one, heavier = pushed_point(), pushed_point(m=0.5)
-    solver = solver_for(one, "daqp", "native")
+    solver = solver_for(one, "daqp", fast=True)
     kept = solver.kept_hessian(one)
     assert solver.kept_hessian(one) is kept
     assert solver.kept_hessian(heavier) is not kept
@@ -52,11 +51,11 @@ def test_h_in_balls_is_kept_while_it_is_the_same():
 
 
 def test_the_bound_of_an_error_is_of_this_step_and_not_of_the_one_before():
-    solver = solver_for(pushed_point(), "daqp", "native")
+    solver = solver_for(pushed_point(), "daqp", fast=True)
     for m in (0.3, 0.5, 2.0):
         step = pushed_point(m)
         answer = solve_step(step, solver, certify="residual")
-        alone = solve_step(step, solver_for(step, "daqp", "native"), certify="residual")
+        alone = solve_step(step, solver_for(step, "daqp", fast=True), certify="residual")
         assert answer.certificate.error_bound == alone.certificate.error_bound
 
 
@@ -65,7 +64,7 @@ def test_residuals_and_digits_of_a_certified_answer_are_those_of_its_units(step)
     """The optimum satisfies Eqs. (9)-(12) but for rounding; DAQP's answer has its digits."""
     for one in (step, step.replace(cone="ellipsoid")):
         name = "daqp" if one is step else "clarabel"
-        answer = solve_step(one, solver_for(one, name, "native"))
+        answer = solve_step(one, solver_for(one, name, fast=True))
         assert answer.certificate.kind in ("exact", "enclosure")
         assert max(answer.certificate.residuals.values()) < ROUNDING
         assert answer.statistics.digits > -np.log10(OPTIMUM)
@@ -74,9 +73,9 @@ def test_residuals_and_digits_of_a_certified_answer_are_those_of_its_units(step)
 
 def test_without_compiled_code_the_answer_has_the_same_bits(monkeypatch):
     step = pushed_point()
-    expected = solve_step(step, solver_for(step, "daqp", "native"))
-    monkeypatch.setattr(solve, "compiled", lambda name: None)
-    found = solve_step(step, solver_for(step, "daqp", "native"))
+    expected = solve_step(step, solver_for(step, "daqp", fast=True))
+    monkeypatch.setattr(fast_solver, "compiled", lambda name: None)
+    found = solve_step(step, solver_for(step, "daqp", fast=True))
     np.testing.assert_allclose(found.delta_q, expected.delta_q, rtol=EXACT, atol=EXACT)
 
 

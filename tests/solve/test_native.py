@@ -1,26 +1,25 @@
-"""The native engine: the program is CVXPY's, the answers are certified to the same bits."""
+"""Backends by their own interface: the program is CVXPY's, certified answers have its bits."""
 
 import subprocess
 import sys
-from dataclasses import replace
 
 import cvxpy as cp
 import numpy as np
 import pytest
 
+from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import BackendError, InputError
-from quasistatic_ref.optional.ellipsoid.cone_problem import cone_problem
 from quasistatic_ref.optional.extensions.extended import extension_rows, with_rows
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import installed
-from quasistatic_ref.solve.engines import solver_for
+from quasistatic_ref.solve.cvxpy_problem import cvxpy_problem
 from quasistatic_ref.solve.native import NativeSolver, native_backends
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import SHAPES, changed, error, pinch, planted_step, random_step
 from tests.tolerances import ACTIVE_SET, EXACT, FOUR_ULP, OPTIMUM
@@ -39,7 +38,7 @@ def some_limits(symbols):
 
 def by_cvxpy(step, limits):
     """H, g, and (A, b) of the inequalities, then of the equations, as CVXPY compiles them."""
-    problem = StepProblem(step, constraints=limits)
+    problem = cvxpy_problem(step, constraints=limits)
     problem.fill(step)
     data, _, _ = problem.problem.get_problem_data(cp.OSQP, solver_opts={})
     P = data["P"].toarray()
@@ -101,7 +100,7 @@ def test_each_backend_follows_steps_that_change_in_everything(backend, shape):
 
 
 @every_backend
-def test_certified_steps_have_the_bits_of_the_other_engine(backend, rng):
+def test_certified_steps_have_the_bits_of_the_exact_method(backend, rng):
     for step in (random_step(rng), pinch(), pinch(grip=0.5)):
         one = solve_step(step, "none")
         two = solve_step(step, NativeSolver(step, backend))
@@ -112,7 +111,7 @@ def test_certified_steps_have_the_bits_of_the_other_engine(backend, rng):
 
 
 def test_starting_warm_changes_no_answer_and_costs_fewer_iterations():
-    scenario = load_scenario("bunny_grasp", ["steps=75", "solver.backend=daqp"])
+    scenario = load_scenario("bunny_grasp", ["steps=75", "solver.backend=daqp"], fast=True)
     run = scenario.run(progress=False)
     steps = [run.step_data(k) for k in range(55, 75)]
     warm = NativeSolver(steps[0], "daqp")
@@ -123,21 +122,6 @@ def test_starting_warm_changes_no_answer_and_costs_fewer_iterations():
         assert error(step, one.delta_q, two.delta_q) <= ACTIVE_SET
         iterations += [one.statistics.iterations, two.statistics.iterations]
     assert iterations[0] < iterations[1] / 2
-
-
-@pytest.mark.parametrize("backend", ["clarabel", "daqp"])
-def test_both_engines_take_the_bunny_the_same_way_bit_for_bit(backend):
-    runs = []
-    for engine in ("cvxpy", "native"):
-        settings = ["steps=72", f"solver.backend={backend}", f"solver.engine={engine}"]
-        scenario = load_scenario("bunny_grasp", settings)
-        assert scenario.engine == engine
-        runs.append(scenario.run(progress=False))
-    one, two = runs
-    assert (one["lam"] > 0).any()
-    for name in ("q", "delta_q", "A", "b", "phi"):
-        np.testing.assert_array_equal(one[name], two[name])
-    assert set(one["certificate"]) == set(two["certificate"]) == {"exact"}
 
 
 def test_a_step_in_sequence_is_one_that_passes_every_check():
@@ -156,17 +140,16 @@ def test_a_step_in_sequence_is_one_that_passes_every_check():
 
 
 REFUSED = {
-    "no native interface": ("highs", "has no native interface here; use engine = 'cvxpy'"),
-    "another interface": ("qpsolvers:daqp", "has no native interface here"),
-    "unknown": ("dapq", "is not a backend; did you mean 'daqp'"),
+    "through CVXPY alone": "highs",
+    "another interface": "qpsolvers:daqp",
+    "unknown": "dapq",
 }
 
 
-@pytest.mark.parametrize(("name", "sentence"), REFUSED.values(), ids=REFUSED)
-def test_what_native_does_not_reach_is_refused_naming_what_it_does(name, sentence, rng):
-    with pytest.raises(BackendError, match="native' reaches clarabel, ") as caught:
-        solver_for(random_step(rng), name, "native")
-    assert sentence in str(caught.value)
+@pytest.mark.parametrize("name", REFUSED.values(), ids=REFUSED)
+def test_a_backend_without_an_interface_of_its_own_is_refused(name, rng):
+    with pytest.raises(BackendError, match=r"has no interface of its own .* clarabel, .* have"):
+        NativeSolver(random_step(rng), name)
 
 
 @pytest.mark.parametrize("own", [0, 3])
@@ -176,10 +159,10 @@ def test_the_ellipsoid_s_program_is_what_cvxpy_compiles(own, rng):
     step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0]))
     if own:
         step = with_rows(step, extension_rows(step, Extension(lambda s: [s.delta_q_a <= 1e-2])))
-    solver = solver_for(step, "clarabel", "native")
+    solver = solver_for(step, "clarabel", fast=True)
     solver.write(DenseStep(step))
     natural = within_reach(to_natural(step, natural_units(step)))
-    problem = cone_problem(natural)
+    problem = cvxpy_problem(natural)
     problem.fill(natural)
     data, _, _ = problem.problem.get_problem_data(cp.CLARABEL, solver_opts={})
     dims = data["dims"]
@@ -196,7 +179,7 @@ def test_the_ellipsoid_s_program_is_what_cvxpy_compiles(own, rng):
 def test_the_ellipsoid_s_native_answers_are_those_through_cvxpy(rng):
     for step in (random_step(rng), planted_step(rng)[0], pinch(grip=5.0, offset=0.2)):
         conic = step.replace(cone="ellipsoid")
-        native, compiled = solver_for(conic, "clarabel", "native"), solver_for(conic, "clarabel")
+        native, compiled = solver_for(conic, "clarabel", fast=True), solver_for(conic, "clarabel")
         one, two = (solve_step(conic, s, certify="residual") for s in (native, compiled))
         assert error(conic, one.delta_q, two.delta_q) <= OPTIMUM
         enclosed = [solve_step(conic, s) for s in (native, compiled, "none")]
@@ -208,15 +191,14 @@ def test_the_ellipsoid_s_native_answers_are_those_through_cvxpy(rng):
 def test_a_contact_out_of_reach_bears_no_impulse_in_the_ellipsoid(rng):
     step = random_step(rng, 3, 4, (6, 4)).replace(cone="ellipsoid")
     step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0]))
-    answer = solve_step(step, solver_for(step, "clarabel", "native"), certify="off")
+    answer = solve_step(step, solver_for(step, "clarabel", fast=True), certify="off")
     np.testing.assert_array_equal(answer.lam[4:], np.zeros(4))
 
 
 @pytest.mark.parametrize("backend", ["daqp", "osqp", "piqp"])
 def test_the_ellipsoid_is_refused_natively_by_backends_of_rows(backend, rng):
-    sentence = "takes linear rows only; engine = 'native' reaches clarabel with cone = 'ellipsoid'"
-    with pytest.raises(BackendError, match=sentence):
-        solver_for(random_step(rng).replace(cone="ellipsoid"), backend, "native")
+    with pytest.raises(BackendError, match="takes linear rows only; the ellipsoid needs one of"):
+        solver_for(random_step(rng).replace(cone="ellipsoid"), backend, fast=True)
 
 
 def test_extensions_that_are_more_than_rows_need_cvxpy(rng):
@@ -229,42 +211,34 @@ def test_extensions_that_are_more_than_rows_need_cvxpy(rng):
         solve_step(step, NativeSolver(step, "clarabel"), extension=curved)
 
 
-def test_an_engine_that_there_is_not_is_refused(rng):
-    with pytest.raises(BackendError, match="engine: must be one of cvxpy, native"):
-        solver_for(random_step(rng), "clarabel", "natve")
-    with pytest.raises(InputError, match=r"solver\.engine"):
-        load_scenario("sphere_spin", ["solver.engine=fast"])
-    with pytest.raises(InputError, match=r"solver\.backend: has no native interface"):
-        load_scenario("sphere_spin", ["solver.engine=native", "solver.backend=highs"])
+def test_an_engine_is_refused_in_a_sentence_that_names_fast(capsys):
+    with pytest.raises(InputError, match=r"solver\.engine: is no field any more; fast = true"):
+        load_scenario("sphere_spin", ["solver.engine=native"])
+    with pytest.raises(SystemExit):
+        main(["run", "sphere_spin", "--engine", "native"])
+    assert "--engine is no option any more; --fast" in capsys.readouterr().err
 
 
-def test_a_simulator_passes_curved_extensions_to_cvxpy_by_default():
+@pytest.mark.parametrize("fast", [False, True])
+def test_a_simulator_passes_curved_extensions_to_cvxpy(fast):
     scenario = load_scenario("sphere_spin", ["solver.certify=residual"])
     curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
-    settings = {"h": scenario.h, "K_q": scenario.K_q, "certify": "residual"}
+    settings = {"h": scenario.h, "K_q": scenario.K_q, "certify": "residual", "fast": fast}
     q, goal = scenario.system.q_start, scenario.targets(scenario.h)
-    for engine, works in ((None, True), ("native", False)):
-        simulator = Simulator(
-            scenario.system, scenario.pairs, engine=engine, extension=lambda q: curved, **settings
-        )
-        if works:
-            assert simulator.step(q, goal).solution.certificate.kind == "residual"
-        else:
-            with pytest.raises(BackendError):
-                simulator.step(q, goal)
-    assert replace(scenario, engine=None).simulator().engine == "native"
+    simulator = Simulator(scenario.system, scenario.pairs, extension=lambda q: curved, **settings)
+    assert simulator.step(q, goal).solution.certificate.kind == "residual"
 
 
 NATIVE_RUN = """
 import sys
 from quasistatic_ref.cli.main import main
-status = main(["run", "sphere_spin", "--set", "steps=3", "--json", "--out", sys.argv[1]])
+status = main(["run", "sphere_spin", "--fast", "--set", "steps=3", "--json", "--out", sys.argv[1]])
 heavy = "cvxpy", "qpsolvers", "scipy", "matplotlib", "osqp", "piqp", "clarabel", "numba"
 print(status, [name for name in heavy if name in sys.modules])
 """
 
 
-def test_a_native_run_imports_neither_cvxpy_nor_what_it_does_not_call(tmp_path):
+def test_a_fast_run_imports_neither_cvxpy_nor_what_it_does_not_call(tmp_path):
     """It takes less time than these packages take to be imported."""
     command = [sys.executable, "-c", NATIVE_RUN, str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
@@ -277,7 +251,7 @@ def test_a_native_run_imports_neither_cvxpy_nor_what_it_does_not_call(tmp_path):
 )
 def test_the_natural_form_is_the_same_once_a_solver_has_written_it(cone, backend):
     step = random_step(np.random.default_rng(8)).replace(cone=cone)
-    solver = solver_for(step, backend, "native")
+    solver = solver_for(step, backend, fast=True)
     scaled = solver.scaled(step)
     solver.answer(scaled, 1e-9)
     for one, other in zip(scaled.natural_form, DenseStep(step).natural_form, strict=True):

@@ -12,15 +12,15 @@ import pytest
 
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.optional.large.sparse import SparseSolver
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve import backends
 from quasistatic_ref.solve.adapters.clarabel import Clarabel
 from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
-from quasistatic_ref.solve.solver import NoSolver
+from quasistatic_ref.solve.solver import NoSolver, solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.step.data import Extra
@@ -58,7 +58,7 @@ def large_step(monkeypatch):
 EVERY = [
     *((CvxpySolver, name, "cvxpy") for name in installed("cvxpy") if BACKENDS[name].steps),
     *((QpsolversSolver, name, "qpsolvers") for name in installed_backends() if ":" in name),
-    *((NativeSolver, name, "native") for name in installed("native")),
+    *((FastSolver, name, "native") for name in installed("native")),
     (NoSolver, "none", "none"),
 ]
 every_solver = pytest.mark.parametrize(("kind", "name", "engine"), EVERY)
@@ -66,14 +66,13 @@ every_solver = pytest.mark.parametrize(("kind", "name", "engine"), EVERY)
 
 def test_every_backend_of_these_tests_is_installed_by_every_interface():
     assert {(kind, name.rpartition(":")[2]) for kind, name, _ in EVERY} >= {
-        (kind, name) for kind in (CvxpySolver, QpsolversSolver, NativeSolver) for name in REQUIRED
-    } | {(NativeSolver, "quadprog"), (QpsolversSolver, "quadprog"), (CvxpySolver, "scs")}
+        (kind, name) for kind in (CvxpySolver, QpsolversSolver, FastSolver) for name in REQUIRED
+    } | {(FastSolver, "quadprog"), (QpsolversSolver, "quadprog"), (CvxpySolver, "scs")}
 
 
 @every_solver
 def test_the_result_names_the_backend_and_the_interface_that_were_asked(kind, name, engine, step):
-    word = "native" if kind is NativeSolver else "cvxpy"
-    solver = solver_for(step, name, word)
+    solver = solver_for(step, name, fast=kind is FastSolver)
     assert type(solver) is kind
     assert (solver.name, solver.engine) == (name, engine)
     solution = solve_step(step, solver)
@@ -81,7 +80,7 @@ def test_the_result_names_the_backend_and_the_interface_that_were_asked(kind, na
     assert (solution.backend, said.backend, said.engine) == (name, name, engine)
     if name in REQUIRED:
         assert said.status == "optimal"
-    if kind is not NativeSolver:  # a name alone never means the native engine
+    if kind is not FastSolver:  # a name alone never means another interface
         said = solve_step(step, name).statistics
         assert (said.backend, said.engine) == (name, engine)
 
@@ -102,8 +101,10 @@ def test_what_is_reported_is_what_was_called(step, monkeypatch):
 
 def test_a_call_that_contradicts_itself_cannot_be_written(step):
     assert list(inspect.signature(solve_step).parameters) == [
-        "step", "solver", "accuracy", "certify", "extension",
+        "step", "solver", "fast", "accuracy", "certify", "extension",
     ]  # fmt: skip
+    with pytest.raises(InputError, match="fast: is read where a solver is made"):
+        solve_step(step, solver_for(step), fast=True)
     for word, value in (
         ("engine", "cvxpy"), ("backend", "clarabel"), ("problem", NativeSolver(step, "daqp")),
     ):  # fmt: skip
@@ -121,7 +122,7 @@ def test_a_problem_is_no_solver(step):
     [
         (CvxpySolver, "qpsolvers:osqp", "leave out 'qpsolvers:'"),
         (QpsolversSolver, "osqp", "as 'qpsolvers:osqp'"),
-        (NativeSolver, "qpsolvers:daqp", "has no native interface"),
+        (NativeSolver, "qpsolvers:daqp", "has no interface of its own"),
         (SparseSolver, "daqp", "takes no sparse matrices"),
     ],
 )
@@ -135,28 +136,28 @@ def with_mu(step, **mu):
 
 
 OTHERS = {
-    "n_a": (lambda s, rng: random_step(rng, 2, 4, ROWS), "CN"),
-    "n_u": (lambda s, rng: random_step(rng, 3, 5, ROWS), "CN"),
-    "cone": (lambda s, rng: s.replace(cone="facets-8"), "CNQ"),
-    "rows of contacts": (lambda s, rng: random_step(rng, 3, 4, (4, 6, 6)), "CN"),
+    "n_a": (lambda s, rng: random_step(rng, 2, 4, ROWS), "CF"),
+    "n_u": (lambda s, rng: random_step(rng, 3, 5, ROWS), "CF"),
+    "cone": (lambda s, rng: s.replace(cone="facets-8"), "CFQ"),
+    "rows of contacts": (lambda s, rng: random_step(rng, 3, 4, (4, 6, 6)), "CF"),
     "rows of the user's own": (
-        lambda s, rng: s.replace(extra=Extra(("a",), np.ones((1, 7)), [-1.0])), "CN",
+        lambda s, rng: s.replace(extra=Extra(("a",), np.ones((1, 7)), [-1.0])), "CF",
     ),
     "h": (lambda s, rng: s.replace(h=2 * s.h), "C"),
     "mu_v": (lambda s, rng: with_mu(s, mu_v=0.5 * s.contacts.mu_v), "C"),
     "mu_omega": (lambda s, rng: with_mu(s, mu_omega=0.5 * s.contacts.mu_omega), "C"),
 }  # fmt: skip
-"""Steps of another kind, and who cannot take them: (C)vxpy, (N)ative, (Q)psolvers."""
+"""Steps of another kind, and who cannot take them: (C)vxpy, (F)ast, (Q)psolvers."""
 
 
 @pytest.mark.parametrize(
-    ("engine", "name"), [("cvxpy", "piqp"), ("cvxpy", "qpsolvers:piqp"), ("native", "piqp")]
+    ("fast", "name"), [(False, "piqp"), (False, "qpsolvers:piqp"), (True, "piqp")]
 )
 @pytest.mark.parametrize("what", OTHERS)
 def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(
-    what, engine, name, step, rng
+    what, fast, name, step, rng
 ):
-    solver = solver_for(step, name, engine)
+    solver = solver_for(step, name, fast)
     other, who = OTHERS[what]
     other = other(step, rng)
     assert solver.fits(step)
@@ -178,13 +179,13 @@ def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(
 
 def test_rows_of_an_extension_count_as_rows_of_the_step(step):
     floor = Extension(lambda s: [s.delta_q >= -1.0])
-    for word in ("cvxpy", "native"):
+    for fast in (False, True):
         with pytest.raises(InputError, match="rows of the user's own"):
-            solve_step(step, solver_for(step, "clarabel", word), extension=floor)
+            solve_step(step, solver_for(step, "clarabel", fast), extension=floor)
 
 
 def test_a_sparse_solver_certifies_nothing_exactly_and_says_so(large_step):
-    solver = solver_for(large_step, "osqp", "native")
+    solver = solver_for(large_step, "osqp", fast=True)
     assert type(solver) is SparseSolver
     said = solve_step(large_step, solver, certify="residual").statistics
     assert (said.backend, said.engine) == ("osqp", "native")
@@ -205,9 +206,9 @@ def test_no_solver_gives_no_answer_of_its_own(step):
         NoSolver(step).answer(NoSolver(step).scaled(step), 1e-9)
 
 
-@pytest.mark.parametrize("engine", ["cvxpy", "native"])
-def test_a_simulator_keeps_its_solver_while_steps_fit(engine):
-    some = load_scenario("two_finger_pinch", [f"solver.engine={engine}", "solver.certify=off"])
+@pytest.mark.parametrize(("fast", "engine"), [(False, "cvxpy"), (True, "native")])
+def test_a_simulator_keeps_its_solver_while_steps_fit(fast, engine):
+    some = load_scenario("two_finger_pinch", ["solver.certify=off"], fast=fast)
     run, q = some.simulator(), some.system.q_start
     result = run.step(q, some.targets(some.h))
     first = run.solver
@@ -222,7 +223,7 @@ def test_a_simulator_keeps_its_solver_while_steps_fit(engine):
 
 @every_solver
 def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, engine, step):
-    solver = solver_for(step, name, "native" if kind is NativeSolver else "cvxpy")
+    solver = solver_for(step, name, fast=kind is FastSolver)
     expected = solve_step(step, solver)
     for again in (pickle.loads(pickle.dumps(solver)), copy.deepcopy(solver), copy.copy(solver)):
         assert type(again) is kind
@@ -272,9 +273,9 @@ def test_a_backend_of_studies_only_is_no_backend_of_steps():
     assert not BACKENDS["qpalm"].steps
     for name in ("qpalm", "qpsolvers:qpalm"):
         assert name not in installed_backends()
-        for engine in ("cvxpy", "native"):
+        for fast in (False, True):
             with pytest.raises(BackendError, match="is not a backend"):
-                solver_for(point_on_floor(), name, engine)
+                solver_for(point_on_floor(), name, fast)
 
 
 @pytest.mark.parametrize("cone", ["pyramid", "facets-8", "ellipsoid"])

@@ -6,6 +6,7 @@ import pytest
 from cvxpy.utilities import scopes
 
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.step.data import Extra
@@ -26,7 +27,7 @@ PAPER = {"n_a": 7, "n_u": 6, "rows": (6,) * 10 + (4,) * 5}
 
 
 def filled(step):
-    problem = StepProblem(step)
+    problem = CvxpyProblem(step)
     problem.fill(step)
     return problem
 
@@ -152,31 +153,41 @@ def test_multipliers_of_extra_rows_come_after_those_of_contacts(rng):
 
 
 OTHERS = {
-    "another mu_v": lambda step, rng: step.replace(
-        contacts=changed(step.contacts, mu_v=[*step.contacts.mu_v[:2], 2.0])
+    "another mu_v": (
+        "contacts.mu_v",
+        lambda step, rng: step.replace(
+            contacts=changed(step.contacts, mu_v=[*step.contacts.mu_v[:2], 2.0])
+        ),
     ),
-    "another mu_omega": lambda step, rng: step.replace(
-        contacts=changed(step.contacts, mu_omega=[*step.contacts.mu_omega[:2], 2.0])
+    "another mu_omega": (
+        "contacts.mu_omega",
+        lambda step, rng: step.replace(
+            contacts=changed(step.contacts, mu_omega=[*step.contacts.mu_omega[:2], 2.0])
+        ),
     ),
-    "another cone": lambda step, rng: step.replace(cone="facets-4"),
-    "another h": lambda step, rng: step.replace(h=2 * step.h),
-    "another n_a": lambda step, rng: random_step(rng, 2, 4),
-    "another n_u": lambda step, rng: random_step(rng, 3, 5),
-    "the same n_v, split otherwise": lambda step, rng: random_step(rng, 4, 3),
-    "fewer contacts": lambda step, rng: random_step(rng, 3, 4, (6, 4)),
-    "as many rows, on other contacts": lambda step, rng: random_step(rng, 3, 4, (4, 6, 6)),
-    "a row of the user's own": lambda step, rng: step.replace(
-        extra=Extra(("a",), np.ones((1, 7)), [0.0])
+    "another cone": ("cone", lambda step, rng: step.replace(cone="facets-4")),
+    "another h": ("h", lambda step, rng: step.replace(h=2 * step.h)),
+    "another n_a": ("n_a", lambda step, rng: random_step(rng, 2, 4)),
+    "another n_u": ("n_u", lambda step, rng: random_step(rng, 3, 5)),
+    "the same n_v, split otherwise": ("n_a", lambda step, rng: random_step(rng, 4, 3)),
+    "fewer contacts": ("contacts.rows", lambda step, rng: random_step(rng, 3, 4, (6, 4))),
+    "as many rows, on other contacts": (
+        "contacts.rows",
+        lambda step, rng: random_step(rng, 3, 4, (4, 6, 6)),
+    ),
+    "a row of the user's own": (
+        "extra",
+        lambda step, rng: step.replace(extra=Extra(("a",), np.ones((1, 7)), [0.0])),
     ),
 }
 
 
-@pytest.mark.parametrize("other", OTHERS.values(), ids=OTHERS)
-def test_a_step_of_another_kind_is_refused(other, rng):
+@pytest.mark.parametrize(("field", "other"), OTHERS.values(), ids=OTHERS)
+def test_a_step_of_another_kind_is_refused(field, other, rng):
     step = random_step(rng, 3, 4, (6, 4, 6))
     problem = StepProblem(step)
-    assert problem.fits(with_mu_of(step, random_step(np.random.default_rng(1), 3, 4, (6, 4, 6))))
-    with pytest.raises(StepDataError, match="the step has another h, cone, size, "):
+    problem.fill(with_mu_of(step, random_step(np.random.default_rng(1), 3, 4, (6, 4, 6))))
+    with pytest.raises(StepDataError, match=f"^{field}: is .* in this problem; make a problem"):
         problem.fill(other(step, rng))
 
 
@@ -184,18 +195,24 @@ def test_mu_omega_does_not_matter_where_it_is_not_used(rng):
     step = random_step(rng, 3, 4, (6, 4, 6))
     mu_omega = step.contacts.mu_omega * [1.0, 2.0, 1.0]
     other = step.replace(contacts=changed(step.contacts, mu_omega=mu_omega))
-    assert StepProblem(step).fits(other)
+    StepProblem(step).fill(other)
 
 
 @pytest.mark.parametrize("name", ["product", "facets-8", "frictionless", "ellipsoid"])
 def test_the_paper_s_rows_are_not_taken_for_those_of_another_cone(name, rng):
-    with pytest.raises(StepDataError, match="cone: needs its own friction function"):
+    with pytest.raises(StepDataError, match=r"cone: is not the pyramid; solve/cvxpy_problem\.py"):
         StepProblem(random_step(rng).replace(cone=name))
+
+
+def test_rows_of_a_user_s_own_are_not_dropped(rng):
+    step = random_step(rng).replace(extra=Extra(("a",), np.ones((1, 7)), [0.0]))
+    with pytest.raises(StepDataError, match="extra: holds a user's own rows; solve/cvxpy_problem"):
+        StepProblem(step)
 
 
 def test_further_constraints_come_after_all_rows_of_the_step(rng):
     step = random_step(rng, rows=(4, 4)).replace(extra=Extra(("a",), np.ones((1, 7)), [0.0]))
-    problem = StepProblem(step, constraints=lambda own: [own.delta_q <= 1.0])
+    problem = CvxpyProblem(step, constraints=lambda own: [own.delta_q <= 1.0])
     # Four row indices of two contacts, one row of the step, one bound for each coordinate.
     assert [constraint.size for constraint in problem.problem.constraints] == [2] * 4 + [1, 7]
 
@@ -206,7 +223,7 @@ def test_constraints_and_costs_are_added_to_the_problem(rng):
     c = 0.25
     free = step.h * 2.0 / (step.h * 100.0 + 2 * c)
     for limit, expected in ((2 * free, free), (free / 2, free / 2)):
-        problem = StepProblem(
+        problem = CvxpyProblem(
             step,
             constraints=lambda own, limit=limit: [own.delta_q_a <= limit],
             costs=lambda own: [c * cp.sum_squares(own.delta_q)],

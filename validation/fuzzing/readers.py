@@ -145,7 +145,7 @@ def _scenes(folder: Path) -> dict[str, Reader]:
             assert np.isfinite(scenario.run(progress=False)["q"]).all()
 
     def scene(path: Path) -> None:
-        few_steps(load_scenario(path))
+        few_steps(load_scenario(path, fast=True))
 
     def setting(path: Path) -> None:
         load_scenario(good, [path.read_bytes().decode(errors="surrogateescape")])

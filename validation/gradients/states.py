@@ -101,7 +101,7 @@ def _of_scenario(rng: np.random.Generator, turn: int) -> State:
 
 @lru_cache(maxsize=16)
 def _ran(name: str) -> tuple[Scenario, Any, Json]:
-    scenario = load_scenario(name)
+    scenario = load_scenario(name, fast=True)
     return scenario, scenario.run(progress=False), _table(scenario)
 
 

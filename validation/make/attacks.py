@@ -34,8 +34,8 @@ from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.engines import CVXPY, NATIVE, solver_for
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_text
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
@@ -92,7 +92,7 @@ class Attack:
     def file(self, step: StepData, backend: str, certify: str) -> str | None:
         """The solution file of a step; None, and counted, where there is an error in its place."""
         try:
-            solver = solver_for(step, backend, CVXPY if backend == NONE else NATIVE)
+            solver = solver_for(step, backend, fast=backend != NONE)
             return solution_text(step, solve_step(step, solver, certify=certify))
         except StepInfeasible as said:
             return infeasible_text(step, said.farkas.exact)

@@ -31,8 +31,8 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.engines import NATIVE, solver_for
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from validation.make.broken_compilers import compiler_lines
 from validation.random_steps import mixed_step
@@ -131,7 +131,7 @@ def word(found: Any, right: Any) -> str:
 def proofs(step: StepData) -> dict[str, Call]:
     """What claims something of a step."""
     calls: dict[str, Call] = {"cold": partial(solve_step, step, NONE)}
-    kept = solver_for(step, "daqp", NATIVE)
+    kept = solver_for(step, "daqp", fast=True)
     for certify in ("full", "residual"):
         calls[certify] = partial(solve_step, step, kept, certify=certify)
     try:
@@ -160,7 +160,7 @@ def left_by_backend(name: str, count: int) -> Counter[str]:
     """A mode that the backend leaves behind."""
     words: Counter[str] = Counter()
     for seed in range(1, count + 1):
-        solver = solver_for(step := mixed_step(seed), "daqp", NATIVE)
+        solver = solver_for(step := mixed_step(seed), "daqp", fast=True)
         solver.reply = partial(reply_and_leave, solver.reply, name)  # type: ignore[method-assign]
         for certify in ("full", "residual", "off"):
             before = set_mode(0)

@@ -158,7 +158,9 @@ def _swept(rows: list[Row], options: argparse.Namespace) -> int:
         cells = ("-" if v is None else f"{v:.6g}" for v in found)
         table.append((row["sweep"], values, row["outcome"], *cells))
     shared.print_rows(table)
-    print(f"{len(rows)} runs, {failed} of which ended early; wrote {options.out / ROWS}")
+    print(
+        f"{len(rows)} runs (fast path), {failed} of which ended early; wrote {options.out / ROWS}"
+    )
     return 0
 
 

@@ -48,5 +48,8 @@ def run(options: argparse.Namespace) -> int:
         cells = ("-" if v is None else f"{v:.4g}" for v in found)
         table.append((*(f"{row['values'][name]}" for name in swept), row["outcome"], *cells))
     shared.print_rows(table)
-    print(f"{len(rows)} runs, {failed} of which not done; wrote {options.out / TABLE}")
+    speed = "fast" if options.fast else "plain"
+    print(
+        f"{len(rows)} runs ({speed} path), {failed} of which not done; wrote {options.out / TABLE}"
+    )
     return int(failed > 0)

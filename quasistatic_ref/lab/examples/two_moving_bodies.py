@@ -155,7 +155,7 @@ def figure(ax: Any = None, *, phi: float = PHI, turn: float = TURN) -> Figure:
 
 def _columns(axes: Any) -> None:
     """Which entries of J are not zero for two contacts of the grasp: whose columns they are."""
-    run = load_scenario("bunny_grasp", ["steps=1"]).run(progress=False)
+    run = load_scenario("bunny_grasp", ["steps=1"], fast=True).run(progress=False)
     found = run.step_data(0).contacts
     finger, floor = (
         next(J for J, name in zip(found.J, found.name, strict=True) if word in name)

@@ -1,4 +1,4 @@
-"""Figure 4 of the paper: where the time of a step goes, by engine and backend."""
+"""Figure 4 of the paper: where the time of a step goes, by interface and backend."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -17,9 +17,9 @@ PARTS = {
 
 
 def step_times(tables: Mapping[str, Any], paper: float) -> Figure:
-    """Stacked bars of the parts, one panel for each engine, and the `paper`'s time [us].
+    """Stacked bars of the parts, one panel for each interface, and the `paper`'s time [us].
 
-    Lengths are to be compared, so the axes begin at zero; the engines differ too much for one.
+    Lengths are to be compared, so the axes begin at zero; the interfaces differ too much for one.
     """
     rows = [row for row in tables["parts"] if np.isfinite(row["step"])]
     engines = [[row for row in rows if row["engine"] == name] for name in ("native", "cvxpy")]
@@ -31,7 +31,7 @@ def step_times(tables: Mapping[str, Any], paper: float) -> Figure:
         )  # fmt: skip
         for axes, some in zip(panels[:, 0], engines, strict=True):
             _bars(axes, some, paper)
-            axes.set_title(f"engine = {some[0]['engine']}", fontsize=7, loc="left")
+            axes.set_title(f"interface: {some[0]['engine']}", fontsize=7, loc="left")
         axes.set_xlabel("time of a 13 x 80 step [us], nothing certified")
         handles, labels = axes.get_legend_handles_labels()
         figure.legend(handles, labels, fontsize=6, loc="outside upper center", ncols=len(labels))

@@ -7,10 +7,8 @@ from itertools import pairwise
 import numpy as np
 
 from quasistatic_ref.lab.reality.push import Pushed
-from quasistatic_ref.solve.engines import NATIVE, solver_for
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import Solver
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import StepSolution
 
@@ -81,7 +79,7 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
 def fitting(step: StepData, solver: Solver | None) -> Solver:
     """A solver that takes the step: the one before, where it does."""
     if solver is None or not solver.fits(step):
-        return solver_for(step, "daqp" if cone(step.cone).polyhedral else "clarabel", NATIVE)
+        return solver_for(step, fast=True)
     return solver
 
 

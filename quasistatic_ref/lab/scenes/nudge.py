@@ -29,7 +29,7 @@ def resting(shape: Shape, height: float, mu_v: float = MU_V) -> tuple[Simulator,
     system = System([Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, height))])
     own = on_link(system, "ball", shape)
     pair = ContactPair("floor", world_plane(), own, mu_v, MU_OMEGA, 6, 1)
-    return Simulator(system, [pair], h=H, K_q=np.zeros((0, 0))), system.q_start
+    return Simulator(system, [pair], h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
 
 
 def nudged(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Array]:
@@ -51,7 +51,7 @@ def nudged(finger: Shape, finger_at: tuple[float, float]) -> tuple[Simulator, Ar
         ContactPair("push", on_link(system, "hand", finger), own, MU_V, MU_OMEGA, 6, 1),
     ]
     K_q = np.diag([2000.0] * 3 + [20.0] * 3)
-    return Simulator(system, pairs, h=H, K_q=K_q), system.q_start
+    return Simulator(system, pairs, h=H, K_q=K_q, fast=True), system.q_start
 
 
 def points(*places: tuple[float, float, float]) -> PointCloud:

@@ -89,7 +89,9 @@ def pile(
         pairs += [
             _pair(boxes[clouds[i].link], clouds[j], k) for i, j in zip(before, after, strict=True)
         ]
-    simulator = Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), solver=backend, certify=certify)
+    simulator = Simulator(
+        system, pairs, h=H, K_q=np.zeros((0, 0)), backend=backend, fast=True, certify=certify
+    )
     force = np.zeros(system.n_v)
     force[0] = PUSH * index.size  # along x
     contacts = sum(pair.n_c for pair in pairs)

@@ -16,7 +16,7 @@ from quasistatic_ref.lab.scenes.systems import (
 )
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.engines import CERTIFY
+from quasistatic_ref.solve.backends import CERTIFY
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array
 
@@ -88,8 +88,8 @@ class PushedBlock:
 
 def pushed_block(
     certify: str = CERTIFY[0],
-    engine: str | None = None,
-    solver: str | None = None,
+    fast: bool = True,
+    backend: str | None = None,
     *,
     h: float = H,
     cone: str = ELLIPSOID,
@@ -99,7 +99,7 @@ def pushed_block(
 
     Parameters
     ----------
-    certify, engine, solver : str
+    certify, fast, backend
         As in :class:`~quasistatic_ref.simulate.simulator.Simulator`.
     h : float
         [s].
@@ -121,6 +121,6 @@ def pushed_block(
     ]
     simulator = Simulator(
         system, pairs, h=h, K_q=STIFFNESS * np.eye(2), gravity=(0.0, 0.0, -GRAVITY),
-        cone=cone, certify=certify, engine=engine, solver=solver,
+        cone=cone, certify=certify, fast=fast, backend=backend,
     )  # fmt: skip
     return PushedBlock(simulator, system.q_start)

@@ -77,7 +77,7 @@ def pushed(
         ContactPair("floor", floor, own["body"], MU_V, MU_OMEGA, 6, k),
         ContactPair("push", own["hand"], own["body"], MU_V, MU_OMEGA, 6, min(k, 2)),
     ]
-    own_settings: dict[str, Any] = {"h": 0.01, "K_q": np.diag(STIFF)} | settings
+    own_settings: dict[str, Any] = {"h": 0.01, "K_q": np.diag(STIFF), "fast": True} | settings
     simulator = Simulator(system, pairs, **own_settings)
     q = system.q_start.copy()
     for at in (3, 10):

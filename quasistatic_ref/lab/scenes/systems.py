@@ -130,7 +130,7 @@ def simulator_of(
 ) -> Simulator:
     """A simulator that asks no solver: every step is exact from a cold start."""
     K = np.zeros((system.n_a, system.n_a)) if K_q is None else np.asarray(K_q, dtype=np.float64)
-    return Simulator(system, pairs, h=h, K_q=K, solver=NONE)
+    return Simulator(system, pairs, h=h, K_q=K, backend=NONE)
 
 
 def steps_of(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.lab.scenes.piles import Pile, pile
-from quasistatic_ref.solve.backends import DEFAULT_OF_LARGE
+from quasistatic_ref.optional.fast.backends import DEFAULT_OF_LARGE
 from quasistatic_ref.step.data import Array, Contacts
 
 CHAINS = (10, 20, 40, 80, 160)

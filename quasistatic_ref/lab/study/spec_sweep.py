@@ -88,7 +88,7 @@ class Sweep:
                 problem = f"makes more than {LARGE:g} steps of {h:g} s"
                 raise InputError(problem, field="duration", value=self.duration)
             changes.append(f"steps={round(self.duration / h)}")
-        return [*changes, 'record="light"']
+        return [*changes, 'record="light"', "fast=true"]
 
 
 def sweep_study(path: Path, tables: dict[str, Any], quick: bool = False) -> tuple[Sweep, ...]:

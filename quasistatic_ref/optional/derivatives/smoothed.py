@@ -55,7 +55,7 @@ def smoothed(
         raise InputError("must be greater than 0", field="kappa", value=kappa)
     q = np.asarray(q, dtype=np.float64)
     kinematics = simulator.system.kinematics(q)
-    points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+    points = simulator.closest_points(kinematics)
     step = simulator.step_data(q, q_bar_a, force, points, kinematics)
     found = barrier_step(step, kappa)
     said = SolverStatistics("barrier", "solved", None, None, kappa, engine="none")

@@ -14,9 +14,9 @@ import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import InputError, StepNotSolved
-from quasistatic_ref.optional.ellipsoid.cone_problem import cone_problem
 from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
 from quasistatic_ref.solve.backends import backend, cone_backend
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem, cvxpy_problem
 from quasistatic_ref.solve.solver import RELAXED
 from quasistatic_ref.solve.through_cvxpy import CANON
 from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural_units, to_natural
@@ -24,7 +24,6 @@ from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.extension import Extension, Own, Symbols
 from quasistatic_ref.step.friction import cone_function, frictionless
-from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.solution import (
     Certificate,
     SolverStatistics,
@@ -50,7 +49,7 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
     Extra or None
         The extension's rows alone.
     """
-    problem = cone_problem(step)
+    problem = cvxpy_problem(step)
     constraints, costs = _own_terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0))
     if costs(problem) or extension.without_stiffness:
         return None
@@ -118,10 +117,10 @@ def extended_solution(
     if units.size <= STANDSTILL:  # nothing but the extension drives the step
         units = units._replace(size=1.0)
     natural = to_natural(step, units)
-    problem = cone_problem(natural, *_own_terms(extension, step, units))
+    problem = cvxpy_problem(natural, *_own_terms(extension, step, units))
     problem.fill(natural)
-    for parameter in problem.parameters if extension.without_stiffness else ():
-        if parameter.name() in ("K_q", "tau_k"):  # nothing is left of Eq. (1)
+    if extension.without_stiffness:  # nothing is left of Eq. (1)
+        for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
             parameter.value = np.zeros(parameter.shape)
     failure: StepNotSolved | None = None
     for relaxed in (k * accuracy for k in RELAXED):
@@ -142,19 +141,19 @@ def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own,
     """Constraints and costs of an extension, as functions of a problem of the step in `units`."""
 
     @cache  # its terms are formed once: further variables of its own are in both
-    def terms(problem: StepProblem) -> list[cp.Constraint | cp.Expression]:
+    def terms(problem: CvxpyProblem) -> list[cp.Constraint | cp.Expression]:
         return list(extension.terms(_symbols(problem, step, units)))
 
-    def constraints(problem: StepProblem) -> list[cp.Constraint]:
+    def constraints(problem: CvxpyProblem) -> list[cp.Constraint]:
         return [t for t in terms(problem) if isinstance(t, cp.Constraint)]
 
-    def costs(problem: StepProblem) -> list[cp.Expression]:
+    def costs(problem: CvxpyProblem) -> list[cp.Expression]:
         return [t / units.size**2 for t in terms(problem) if not isinstance(t, cp.Constraint)]
 
     return constraints, costs
 
 
-def _symbols(problem: StepProblem, step: StepData, units: Units) -> Symbols:
+def _symbols(problem: CvxpyProblem, step: StepData, units: Units) -> Symbols:
     """The symbols of a problem in SI units."""
     coordinate, length = units.size * units.coordinate, units.size * units.length
     rows = frictionless if step.cone == ELLIPSOID else cone_function(step.cone)  # the gap alone
@@ -170,7 +169,7 @@ def _symbols(problem: StepProblem, step: StepData, units: Units) -> Symbols:
 
 
 def _solved(
-    step: StepData, problem: StepProblem, name: str, accuracy: float, options: dict[str, object]
+    step: StepData, problem: CvxpyProblem, name: str, accuracy: float, options: dict[str, object]
 ) -> tuple[Certificate, SolverStatistics]:
     """Solve the conic program and judge the raw answer; its values are left in the problem."""
     solver = name.upper()

@@ -1,12 +1,9 @@
 """What solves a step on which the default backend of a run fails: Clarabel."""
 
-from collections.abc import Callable
-
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import Solver
+from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import StepSolution
 
@@ -18,7 +15,6 @@ class Spare:
     ----------
     default : str
         The default backend of a run with these settings.
-    engine : str
     accuracy : float
         In natural units [-].
     certify : str
@@ -26,22 +22,10 @@ class Spare:
         the exact method needs no backend, and so no second one.
     """
 
-    def __init__(self, default: str, engine: str, accuracy: float, certify: str) -> None:
-        self.default, self.engine = default, engine
+    def __init__(self, default: str, accuracy: float, certify: str) -> None:
+        self.default = default
         self.accuracy, self.certify = accuracy, certify
         self.solver: Solver | None = None
-
-    def after(self, step: StepData, first: Callable[[], StepSolution]) -> StepSolution:
-        """The solution that `first` returns or, if `first` fails, that of :meth:`answer`.
-
-        Raises
-        ------
-        StepNotSolved
-        """
-        try:
-            return first()
-        except StepNotSolved as failure:
-            return self.answer(step, failure)
 
     def answer(self, step: StepData, failure: StepNotSolved) -> StepSolution:
         """The second backend's answer to a step.
@@ -55,7 +39,7 @@ class Spare:
         if not of_backend or self.default == DEFAULT:
             raise failure
         if self.solver is None or not self.solver.fits(step):
-            self.solver = solver_for(step, DEFAULT, self.engine)
+            self.solver = solver_for(step, DEFAULT, fast=True)
         try:
             return solve_step(step, self.solver, accuracy=self.accuracy, certify=self.certify)
         except StepNotSolved:

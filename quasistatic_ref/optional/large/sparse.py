@@ -6,11 +6,12 @@ that are not zero. Nothing here is certified exactly: residuals, and a bound of 
 """
 
 import math
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.certify.optimality import Residuals, residuals_of
+from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.large.sizes import sizes_of
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, Metric, sparse_error_bound
@@ -20,9 +21,8 @@ from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import check_units
 from quasistatic_ref.solve.solver import Attempt
-from quasistatic_ref.solve.units import Units, coordinate_units, in_natural, units_from
+from quasistatic_ref.solve.units import coordinate_units, in_natural, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
-from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
 
 GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_rel")
@@ -102,9 +102,7 @@ class SparseSolver(NativeSolver):
                 attempt.options = reachable(attempt.options, len(self.program.b))
         return self._attempts[accuracy]
 
-    def scaled(
-        self, step: StepData, form: StandardForm | None = None, units: Units | None = None
-    ) -> "SparseStep":
+    def scaled(self, step: StepData) -> "SparseStep":
         """The step in natural units."""
         return SparseStep(step, self)
 
@@ -149,9 +147,8 @@ class SparseStep:
 
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
-        balance = self.H @ delta_q - self.g - self.A.T @ lam
-        slack = self.A @ delta_q - self.b
-        return residuals_of(balance, -slack, -lam, slack * lam)
+        form: Any = (self.H, self.g, self.A, self.b)
+        return optimality_residuals(form, delta_q, lam)
 
     def bound(self, delta_q: Array, lam: Array) -> float:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""

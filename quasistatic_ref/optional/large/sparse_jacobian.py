@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.jacobian import ContactGeometry, tangents
+from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.motion import Motion, cross_matrix
 from quasistatic_ref.model.system import Kinematics
@@ -68,23 +68,6 @@ class BlockGeometry:
         spin = points.n[:, None] @ (omega * (b - a))
         J = np.concatenate([b * at_beta - a * at_alpha, spin], axis=1)  # Eqs. (2)-(3)
         return Blocks(self.column, J if self.sums is None else J @ self.sums, self.n_v)
-
-
-def contact_geometry(
-    layout: ContactLayout, motion: Motion, sparse_from: int
-) -> ContactGeometry | BlockGeometry:
-    """The geometry of contacts: in blocks where J is large.
-
-    Parameters
-    ----------
-    layout : ContactLayout
-    motion : Motion
-    sparse_from : int
-        Entries of J from which the steps' solver takes blocks; 0 if it takes none.
-    """
-    entries = 4 * len(layout.rows) * motion.n_v
-    form = BlockGeometry if 0 < sparse_from <= entries else ContactGeometry
-    return form(layout, motion)
 
 
 def _ragged(marked: Mask) -> tuple[Indices, Indices, Indices]:

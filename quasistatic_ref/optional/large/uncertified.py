@@ -5,14 +5,12 @@ import math
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.large.judged import WORTHLESS
-from quasistatic_ref.optional.large.rounded_bound import FloatBound
-from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
+from quasistatic_ref.solve.scaled import NaturalStep
 from quasistatic_ref.solve.solver import Answer, Solver
 from quasistatic_ref.solve.units import from_natural, in_natural
-from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.solution import Certificate, StepSolution, step_solution
-from quasistatic_ref.tolerances import BOUNDED, RESIDUAL_LIMIT
+from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
 NOTHING_CLAIMED = Certificate("none")
 
@@ -57,24 +55,6 @@ def _judged(
         status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
         accuracy = answer.statistics.accuracy
         raise StepNotSolved(solver.name, status, scaled.step, accuracy, residuals)
-    error = _float_bound(scaled, solver, x, y)
-    if not error <= BOUNDED:
-        error = scaled.bound(delta_q, lam)
+    error = solver.error_bound(scaled, delta_q, lam)
     useful = error if error <= WORTHLESS else None
     return Certificate("residual", dict(vars(residuals)), error_bound=useful, step=scaled.step)
-
-
-def _float_bound(scaled: NaturalStep, solver: Solver, x: Array, y: Array) -> float:
-    """A rigorous bound [-] of the error of x (n_v,), y (m,) in natural units, in float64 alone.
-
-    Infinite where float64 does not decide.
-    """
-    step = scaled.step
-    if not isinstance(scaled, DenseStep) or step.cone == ELLIPSOID:
-        return math.inf
-    form, (S, ell, rho) = scaled.natural_form, scaled.units
-    hessian = solver.kept_hessian(step)
-    if solver.bound is None or not solver.bound.fits(hessian, S):
-        solver.bound = FloatBound(hessian, form.H, S)
-    error = solver.bound.error(step, form, (ell, rho), x, y)
-    return math.inf if error is None else error

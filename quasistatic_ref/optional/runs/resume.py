@@ -14,7 +14,6 @@ from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, run_settings
 from quasistatic_ref.simulate.recorder import Part, Recorder, program
 from quasistatic_ref.simulate.rollout import start_cold
 from quasistatic_ref.solve.backends import NONE
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Extension
@@ -117,16 +116,14 @@ class _Again:
 
     def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, Extension | None]:
         simulator, kinematics = self.simulator, self.simulator.system.kinematics(q)
-        points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+        points = simulator.closest_points(kinematics)
         return simulator.extended(simulator.step_data(q, goal, pushed, points, kinematics), q)
 
     def _ask(self, step: StepData, own: Extension | None) -> None:
         """Ask the solver as the step did, for what it keeps; nothing else is done with it."""
         simulator, solver = self.simulator, self.simulator.solver
         if own is None and (solver is None or solver.remembers) and simulator.backend != NONE:
-            if solver is None or not solver.fits(step):
-                solver = solver_for(step, simulator.backend, simulator.engine)
-                simulator.solver = solver
+            solver = simulator.fitting(step)
             with suppress(StepNotSolved):
                 solve_step(step, solver, accuracy=simulator.accuracy, certify="off")
 

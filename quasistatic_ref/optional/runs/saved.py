@@ -63,7 +63,7 @@ def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, s
         "certify": simulator.certify,
         "backend": simulator.backend,
         "version of the backend": _version(simulator.backend.removeprefix(QPSOLVERS)),
-        "engine": simulator.engine,
+        "fast": repr(simulator.fast),
         "accuracy": repr(simulator.accuracy),
         "limits.penetration": repr(simulator.limits.penetration),
         "limits.reach": repr(simulator.limits.reach),

@@ -55,7 +55,7 @@ def simulator_page(simulator: Simulator) -> Page:
         f"({simulator.system.n_a} actuated), {_touching(simulator.pairs)}"
     )
     facts = [
-        f"backend {simulator.backend} ({simulator.engine}), certify {simulator.certify}, cone "
+        f"{path_words(simulator)}, certify {simulator.certify}, cone "
         f"{simulator.cone}, gravity {vector(simulator.gravity)} m/s^2"
     ]
     return title, facts, PAIR, pair_rows(simulator.pairs)
@@ -71,10 +71,15 @@ def scenario_page(scenario: Scenario) -> Page:
     facts = [
         f"file {scenario.path}",
         f"bodies: {', '.join(body.name for body in system.bodies)}",
-        f"backend {scenario.backend} ({scenario.engine}), certify {scenario.certify}, cone "
+        f"{path_words(scenario)}, certify {scenario.certify}, cone "
         f"{scenario.cone}, gravity {vector(scenario.gravity)} m/s^2, record {scenario.record}",
     ]
     return title, facts, PAIR, pair_rows(scenario.pairs)
+
+
+def path_words(of: Simulator | Scenario) -> str:
+    """The backend and the speed of a simulator or a scenario, in words."""
+    return f"backend {of.backend}, {'fast' if of.fast else 'plain'} path"
 
 
 def _touching(pairs: Sequence[ContactPair]) -> str:

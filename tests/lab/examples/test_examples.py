@@ -40,7 +40,7 @@ ROOT = Path(__file__).parents[3]
 def runs_of_the_demo(demo, monkeypatch):
     def read(case):
         path = demo.folder / f"bunny_grasp_{case.replace(' ', '_')}.npz"
-        return load_scenario("bunny_grasp", CASES[case]), trajectory_read(path)
+        return load_scenario("bunny_grasp", CASES[case], fast=True), trajectory_read(path)
 
     for module in (grasp, grasp_against_mu_omega, grasp_rotation, solver_digits):
         monkeypatch.setattr(module, "grasp", read)

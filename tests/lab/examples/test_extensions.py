@@ -18,10 +18,10 @@ from quasistatic_ref.optional.extensions.extended import extension_rows, with_ro
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.files import step_read, step_written
-from quasistatic_ref.step.problem import StepProblem
 from tests.helpers import REQUIRED, changed, error, pinch, random_step
 from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM, ROUNDING
 
@@ -227,7 +227,7 @@ def test_an_extension_stands_beside_the_ellipsoid():
 
 
 def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
-    scenario = load_scenario("bunny_grasp", ["steps=8"])
+    scenario = load_scenario("bunny_grasp", ["steps=8"], fast=True)
     h, n_a = scenario.h, scenario.system.n_a
     simulator = scenario.simulator(lambda q: velocity_limit(h, np.full(n_a, 1e-3)))
     trajectory = rollout(simulator, scenario.system.q_start, scenario.targets, 8, progress=False)
@@ -241,7 +241,7 @@ def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
 
 
 def test_a_step_problem_takes_constraints_by_itself_in_its_own_units():
-    problem = StepProblem(joint(), constraints=lambda problem: [problem.delta_q_a <= 0.005])
+    problem = CvxpyProblem(joint(), constraints=lambda problem: [problem.delta_q_a <= 0.005])
     problem.fill(joint())
     problem.problem.solve(solver=cp.DAQP)  # exact enough without natural units
     np.testing.assert_allclose(problem.primal(), [0.005], rtol=OPTIMUM, atol=0.0)

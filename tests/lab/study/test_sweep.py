@@ -94,7 +94,7 @@ def test_a_sweep_runs_resumes_and_prints_a_table(tmp_path, capsys):
     path.write_text(HEAD + SLIDE.replace("[0.01, 0.02]", "[0.01]"))
     command = ["study", "run", str(path), "--out", str(tmp_path / "store"), "--jobs", "1"]
     assert main(command) == 0
-    assert "2 runs, 0 of which ended early" in capsys.readouterr().out
+    assert "2 runs (fast path), 0 of which ended early" in capsys.readouterr().out
     rows = rows_read(tmp_path / "store")
     assert [row["values"] for row in table(rows)] == [
         {"mu": 0.0, "h": 0.01},

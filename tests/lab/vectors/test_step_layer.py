@@ -97,7 +97,7 @@ def test_what_cannot_be_followed_is_refused(more):
 
 
 def test_a_step_of_a_scenario_is_that_of_the_simulator():
-    scenario = load_scenario("bunny_grasp")
+    scenario = load_scenario("bunny_grasp", fast=True)
     shapes, pairs = pairs_of(scenario)
     (case,) = (case for case in cases("step") if case.id == "step/bunny_grasp/0")
     assert case.input["mechanism"] == mechanism_of(scenario)

@@ -44,7 +44,7 @@ def free(shape, xyz, *fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="flo
         ContactPair(f"c{i}", PlacedShape(f"f{i}", 0, np.eye(3), np.array(at), s), placed, *mu, 6, k)
         for i, (s, at) in enumerate(fixed)
     ]
-    return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0))), system.q_start
+    return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
 
 
 def verdict(simulator, q, force=0.0):
@@ -257,7 +257,7 @@ def test_friction_of_zero_has_one_side_only():
 
 def test_a_target_half_a_turn_away_is_named(tmp_path):
     system = System([Body("rail", WHEEL, actuated=("turn",))])
-    simulator = Simulator(system, [], h=H, K_q=np.eye(1))
+    simulator = Simulator(system, [], h=H, K_q=np.eye(1), fast=True)
     found = derivatives(simulator, np.array([1.0, 0.0]), np.array([-1.0, 0.0]))
     assert [why.kind for why in found.reasons] == [reason.HALF_TURN]
     assert np.isnan(found.dq_dq_bar_a).all()
@@ -272,7 +272,7 @@ def test_a_pair_without_friction_leaves_the_columns_of_the_others():
         ContactPair(name, PlacedShape(name, 0, np.eye(3), np.zeros(3), shape), own, mu, 0.01, 6, 1)
         for name, shape, mu in (("wall", wall, 0.0), ("floor", FLOOR, 0.3))
     ]
-    simulator = Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)))
+    simulator = Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True)
     found, kinds = verdict(simulator, system.q_start, np.array([-3.0, 2.0, -1.0, 0, 0, 0]))
     assert kinds == {reason.ZERO_FRICTION}
     assert np.isnan(found.dq_dmu_v[:, 0]).all()

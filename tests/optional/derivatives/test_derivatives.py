@@ -48,7 +48,7 @@ def other(simulator, name, j, change):
         fields[name] += change
         pair = pairs[j]
         pairs[j] = type(pair)(pair.name, *fields.values(), pair.rows, pair.k)
-    return Simulator(system, pairs, **parts)
+    return Simulator(system, pairs, **parts, fast=True)
 
 
 def heavier(system, link, change):
@@ -91,7 +91,7 @@ def test_derivatives_by_parameters_agree_with_differences(name):
     ("scenario", "k"), [("bunny_grasp", 60), ("allegro_turn", 40), ("two_finger_pinch", 38)]
 )
 def test_derivatives_agree_with_differences_in_a_scenario(scenario, k):
-    scene = load_scenario(scenario, steps=k)
+    scene = load_scenario(scenario, steps=k, fast=True)
     rng = np.random.default_rng(k)
     simulator, system = scene.simulator(), scene.system
     q = scene.run(progress=False).q[k]
@@ -174,7 +174,7 @@ def test_each_classic_mistake_is_seen(monkeypatch, mistake):
         if mistake == "contact points taken as material":
             kinematics = simulator.system.kinematics(q)
             motion = module.MotionRates(kinematics, simulator.system.motion)
-            points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+            points = simulator.closest_points(kinematics)
             return material(found, simulator, motion, points)
         return found
 
@@ -229,8 +229,6 @@ def test_the_ellipsoid_and_extensions_are_refused():
     simulator, q, q_bar_a = pushed(np.random.default_rng(1), cone="ellipsoid")
     with pytest.raises(InputError, match="polyhedron"):
         derivatives(simulator, q, q_bar_a)
-    simulator, q, q_bar_a = pushed(
-        np.random.default_rng(1), extension=lambda q: Extension((), 0.0), engine="cvxpy"
-    )
+    simulator, q, q_bar_a = pushed(np.random.default_rng(1), extension=lambda q: Extension((), 0.0))
     with pytest.raises(InputError, match="any function of q"):
         derivatives(simulator, q, q_bar_a)

@@ -109,7 +109,7 @@ def risen(run):
 
 
 def test_a_scene_with_too_few_contacts_names_step_pair_point_depth_and_k(hostile):
-    run = load_scenario(hostile).run(progress=False)
+    run = load_scenario(hostile, fast=True).run(progress=False)
     assert (run["certificate"] == "exact").all()  # every answer was right, the scene was not
     assert run.steps == 200
     assert risen(run) < 0.005  # of 0.03 m
@@ -141,7 +141,7 @@ def test_a_scene_with_too_few_contacts_names_step_pair_point_depth_and_k(hostile
 
 def test_with_all_points_of_the_faces_the_same_scene_warns_of_no_contact(hostile):
     settings = ["contacts.grip.k=100", "solver.certify=off", "steps=120"]
-    run = load_scenario(hostile, settings).run(progress=False)
+    run = load_scenario(hostile, settings, fast=True).run(progress=False)
     assert of_contacts(run.warnings) == []
     assert risen(run) > 0.012  # of 0.014 m, at t = 1.2 s
 
@@ -171,7 +171,7 @@ DRAGS = {"block_push", "block_incline", "panda_push"}
 
 @pytest.mark.parametrize("name", scenario_names())
 def test_a_scenario_that_comes_along_warns_of_its_drag_at_most(name):
-    run = load_scenario(name, ["solver.certify=off", "record=light"]).run(progress=False)
+    run = load_scenario(name, ["solver.certify=off", "record=light"], fast=True).run(progress=False)
     assert all(said.startswith("the spurious drag") for said in run.warnings)
     assert len(run.warnings) == (name in DRAGS)
 
@@ -180,7 +180,7 @@ def test_a_scenario_that_comes_along_warns_of_its_drag_at_most(name):
 def test_a_cloud_of_forty_metres_looks_like_one_of_forty_millimetres(hostile, size, warned):
     written(hostile.parent, f"0 0 0\n{size} 0 0\n0 1 0\n", "long.xyz")
     settings = {"bodies.cube.cloud": hostile.parent / "long.xyz", "steps": 1}
-    run = load_scenario(hostile, settings).run(progress=False)
+    run = load_scenario(hostile, settings, fast=True).run(progress=False)
     said = [sentence for sentence in run.warnings if "check the unit" in sentence]
     assert len(said) == warned
     if warned:

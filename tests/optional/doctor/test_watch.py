@@ -31,7 +31,7 @@ def scene(tmp_path_factory):
 
 
 def test_a_file_from_before_there_were_warnings_has_none(scene, tmp_path):
-    run = load_scenario(scene).run(progress=False)
+    run = load_scenario(scene, fast=True).run(progress=False)
     header = {key: value for key, value in run.header.items() if key != "warnings"}
     path = Trajectory(header, run.arrays).save(tmp_path / "old.npz")
     assert trajectory_read(path).warnings == ()
@@ -60,7 +60,7 @@ def made(scenario, steps=3, **changes):
 def test_a_contact_that_sinks_unpredicted_needs_shorter_steps(scene, share, gap, warned):
     phi = np.zeros((3, 2))
     phi[2, 0] = -share * SUNK * 0.1
-    said = made(load_scenario(scene), phi=phi, gap=np.full((3, 2), gap))
+    said = made(load_scenario(scene, fast=True), phi=phi, gap=np.full((3, 2), gap))
     depth = share * SUNK * 100.0
     sentence = (
         "take a smaller h or move slower: candidate 0 of floor(floor, ball/ball#0) is "
@@ -74,10 +74,10 @@ def test_a_pair_of_solids_that_could_keep_more_contacts_is_asked_for_k(scene):
     # push: a box against a ball has 8 corners and the closest pair, of which one is kept.
     phi = np.zeros((3, 2))
     phi[1, 1] = -2 * SUNK * 0.1
-    (said,) = made(load_scenario(scene), phi=phi)
+    (said,) = made(load_scenario(scene, fast=True), phi=phi)
     assert said.startswith("take a smaller h or move slower, or raise k of contacts.push: ")
     # Two are kept: a corner that was not one of them is a contact that k left out.
-    scenario = load_scenario(scene, ["contacts.push.k=2"])
+    scenario = load_scenario(scene, ["contacts.push.k=2"], fast=True)
     phi, point = np.zeros((3, 3)), np.array([[0, 8, 3], [0, 8, 3], [0, 5, 8]])
     phi[2, 1] = -2 * SUNK * 0.1
     (said,) = made(scenario, phi=phi, point=point)
@@ -90,7 +90,7 @@ def test_a_pair_of_solids_that_could_keep_more_contacts_is_asked_for_k(scene):
 def test_a_start_in_penetration_is_the_user_s_own_word(scene):
     phi = np.zeros((3, 2))
     phi[0] = -0.01
-    assert made(load_scenario(scene), phi=phi) == []
+    assert made(load_scenario(scene, fast=True), phi=phi) == []
 
 
 @pytest.mark.parametrize(("entry", "motion", "words"), [
@@ -102,7 +102,7 @@ def test_a_start_in_penetration_is_the_user_s_own_word(scene):
 def test_a_step_that_moves_a_body_by_a_quarter_of_its_size_is_named(scene, entry, motion, words):
     delta_q = np.zeros((3, 8))
     delta_q[1, entry] = motion
-    said = made(load_scenario(scene), delta_q=delta_q)
+    said = made(load_scenario(scene, fast=True), delta_q=delta_q)
     assert len(said) == (words is not None)
     if words is not None:
         assert words.replace("base.x", "base") in said[0]
@@ -118,23 +118,25 @@ def test_a_step_that_moves_a_body_by_a_quarter_of_its_size_is_named(scene, entry
 def test_a_target_beyond_the_limits_of_a_urdf_is_named(scene, target, words):
     # (cos, sin) of the wheel's angle: it is continuous and has no limits.
     q_bar_a = np.array([[0.0, 1.0, 0.0], [0.0, 1.0, 0.0], [target, 1.0, 0.0]])
-    said = made(load_scenario(scene), q_bar_a=q_bar_a)
+    said = made(load_scenario(scene, fast=True), q_bar_a=q_bar_a)
     assert len(said) == (words is not None)
     assert words is None or words in said[0]
 
 
 def test_limits_are_those_of_the_urdf_and_zero_to_zero_says_nothing(scene):
-    limits = {joint.name: joint.limits for joint in load_scenario(scene).system.joints}
+    limits = {joint.name: joint.limits for joint in load_scenario(scene, fast=True).system.joints}
     assert limits == {"rail/slide": (-1.0, 1.0), "rail/turn": None, "ball/base": None}
     text = (scene.parent / "rail.urdf").read_text().replace('lower="-1" upper="1"', "")
     written(scene.parent, text, "free.urdf")
-    system = load_scenario(scene, {"bodies.rail.urdf": scene.parent / "free.urdf"}).system
+    system = load_scenario(
+        scene, {"bodies.rail.urdf": scene.parent / "free.urdf"}, fast=True
+    ).system
     assert system.joint("rail/slide").limits is None
 
 
 @pytest.mark.parametrize(("mu_omega", "warned"), [(0.1, False), (0.101, True), (20.0, True)])
 def test_a_mu_omega_longer_than_the_smaller_body_looks_like_millimetres(scene, mu_omega, warned):
-    scenario = load_scenario(scene, {"contacts.floor.mu_omega": mu_omega})
+    scenario = load_scenario(scene, {"contacts.floor.mu_omega": mu_omega}, fast=True)
     sentence = (
         "check the unit of mu_omega of contacts.floor: it is a length in metres, and "
         f"{mu_omega:.3g} m is more than the size of the smaller body, 0.1 m"
@@ -158,7 +160,7 @@ def test_the_extent_of_a_shape_is_the_longest_edge_of_its_box(shape, expected):
 def test_a_doubtful_unit_comes_before_what_may_come_of_it(scene):
     phi = np.zeros((3, 2))
     phi[2, 0] = -2 * SUNK * 0.1
-    said = made(load_scenario(scene, {"contacts.floor.mu_omega": 20.0}), phi=phi)
+    said = made(load_scenario(scene, {"contacts.floor.mu_omega": 20.0}, fast=True), phi=phi)
     assert [sentence[:18] for sentence in said] == ["check the unit of ", "take a smaller h o"]
 
 

@@ -51,7 +51,7 @@ def test_whatever_is_made_of_a_posed_step_is_checked(things, name):
 
 
 def test_steps_of_one_simulator_share_what_does_not_change():
-    scenario = load_scenario("bunny_grasp", ["solver.certify=off"])  # its bunny is rigid
+    scenario = load_scenario("bunny_grasp", ["solver.certify=off"], fast=True)  # its bunny is rigid
     simulator, q, results = scenario.simulator(), scenario.system.q_start, []
     for k in range(2):
         results.append(simulator.step(q, scenario.targets(0.01 * (k + 1))))
@@ -64,7 +64,7 @@ def test_steps_of_one_simulator_share_what_does_not_change():
 def test_the_mass_matrix_of_a_mechanism_is_that_of_its_configuration(tmp_path):
     system, h = chain_scene(tmp_path), 0.01
     n_a, K_q = system.n_a, 500.0 * np.eye(system.n_a)
-    simulator, q = Simulator(system, [], h=h, K_q=K_q), system.q_start
+    simulator, q = Simulator(system, [], h=h, K_q=K_q, fast=True), system.q_start
     matrices = []
     for _ in range(2):
         q = system.integrate(q, 0.1 * np.cos(np.arange(system.n_v)))

@@ -17,8 +17,8 @@ from quasistatic_ref.optional.large.sparse_form import Pattern, kept_M_u, sparse
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.solve.engines import solver_for
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.arrays import whole
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_text
@@ -41,7 +41,7 @@ def scene(name):
     if name == "pile":
         some = pile(BOXES, backend="piqp", certify="residual")
         return some.simulator, np.zeros(0), some.force
-    scenario = load_scenario("bunny_grasp", GRASP)
+    scenario = load_scenario("bunny_grasp", GRASP, fast=True)
     return scenario.simulator(), scenario.targets(0.01), 0.0
 
 
@@ -141,7 +141,7 @@ def test_the_momentum_of_blocks_is_that_of_all_of_M_u():
 
 def test_a_checked_copy_fits_the_solver_and_a_heavier_one_does_not():
     step = step_of("pile")[1]
-    solver, checked = solver_for(step, "piqp", "native"), step.replace()
+    solver, checked = solver_for(step, "piqp", fast=True), step.replace()
     assert type(checked) is StepData
     assert checked == step
     assert solver.fits(checked)

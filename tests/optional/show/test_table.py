@@ -17,7 +17,9 @@ from tests.scenes import written_scenario
 
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
-    return load_scenario(written_scenario(tmp_path_factory.mktemp("scene"))).run(progress=False)
+    return load_scenario(written_scenario(tmp_path_factory.mktemp("scene")), fast=True).run(
+        progress=False
+    )
 
 
 def test_arrays_are_attributes_by_the_names_of_the_format(run):
@@ -67,7 +69,7 @@ def test_a_table_has_a_row_a_step_and_a_column_a_number(run):
 
 
 def test_a_run_without_steps_is_an_empty_table(run):
-    empty = load_scenario("sphere_spin", steps=0).run(progress=False)
+    empty = load_scenario("sphere_spin", steps=0, fast=True).run(progress=False)
     assert len(empty.to_pandas()) == 0
 
 

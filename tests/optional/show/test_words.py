@@ -101,7 +101,7 @@ def check(*objects):
 
 @pytest.fixture(scope="module", params=scenario_names())
 def scenario(request):
-    return load_scenario(request.param, steps=2)
+    return load_scenario(request.param, steps=2, fast=True)
 
 
 def test_every_object_of_every_scenario_is_short(scenario):
@@ -136,13 +136,13 @@ def test_active_rows_are_known_only_where_they_are_certified(certify):
 
 def test_empty_things_are_short_too(tmp_path):
     nothing = random_step(np.random.default_rng(3), rows=()).replace(contacts=no_contacts(7))
-    empty = load_scenario("sphere_spin", steps=0).run(progress=False)
+    empty = load_scenario("sphere_spin", steps=0, fast=True).run(progress=False)
     alone = System([Body.of_shape("ball", Sphere(0.1), 1.0)])
     check(nothing, nothing.contacts, nothing.extra, solve_step(nothing), empty, alone, System([]))
     assert "0 contacts" in repr(nothing)
     assert "0 steps" in repr(empty)
     with pytest.raises(RunFailed) as caught:
-        load_scenario(written_scenario(tmp_path, SWING)).run(progress=False)
+        load_scenario(written_scenario(tmp_path, SWING), fast=True).run(progress=False)
     failed = caught.value.trajectory
     check(failed)
     assert "ended early" in repr(failed)
@@ -215,7 +215,7 @@ def test_a_table_for_a_notebook_holds_gap_normal_friction_and_rows(rng):
 
 
 def test_a_step_that_was_taken_shows_forces_and_active_rows():
-    scenario = load_scenario("block_push", steps=1)
+    scenario = load_scenario("block_push", steps=1, fast=True)
     result = scenario.simulator().step(scenario.system.q_start, scenario.targets(0.01))
     header, *rows = Page(result._repr_html_()).rows
     assert header == [
@@ -234,7 +234,7 @@ def test_a_step_that_was_taken_shows_forces_and_active_rows():
 
 
 def test_a_trajectory_shows_its_last_step():
-    run = load_scenario("block_push", steps=3).run(progress=False)
+    run = load_scenario("block_push", steps=3, fast=True).run(progress=False)
     header, *rows = Page(run._repr_html_()).rows
     assert header[0] == "contact, last step"
     assert [row[0] for row in rows] == list(run.header["contacts"][-1])
@@ -258,7 +258,7 @@ STRANGE = {
 
 @pytest.mark.parametrize(("header", "arrays"), STRANGE.values(), ids=STRANGE)
 def test_a_strange_trajectory_that_can_be_read_can_be_shown(header, arrays, tmp_path):
-    run = load_scenario("block_push", steps=3).run(progress=False)
+    run = load_scenario("block_push", steps=3, fast=True).run(progress=False)
     strange = Trajectory({**run.header, **header}, {**run.arrays, **arrays})
     check(strange, trajectory_read(strange.save(tmp_path / "run.npz")))
 

@@ -20,7 +20,7 @@ NEAR = 1e-9
 
 def evidence() -> Evidence:
     """The scenario sphere_spin, then both laws."""
-    scenario = load_scenario("sphere_spin", ["solver.backend=none"])
+    scenario = load_scenario("sphere_spin", ["solver.backend=none"], fast=True)
     run = scenario.run(progress=False)
     (wrenches,) = scenario.wrenches
     torque = np.interp(run["t"], wrenches.times, wrenches.values[:, 5])

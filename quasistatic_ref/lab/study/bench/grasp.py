@@ -11,16 +11,24 @@ import numpy as np
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
-from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, ratio, seconds
+from quasistatic_ref.lab.study.bench.timing import (
+    INTERFACES,
+    Job,
+    in_turn,
+    microseconds,
+    ratio,
+    seconds,
+)
+from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.adapters.program import Program
-from quasistatic_ref.solve.backends import installed, installed_backends
-from quasistatic_ref.solve.engines import CERTIFY, CVXPY, NATIVE
+from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, installed, installed_backends
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
+PLAIN = "full, plain"
 SETTINGS = ["solver.certify=off", "record=light"]
 PARTS = ("distances", "selection", "rows", "solve", "integrate")
 
@@ -43,7 +51,7 @@ class Places:
 
 def places(steps: int, backend: str = "daqp") -> Places:
     """Configurations of a bunny_grasp run, from the closing of the grip on."""
-    scenario = load_scenario("bunny_grasp", [*SETTINGS, f"solver.backend={backend}"])
+    scenario = load_scenario("bunny_grasp", [*SETTINGS, f"solver.backend={backend}"], fast=True)
     simulator, q = scenario.simulator(), scenario.system.q_start
     visited, goals = [], []
     start = min(300 - steps, 50)
@@ -59,7 +67,7 @@ def places(steps: int, backend: str = "daqp") -> Places:
 def interfaces(at: Places, repeat: int) -> dict[str, Any]:
     """The step with DAQP natively, next to other interfaces and DAQP alone on the same program."""
     run = _Run(by_numpy(at.scenario), at)
-    native, through = run.simulator, replace(at.scenario, engine=CVXPY).simulator()
+    native, through = run.simulator, replace(at.scenario, fast=False).simulator()
     run.step(0)  # builds the program that both solve
     solver = native.solver
     assert isinstance(solver, NativeSolver)
@@ -102,10 +110,11 @@ BEFORE = 5
 times as long as in a run, the second 1.2 times, the fifth as long but for a twentieth."""
 
 
-def by_numpy(scenario: Scenario) -> Simulator:
-    """The simulator of a scenario, all of whose steps are taken by NumPy."""
+def by_numpy(scenario: Scenario) -> FastSimulator:
+    """The simulator of a scenario with `fast`, all of whose steps are taken by NumPy."""
     simulator = scenario.simulator()
-    simulator.fast = None
+    assert isinstance(simulator, FastSimulator)
+    simulator.compiled = None
     return simulator
 
 
@@ -117,10 +126,12 @@ def by_compiled_code(at: Places, repeat: int) -> dict[str, float] | None:
     dict of str to float
         Medians of both and the 99th percentile of the second [us], the first over DAQP's call [-].
     """
-    run = _Run(at.scenario.simulator(), at)
+    fast = at.scenario.simulator()
+    assert isinstance(fast, FastSimulator)
+    run = _Run(fast, at)
     proved = _Run(replace(at.scenario, certify=CERTIFY[0]).simulator(), at)
     run.step(0)
-    if run.simulator.fast is None:
+    if fast.compiled is None:
         return None
     solver = run.simulator.solver
     assert isinstance(solver, NativeSolver)
@@ -157,14 +168,14 @@ class _Run:
 
 
 def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
-    """The parts of a step for every engine and backend, the backends taking turns [us]."""
-    simulators = {}
-    for engine in (NATIVE, CVXPY):
-        names = installed("native") if engine == NATIVE else installed_backends()
-        for name in names:
+    """The parts of a step for every interface and backend, the backends taking turns [us]."""
+    simulators: dict[tuple[str, str], Simulator] = {}
+    for interface, fast in INTERFACES.items():
+        for name in installed("native") if fast else installed_backends():
             if name not in UNFIT:
-                settings = replace(at.scenario, engine=engine, backend=name)
-                simulators[engine, name] = by_numpy(settings)
+                settings = replace(at.scenario, fast=fast, backend=name)
+                made = by_numpy(settings) if fast else settings.simulator()
+                simulators[interface, name] = made
     taken = {key: np.full((len(at.q), len(PARTS)), np.inf) for key in simulators}
     failed = dict.fromkeys(simulators, 0)
     for _ in range(repeat):
@@ -184,7 +195,9 @@ def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
 
 
 def _selection(simulator: Simulator, q: Array) -> float:
-    """Time of finding the closest points among those that are measured [s]."""
+    """Time of finding the closest points among those that are measured [s]; 0 by brute force."""
+    if not isinstance(simulator, FastSimulator):
+        return 0.0
     clouds, at = simulator.tracker.clouds, simulator.system.kinematics(q)
     assert clouds is not None
     poses = clouds.placements.poses(at.R, at.t)
@@ -217,8 +230,10 @@ def brute_force(scenario: Scenario, q: Array) -> None:
 
 
 def certification(at: Places, repeat: int) -> Mapping[str, Any]:
-    """The native step with each kind of certificate; the first is a scenario's default [us]."""
+    """The fast step with each kind of certificate, and the plain one with the first [us]."""
     simulators = {kind: replace(at.scenario, certify=kind).simulator() for kind in CERTIFY}
+    plain = replace(at.scenario, certify=CERTIFY[0], fast=False, backend=DEFAULT)
+    simulators[PLAIN] = plain.simulator()
     rounds = [
         {kind: partial(simulator.step, q, g) for kind, simulator in simulators.items()}
         for q, g in zip(at.q, at.goals, strict=True)

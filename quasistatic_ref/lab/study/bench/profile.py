@@ -12,11 +12,11 @@ import numpy as np
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.lab.study.bench.grasp import by_numpy
 from quasistatic_ref.lab.study.bench.timing import seconds
+from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.solve.adapters.program import Adapter, Reply
 from quasistatic_ref.solve.backends import DEFAULT, installed
-from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.step.data import Array
 
 BACKENDS: Final = ("clarabel", "piqp", "osqp", "daqp")
@@ -147,7 +147,7 @@ class _Run:
         self.laps: list[list[float]] = []
         # The solver that the simulator makes for itself, with a clock at the backend's call.
         first = self.simulator.step(self.q, self.scenario.targets(self.scenario.h))
-        self.simulator.solver = solver = NativeSolver(first.step, backend)
+        self.simulator.solver = solver = FastSolver(first.step, backend)
         solver.adapter = _clocked(solver.adapter, self.calls)
 
     def step(self, k: int) -> tuple[Array, Array]:
@@ -182,9 +182,9 @@ def _clocked(adapter: type[Adapter], calls: list[float]) -> type[Adapter]:
 
 
 def grasp_scenario(backend: str, certify: str) -> Scenario:
-    """``bunny_grasp``, solved natively: the default of a scenario."""
+    """``bunny_grasp``, solved by the backend's own interface."""
     settings = (f"solver.backend={backend}", f"solver.certify={certify}", "record=light")
-    return load_scenario("bunny_grasp", settings)
+    return load_scenario("bunny_grasp", settings, fast=True)
 
 
 def all_distances(scenario: Scenario) -> int:

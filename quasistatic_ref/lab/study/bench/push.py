@@ -6,23 +6,26 @@ from functools import partial
 import numpy as np
 
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
-from quasistatic_ref.lab.study.bench.timing import in_turn
-from quasistatic_ref.solve.engines import CERTIFY, CVXPY, NATIVE
+from quasistatic_ref.lab.study.bench.timing import INTERFACES, in_turn
+from quasistatic_ref.solve.backends import CERTIFY
 
 TAIL = 0.99
 """The share of steps that take no longer than the second number of a row."""
 
 
 def pushes(steps: int, repeat: int) -> list[dict[str, float | str]]:
-    """The median and the 99th percentile of a step, each engine and certificate in turn [us].
+    """The median and the 99th percentile of a step, each speed and certificate in turn [us].
 
     Parameters
     ----------
     steps, repeat : int
         Of the push; how often all of them are taken.
     """
-    settings = [(engine, kind) for engine in (NATIVE, CVXPY) for kind in CERTIFY]
-    scenes = {f"{engine}, {kind}": pushed_block(kind, engine) for engine, kind in settings}
+    scenes = {
+        f"{interface}, {kind}": pushed_block(kind, fast=fast)
+        for interface, fast in INTERFACES.items()
+        for kind in CERTIFY
+    }
     path = [result.q for result in pushed_block("off").run(steps)]
     rounds = [
         {name: partial(scene.simulator.step, q, scene.goal(k)) for name, scene in scenes.items()}

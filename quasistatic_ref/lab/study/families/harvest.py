@@ -28,7 +28,7 @@ def no_count(steps: int) -> None:
 @cache
 def scenario_of(name: str) -> Scenario:
     """A scenario by name, loaded once."""
-    return load_scenario(name)
+    return load_scenario(name, fast=True)
 
 
 def scenario_run(name: str, count: Count = no_count) -> tuple[Scenario, Trajectory]:
@@ -100,7 +100,7 @@ def stepped_again(
         Which of the configurations comes first, so that families do not all ask at the same ones.
     """
     _, run = scenario_run(name)
-    other = load_scenario(name, settings)
+    other = load_scenario(name, settings, fast=True)
     simulator, words = other.simulator(), ",".join(settings)
     for i in range(count):
         s = int((first + i) * 7919 % run.steps)  # scattered, and the same every time

@@ -46,7 +46,7 @@ def scenario_cases(say: Say) -> Found:
     """
     for name in scenario_names():
         say(f"{name} ...")
-        yield from _cases(name, load_scenario(name), say)
+        yield from _cases(name, load_scenario(name, fast=True), say)
 
 
 def _cases(name: str, scenario: Scenario, say: Say) -> Found:

@@ -2,9 +2,8 @@
 
 import numpy as np
 
+from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.optional.large.uncertified import NOTHING_CLAIMED
-from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import Units, from_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.data import StepData
@@ -15,14 +14,14 @@ NONE_OF_OWN = np.zeros(0)
 
 
 def as_said(
-    step: StepData, solver: Solver, units: Units | None, accuracy: float
+    step: StepData, solver: FastSolver, units: Units | None, accuracy: float
 ) -> StepSolution | None:
     """The solution of a step whose program compiled code has written, as the backend gives it.
 
     Parameters
     ----------
     step : StepData
-    solver : Solver
+    solver : FastSolver
     units : Units or None
         In which its program is written; None if it is not.
     accuracy : float
@@ -35,13 +34,13 @@ def as_said(
         None where `solved` has more to do: further options to try, rows out of reach, or a step to
         refuse.
     """
-    if units is None or not isinstance(solver, NativeSolver) or solver.adapter.NEAR:
+    if units is None or solver.adapter.NEAR:
         return None
     return QUIET.copy().run(_as_said, step, solver, units, accuracy)
 
 
 def _as_said(
-    step: StepData, solver: NativeSolver, units: Units, accuracy: float
+    step: StepData, solver: FastSolver, units: Units, accuracy: float
 ) -> StepSolution | None:
     attempt = solver.attempts(accuracy)[0]
     try:

@@ -5,9 +5,8 @@ import numpy as np
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.scene import Scene
 from quasistatic_ref.optional.fast.compiled.structure import Structure
+from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.adapters.program import Program
-from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import Metric, Units
 from quasistatic_ref.step.data import StepData
 
@@ -29,16 +28,14 @@ class NaturalProgram:
     ----------
     scene : Scene
         Holds the steps' g, A and b.
-    solver : NativeSolver
+    solver : FastSolver
     program : Program
         That of the solver.
     metric : Metric
         Of H.
     """
 
-    def __init__(
-        self, scene: Scene, solver: NativeSolver, program: Program, metric: Metric
-    ) -> None:
+    def __init__(self, scene: Scene, solver: FastSolver, program: Program, metric: Metric) -> None:
         found = library()
         self._write, self._solver, self._metric = found.natural_program, solver, metric
         self._structure = s = Structure(NUMBERS, ARRAYS, found.natural_size)
@@ -59,7 +56,7 @@ class NaturalProgram:
         self._units = s["units"]
         assert all(np.shares_memory(s[f"natural_{k}"], getattr(program, k)) for k in ("A", "b"))
 
-    def fits(self, solver: Solver, step: StepData) -> bool:
+    def fits(self, solver: FastSolver, step: StepData) -> bool:
         """Whether a step can be written into a solver's arrays: both have the H of this program."""
         own, metric = self._solver, self._metric
         return solver is own and own.metric is metric and metric.H is step.H
@@ -79,9 +76,9 @@ class NaturalProgram:
         return units
 
 
-def natural_program(scene: Scene, solver: Solver, step: StepData) -> NaturalProgram | None:
+def natural_program(scene: Scene, solver: FastSolver, step: StepData) -> NaturalProgram | None:
     """What writes the steps of a scene that are like one into the arrays of a solver, or None."""
-    if not isinstance(solver, NativeSolver) or not isinstance(solver.program, Program):
+    if not isinstance(solver.program, Program):
         return None
     if solver.metric is None or solver.metric.H is not step.H or step.n_v > MOST:
         return None

@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.structure import Structure
+from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import Constants
 from quasistatic_ref.optional.fast.tracker.batch import bounds
 from quasistatic_ref.optional.fast.tracker.cloud_tracker import CloudTracker
@@ -46,7 +46,7 @@ class Scene(Structure):
     ----------
     poses : Poses
         Where pinocchio writes the poses of the links.
-    geometry : ContactGeometry
+    geometry : PosedGeometry
     constant : Constants
         In a polyhedral cone.
     weighs : ndarray, shape (n_v,)
@@ -58,7 +58,7 @@ class Scene(Structure):
     def __init__(
         self,
         poses: Poses,
-        geometry: ContactGeometry,
+        geometry: PosedGeometry,
         constant: Constants,
         weighs: Array,
         clouds: CloudTracker | None,

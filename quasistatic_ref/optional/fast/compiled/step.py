@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled.answer import as_said
@@ -19,19 +18,22 @@ from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.products import products
 from quasistatic_ref.optional.fast.compiled.scene import Scene, known
 from quasistatic_ref.optional.fast.compiled.screws import Screws
+from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep
+from quasistatic_ref.optional.fast.solver import FastSolver, KeptStep
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.stopwatch import Stopwatch
+from quasistatic_ref.solve.native import native_backends
 from quasistatic_ref.solve.solve import solved
-from quasistatic_ref.solve.solver import Solver
 from quasistatic_ref.solve.units import Units
+from quasistatic_ref.step.arrays import QUIET
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.simulator import Simulator
+    from quasistatic_ref.optional.fast.simulator import FastSimulator
 
 WRITTEN = ClosestPoints._fields[:-1]
 TAKEN = itemgetter(*WRITTEN, "d1", "d2", "J", "tau", "g")
@@ -41,7 +43,7 @@ SURELY = 1 - 2.0**-40
 """Factor that covers the rounding of a sum of squares, each of which is rounded by 2^-53."""
 
 
-def taken_by(simulator: Simulator) -> str:
+def taken_by(simulator: FastSimulator) -> str:
     """What takes a simulator's steps, in words."""
     if (reason := unknown(simulator)) is not None:
         return f"NumPy: {reason}"
@@ -49,24 +51,24 @@ def taken_by(simulator: Simulator) -> str:
     return "compiled code" + (f"; closest points by NumPy, which {names} need" if names else "")
 
 
-def unknown(simulator: Simulator) -> str | None:
+def unknown(simulator: FastSimulator) -> str | None:
     """Why compiled code does not take a simulator's steps, in words; None if it does."""
-    if simulator.engine != "native":
-        return f"the engine is {simulator.engine!r}"
+    if simulator.backend not in native_backends(simulator.cone):
+        return f"{simulator.backend!r} has no interface of its own here"
     if simulator.extension is not None:
         return "the scene has an extension"
     if not cone(simulator.cone).polyhedral:
         return f"the {simulator.cone} has no rows"
     if not simulator.pairs:
         return "nothing can touch"
-    if not isinstance(simulator.geometry, ContactGeometry):
+    if not isinstance(simulator.geometry, PosedGeometry):
         return "contacts are handed over in blocks"
     if products() is None:
         return "NumPy multiplies matrices here in an order that is not known"
     return None
 
 
-def measured_by_numpy(simulator: Simulator) -> list[str]:
+def measured_by_numpy(simulator: FastSimulator) -> list[str]:
     """Names of the pairs whose closest points compiled code does not know."""
     return [
         pair.name
@@ -75,7 +77,7 @@ def measured_by_numpy(simulator: Simulator) -> list[str]:
     ]
 
 
-def compiled_step(simulator: Simulator) -> CompiledStep | None:
+def compiled_step(simulator: FastSimulator) -> CompiledStep | None:
     """What takes a simulator's steps, or None: :func:`unknown` says why."""
     return CompiledStep(simulator) if unknown(simulator) is None else None
 
@@ -102,11 +104,11 @@ class CompiledStep:
 
     Parameters
     ----------
-    simulator : Simulator
+    simulator : FastSimulator
     """
 
-    def __init__(self, simulator: Simulator) -> None:
-        assert isinstance(simulator.geometry, ContactGeometry)
+    def __init__(self, simulator: FastSimulator) -> None:
+        assert isinstance(simulator.geometry, PosedGeometry)
         self.poses, self.geometry = Poses(simulator.system), simulator.geometry
         clouds = None if measured_by_numpy(simulator) else simulator.tracker.clouds
         constant, weighs = simulator.constant, simulator.gravity_acts
@@ -124,10 +126,10 @@ class CompiledStep:
         self.tie = self.no_tie = np.zeros(len(layout.rows), dtype=np.int64)
         self.constant: Constants | None = None
         self.of_steps: dict[str, Any] = {}
-        self.solver: Solver | None = None
+        self.solver: FastSolver | None = None
 
     def __call__(
-        self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
+        self, simulator: FastSimulator, q: Array, q_bar_a: Array, force: Array | float
     ) -> StepResult | None:
         """The step of :meth:`~quasistatic_ref.simulate.simulator.Simulator.step`.
 
@@ -149,7 +151,7 @@ class CompiledStep:
         if self.equal is None:
             self.equal = bits(form) == bits(self.by_numpy(simulator, q, q_bar_a, force))
             if not self.equal:
-                simulator.fast = None
+                simulator.compiled = None
                 return None
         lap("rows")
         try:
@@ -167,7 +169,7 @@ class CompiledStep:
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)
 
-    def find_points(self, simulator: Simulator, q: Array) -> None:
+    def find_points(self, simulator: FastSimulator, q: Array) -> None:
         """Write the closest points at q: from the short lists; NumPy's where these prove none."""
         scene = self.scene
         scene.relist()
@@ -176,13 +178,13 @@ class CompiledStep:
             self.tie = self.no_tie
             return
         kinematics = simulator.system.kinematics(q)
-        points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+        points = simulator.closest_points(kinematics)
         for name in WRITTEN:
             scene[name][:] = getattr(points, name)
         self.tie = points.tie
 
     def step_data(
-        self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
+        self, simulator: FastSimulator, q: Array, q_bar_a: Array, force: Array | float
     ) -> tuple[ClosestPoints, StepData, StandardForm, float]:
         """The closest points, the problem of one step, its matrices and its least gap [m].
 
@@ -206,16 +208,23 @@ class CompiledStep:
         step = posed(PosedStep, self.of_steps, {**loads, "contacts": contacts})
         return points, step, StandardForm(constant.H, g, scene["A"], scene["b"]), gap
 
-    def solution(self, simulator: Simulator, step: StepData, form: StandardForm) -> StepSolution:
+    def solution(
+        self, simulator: FastSimulator, step: StepData, form: StandardForm
+    ) -> StepSolution:
         """The solution of the step whose matrices are there; StepNotSolved if there is none."""
         solver, accuracy, certify = self.solver, simulator.accuracy, simulator.certify
         if solver is None or solver is not simulator.solver:  # what fits one fits all of them
-            self.solver = solver = simulator.fitting(step)
+            found = simulator.fitting(step)
+            assert isinstance(found, FastSolver)
+            self.solver = solver = found
         units = self.units(solver, step)
         said = as_said(step, solver, units, accuracy) if certify == "off" else None
-        return solved(step, solver, accuracy, certify, form, units) if said is None else said
+        if said is not None:
+            return said
+        scaled = QUIET.copy().run(KeptStep, step, solver.metric, form, units)
+        return solved(scaled, solver, accuracy, certify)
 
-    def units(self, solver: Solver, step: StepData) -> Units | None:
+    def units(self, solver: FastSolver, step: StepData) -> Units | None:
         """The natural units in which the program of the step is written; None if it is not."""
         program = self.program
         if program is None or not program.fits(solver, step):
@@ -223,9 +232,9 @@ class CompiledStep:
         return None if program is None else program.written()
 
     def by_numpy(
-        self, simulator: Simulator, q: Array, q_bar_a: Array, force: Array | float
+        self, simulator: FastSimulator, q: Array, q_bar_a: Array, force: Array | float
     ) -> StandardForm:
         """The matrices of the same step without compiled code."""
         kinematics = simulator.system.kinematics(q)
-        points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+        points = simulator.closest_points(kinematics)
         return standard_form(simulator.step_data(q, q_bar_a, force, points, kinematics))

@@ -22,7 +22,7 @@ GRAVITY = np.array([1.0, 2.0, -9.0])
 def at(request, tmp_path):
     """(system, q, rates of motion, rates of masses, a displacement) of a random configuration."""
     scene = request.param
-    system = chain_scene(tmp_path) if scene == "chains" else load_scenario(scene).system
+    system = chain_scene(tmp_path) if scene == "chains" else load_scenario(scene, fast=True).system
     rng = np.random.default_rng(2)
     q = system.integrate(system.q_start, 0.3 * rng.normal(size=system.n_v))
     kinematics = system.kinematics(q)

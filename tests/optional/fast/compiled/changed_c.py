@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from quasistatic_ref.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import compiled
 
 
 def changed_sources(folder, name, text, other):

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.compiled import compiled
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.adapters.daqp import Daqp
 from tests.optional.fast.compiled.test_fast import needs_compiler
@@ -16,7 +16,7 @@ UNCERTIFIED = ["solver.certify=off", "record=light"]
 def results(scenario, fast, steps=12):
     simulator, q = scenario.simulator(), scenario.system.q_start
     if not fast:
-        simulator.fast = None
+        simulator.compiled = None
     for k in range(steps):
         result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
         q = result.q
@@ -39,7 +39,7 @@ def counted(monkeypatch):
 
 @pytest.mark.parametrize("name", ["bunny_grasp", "block_push", "stack"])
 def test_runs_of_which_nothing_is_claimed_have_the_bits_of_numpy(monkeypatch, name):
-    scenario, found = load_scenario(name, UNCERTIFIED), counted(monkeypatch)
+    scenario, found = load_scenario(name, UNCERTIFIED, fast=True), counted(monkeypatch)
     for one, other in zip(results(scenario, True), results(scenario, False), strict=True):
         assert one == other
         assert one.solution.statistics._replace(solve_time=0.0) == (
@@ -67,7 +67,7 @@ def raises(reply):
 @pytest.mark.parametrize("wrong", [fails, is_not_finite, has_no_multipliers, raises])
 def test_an_answer_that_will_not_do_is_left_to_the_long_way(monkeypatch, wrong):
     """The next reply of the backend is right again, and so is what the step comes to."""
-    scenario = load_scenario("bunny_grasp", UNCERTIFIED)
+    scenario = load_scenario("bunny_grasp", UNCERTIFIED, fast=True)
     expected = [result.q for result in results(scenario, True, 8)]
     plain, calls, found = Daqp.reply, [], counted(monkeypatch)
 
@@ -86,7 +86,10 @@ def test_an_answer_that_will_not_do_is_left_to_the_long_way(monkeypatch, wrong):
 
 
 def test_backends_that_rows_out_of_reach_hurt_take_the_long_way(monkeypatch):
-    scenario, found = load_scenario("bunny_grasp", [*UNCERTIFIED, "solver.backend=piqp"]), []
+    scenario, found = (
+        load_scenario("bunny_grasp", [*UNCERTIFIED, "solver.backend=piqp"], fast=True),
+        [],
+    )
     found = counted(monkeypatch)
     list(results(scenario, True, 4))
     assert found
@@ -97,7 +100,7 @@ def test_bodies_in_several_parts_of_the_workspace_have_the_bits_of_numpy():
     """Nine free bodies have 54 coordinates, and a part at most 48."""
     ways = [pile((9, 1, 1), backend="daqp") for _ in range(2)]
     assert len(ways[0].simulator.system.workspace().parts) == 2
-    ways[1].simulator.fast = None
+    ways[1].simulator.compiled = None
     q = [way.q for way in ways]
     for _ in range(3):
         one, other = (
@@ -105,4 +108,4 @@ def test_bodies_in_several_parts_of_the_workspace_have_the_bits_of_numpy():
         )
         assert one == other
         q = [one.q, other.q]
-    assert ways[0].simulator.fast is not None
+    assert ways[0].simulator.compiled is not None

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.compiled import compiled, why_not
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.optional.fast.compiled import compiled, why_not
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
@@ -100,20 +100,20 @@ def compared(system, pairs, cone, rng):
     """Names of the arrays in which compiled steps differ from NumPy's."""
     K_q = np.diag(rng.uniform(1, 100, size=system.n_a))
     made = {"h": 0.01, "K_q": K_q, "certify": "off", "cone": cone}
-    one, other = (Simulator(system, pairs, **made) for _ in range(2))
-    assert one.fast is not None
+    one, other = (Simulator(system, pairs, **made, fast=True) for _ in range(2))
+    assert one.compiled is not None
     wrong = set()
     for q, move in places(system, rng):
         force = rng.normal(size=system.n_v)
         goal = system.integrate(q, move)[: system.n_q_a]
         expected = arrays(*of_numpy(other, q, goal, force))
-        one.fast.poses.move(q)
-        one.fast.find_points(one, q)
-        *data, gap = one.fast.step_data(one, q, goal, force)
+        one.compiled.poses.move(q)
+        one.compiled.find_points(one, q)
+        *data, gap = one.compiled.step_data(one, q, goal, force)
         found = arrays(*data)
         assert gap == expected["phi"].min()
         wrong.update(differing(found, expected))
-        after = one.fast.screws.integrate(move)
+        after = one.compiled.screws.integrate(move)
         wrong.update(["q"] if after.tobytes() != system.integrate(q, move).tobytes() else [])
     return sorted(wrong)
 
@@ -130,22 +130,22 @@ def test_shapes_that_compiled_code_does_not_know_are_measured_by_numpy(tmp_path)
     rng, system = np.random.default_rng(11), bodies(tmp_path)
     pairs = shapes_and_clouds(system, [*KNOWN, "cone", "ellipsoid", "hull"], rng)
     assert compared(system, pairs, "pyramid", rng) == []
-    simulator = Simulator(system, pairs, h=0.01, K_q=np.eye(system.n_a))
+    simulator = Simulator(system, pairs, h=0.01, K_q=np.eye(system.n_a), fast=True)
     said = compiled("step").taken_by(simulator)
     assert said == "compiled code; closest points by NumPy, which p6, p7, p8 need"
 
 
 def run_of(name, fast):
     """The results of a few steps of a scenario, with and without compiled code."""
-    scenario = load_scenario(name, ["record=light"])
+    scenario = load_scenario(name, ["record=light"], fast=True)
     simulator, q = scenario.simulator(), scenario.system.q_start
     if not fast:
-        simulator.fast = None
+        simulator.compiled = None
     for k in range(min(scenario.steps, 25)):
         result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
         q = result.q
         yield result
-    assert (simulator.fast is not None) == fast
+    assert (simulator.compiled is not None) == fast
 
 
 @needs_compiler
@@ -200,16 +200,16 @@ NO_COMPILERS = {
 }
 NOT_COMPILED = f"""
 import os, pathlib
-from quasistatic_ref.compiled import compiled, why_not
+from quasistatic_ref.optional.fast.compiled import compiled, why_not
 from quasistatic_ref.optional.fast.compiled import library
 from quasistatic_ref.scenario.scenario import load_scenario
-scenario = load_scenario("sphere_spin", ["record=light"])
+scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
 def taken():
     for cached in (compiled, why_not, library._found):
         cached.cache_clear()
     simulator = scenario.simulator()
     simulator.step(scenario.system.q_start, scenario.targets(scenario.h))
-    print(simulator.fast, compiled("step"), why_not())
+    print(simulator.compiled, compiled("step"), why_not())
 patience = library.PATIENCE
 for os.environ["QUASISTATIC_REF_CC"] in {[*NO_COMPILERS]}:
     library.PATIENCE = 0.5 if "sleep" in os.environ["QUASISTATIC_REF_CC"] else patience
@@ -235,28 +235,28 @@ def test_without_a_compiler_numpy_takes_the_steps(tmp_path):
 
 @needs_compiler
 def test_a_step_that_numpy_forms_otherwise_is_left_to_numpy():
-    scenario = load_scenario("sphere_spin", ["record=light"])
+    scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
     one, other = scenario.simulator(), scenario.simulator()
-    one.fast.scene["coefficient"][:] *= 2  # as if the compiled code were wrong
-    other.fast = None
+    one.compiled.scene["coefficient"][:] *= 2  # as if the compiled code were wrong
+    other.compiled = None
     q, goal = scenario.system.q_start, scenario.targets(scenario.h)
     assert one.step(q, goal) == other.step(q, goal)
-    assert one.fast is None
+    assert one.compiled is None
 
 
 @needs_compiler
 def test_simulators_that_compiled_code_does_not_take_say_why():
     step = compiled("step")
-    scenario = load_scenario("sphere_spin", ["record=light"])
+    scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
     simulator = scenario.simulator()
     assert step.unknown(simulator) is None
     assert step.taken_by(simulator).startswith("compiled code")
     for settings, reason in (
-        (["solver.engine=cvxpy"], "the engine is 'cvxpy'"),
+        (["solver.backend=scs"], "'scs' has no interface of its own here"),
         (["cone=ellipsoid"], "the ellipsoid has no rows"),
     ):
-        other = load_scenario("sphere_spin", ["record=light", *settings]).simulator()
-        assert other.fast is None
+        other = load_scenario("sphere_spin", ["record=light", *settings], fast=True).simulator()
+        assert other.compiled is None
         assert step.taken_by(other) == f"NumPy: {reason}"
     simulator.extension = lambda q: None
     assert step.taken_by(simulator) == "NumPy: the scene has an extension"
@@ -266,6 +266,6 @@ def test_simulators_that_compiled_code_does_not_take_say_why():
 def test_an_order_of_products_that_is_not_known_is_left_to_numpy(monkeypatch):
     step = compiled("step")
     monkeypatch.setattr(step, "products", lambda: None)
-    simulator = load_scenario("sphere_spin", ["record=light"]).simulator()
-    assert simulator.fast is None
+    simulator = load_scenario("sphere_spin", ["record=light"], fast=True).simulator()
+    assert simulator.compiled is None
     assert "order that is not known" in step.taken_by(simulator)

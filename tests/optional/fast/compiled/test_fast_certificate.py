@@ -12,9 +12,9 @@ import pytest
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.compiled import compiled
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.units import natural_units
 from tests.helpers import changed, random_step
@@ -165,7 +165,7 @@ def test_a_run_is_proved_by_compiled_code(monkeypatch, name):
         return found
 
     monkeypatch.setattr(certificate.Prover, "optimum", counted)
-    run = load_scenario(name, ["steps=40", "record=light"]).run(progress=False)
+    run = load_scenario(name, ["steps=40", "record=light"], fast=True).run(progress=False)
     assert (run["certificate"] == "exact").all()
     assert 40 <= len(proved) <= 44  # a wrong guess is followed by another
     assert np.mean(proved) > 0.9
@@ -185,7 +185,7 @@ def test_a_number_just_beyond_a_power_of_two_is_rounded_to_it():
 
 def test_impulses_that_are_zero_where_nothing_moves_are_proved():
     """Boxes at rest on each other: A'lam holds their weight, and is zero along all else."""
-    scenario = load_scenario("stack")
+    scenario = load_scenario("stack", fast=True)
     found = scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
     step, solution = found.step, found.solution
     working = np.flatnonzero(solution.lam > 0)

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from quasistatic_ref.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import compiled
 from tests.optional.fast.compiled.changed_c import changed_sources
 from tests.optional.fast.compiled.test_fast import needs_compiler
 

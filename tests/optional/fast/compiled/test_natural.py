@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from quasistatic_ref.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.units import STANDSTILL, metric, units_of
@@ -77,14 +77,16 @@ def test_units_that_an_order_of_sums_may_decide_are_left_to_numpy(case):
 
 @pytest.mark.parametrize("backend", ["daqp", "piqp", "clarabel"])
 def test_backends_are_given_the_program_that_numpy_would_write(backend):
-    scenario = load_scenario("bunny_grasp", [f"solver.backend={backend}", "record=light"])
+    scenario = load_scenario(
+        "bunny_grasp", [f"solver.backend={backend}", "record=light"], fast=True
+    )
     simulator, q = scenario.simulator(), scenario.system.q_start
     given = []
     for k in range(6):
         step = simulator.step(q, scenario.targets(scenario.h * (k + 1))).step
         solver = simulator.solver
         program = [part.tobytes() for part in (solver.program.f, solver.program.A)]
-        units = simulator.fast.units(solver, step)
+        units = simulator.compiled.units(solver, step)
         solver.written = None
         solver.write(solver.scaled(step))
         given.append(units is not None)

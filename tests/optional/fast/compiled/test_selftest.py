@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.compiled import compiled
+from quasistatic_ref.optional.fast.compiled import compiled
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
 pytestmark = needs_compiler

@@ -52,9 +52,9 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
     """A hand turns a ball: from the third step on a row is missing of nearly every guess."""
     monkeypatch.setattr(method, "exact_optimum", refused)
     if by == "balls":
-        monkeypatch.setattr("quasistatic_ref.solve.solve.compiled", lambda name: None)
-    monkeypatch.setattr("quasistatic_ref.solve.solve.warm_rows", refused)
-    scenario = load_scenario("allegro_turn")
+        monkeypatch.setattr("quasistatic_ref.optional.fast.solver.compiled", lambda name: None)
+    monkeypatch.setattr("quasistatic_ref.optional.fast.solver.warm_start", refused)
+    scenario = load_scenario("allegro_turn", fast=True)
     simulator, q, wrong = scenario.simulator(), scenario.system.q_start, 0
     for k in range(12):
         found = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
@@ -67,7 +67,7 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
 def test_rows_that_depend_on_each_other_are_chosen_from_and_proved(monkeypatch):
     """Clarabel presses on all six rows of each contact that sticks, of which four hold it."""
     monkeypatch.setattr(method, "exact_optimum", refused)
-    assert solve_step(pinch(grip=5.0), "clarabel").certificate.kind == "exact"
+    assert solve_step(pinch(grip=5.0), "clarabel", fast=True).certificate.kind == "exact"
 
 
 def line(*bounds):

@@ -26,13 +26,13 @@ SLOPE = np.radians(25)
 
 @pytest.fixture(scope="module")
 def incline():
-    scenario = load_scenario("block_incline", ["steps=30"])
+    scenario = load_scenario("block_incline", ["steps=30"], fast=True)
     return scenario, scenario.run(progress=False)
 
 
 @pytest.fixture(scope="module")
 def spun():
-    scenario = load_scenario("sphere_spin", ["steps=20"])
+    scenario = load_scenario("sphere_spin", ["steps=20"], fast=True)
     return scenario, scenario.run(progress=False)
 
 
@@ -72,7 +72,7 @@ def test_the_last_moment_is_counted_from_the_end_and_others_are_refused(incline)
 
 
 def test_the_ellipsoid_s_rim_is_a_circle(spun):
-    scenario = load_scenario("sphere_spin", ["steps=2", "cone=ellipsoid"])
+    scenario = load_scenario("sphere_spin", ["steps=2", "cone=ellipsoid"], fast=True)
     (contact,) = moment(scenario, scenario.run(progress=False), -1).contacts
     across = contact.rim - contact.f_n * contact.frame[2]
     lengths = np.linalg.norm(across, axis=1)
@@ -114,7 +114,7 @@ def test_a_body_s_outline_is_where_the_body_is(incline, page):
 
 
 def test_the_circle_of_torsion_has_radius_mu_omega():
-    scenario = load_scenario("sphere_spin", ["h=0.05", "steps=9"])
+    scenario = load_scenario("sphere_spin", ["h=0.05", "steps=9"], fast=True)
     run = scenario.run(progress=False)
     figure, (axes,) = panels(4, 4)
     for k, share in ((3, 0.5), (8, 1.0)):  # the torque grows to five times the limit in 40 steps

@@ -41,7 +41,7 @@ def runs(demo):
 
 @pytest.fixture(scope="module")
 def grasp():
-    return load_scenario("bunny_grasp")
+    return load_scenario("bunny_grasp", fast=True)
 
 
 @pytest.fixture(scope="module")

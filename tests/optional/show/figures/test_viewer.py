@@ -26,7 +26,7 @@ NANOMETRE = 1e-9  # what is written
 
 @pytest.fixture(scope="module")
 def pushed():
-    scenario = load_scenario("block_push", ["steps=40", "h=0.02"])
+    scenario = load_scenario("block_push", ["steps=40", "h=0.02"], fast=True)
     return scenario, scenario.run(progress=False)
 
 

@@ -1,0 +1,65 @@
+"""The backends of `fast`: the quickest by default, each by its own interface where it has one."""
+
+import math
+from importlib.util import find_spec
+
+from quasistatic_ref.solve.backends import (
+    BACKENDS,
+    DEFAULT,
+    check_backend,
+    check_certify,
+)
+from quasistatic_ref.solve.native import native_backends
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.tolerances import DENSE_BELOW, SPARSE_FROM_PIQP
+
+DEFAULT_OF_FAST = "daqp" if find_spec("daqp") else DEFAULT
+"""Backend of small steps: the fastest; certified steps have the same bits with any backend."""
+DEFAULT_OF_LARGE = "piqp" if find_spec("piqp") else DEFAULT
+"""Backend of large steps that are not certified exactly: with sparse matrices, in half of the time
+that DEFAULT takes."""
+
+
+def fast_backend(name: str | None, cone_name: str, certify: str = "full", entries: int = 0) -> str:
+    """The name of a backend, or of the default where none is named; checked.
+
+    Parameters
+    ----------
+    name : str or None
+    cone_name : str
+    certify : str
+    entries : int
+        Entries of a step's dense J, 4 n_c n_v, where its contacts may be in blocks; otherwise 0.
+
+    Raises
+    ------
+    BackendError, InputError
+        As of :func:`~quasistatic_ref.solve.backends.check_backend`.
+    """
+    if name is None:
+        name = default_backend(cone_name, certify, entries)
+    if name in native_backends(cone_name):  # also those that CVXPY does not reach
+        check_certify(name, certify)
+    else:
+        check_backend(name, cone_name, certify)
+    return name
+
+
+def default_backend(cone_name: str, certify: str, entries: int) -> str:
+    """The backend where none is named; arguments are those of :func:`fast_backend`."""
+    if not cone(cone_name).polyhedral:
+        return DEFAULT
+    # Rows that are certified exactly are dense, and have the same bits with any backend.
+    sparse = {"full": math.inf, "residual": SPARSE_FROM_PIQP, "off": DENSE_BELOW}
+    return DEFAULT_OF_LARGE if entries >= sparse.get(certify, math.inf) else DEFAULT_OF_FAST
+
+
+def sparse_from(name: str, certify: str, cone_name: str) -> int:
+    """Entries of J, 4 n_c n_v, from which steps are handed over in blocks; 0 if they never are.
+
+    They can be by the backend's own interface, where the cone is polyhedral and nothing is
+    certified exactly.
+    """
+    native = name in native_backends(cone_name)
+    may = native and certify != "full" and cone(cone_name).polyhedral
+    return BACKENDS[name].sparse if may else 0

@@ -1,0 +1,66 @@
+"""The contacts of a step as a simulator poses them: not checked number by number."""
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.jacobian import ContactGeometry, tangents
+from quasistatic_ref.contact.pairs import ContactLayout
+from quasistatic_ref.model.motion import Motion
+from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.optional.fast.posed import PosedContacts
+from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
+from quasistatic_ref.step.contacts import friction_coefficients
+from quasistatic_ref.step.data import Indices
+
+
+class PosedGeometry(ContactGeometry):
+    """Contacts of the same links at every step, with what they have in common formed once.
+
+    Parameters
+    ----------
+    layout : ContactLayout
+    motion : Motion
+
+    Attributes
+    ----------
+    in_blocks : bool
+        Whether J is in blocks.
+    """
+
+    in_blocks = False
+
+    def __init__(self, layout: ContactLayout, motion: Motion) -> None:
+        super().__init__(layout, motion)
+        self.mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
+        self.named: tuple[list[int], tuple[str, ...]] = [], ()
+
+    def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> PosedContacts:
+        """The contacts of one step, from the closest points of all pairs."""
+        layout, n = self.layout, points.n
+        d1, d2 = tangents(n)
+        J = self.jacobian(kinematics.columns, points.alpha, points.beta, n)
+        names = self.names(points.point)
+        constant = layout.mu_v, layout.mu_omega, layout.rows, self.mu
+        return PosedContacts(names, points.phi, n, d1, d2, J, *constant)
+
+    def names(self, point: Indices) -> tuple[str, ...]:
+        """A name for each contact, from its point's number, shape (n_c,): mostly those before."""
+        listed = point.tolist()
+        if listed != self.named[0]:
+            self.named = listed, self.layout.contact_names(point)
+        return self.named[1]
+
+
+def posed_geometry(
+    layout: ContactLayout, motion: Motion, sparse_from: int
+) -> PosedGeometry | BlockGeometry:
+    """The geometry of contacts: in blocks where J is large.
+
+    Parameters
+    ----------
+    layout : ContactLayout
+    motion : Motion
+    sparse_from : int
+        Entries of J from which the steps' solver takes blocks; 0 if it takes none.
+    """
+    entries = 4 * len(layout.rows) * motion.n_v
+    kind = BlockGeometry if 0 < sparse_from <= entries else PosedGeometry
+    return kind(layout, motion)

@@ -1,0 +1,104 @@
+"""The simulator of `fast`: the same steps, with what can be kept between them."""
+
+from typing import Any
+
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.model.system import Kinematics
+from quasistatic_ref.optional.fast.backends import default_backend, fast_backend, sparse_from
+from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.geometry import posed_geometry
+from quasistatic_ref.optional.fast.posed import constants
+from quasistatic_ref.optional.fast.spare import Spare
+from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.solution import StepSolution
+
+
+class FastSimulator(Simulator):
+    """As :class:`~quasistatic_ref.simulate.simulator.Simulator`, in less time.
+
+    It keeps which points of the clouds may come among the closest, and poses steps that are right
+    by construction, without checking each number. If its default backend, named or not, fails at a
+    step that is not certified in full, Clarabel solves the step.
+
+    Parameters
+    ----------
+    system, pairs, settings
+        As of a Simulator.
+
+    Attributes
+    ----------
+    compiled : CompiledStep or None
+        :meth:`step` in compiled code, with the same bits; None if there is none for this simulator.
+    """
+
+    geometry: Any  # PosedGeometry, or BlockGeometry of a large scene
+
+    def usable_backend(self) -> str:
+        """The backend that was named, or the default of this scene; BackendError as in the base."""
+        return fast_backend(self.named_backend, self.cone, self.certify, self.entries())
+
+    def entries(self) -> int:
+        """Entries of a step's dense J, 4 n_c n_v, where its contacts may be in blocks; else 0."""
+        blocks = self.extension is None and self.system.constant_mass_matrix
+        return 4 * len(self.layout.rows) * self.system.n_v if blocks else 0
+
+    def prepare(self) -> None:
+        """Check and form what all steps have in common."""
+        system, entries = self.system, self.entries()
+        self.spare = Spare(
+            default_backend(self.cone, self.certify, entries), self.accuracy, self.certify
+        )
+        self.tracker = ContactTracker(self.pairs)
+        least = sparse_from(self.backend, self.certify, self.cone) if entries else 0
+        self.geometry = posed_geometry(self.layout, system.motion, least)
+        M_u = system.mass_blocks if self.geometry.in_blocks else system.M_u(system.q_start)
+        rows = self.layout.rows
+        self.constant = constants(self.h, self.K_q, system.n_a, M_u, rows, self.cone)
+        in_c = compiled("step")
+        self.compiled: Any = None if in_c is None else in_c.compiled_step(self)
+
+    def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
+        """One step, as in the base; by compiled code where that takes it, with the same numbers."""
+        if self.compiled is not None:
+            taken: StepResult | None = self.compiled(self, q, q_bar_a, force)
+            if taken is not None:
+                return taken
+        return super().step(q, q_bar_a, force)
+
+    def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
+        """The contacts of all pairs, as in the base."""
+        return self.tracker.closest_points(kinematics.R, kinematics.t)
+
+    def step_data(
+        self,
+        q: Array,
+        q_bar_a: Array,
+        force: Array | float,
+        points: ClosestPoints,
+        kinematics: Kinematics,
+    ) -> StepData:
+        """The problem of one step, as in the base, not checked number by number."""
+        system, n_a = self.system, self.system.n_a
+        contacts = self.geometry.contacts(points, kinematics)
+        delta_q_bar_a = system.actuated_difference(q, q_bar_a)
+        tau = self.load(q, force)
+        constant = self.constant if system.constant_mass_matrix else self.constant.at(system.M_u(q))
+        return constant.kind(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
+
+    def solution(self, step: StepData, extension: Extension | None = None) -> StepSolution:
+        """A step solved; where the default backend fails, by the spare one."""
+        if extension is not None:
+            name = self.named_backend or DEFAULT
+            how: dict[str, Any] = {"accuracy": self.accuracy, "certify": self.certify}
+            return solve_step(step, name, extension=extension, **how)
+        try:
+            return super().solution(step)
+        except StepNotSolved as failure:
+            return self.spare.answer(step, failure)

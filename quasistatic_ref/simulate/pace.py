@@ -1,0 +1,60 @@
+"""What is said of a run that would take much longer than with `fast`."""
+
+from collections.abc import Mapping
+
+from quasistatic_ref.tolerances import SPARSE_FROM_PIQP
+
+FIRST = 5
+"""Steps whose time is measured; the one before them, which compiles the problem, is left out."""
+
+SAVED = 0.9
+"""Share of the time of a step that `fast` saves at least, on the scenes that come along."""
+
+WORTH = 10.0
+"""Seconds saved from which a run says so."""
+
+
+class Pace:
+    """The time of the first steps of a run.
+
+    Parameters
+    ----------
+    fast : bool
+        Whether the run is fast already; nothing is said then.
+    steps : int
+        How many are to be taken.
+    """
+
+    def __init__(self, fast: bool, steps: int) -> None:
+        self.fast = fast
+        self.left = steps
+        self.times: list[float] = []
+
+    def opening(self, entries: int) -> str | None:
+        """One sentence before the first step, where J has so many `entries`, 4 n_c n_v."""
+        if self.fast or entries < SPARSE_FROM_PIQP:
+            return None
+        return (
+            f"J has {entries:,} entries in each step, dense on the plain path; --fast (fast=True "
+            "in Python) takes large steps in blocks, unless they are certified exactly"
+        )
+
+    def advice(self, seconds: Mapping[str, float]) -> str | None:
+        """One sentence, when enough steps are measured and `fast` would save ten seconds.
+
+        Parameters
+        ----------
+        seconds : mapping of str to float
+            Wall time of the parts of the step that was just taken [s].
+        """
+        self.left -= 1
+        if self.fast or len(self.times) > FIRST:
+            return None
+        self.times.append(sum(seconds.values()))
+        rest = self.left * sum(self.times[1:]) / FIRST
+        if len(self.times) <= FIRST or SAVED * rest < WORTH:
+            return None
+        return (
+            f"the other {self.left} steps take some {rest:.0f} s; --fast (fast=True in Python) "
+            "takes the same steps sooner, to the same certified bits"
+        )

@@ -1,0 +1,84 @@
+"""The page's problem of any step: its cone, rows of a user's own, multipliers in the order of A."""
+
+import cvxpy as cp
+import numpy as np
+
+from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.extension import Own, none
+from quasistatic_ref.step.friction import cone_function
+from quasistatic_ref.step.problem import StepProblem
+
+
+def cvxpy_problem(like: StepData, constraints: Own = none, costs: Own = none) -> "CvxpyProblem":
+    """The problem of steps like this one; arguments are those of :class:`CvxpyProblem`."""
+    if cone(like.cone).polyhedral:
+        return CvxpyProblem(like, constraints, costs)
+    from quasistatic_ref.optional.ellipsoid.cone_problem import EllipsoidProblem
+
+    return EllipsoidProblem(like, constraints, costs)
+
+
+class CvxpyProblem(StepProblem):
+    """The paper's page, with what a step has that is not in the paper.
+
+    Parameters
+    ----------
+    like : StepData
+        A step of the same kind: its h, mu_v, mu_omega, cone and sizes are constants of the problem.
+    constraints, costs : callable, optional
+        Functions of this problem that return a list of additional constraints, or costs. Where
+        a cost replaces the springs, set K_q and tau_k to zero after each :meth:`fill`.
+
+    Attributes
+    ----------
+    extra : list of cvxpy.Constraint
+        The rows of the step's own ``extra``: one constraint, or none.
+    """
+
+    def __init__(self, like: StepData, constraints: Own = none, costs: Own = none) -> None:
+        super().__init__(like)
+        if like.cone != PYRAMID:
+            self.contact_rows = self.rows_of_cone()
+        A_x = cp.Parameter(like.extra.A.shape, "A_x")
+        b_x = cp.Parameter(like.extra.b.shape, "b_x")
+        self.parameters |= {"A_x": A_x, "b_x": b_x}
+        self.extra = [A_x @ self.delta_q >= b_x] if like.extra.names else []
+        objective = self.problem.objective
+        for cost in costs(self):
+            objective += cp.Minimize(cost)
+        self.problem = cp.Problem(objective, [*self.contact_rows, *self.extra, *constraints(self)])
+
+    def check_kind(self) -> None:
+        """Refuse nothing: each cone, and rows of a user's own, have their problem here."""
+
+    def rows_of_cone(self) -> list[cp.Constraint]:
+        """The rows of the step's cone, in place of the paper's."""
+        sides = cone_function(self.like.cone)(*self.motion)
+        return [
+            side[has] >= 0 for side, has in zip(sides, self.like.mask.T, strict=True) if has.any()
+        ]
+
+    def fill(self, step: StepData) -> None:
+        """Set every parameter from one step.
+
+        Raises
+        ------
+        StepDataError
+            If this is not the step's problem, naming what differs.
+        """
+        super().fill(step)
+        self.parameters["A_x"].value = step.extra.A
+        self.parameters["b_x"].value = step.extra.b
+
+    def primal(self) -> Array:
+        """delta_q of the last solve, shape (n_v,)."""
+        return np.concatenate([x.value for x in (self.delta_q_a, self.delta_q_u) if x.size])
+
+    def dual(self) -> Array:
+        """Multipliers of the last solve, contact-major, the user's own rows last; shape (m,)."""
+        mask = self.like.mask
+        lam = np.zeros(mask.shape)
+        for i, row in zip(np.flatnonzero(mask.any(axis=0)), self.contact_rows, strict=True):
+            lam[mask[:, i], i] = row.dual_value
+        return np.concatenate([lam[mask], *(row.dual_value for row in self.extra)])

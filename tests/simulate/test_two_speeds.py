@@ -1,0 +1,90 @@
+"""The plain path and `fast` take the same steps, and the plain path uses nothing of `fast`."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.optional.fast.simulator import FastSimulator
+from quasistatic_ref.parts import part
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import pinch
+from tests.tolerances import EXACT
+
+STEPS = {"bunny_grasp": 60}  # its gripper has closed after 50; of the others 6 are taken
+SAME = ("q", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "H", "g", "A", "b")
+
+
+@pytest.mark.parametrize("name", scenario_names())
+def test_certified_runs_have_the_same_bits_at_both_speeds(name):
+    steps = STEPS.get(name, 6)
+    plain, fast = (
+        load_scenario(name, steps=steps, fast=speed).run(progress=False) for speed in (False, True)
+    )
+    assert (plain.header["backend"], fast.header["backend"]) == ("clarabel", "daqp")
+    assert {*plain["certificate"], *fast["certificate"]} == {"exact"}
+    for key in SAME:
+        assert plain[key].tobytes() == fast[key].tobytes(), key
+    for k in range(steps):  # lam may differ where it is not unique, A'lam only by its rounding
+        A = standard_form(plain.step_data(k)).A
+        one, other = A.T @ plain["lam"][k], A.T @ fast["lam"][k]
+        np.testing.assert_allclose(one, other, rtol=0.0, atol=EXACT + 1e-12 * np.abs(one).max())
+
+
+def test_a_simulator_says_which_it_is_and_refuses_words_that_went():
+    scenario = load_scenario("sphere_spin")
+    plain = scenario.simulator()
+    assert type(plain) is Simulator
+    fast = load_scenario("sphere_spin", fast=True).simulator()
+    assert type(fast) is FastSimulator
+    assert (plain.fast, fast.fast) == (False, True)
+    for word in ("engine", "solver"):
+        with pytest.raises(TypeError, match=word):
+            Simulator(scenario.system, (), h=0.01, K_q=scenario.K_q, **{word: "osqp"})
+
+
+PLAIN = """
+import sys
+from quasistatic_ref import load_scenario
+run = load_scenario("sphere_spin", steps=1).run(progress=False)
+print(run.steps, [name for name in sys.modules if name.startswith("quasistatic_ref.optional.fast")])
+"""
+
+
+def test_the_plain_path_imports_nothing_of_fast():
+    done = subprocess.run([sys.executable, "-c", PLAIN], capture_output=True, text=True, check=True)
+    assert done.stdout == "1 []\n"
+
+
+def test_a_step_solved_alone_has_the_same_bits_at_both_speeds():
+    step = pinch()
+    one, other = solve_step(step), solve_step(step, fast=True)
+    assert (one.backend, other.backend) == ("clarabel", "daqp")
+    assert one.delta_q.tobytes() == other.delta_q.tobytes()
+
+
+def test_without_the_folder_of_fast_the_word_gets_one_sentence(monkeypatch):
+    missing = "quasistatic_ref.optional.fast"
+
+    class Absent:
+        @staticmethod
+        def find_spec(name, *_):
+            if name == missing:
+                raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+    for name in [name for name in sys.modules if name.startswith(missing)]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setattr(sys, "meta_path", [Absent, *sys.meta_path])
+    part.cache_clear()
+    try:
+        with pytest.raises(InputError, match=r"^fast needs quasistatic_ref/optional/fast$"):
+            solve_step(pinch(), fast=True)
+        assert solve_step(pinch()).certificate.kind == "exact"
+    finally:
+        part.cache_clear()
