@@ -8,13 +8,12 @@ from quasistatic_ref.contact import jacobian
 from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, finding
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.simulate import simulator
 
 TRUE = {
     "jacobian": jacobian.ContactGeometry.jacobian,
     "cross": jacobian.cross_matrix,
-    "closest": ContactTracker.closest_points,
+    "closest": simulator.Simulator.closest_points,
     "gravity": System.gravity_force,
     "M_u": System.M_u,
     "integrate": System.integrate,
@@ -22,8 +21,8 @@ TRUE = {
 }
 
 
-def phi_twice_as_large(self, R, t):
-    points = TRUE["closest"](self, R, t)
+def phi_twice_as_large(self, kinematics):
+    points = TRUE["closest"](self, kinematics)
     return points._replace(phi=2 * points.phi)
 
 
@@ -53,7 +52,7 @@ FAULTS = {
     ),
     "half the spin": (jacobian.ContactGeometry, "jacobian", half_the_spin, "by_hand"),
     "phi is twice as large": (
-        ContactTracker, "closest_points", phi_twice_as_large, "incline_sliding",
+        simulator.Simulator, "closest_points", phi_twice_as_large, "incline_sliding",
     ),
     "gravity is half": (
         System, "gravity_force", lambda s, q, g: 0.5 * TRUE["gravity"](s, q, g), "free_fall",

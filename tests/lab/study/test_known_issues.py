@@ -60,7 +60,7 @@ def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
     some = pile((2, 1, 2))
     step = some.simulator.step(some.q, np.zeros(0), some.force).step
     fails, works = StepProblem(step), StepProblem(step)
-    assert sum(parameter.size for parameter in fails.parameters) >= 1000
+    assert sum(parameter.size for parameter in fails.parameters.values()) >= 1000
     fails.fill(step)
     with pytest.raises(ValueError, match="truth value of an array"):
         fails.problem.solve(solver="CLARABEL")
