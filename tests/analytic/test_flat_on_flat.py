@@ -232,7 +232,7 @@ def test_turned_moved_and_swapped_a_body_moves_the_same() -> None:
 
 
 def test_a_sample_of_the_aligned_poses() -> None:
-    tried, wrong = tries(63)
+    tried, wrong = tries(range(63))
     assert wrong == []
     assert len(tried) == 5
 
