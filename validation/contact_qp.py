@@ -24,10 +24,10 @@ from scipy.sparse.linalg import spsolve
 from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.figures.study_pens import pens
-from quasistatic_ref.lab.study.calls import tried
-from quasistatic_ref.lab.study.sessions import Native
-from quasistatic_ref.lab.study.sets.folder import manifest, set_read
-from quasistatic_ref.lab.study.sets.member import SOCP, SPARSE, Member
+from quasistatic_ref.lab.study.calling.calls import tried
+from quasistatic_ref.lab.study.calling.sessions import Native
+from quasistatic_ref.lab.study.problems.folder import manifest, set_read
+from quasistatic_ref.lab.study.problems.problem import SOCP, SPARSE, Member
 from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import PAGE
 from quasistatic_ref.solve.adapters.clarabel import Clarabel

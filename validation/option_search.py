@@ -20,11 +20,18 @@ from typing import Any
 
 from quasistatic_ref.formats.files import json_text, text_written
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.study.page import milliseconds, options_words
-from quasistatic_ref.lab.study.problems import problem_set
-from quasistatic_ref.lab.study.qp import Problem
-from quasistatic_ref.lab.study.spec import FAMILIES, TestSet
-from quasistatic_ref.lab.study.tuning import Options, Score, halves, line, scored, searched
+from quasistatic_ref.lab.study.file.study_file import FAMILIES, TestSet
+from quasistatic_ref.lab.study.measuring.tuning import (
+    Options,
+    Score,
+    halves,
+    line,
+    scored,
+    searched,
+)
+from quasistatic_ref.lab.study.problems.qp import Problem
+from quasistatic_ref.lab.study.problems.study_problems import problem_set
+from quasistatic_ref.lab.study.report.numbers import milliseconds, options_words
 from validation.option_report import Spaces, is_searched, report
 
 HERE = Path(__file__).parent

@@ -14,15 +14,22 @@ import numpy as np
 
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Report, Section, Table
-from quasistatic_ref.lab.study.columns import Columns, chosen, columns_of, common, groups, size
-from quasistatic_ref.lab.study.comparison import Comparison, comparison_of
-from quasistatic_ref.lab.study.environment import UNKNOWN
-from quasistatic_ref.lab.study.headline import LIMITS, WANTED, Soonest, soonest_table
-from quasistatic_ref.lab.study.page import digits, milliseconds, options_words, percent
-from quasistatic_ref.lab.study.report_words import old_times
-from quasistatic_ref.lab.study.spec import solver_study, study_path, study_tables
-from quasistatic_ref.lab.study.statistics import success
-from quasistatic_ref.lab.study.store import rows_read, study_read
+from quasistatic_ref.lab.study.file.study_file import solver_study, study_path, study_tables
+from quasistatic_ref.lab.study.measuring.environment import UNKNOWN
+from quasistatic_ref.lab.study.report.columns import (
+    Columns,
+    chosen,
+    columns_of,
+    common,
+    groups,
+    size,
+)
+from quasistatic_ref.lab.study.report.comparison import Comparison, comparison_of
+from quasistatic_ref.lab.study.report.headline import LIMITS, WANTED, Soonest, soonest_table
+from quasistatic_ref.lab.study.report.numbers import digits, milliseconds, options_words, percent
+from quasistatic_ref.lab.study.report.report_words import old_times
+from quasistatic_ref.lab.study.report.statistics import success
+from quasistatic_ref.lab.study.store.store import rows_read, study_read
 
 NAME = "advice.md"
 HARDEST = 2

@@ -16,10 +16,22 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.resources import models_folder, vectors_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.problems import FACTS, HEADER, NUMBERS, problem_set, problems_read
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.spec import FAMILIES, TestSet, solver_study, study_kind, study_tables
-from quasistatic_ref.lab.study.spec_sweep import sweep_study
+from quasistatic_ref.lab.study.file.study_file import (
+    FAMILIES,
+    TestSet,
+    solver_study,
+    study_kind,
+    study_tables,
+)
+from quasistatic_ref.lab.study.file.sweeps import sweep_study
+from quasistatic_ref.lab.study.problems.study_problems import (
+    FACTS,
+    HEADER,
+    NUMBERS,
+    problem_set,
+    problems_read,
+)
+from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.check.report import Report

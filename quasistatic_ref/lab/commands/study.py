@@ -12,9 +12,9 @@ from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import study_ask, study_problems, study_sequences
 from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
-from quasistatic_ref.lab.study.grade import OUTCOMES
-from quasistatic_ref.lab.study.store import ROWS, Row, label_of
-from quasistatic_ref.lab.study.unreached import unreached_read
+from quasistatic_ref.lab.study.measuring.grade import OUTCOMES
+from quasistatic_ref.lab.study.store.store import ROWS, Row, label_of
+from quasistatic_ref.lab.study.store.unreached import unreached_read
 
 ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
@@ -61,7 +61,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _studies() -> list[str]:
-    from quasistatic_ref.lab.study.spec import study_names
+    from quasistatic_ref.lab.study.file.study_file import study_names
 
     return sorted(study_names())
 
@@ -85,7 +85,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.jobs is not None and options.jobs < 1:
         raise InputError("must be at least 1", field="--jobs", value=options.jobs)
     shared.progress_line(options, "loads solvers")  # said at once: to import them takes seconds
-    from quasistatic_ref.lab.study.spec import study_kind, study_path, study_tables
+    from quasistatic_ref.lab.study.file.study_file import study_kind, study_path, study_tables
 
     path = study_path(options.study)
     tables = study_tables(path)
@@ -104,13 +104,13 @@ def _run(options: argparse.Namespace) -> int:
 def _measured(path: Path, tables: dict[str, Any], kind: str, options: argparse.Namespace) -> int:
     where = {"jobs": options.jobs, "scheduler": options.scheduler, "progress": not options.quiet}
     if kind == "sweep":
-        from quasistatic_ref.lab.study.spec_sweep import sweep_study
-        from quasistatic_ref.lab.study.sweep import run_sweep
+        from quasistatic_ref.lab.study.file.sweeps import sweep_study
+        from quasistatic_ref.lab.study.measuring.sweep import run_sweep
 
         rows = run_sweep(sweep_study(path, tables, options.quick), options.out, **where)
         return _swept(rows, options)
-    from quasistatic_ref.lab.study.run import run_study
-    from quasistatic_ref.lab.study.spec import solver_study
+    from quasistatic_ref.lab.study.file.study_file import solver_study
+    from quasistatic_ref.lab.study.measuring.run import run_study
 
     rows = run_study(solver_study(path, tables, options.quick), options.out, **where)
     if options.json:
@@ -162,7 +162,7 @@ def _swept(rows: list[Row], options: argparse.Namespace) -> int:
 
 
 def _export(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.parquet import benchmark_written
+    from quasistatic_ref.lab.study.problems.parquet import benchmark_written
 
     if options.every < 1:
         raise InputError("must be at least 1", field="--every", value=options.every)

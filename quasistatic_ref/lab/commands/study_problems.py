@@ -18,7 +18,7 @@ ACTIONS = {
 }
 UNITS = ("raw", "natural")
 FORMATS = ("npz", "parquet", "mat", "json")
-"""As in lab/study/sets/exports.py, which takes a while to import; a test holds them equal."""
+"""As in lab/study/problems/exports.py, which takes a while to import; a test holds them equal."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -58,7 +58,7 @@ def _folder(options: argparse.Namespace) -> Path:
 
 
 def _list(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.sets.folder import manifest
+    from quasistatic_ref.lab.study.problems.folder import manifest
 
     head = manifest(_folder(options))
     if options.json:
@@ -75,8 +75,8 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _export(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.sets.exports import exported, for_qpbenchmark
-    from quasistatic_ref.lab.study.sets.folder import manifest, set_read
+    from quasistatic_ref.lab.study.problems.exports import exported, for_qpbenchmark
+    from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 
     if options.every < 1:
         raise InputError("must be at least 1", field="--every", value=options.every)
@@ -98,9 +98,9 @@ def _export(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.sets.checking import refutation
-    from quasistatic_ref.lab.study.sets.editions import edition_problem
-    from quasistatic_ref.lab.study.sets.folder import set_read
+    from quasistatic_ref.lab.study.problems.checking import refutation
+    from quasistatic_ref.lab.study.problems.editions import edition_problem
+    from quasistatic_ref.lab.study.problems.folder import set_read
     from quasistatic_ref.simulate.progress import progress_bar
 
     folder = _folder(options)
@@ -130,8 +130,8 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _make(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.sets.making import made_set
-    from quasistatic_ref.lab.study.sets.recipe import CONTACT_QP_1
+    from quasistatic_ref.lab.study.problems.making import made_set
+    from quasistatic_ref.lab.study.problems.recipe import CONTACT_QP_1
 
     for path in made_set(CONTACT_QP_1, options.out, not options.quiet):
         print(f"wrote {path}")

@@ -15,7 +15,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 
 MODES = ("cold", "updates", "primal", "primal-dual", "active set")
-"""As in lab/study/sequences.py, which takes a while to import; a test holds them equal."""
+"""As in lab/study/measuring/sequences.py, which is slow to import; a test holds them equal."""
 
 WARM_UP = 10.0
 """Of a call at a sequence's beginning [s]."""
@@ -54,14 +54,14 @@ def run_sequences(options: argparse.Namespace) -> int:
     """Run solvers; print a line for each solver and mode. InputError if that is not possible."""
     from quasistatic_ref.formats.files import text_written
     from quasistatic_ref.formats.resources import problem_set_folder
-    from quasistatic_ref.lab.study.sequences import (
+    from quasistatic_ref.lab.study.measuring.sequences import (
         SequenceRow,
         SolverLimits,
         checked,
         sequence_rows,
     )
-    from quasistatic_ref.lab.study.sets.folder import set_read
-    from quasistatic_ref.lab.study.sets.member import Member
+    from quasistatic_ref.lab.study.problems.folder import set_read
+    from quasistatic_ref.lab.study.problems.problem import Member
     from quasistatic_ref.simulate.progress import progress_bar
 
     if options.repetitions < 1:

@@ -5,10 +5,10 @@ import os
 import pytest
 
 from quasistatic_ref.formats.resources import problem_set_folder
-from quasistatic_ref.lab.study.problems import problem_of
-from quasistatic_ref.lab.study.run import run_study
-from quasistatic_ref.lab.study.sets.folder import set_read
-from quasistatic_ref.lab.study.spec import solver_study, study_tables
+from quasistatic_ref.lab.study.file.study_file import solver_study, study_tables
+from quasistatic_ref.lab.study.measuring.run import run_study
+from quasistatic_ref.lab.study.problems.folder import set_read
+from quasistatic_ref.lab.study.problems.study_problems import problem_of
 from tests.lab.study import made_store
 from tests.lab.study.planted import FAKES, slab
 

@@ -3,7 +3,7 @@
 import json
 import random
 
-from quasistatic_ref.lab.study.grade import CLOCKS
+from quasistatic_ref.lab.study.measuring.grade import CLOCKS
 
 SOLVERS = ("qpsolvers:ant", "qpsolvers:bee", "qpsolvers:cat", "cvxpy:ant")
 SETTINGS = {"default": (None, 3.0), "mid": (1e-6, 2.5), "high": (1e-9, 4.0)}

@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.lab.scenes.slabs import slab_step
-from quasistatic_ref.lab.study.families.made import Made
+from quasistatic_ref.lab.study.problems.families.made import Made
 
 FAKES = '''
 import ctypes, gc, os, signal, subprocess, sys, time

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.study.store import rows_read
+from quasistatic_ref.lab.study.store.store import rows_read
 from quasistatic_ref.optional.fast.compiled.library import compiler
 
 PAGE = (Path(__file__).parents[3] / "docs" / "guides" / "add_your_solver.md").read_text("utf-8")

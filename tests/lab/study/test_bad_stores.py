@@ -6,7 +6,7 @@ import lzma
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.study import store as stores
+from quasistatic_ref.lab.study.store.store import store as stores
 from tests.lab.study import made_store
 
 

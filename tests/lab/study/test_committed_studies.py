@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.qp import Truth
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.sets.selection import problems_taken
-from quasistatic_ref.lab.study.solver_report import solver_report
-from quasistatic_ref.lab.study.spec import solver_study, study_path, study_tables
-from quasistatic_ref.lab.study.store import rows_read, study_read
+from quasistatic_ref.lab.study.file.study_file import solver_study, study_path, study_tables
+from quasistatic_ref.lab.study.problems.qp import Truth
+from quasistatic_ref.lab.study.problems.selection import problems_taken
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.report.solver_report import solver_report
+from quasistatic_ref.lab.study.store.store import rows_read, study_read
 
 STUDIES = Path(__file__).parents[3] / "validation" / "studies"
 DEFAULT = STUDIES / "default"

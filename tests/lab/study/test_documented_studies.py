@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from quasistatic_ref.lab.study.spec import solver_study, study_kind, study_tables
+from quasistatic_ref.lab.study.file.study_file import solver_study, study_kind, study_tables
 
 DOCS = Path(__file__).parents[3] / "docs"
 FILE = re.compile(r"^```toml\n(.*?)^```$", re.MULTILINE | re.DOTALL)

@@ -7,14 +7,14 @@ import pytest
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.rational import exact_form, exact_form_of
-from quasistatic_ref.lab.study.families.dials import DIALS, one_turned, turned
-from quasistatic_ref.lab.study.families.shaped import copied
-from quasistatic_ref.lab.study.qp import units_of
-from quasistatic_ref.lab.study.sessions import Native
-from quasistatic_ref.lab.study.sets import making
-from quasistatic_ref.lab.study.sets.folder import NUMBERS, set_read
-from quasistatic_ref.lab.study.sets.making import family_members, made_set, member_of
-from quasistatic_ref.lab.study.sets.recipe import Recipe
+from quasistatic_ref.lab.study.calling.sessions import Native
+from quasistatic_ref.lab.study.problems.families.dials import DIALS, one_turned, turned
+from quasistatic_ref.lab.study.problems.families.shaped import copied
+from quasistatic_ref.lab.study.problems.folder import NUMBERS, set_read
+from quasistatic_ref.lab.study.problems.making import family_members, made_set, member_of
+from quasistatic_ref.lab.study.problems.qp import units_of
+from quasistatic_ref.lab.study.problems.recipe import Recipe
+from quasistatic_ref.lab.study.problems.study_problems import making
 from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import standard_form
 

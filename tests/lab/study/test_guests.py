@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study import guests
-from quasistatic_ref.lab.study.calls import call_of
-from quasistatic_ref.lab.study.guests import GUESTS, installed_here, natively
-from quasistatic_ref.lab.study.infeasibility import says_infeasible
-from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
-from quasistatic_ref.lab.study.spec_solvers import solvers_named
-from quasistatic_ref.lab.study.unreached import unreached_read
+from quasistatic_ref.lab.study.calling import guests
+from quasistatic_ref.lab.study.calling.calls import call_of
+from quasistatic_ref.lab.study.calling.guests import GUESTS, installed_here, natively
+from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.file.solver_lists import solvers_named
+from quasistatic_ref.lab.study.store.unreached import unreached_read
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.tolerances import ROUNDING

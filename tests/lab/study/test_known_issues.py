@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.study.problems import problem_of
-from quasistatic_ref.lab.study.qp import units_of
+from quasistatic_ref.lab.study.problems.qp import units_of
+from quasistatic_ref.lab.study.problems.study_problems import problem_of
 from quasistatic_ref.solve.through_cvxpy import CANON
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.units import natural_form

@@ -8,8 +8,8 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.many import TABLE, simulate_many, swept_values
-from quasistatic_ref.lab.study.store import ROWS
+from quasistatic_ref.lab.study.measuring.many import TABLE, simulate_many, swept_values
+from quasistatic_ref.lab.study.store.store import ROWS
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 

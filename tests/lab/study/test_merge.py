@@ -8,10 +8,10 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.merge import merged, part_read
-from quasistatic_ref.lab.study.problems import problems_read
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.store import Store, rows_read, study_read
+from quasistatic_ref.lab.study.problems.study_problems import problems_read
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.store.merge import merged, part_read
+from quasistatic_ref.lab.study.store.store import Store, rows_read, study_read
 from tests.lab.study import made_store, plain_report
 
 STUDY = """

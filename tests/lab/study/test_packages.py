@@ -7,9 +7,9 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.packages import announced, loaded
-from quasistatic_ref.lab.study.store import study_read
-from quasistatic_ref.lab.study.unreached import unreached_read
+from quasistatic_ref.lab.study.calling.packages import announced, loaded
+from quasistatic_ref.lab.study.store.store import study_read
+from quasistatic_ref.lab.study.store.unreached import unreached_read
 
 PROBLEMS = "repetitions = 2\n[problems]\nfamilies = { mass_ratio = 2 }\n"
 MODULE = """

@@ -10,10 +10,10 @@ import time
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.keeper import Keeper
-from quasistatic_ref.lab.study.measure import Limits, measured
-from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
-from quasistatic_ref.lab.study.worker import GRACE
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.measuring.keeper import Keeper
+from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.measuring.worker import GRACE
 from tests.lab.study.planted import FAKES
 
 DEFAULT = SETTINGS[0]

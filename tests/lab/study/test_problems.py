@@ -8,11 +8,17 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study import problems
-from quasistatic_ref.lab.study.parquet import benchmark_written
-from quasistatic_ref.lab.study.problems import NUMBERS, made, problem_set, problems_read, set_record
-from quasistatic_ref.lab.study.qp import condition
-from quasistatic_ref.lab.study.spec import FAMILIES, TestSet
+from quasistatic_ref.lab.study.file.study_file import FAMILIES, TestSet
+from quasistatic_ref.lab.study.problems.parquet import benchmark_written
+from quasistatic_ref.lab.study.problems.qp import condition
+from quasistatic_ref.lab.study.problems.study_problems import (
+    NUMBERS,
+    made,
+    problem_set,
+    problems_read,
+    set_record,
+)
+from quasistatic_ref.lab.study.problems.study_problems import study_problems as problems
 
 EACH = {"scenarios": 3, "contacts": 3, "mass_ratio": 4, "time_step": 0, "closest_points": 0,
         "bodies": 1}  # fmt: skip

@@ -13,10 +13,10 @@ from quasistatic_ref.lab.figures.study import profile
 from quasistatic_ref.lab.figures.study_images import KINDS, drawn, images
 from quasistatic_ref.lab.page.html import html_page, sorting
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.columns import columns_of
-from quasistatic_ref.lab.study.noise import noise_of, noise_words
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.statistics import (
+from quasistatic_ref.lab.study.report.columns import columns_of
+from quasistatic_ref.lab.study.report.noise import noise_of, noise_words
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.report.statistics import (
     interval,
     performance_ratios,
     resampled,

@@ -9,10 +9,10 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.figures.study_images import drawn
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.columns import columns_of
-from quasistatic_ref.lab.study.pack import shorter
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.store import rows_read
+from quasistatic_ref.lab.study.report.columns import columns_of
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.store.pack import shorter
+from quasistatic_ref.lab.study.store.store import rows_read
 from tests.lab.study import made_store, plain_report
 
 

@@ -16,9 +16,9 @@ import distributed
 import pytest
 
 import quasistatic_ref
-from quasistatic_ref.lab.study.run import run_study
-from quasistatic_ref.lab.study.spec import solver_study, study_tables
-from quasistatic_ref.lab.study.store import ROWS, rows_read, study_read, table
+from quasistatic_ref.lab.study.file.study_file import solver_study, study_tables
+from quasistatic_ref.lab.study.measuring.run import run_study
+from quasistatic_ref.lab.study.store.store import ROWS, rows_read, study_read, table
 
 SMALL = """
 time_limit = 20.0

@@ -10,9 +10,9 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import study_sequences
-from quasistatic_ref.lab.study import sequences
-from quasistatic_ref.lab.study.keeper import EXTRA
-from quasistatic_ref.lab.study.sequences import (
+from quasistatic_ref.lab.study.measuring import sequences
+from quasistatic_ref.lab.study.measuring.keeper import EXTRA
+from quasistatic_ref.lab.study.measuring.sequences import (
     SolverLimits,
     checked,
     in_one_unit,

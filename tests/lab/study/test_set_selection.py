@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.problems import made, problem_set, problems_read
-from quasistatic_ref.lab.study.sets.selection import chosen, problems_taken
+from quasistatic_ref.lab.study.problems.selection import chosen, problems_taken
+from quasistatic_ref.lab.study.problems.study_problems import made, problem_set, problems_read
 
 STUDY = """
 [problems]

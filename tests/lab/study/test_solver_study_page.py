@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.lab.study.store import rows_read, study_read
+from quasistatic_ref.lab.study.store.store import rows_read, study_read
 from tests.lab.study.plain_report import (
     agrees,
     delivered,

@@ -6,9 +6,9 @@ import resource
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.environment import UNKNOWN
-from quasistatic_ref.lab.study.grade import CLOCKS, ungraded
-from quasistatic_ref.lab.study.store import ROWS, Store, rows_read, study_read, table
+from quasistatic_ref.lab.study.measuring.environment import UNKNOWN
+from quasistatic_ref.lab.study.measuring.grade import CLOCKS, ungraded
+from quasistatic_ref.lab.study.store.store import ROWS, Store, rows_read, study_read, table
 
 STUDY = {"format": "quasistatic-ref/study-store", "version": 2, "kind": "solvers"}
 

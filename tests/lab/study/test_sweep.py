@@ -5,10 +5,10 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.spec import study_tables
-from quasistatic_ref.lab.study.spec_sweep import sweep_study
-from quasistatic_ref.lab.study.store import rows_read, table
-from quasistatic_ref.lab.study.sweep import sweep_row
+from quasistatic_ref.lab.study.file.study_file import study_tables
+from quasistatic_ref.lab.study.file.sweeps import sweep_study
+from quasistatic_ref.lab.study.measuring.sweep import sweep_row
+from quasistatic_ref.lab.study.store.store import rows_read, table
 
 HEAD = 'format = "quasistatic-ref/study"\nversion = 1\nkind = "sweep"\n'
 SLIDE = """

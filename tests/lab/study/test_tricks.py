@@ -6,11 +6,11 @@ import time
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.study.keeper import Keeper
-from quasistatic_ref.lab.study.measure import Limits, measured
-from quasistatic_ref.lab.study.qp import Facts, NoSolution, Problem
-from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
-from quasistatic_ref.lab.study.unreached import unreached_read
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.measuring.keeper import Keeper
+from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.problems.qp import Facts, NoSolution, Problem
+from quasistatic_ref.lab.study.store.unreached import unreached_read
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.lab.study.planted import FAKES
 

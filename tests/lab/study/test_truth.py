@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.scenes.slabs import tower_step
-from quasistatic_ref.lab.study import truth
-from quasistatic_ref.lab.study.calls import NEAR, neighbour
-from quasistatic_ref.lab.study.grade import grades, prepared
-from quasistatic_ref.lab.study.qp import condition, step_of, units_of
-from quasistatic_ref.lab.study.truth import NoAnswer, answer_of
+from quasistatic_ref.lab.study.calling.calls import NEAR, neighbour
+from quasistatic_ref.lab.study.measuring.grade import grades, prepared
+from quasistatic_ref.lab.study.problems.qp import condition, step_of, units_of
+from quasistatic_ref.lab.study.problems.study_problems import truth
+from quasistatic_ref.lab.study.problems.truth import NoAnswer, answer_of
 from quasistatic_ref.optional.large.bound import enclosed_answer
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.units import natural_form

@@ -11,10 +11,10 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import study_ask
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.ask import question
-from quasistatic_ref.lab.study.qp import UNITS
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.store import rows_read
+from quasistatic_ref.lab.study.measuring.ask import question
+from quasistatic_ref.lab.study.problems.qp import UNITS
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.store.store import rows_read
 from tests.lab.study import made_store, plain_report
 from tests.lab.study.plain_report import delivered, picked, said, seconds
 

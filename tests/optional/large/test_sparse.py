@@ -11,7 +11,7 @@ from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import BackendError, StepDataError, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes import piles
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.study.large import large_step, table
+from quasistatic_ref.lab.study.bench.large import large_step, table
 from quasistatic_ref.model import world
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.large.blocks import Blocks

@@ -5,7 +5,7 @@ from typing import Any
 
 from quasistatic_ref.lab.study.bench.acceptance import PAPER, STRETCH
 from quasistatic_ref.lab.study.bench.grasp import PARTS
-from quasistatic_ref.lab.study.large import LargeStep, table
+from quasistatic_ref.lab.study.bench.large import LargeStep, table
 from quasistatic_ref.solve.solve import CERTIFY
 
 Rows = list[tuple[str, ...]]

@@ -1,0 +1,280 @@
+"""STUDY.toml: what is compared on what, read field by field; a mistake is one sentence."""
+
+import tomllib
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import bytes_read, text_of
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
+from quasistatic_ref.lab.study.file.fields import (
+    COUNT,
+    COUNTS,
+    FORMAT,
+    PROBLEMS,
+    RUN,
+    SETTING,
+    SOLVERS,
+    TABLES,
+    VERSION,
+)
+from quasistatic_ref.lab.study.file.solver_lists import chosen_solvers, own_solvers
+from quasistatic_ref.lab.study.problems.qp import UNITS
+from quasistatic_ref.scenario.overrides import toml_tables
+
+KINDS = ("solvers", "sweep")
+FAMILIES = ("scenarios", "contacts", "mass_ratio", "time_step", "closest_points", "bodies")
+"""Families that are made for a study; a set has more."""
+TURNED = ("contacts", "mass_ratio", "bodies")
+"""Those of them whose dial a study file may end elsewhere."""
+LARGEST = 2**20
+"""Largest study file [bytes]."""
+GB = 1e9
+"""[bytes]"""
+QUICK = 20
+"""By how much ``--quick`` divides the number of problems."""
+
+
+@dataclass(frozen=True)
+class TestSet:
+    """Which problems.
+
+    Parameters
+    ----------
+    seed : int
+    families : mapping of str to int
+        Number of problems of each.
+    scenarios : tuple of str
+        Those that are harvested.
+    source : str
+        The set of problems that they are taken from: a name, or a folder; else they are made.
+    most : mapping of str to float
+        Where the dials of families end [the unit of each]; else at their hard ends.
+    """
+
+    __test__ = False  # no test of pytest's
+
+    seed: int
+    families: Mapping[str, int]
+    scenarios: tuple[str, ...]
+    source: str = ""
+    most: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Part:
+    """One ``[[runs]]`` table: every solver at every setting, in all units, warm or cold.
+
+    Parameters
+    ----------
+    solvers : tuple of Solver
+    settings : tuple of Setting
+    units : tuple of str
+    warm : tuple of bool
+    every : int
+        3 runs every third problem, in a random order of all families.
+    again : int
+        10 runs every tenth of these once more, after all others; 0 none.
+    """
+
+    solvers: tuple[Solver, ...]
+    settings: tuple[Setting, ...]
+    units: tuple[str, ...]
+    warm: tuple[bool, ...]
+    every: int
+    again: int
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study file, read.
+
+    Parameters
+    ----------
+    path : Path
+    problems : TestSet
+    time_limit : float
+        Of one problem [s].
+    budget : float
+        Of one solver, all its calls together [s].
+    warm_up : float
+        Of the first call of a shape, which is not counted [s].
+    memory : float
+        Of one solver [bytes].
+    repetitions : int
+        Calls of a measurement that are timed.
+    parts : tuple of Part
+    """
+
+    path: Path
+    problems: TestSet
+    time_limit: float
+    budget: float
+    warm_up: float
+    memory: float
+    repetitions: int
+    parts: tuple[Part, ...]
+
+    @property
+    def solvers(self) -> tuple[Solver, ...]:
+        """Every solver of the study, once."""
+        return tuple({s.label: s for part in self.parts for s in part.solvers}.values())
+
+    @property
+    def settings(self) -> tuple[Setting, ...]:
+        """Every setting of the study, once."""
+        return tuple({s.name: s for part in self.parts for s in part.settings}.values())
+
+
+def study_names() -> dict[str, Path]:
+    """The studies that come with the package, by name."""
+    return {path.stem: path for path in (Path(__file__).parent / "studies").glob("*.toml")}
+
+
+def study_path(name: str | Path) -> Path:
+    """A study file: a path as it is, or the name of one that comes with the package.
+
+    Raises
+    ------
+    InputError
+        If there is neither such a file nor such a name.
+    """
+    path = Path(name)
+    if path.suffix == ".toml":
+        return path
+    known = study_names()
+    if str(name) not in known:
+        hint = suggestion(str(name), known)
+        raise InputError(f"is neither a file nor a study that comes along{hint}", file=name)
+    return known[str(name)]
+
+
+def study_tables(path: Path) -> dict[str, Any]:
+    """The tables of a study file as they stand in it.
+
+    Raises
+    ------
+    InputError
+        If it is missing or not TOML.
+    """
+    try:
+        return toml_tables(text_of(bytes_read(path, largest=LARGEST), path))
+    except InputError as error:
+        raise error.in_file(path) from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"is not TOML: {error}", file=path) from None
+    except (RecursionError, ValueError):
+        raise InputError("is nested too deeply, or holds an unusable number", file=path) from None
+
+
+def study_kind(tables: dict[str, Any]) -> str:
+    """``"solvers"`` or ``"sweep"``."""
+    top = Fields(tables)
+    if {"format", "version"} <= set(top.names()):  # another format's names are no mistakes
+        top.check_format(FORMAT, VERSION)
+    return top.text("kind", "solvers", KINDS)
+
+
+def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Study:
+    """A study of solvers from its tables.
+
+    Parameters
+    ----------
+    path : Path
+    tables : dict
+    quick : bool
+        A twentieth of the problems, each family keeping one.
+
+    Raises
+    ------
+    InputError
+        Naming the file, the field and the value.
+    """
+    try:
+        top = TABLES.all_values(Fields(tables), SOLVERS)
+        problems = _problems(top["problems"], quick)
+        settings = _settings(top["settings"])
+        own = own_solvers(top["solvers"], settings)
+        parts = tuple(
+            _part(Fields(part, f"runs[{i}]"), settings, own) for i, part in enumerate(top["runs"])
+        )
+        return Study(
+            path, problems, top["time_limit"], top["budget"], top["warm_up"],
+            top["memory"] * GB, top["repetitions"], parts,
+        )  # fmt: skip
+    except InputError as error:
+        raise error.in_file(path) from None
+
+
+def _problems(table: Fields, quick: bool) -> TestSet:
+    given, known = TABLES.all_values(table, PROBLEMS), scenario_names()
+    scenarios = known if given["scenarios"] is None else given["scenarios"]
+    _check_known(table, "scenarios", scenarios, known)
+    source = given["set"] or ""
+    families, most = _counts(given["families"], bool(source))
+    if quick:
+        families = {name: -(-count // QUICK) for name, count in families.items()}
+    if not sum(families.values()):
+        raise table.fail("families", "must name at least one problem")
+    return TestSet(given["seed"], families, tuple(scenarios), source, most)
+
+
+def _counts(table: Fields, of_a_set: bool) -> tuple[dict[str, int], dict[str, float]]:
+    """How many problems of each family, and where their dials end."""
+    counts, most = {}, {}
+    for name, own in TABLES.all_values(table, COUNTS).items():
+        inner = Fields({"count": own} if isinstance(own, int) else own, table.name(name))
+        count = TABLES.all_values(inner, COUNT)
+        if count["count"] and not of_a_set and name not in FAMILIES:
+            raise table.fail(name, 'is a family of sets; say set = "contact-qp-1"')
+        if count["most"] is not None and not (of_a_set or name in TURNED):
+            raise table.fail(name, "has no dial to be turned, unless it is taken from a set")
+        if count["count"] or name in FAMILIES:
+            counts[name] = count["count"]
+        if count["most"] is not None:
+            most[name] = count["most"]
+    return counts, most
+
+
+def _settings(tables: Fields) -> dict[str, Setting]:
+    settings = {s.name: s for s in SETTINGS}
+    for name in tables.names():
+        table = tables.table(name)
+        given = TABLES.all_values(table, SETTING)
+        if name not in settings and given["accuracy"] is None:
+            raise table.fail("accuracy", "is missing")
+        was = settings.get(name, Setting(name, None, 3.0))
+        settings[name] = replace(was, **{k: v for k, v in given.items() if v is not None})
+    return settings
+
+
+def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solver]) -> Part:
+    given = TABLES.all_values(table, RUN)
+    solvers, names = chosen_solvers(table, given["solvers"], own), given["settings"]
+    _check_known(table, "settings", names, settings)
+    _check_known(table, "units", given["units"], UNITS)
+    if not all(isinstance(warm, bool) for warm in given["warm"]):
+        raise table.fail("warm", "must be a list of true and false", given["warm"])
+    for solver in solvers:
+        if not any(solver.takes(settings[name]) for name in names):
+            words = f"hold nothing that {solver.label} can be set to; add 'default', or give it"
+            raise table.fail("settings", f"{words} options of its own", names)
+    return Part(
+        solvers,
+        tuple(settings[name] for name in dict.fromkeys(names)),
+        tuple(dict.fromkeys(given["units"])),
+        tuple(dict.fromkeys(given["warm"])),
+        given["every"],
+        given["again"],
+    )
+
+
+def _check_known(table: Fields, field: str, names: list[str], known: Collection[str]) -> None:
+    for name in names:
+        if name not in known:
+            raise table.fail(field, f"holds an unknown one{suggestion(name, known)}", name)
