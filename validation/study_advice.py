@@ -27,9 +27,8 @@ from quasistatic_ref.lab.study.report.columns import (
 from quasistatic_ref.lab.study.report.comparison import Comparison, comparison_of
 from quasistatic_ref.lab.study.report.headline import LIMITS, WANTED, Soonest, soonest_table
 from quasistatic_ref.lab.study.report.numbers import digits, milliseconds, options_words, percent
-from quasistatic_ref.lab.study.report.report_words import old_times
 from quasistatic_ref.lab.study.report.statistics import success
-from quasistatic_ref.lab.study.store.store import rows_read, study_read
+from quasistatic_ref.lab.study.store.store import contents
 
 NAME = "advice.md"
 HARDEST = 2
@@ -40,7 +39,8 @@ FALSE = 1.0
 
 def advice(folder: Path) -> str:
     """The text, in Markdown, of a store that is packed or not."""
-    study, rows = study_read(folder), rows_read(folder)
+    found = contents(folder)
+    study, rows = found.study, found.rows
     every = columns_of(rows, study["time_limit"])
     comparison = comparison_of(study, every)
     first = chosen(every, {"repetition": 0})
@@ -70,7 +70,6 @@ def _extent(comparison: Comparison, study: dict) -> Iterator[str]:
     path = study_path("default")
     if solver_study(path, study_tables(path)).problems.families != problems["families"]:
         yield "The problems of these rows are an earlier selection than that of today's study file."
-    yield from old_times(study)
 
 
 def _headline(comparison: Comparison) -> str:

@@ -13,8 +13,8 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import study_ask, study_problems, study_sequences
 from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
 from quasistatic_ref.lab.study.measuring.grade import OUTCOMES
-from quasistatic_ref.lab.study.store.store import ROWS, Row, label_of
-from quasistatic_ref.lab.study.store.unreached import unreached_read
+from quasistatic_ref.lab.study.store.rows import Row, label_of
+from quasistatic_ref.lab.study.store.store import STORE, contents
 
 ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
@@ -118,9 +118,9 @@ def _measured(path: Path, tables: dict[str, Any], kind: str, options: argparse.N
         shared.print_json({"rows": len(rows), "outcomes": dict(counts), "store": str(options.out)})
         return 0
     shared.print_rows(_summary(rows))
-    for label, reason in unreached_read(options.out).items():
+    for label, reason in contents(options.out).unreached.items():
         print(f"{label} was left out: it {reason}")
-    print(f"wrote {options.out / ROWS}")
+    print(f"wrote {options.out / STORE}")
     return 0
 
 
@@ -157,15 +157,19 @@ def _swept(rows: list[Row], options: argparse.Namespace) -> int:
         cells = ("-" if v is None else f"{v:.6g}" for v in found)
         table.append((row["sweep"], values, row["outcome"], *cells))
     shared.print_rows(table)
-    print(f"{len(rows)} runs, {failed} of which ended early; wrote {options.out / ROWS}")
+    print(f"{len(rows)} runs, {failed} of which ended early; wrote {options.out / STORE}")
     return 0
 
 
 def _export(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.problems.parquet import benchmark_written
+    from quasistatic_ref.lab.study.problems.exports import PARQUET, exported
+    from quasistatic_ref.lab.study.problems.folder import set_read
+    from quasistatic_ref.lab.study.problems.for_study import FOLDER
 
     if options.every < 1:
         raise InputError("must be at least 1", field="--every", value=options.every)
-    for path in benchmark_written(options.store, options.out, options.every):
-        print(f"wrote {path}")
+    raw = set_read(options.store / FOLDER)[:: options.every]
+    for name, problems in {"raw": raw, "natural": [one.natural for one in raw]}.items():
+        for path in exported(f"contact_{name}", problems, PARQUET, options.out):
+            print(f"wrote {path}")
     return 0

@@ -60,8 +60,8 @@ def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
         span = " to ".join(milliseconds(seconds[name]) for name in ("low", "high"))
         time += f", quartiles {span} ms, {row['calls']} calls"
     return [
-        ("problem", f"{facts.id}: {len(form.g)} coordinates, {len(form.b)} rows, "
-         f"{facts.contacts} contacts" + ("" if row["feasible"] else ", no solution")),
+        ("problem", f"{one.problem.id}: {len(form.g)} coordinates, {len(form.b)} rows, "
+         f"{facts['contacts']} contacts" + ("" if row["feasible"] else ", no solution")),
         ("call", f"{one.solver.label} at {one.setting.name} ({options}), {one.units} units, "
          f"{'warm' if one.warm else 'cold'}"),
         ("outcome", f"{row['outcome']}; its own status: {row['claimed']}"),

@@ -41,8 +41,7 @@ def run_pack(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.store.pack import packed
 
     out = options.store / "packed" if options.out is None else options.out
-    for path in packed(options.store, out):
-        print(f"wrote {path}")
+    print(f"wrote {packed(options.store, out)}")
     return 0
 
 
@@ -52,6 +51,9 @@ def run_merge(options: argparse.Namespace) -> int:
 
     parts = [part_read(words) for words in options.parts]
     folder = merged(parts, options.out)
-    rows, machines = sum(len(part.rows) for part in parts), {m for p in parts for m in p.machines}
+    rows, machines = (
+        sum(len(part.found.rows) for part in parts),
+        {m for p in parts for m in p.machines},
+    )
     print(f"wrote {folder}: {rows:,} rows of {len(machines)} machines")
     return 0

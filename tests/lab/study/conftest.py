@@ -8,7 +8,7 @@ from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.study.file.study_file import solver_study, study_tables
 from quasistatic_ref.lab.study.measuring.run import run_study
 from quasistatic_ref.lab.study.problems.folder import set_read
-from quasistatic_ref.lab.study.problems.study_problems import problem_of
+from quasistatic_ref.lab.study.problems.making import problem_of
 from tests.lab.study import made_store
 from tests.lab.study.planted import FAKES, slab
 

@@ -11,7 +11,7 @@ import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
-from quasistatic_ref.lab.study.measuring.keeper import Keeper
+from quasistatic_ref.lab.study.measuring.keeper import Keeper, Request
 from quasistatic_ref.lab.study.measuring.measure import Limits, measured
 from quasistatic_ref.lab.study.measuring.worker import GRACE
 from tests.lab.study.planted import FAKES
@@ -84,9 +84,9 @@ def test_a_looping_solver_whose_keeper_was_killed_ends_itself(folder, problem):
     with keeper:
         keeper.start()
         keeper._outbox.send((1, problem.form))
-        request = {"setting": DEFAULT, "count": 1, "g": None, "start": None, "limit": 0.1}
-        keeper._outbox.send(request | {"form": 1, "patience": 0.1})
-        assert keeper._process.wait(timeout=GRACE + 15) == -signal.SIGALRM
+        request = vars(Request(DEFAULT, 0.1)) | {"form": 1, "patience": 0.1}
+        keeper._outbox.send(request)
+        assert keeper._process.process.wait(timeout=GRACE + 15) == -signal.SIGALRM
 
 
 DIES_BEFORE_A_CALL = """

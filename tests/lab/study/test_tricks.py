@@ -3,15 +3,14 @@
 import os
 import time
 
-import numpy as np
 import pytest
 
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.lab.study.measuring.measure import Limits, measured
-from quasistatic_ref.lab.study.problems.qp import Facts, NoSolution, Problem
-from quasistatic_ref.lab.study.store.unreached import unreached_read
-from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.lab.study.problems.families.dials import one_turned
+from quasistatic_ref.lab.study.problems.making import problem_of
+from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study.planted import FAKES
 
 DEFAULT = SETTINGS[0]
@@ -106,13 +105,12 @@ def test_the_first_call_of_a_shape_is_outside_of_the_time_limit(folder, problem)
     assert row["seconds"]["warm_up"] >= 1.0 > row["seconds"]["first"]
 
 
+@pytest.fixture(scope="module")
 def none_to_find():
-    """X >= 1 and -x >= 0: y = (1, 1) has A'y = 0 and b'y = 1."""
-    form = StandardForm(np.eye(1), np.ones(1), np.array([[1.0], [-1.0]]), np.array([1.0, 0.0]))
-    y = np.ones(2)
-    assert (form.A.T @ y == 0).all()
-    assert form.b @ y > 0
-    return Problem(Facts("none/0", "none", 0, 1.0, 1.0, 0), form, NoSolution(y))
+    """A problem without a solution."""
+    found = problem_of(one_turned("infeasible", 1e-2, 0, 1))
+    assert not found.feasible
+    return found
 
 
 JUDGED = {  # on a problem with a solution, and on one without: (says there is none, wrong)
@@ -123,8 +121,8 @@ JUDGED = {  # on a problem with a solution, and on one without: (says there is n
 
 
 @pytest.mark.parametrize("name", JUDGED)
-def test_a_claim_that_there_is_no_solution_is_judged(name, folder, problem):
-    for judged, (said, wrong) in zip((problem, none_to_find()), JUDGED[name], strict=True):
+def test_a_claim_that_there_is_no_solution_is_judged(name, folder, problem, none_to_find):
+    for judged, (said, wrong) in zip((problem, none_to_find), JUDGED[name], strict=True):
         row = row_of(name, judged, folder)
         assert (row["said_infeasible"], row["wrong"]) == (said, wrong)
 
@@ -156,5 +154,5 @@ def test_bad_solvers_cost_themselves_only(run, tmp_path):
     assert by_name["honest"] == by_name["daqp"] == 4 * ["solved"]
     assert by_name["missing"] == []
     assert set(by_name["slow"]) == {"not_run_budget", "timeout"}
-    (reason,) = unreached_read(tmp_path / "store").values()
+    (reason,) = contents(tmp_path / "store").unreached.values()
     assert "cannot be imported" in reason

@@ -71,10 +71,9 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
     if solver.interface == "native":
         name = str(solver.target)
         return _by_itself(natively(name) if name in GUESTS else _adapted(name))
-    if solver.interface == "package":
-        return _calling(loaded(str(solver.target)))
-    if solver.interface == "callable":
-        return _calling(imported(str(solver.target)))
+    if solver.interface in ("package", "callable"):
+        function = function_of(solver)
+        return lambda form, options, start, limit: function_reply(function, form, options)
     return _running(_command(tuple(solver.target), folder), folder)
 
 
@@ -103,7 +102,7 @@ def tried(call: Callable[[], Reply]) -> Reply:
     try:
         return call()
     except Exception as error:  # whatever another package raises
-        return _failed(_words(error), perf_counter() - begin)
+        return _failed(words_of(error), perf_counter() - begin)
 
 
 def _failed(words: str, seconds: float) -> Reply:
@@ -169,28 +168,36 @@ def _by_itself(reply: Native) -> Call:
     return call
 
 
-def _calling(function: Callable[..., Any]) -> Call:
-    def call(
-        form: StandardForm, options: Options, start: StandardForm | None, limit: float
-    ) -> Reply:
-        P, q, G, h = form.H.copy(), -form.g, -form.A, -form.b
-        begin = perf_counter()
-        try:
-            returned = function(P, q, G, h, **options)
-        except Exception as error:  # whatever a user's solver raises
-            return _failed(_words(error), perf_counter() - begin)
-        seconds = perf_counter() - begin
-        if returned is None or isinstance(returned, str):
-            said = "returned None" if returned is None else returned
-            return _failed(" ".join(said.split())[:200], seconds)
-        try:
-            x, z = returned
-        except (TypeError, ValueError):
-            x, z = np.zeros((0, 0)), None  # no pair: a wrong shape
-        lam = None if z is None else _numbers(z)
-        return Reply(_numbers(x), lam, True, "returned", call_seconds=seconds)
+def function_of(solver: Solver) -> Callable[..., Any]:
+    """The function that a package announces, or that a module has.
 
-    return call
+    Raises
+    ------
+    InputError
+        If it cannot be imported.
+    """
+    target = str(solver.target)
+    return loaded(target) if solver.interface == "package" else imported(target)
+
+
+def function_reply(function: Callable[..., Any], form: StandardForm, options: Options) -> Reply:
+    """What a function ``(P, q, G, h, **options) -> (x, z)`` returns."""
+    P, q, G, h = form.H.copy(), -form.g, -form.A, -form.b
+    begin = perf_counter()
+    try:
+        returned = function(P, q, G, h, **options)
+    except Exception as error:  # whatever a user's solver raises
+        return _failed(words_of(error), perf_counter() - begin)
+    seconds = perf_counter() - begin
+    if returned is None or isinstance(returned, str):
+        said = "returned None" if returned is None else returned
+        return _failed(" ".join(said.split())[:200], seconds)
+    try:
+        x, z = returned
+    except (TypeError, ValueError):
+        x, z = np.zeros((0, 0)), None  # no pair: a wrong shape
+    lam = None if z is None else _numbers(z)
+    return Reply(_numbers(x), lam, True, "returned", call_seconds=seconds)
 
 
 def _command(words: tuple[str, ...], folder: str) -> tuple[str, ...]:
@@ -249,7 +256,7 @@ def _written(output: bytes, seconds: float) -> Reply:
             None if own is None else float(own), seconds, None if own is None else float(own),
         )  # fmt: skip
     except (ValueError, TypeError, AttributeError, RecursionError) as error:
-        return _failed(f"no usable JSON: {_words(error)}", seconds)
+        return _failed(f"no usable JSON: {words_of(error)}", seconds)
 
 
 def _numbers(values: Any) -> Array:
@@ -259,7 +266,8 @@ def _numbers(values: Any) -> Array:
         return np.zeros((0, 0))  # no numbers: a wrong shape
 
 
-def _words(error: Exception) -> str:
+def words_of(error: Exception) -> str:
+    """What was raised, on one line."""
     return " ".join(f"{type(error).__name__}: {error}".split())[:200]
 
 

@@ -9,9 +9,10 @@ from typing import Any
 
 from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.schema import json_schema
+from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, SETTINGS
 from quasistatic_ref.lab.study.problems.families.dials import DIALS, HARVESTED
-from quasistatic_ref.lab.study.problems.qp import UNITS
+from quasistatic_ref.lab.study.problems.problem import UNITS
 from quasistatic_ref.tolerances import LARGE
 
 FORMAT, VERSION = "quasistatic-ref/study", 1
@@ -133,6 +134,9 @@ TABLES = Tables({
         "again": Field("integer", "run one of so many of these problems again, after all "
                        "others, which measures the noise; 0: none", default=10, least=0,
                        most=MOST_PROBLEMS),
+        "modes": Field("list of words", "solve sequences of steps in order, with what a solver "
+                       f"keeps of the step before: {', '.join(MODES)}; else each problem is solved "
+                       "alone", default=[], schema={"items": {"enum": list(MODES)}}),
     },
     SWEEPS: {
         **_head("sweep"),

@@ -2,7 +2,7 @@
 
 import tomllib
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.file.fields import (
     COUNT,
@@ -24,46 +25,18 @@ from quasistatic_ref.lab.study.file.fields import (
     VERSION,
 )
 from quasistatic_ref.lab.study.file.solver_lists import chosen_solvers, own_solvers
-from quasistatic_ref.lab.study.problems.qp import UNITS
+from quasistatic_ref.lab.study.problems.families.drawn import FAMILIES, MOST
+from quasistatic_ref.lab.study.problems.for_study import TestSet
+from quasistatic_ref.lab.study.problems.problem import UNITS
 from quasistatic_ref.scenario.overrides import toml_tables
 
 KINDS = ("solvers", "sweep")
-FAMILIES = ("scenarios", "contacts", "mass_ratio", "time_step", "closest_points", "bodies")
-"""Families that are made for a study; a set has more."""
-TURNED = ("contacts", "mass_ratio", "bodies")
-"""Those of them whose dial a study file may end elsewhere."""
 LARGEST = 2**20
 """Largest study file [bytes]."""
 GB = 1e9
 """[bytes]"""
 QUICK = 20
 """By how much ``--quick`` divides the number of problems."""
-
-
-@dataclass(frozen=True)
-class TestSet:
-    """Which problems.
-
-    Parameters
-    ----------
-    seed : int
-    families : mapping of str to int
-        Number of problems of each.
-    scenarios : tuple of str
-        Those that are harvested.
-    source : str
-        The set of problems that they are taken from: a name, or a folder; else they are made.
-    most : mapping of str to float
-        Where the dials of families end [the unit of each]; else at their hard ends.
-    """
-
-    __test__ = False  # no test of pytest's
-
-    seed: int
-    families: Mapping[str, int]
-    scenarios: tuple[str, ...]
-    source: str = ""
-    most: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -80,6 +53,8 @@ class Part:
         3 runs every third problem, in a random order of all families.
     again : int
         10 runs every tenth of these once more, after all others; 0 none.
+    modes : tuple of str
+        Sequences of steps are solved in order, in these modes; none: each problem alone.
     """
 
     solvers: tuple[Solver, ...]
@@ -88,6 +63,7 @@ class Part:
     warm: tuple[bool, ...]
     every: int
     again: int
+    modes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -232,7 +208,7 @@ def _counts(table: Fields, of_a_set: bool) -> tuple[dict[str, int], dict[str, fl
         count = TABLES.all_values(inner, COUNT)
         if count["count"] and not of_a_set and name not in FAMILIES:
             raise table.fail(name, 'is a family of sets; say set = "contact-qp-1"')
-        if count["most"] is not None and not (of_a_set or name in TURNED):
+        if count["most"] is not None and not (of_a_set or name in MOST):
             raise table.fail(name, "has no dial to be turned, unless it is taken from a set")
         if count["count"] or name in FAMILIES:
             counts[name] = count["count"]
@@ -258,6 +234,7 @@ def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solv
     solvers, names = chosen_solvers(table, given["solvers"], own), given["settings"]
     _check_known(table, "settings", names, settings)
     _check_known(table, "units", given["units"], UNITS)
+    _check_known(table, "modes", given["modes"], MODES)
     if not all(isinstance(warm, bool) for warm in given["warm"]):
         raise table.fail("warm", "must be a list of true and false", given["warm"])
     for solver in solvers:
@@ -271,6 +248,7 @@ def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solv
         tuple(dict.fromkeys(given["warm"])),
         given["every"],
         given["again"],
+        tuple(dict.fromkeys(given["modes"])),
     )
 
 

@@ -14,11 +14,10 @@ from quasistatic_ref.lab.study.file.fields import MODULE
 from quasistatic_ref.lab.study.file.solver_lists import BY_INTERFACE, PACKAGE, solvers_named
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.lab.study.measuring.measure import Limits, measured
-from quasistatic_ref.lab.study.problems.folder import set_read
-from quasistatic_ref.lab.study.problems.problem import QP, SPARSE
-from quasistatic_ref.lab.study.problems.qp import Problem
-from quasistatic_ref.lab.study.problems.study_problems import HEADER, problems_read
-from quasistatic_ref.lab.study.store.store import study_checked
+from quasistatic_ref.lab.study.problems.folder import MANIFEST, set_read
+from quasistatic_ref.lab.study.problems.for_study import FOLDER
+from quasistatic_ref.lab.study.problems.problem import Problem
+from quasistatic_ref.lab.study.store.store import contents
 
 LIMITS = Limits(2.0, 10.0, 5)
 """Of a call that belongs to no study, as study files have them by default."""
@@ -80,12 +79,12 @@ def question(
     """
     found = _problem(problem, store)
     if store is None:
-        own, settings = _by_label(solver), list(SETTINGS)
+        own, settings = solver_named(solver), list(SETTINGS)
         limits, memory = LIMITS, MEMORY
     else:
-        study = study_checked(store)
-        if study["kind"] != "solvers" or not {"warm_up", "repetitions", "memory"} <= set(study):
-            raise InputError("is no store of this version on solvers", file=store)
+        study = contents(store).study
+        if study["kind"] != "solvers":
+            raise InputError("holds a sweep, and no solvers", file=store)
         own, settings = _of_store(solver, study), [Setting(**s) for s in study["settings"]]
         limits = Limits(study["time_limit"], study["warm_up"], study["repetitions"])
         memory = study["memory"]
@@ -117,25 +116,22 @@ def measured_again(one: Question, folder: str | Path = ".") -> dict[str, Any]:
 
 
 def _problem(name: str, store: str | Path | None) -> Problem:
-    if store is not None and (Path(store) / HEADER).exists():
-        every = {one.id: one for one in problems_read(store)}
-        if name not in every:
-            hint = suggestion(name, every)
-            raise InputError(f"is no problem of {store}{hint}", value=name)
-        return every[name]
+    own = None if store is None else Path(store) / FOLDER
+    kept = own is not None and (own / MANIFEST).exists()
     try:
-        (member,) = set_read(problem_set_folder(), ids=[name])
+        (found,) = set_read(own if own and kept else problem_set_folder(), ids=[name])
     except InputError as error:
+        if kept:
+            raise
         words = "is no problem of contact-qp-1; others need --store, the folder of a "
-        raise InputError(f"{words}study that holds its problems.npz", value=name) from error
-    if member.facts["kind"] != QP or SPARSE in member.facts["tags"]:
-        raise InputError(
-            "has cones or sparse matrices; studies contain dense rows only", value=name
-        )
-    return member.problem
+        raise InputError(f"{words}study that holds its problems", value=name) from error
+    if not found.dense:
+        words = "has cones or sparse matrices; studies contain dense rows only"
+        raise InputError(words, value=name)
+    return found
 
 
-def _by_label(label: str) -> Solver:
+def solver_named(label: str) -> Solver:
     """A solver of the package's table, or a callable."""
     interface = label.partition(":")[0]
     if interface in (*BY_INTERFACE, PACKAGE):
@@ -153,6 +149,6 @@ def _of_store(label: str, study: Mapping[str, Any]) -> Solver:
     if label not in labels:
         raise InputError(f"is no solver of the study{suggestion(label, labels)}", value=label)
     one = labels[label]
-    target = one.get("target", one["name"])
+    target = one["target"]
     command = tuple(target) if isinstance(target, list) else target
     return Solver(one["name"], one["interface"], command, one["options"])

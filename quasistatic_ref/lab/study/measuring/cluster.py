@@ -17,15 +17,15 @@ from quasistatic_ref.lab.study.measuring.schedule import (
     Left,
     Work,
     block_rows,
-    conduct,
+    measure_all,
 )
-from quasistatic_ref.lab.study.store.store import Row
+from quasistatic_ref.lab.study.store.rows import Row
 
 CONNECT = 30
 """Seconds in which a scheduler must answer."""
 
 
-def conduct_on_cluster(work: Work, address: str) -> None:
+def measure_on_cluster(work: Work, address: str) -> None:
     """Run what is left of a plan on the workers of a Dask scheduler.
 
     Every worker needs this package and the solvers; rows come back here, to one store.
@@ -46,7 +46,7 @@ def conduct_on_cluster(work: Work, address: str) -> None:
         return partial(_elsewhere, work.folder, work.memory, solver)
 
     with executor_of(address) as (executor, slots):
-        conduct(work, executor, slots, answered, BLOCK)
+        measure_all(work, executor, slots, answered, BLOCK)
 
 
 @contextmanager

@@ -14,17 +14,16 @@ from quasistatic_ref.certify.digits import MOST, digits_of_error
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
-from quasistatic_ref.lab.study.problems.qp import NoSolution, Problem, Truth, units_of
+from quasistatic_ref.lab.study.problems.problem import NATURAL, RAW, Answer, Problem
+from quasistatic_ref.lab.study.store.rows import CLOCKS
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.units import Units, natural_form
+from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
 SOLVED, FAILED, NAN, WRONG_SHAPE = "solved", "failed", "nan", "wrong_shape"
 CRASHED, TIMEOUT, MEMORY, NOT_RUN = "crashed", "timeout", "memory", "not_run_budget"
 OUTCOMES = (SOLVED, FAILED, CRASHED, TIMEOUT, MEMORY, NAN, WRONG_SHAPE, NOT_RUN)
-CLOCKS = ("solver", "setup", "call", "low", "high", "first", "warm_up", "start", "spent")
-"""Times of a row [s]."""
 SLACK = 1e-13
 """Slacks below that, relative to the numbers that they are the difference of, may be rounding."""
 
@@ -38,7 +37,7 @@ class Prepared:
     forms : dict of str to StandardForm
         By units, ``"raw"`` and ``"natural"``.
     units : Units
-    answer : Truth or NoSolution
+    answer : Answer
         In natural units.
     norm : EnergyNorm
         Of the problem in natural units.
@@ -48,7 +47,7 @@ class Prepared:
 
     forms: dict[str, StandardForm]
     units: Units
-    answer: Truth | NoSolution
+    answer: Answer
     norm: EnergyNorm
     free: float
 
@@ -56,14 +55,11 @@ class Prepared:
 @lru_cache(maxsize=8)  # of the problem at which all solvers are
 def prepared(problem: Problem) -> Prepared:
     """A problem prepared: its natural units, and the norm that errors are measured in."""
-    units = units_of(problem.form)
-    natural = natural_form(problem.form, units)
-    norm, answer = energy_norm(natural.H), problem.answer
-    S, rho = units.coordinate, units.size
-    if isinstance(answer, Truth):
-        answer = Truth(answer.delta_q / (rho * S), answer.net * S / rho, answer.bound)
-    free = float(norm.impulses(natural.g[None])[0])
-    return Prepared({"raw": problem.form, "natural": natural}, units, answer, norm, free)
+    natural = problem.natural
+    form = natural.form
+    norm = energy_norm(form.H)
+    free = float(norm.impulses(form.g[None])[0])
+    return Prepared({RAW: problem.form, NATURAL: form}, problem.units, natural.answer, norm, free)
 
 
 def grades(ready: Prepared, units: str, reply: Reply, promised: float) -> dict[str, Any]:
@@ -83,14 +79,14 @@ def grades(ready: Prepared, units: str, reply: Reply, promised: float) -> dict[s
     dict
     """
     outcome, x, lam = _usable(ready.forms[units], reply)
-    row = ungraded(outcome, reply.status, reply.call_seconds, isinstance(ready.answer, Truth))
+    row = ungraded(outcome, reply.status, reply.call_seconds, not ready.answer.farkas)
     with np.errstate(all="ignore"):
         if x is not None:
             row["residuals"] = _residuals(ready.forms[units], x, lam)
-            if units == "raw":
+            if units == RAW:
                 x = x / (ready.units.size * ready.units.coordinate)
                 lam = None if lam is None else lam * (ready.units.length / ready.units.size)
-            if isinstance(ready.answer, Truth):
+            if not ready.answer.farkas:
                 row["digits"] = _digits(ready, ready.answer, x, lam)
     said = row["said_infeasible"] = not reply.solved and says_infeasible(reply.status)
     found, dual = (row["digits"][name] for name in ("delta_q", "multipliers"))
@@ -138,22 +134,22 @@ def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array 
     return (SOLVED if reply.solved else FAILED), reply.x, reply.lam
 
 
-def _digits(of: Prepared, answer: Truth, x: Array, lam: Array | None) -> dict[str, float | None]:
+def _digits(of: Prepared, answer: Answer, x: Array, lam: Array | None) -> dict[str, float | None]:
     digits: dict[str, float | None] = {
-        "delta_q": _digits_of(of.norm.displacement(x - answer.delta_q), of, answer.bound),
+        "delta_q": _digits_of(of.norm.displacement(x - answer.x), of, answer.error),
         "net_wrench": None,
         "multipliers": None,
     }
     if lam is not None:
-        form = of.forms["natural"]
-        A, bound = form.A, answer.bound
+        form = of.forms[NATURAL]
+        A, bound = form.A, answer.error
         net, negative = A.T @ lam - answer.net, A.T @ np.minimum(lam, 0.0)
         off, below = of.norm.impulses(np.array([net, negative]))
         digits["net_wrench"] = _digits_of(float(off), of, bound)
         # Slacks of the exact answer that rounding alone may have made are none. What multipliers
         # of others add to the dual's gap bounds an error by strong convexity, as a gap does.
-        slack = A @ answer.delta_q - form.b
-        slack[slack < SLACK * (abs(A) @ abs(answer.delta_q) + abs(form.b))] = 0.0
+        slack = A @ answer.x - form.b
+        slack[slack < SLACK * (abs(A) @ abs(answer.x) + abs(form.b))] = 0.0
         gap = float(np.maximum(lam, 0.0) @ slack)
         worst = max(float(off), float(below), float(np.sqrt(2 * gap)))
         digits["multipliers"] = _digits_of(worst, of, bound)

@@ -2,23 +2,20 @@
 
 import contextlib
 import os
-import signal
-import subprocess
 import sys
-import uuid
 from collections import deque
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
-from time import perf_counter, sleep
-from typing import Protocol
+from time import perf_counter
 
 import quasistatic_ref
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.calling.solvers import Setting
-from quasistatic_ref.lab.study.measuring import processes
+from quasistatic_ref.lab import processes
+from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.grade import CRASHED, MEMORY, TIMEOUT
 from quasistatic_ref.lab.study.measuring.messages import HEAD, Response, Unreadable, from_bytes
+from quasistatic_ref.lab.supervised import Supervised
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
@@ -69,6 +66,10 @@ class Request:
         In place of the program's own, for a call that warms up.
     start : ndarray, shape (n,), or None
         The g of the program whose answer a warm start comes from [N s, N m s].
+    mode : str
+        What is kept from the step before; empty for a call that keeps nothing.
+    first : bool
+        Whether a sequence of steps begins.
     """
 
     setting: Setting
@@ -76,14 +77,8 @@ class Request:
     count: int = 1
     g: Array | None = None
     start: Array | None = None
-
-
-class Named(Protocol):
-    """What a process is sent first; it has a name for messages."""
-
-    @property
-    def name(self) -> str:
-        """Of the solver."""
+    mode: str = ""
+    first: bool = False
 
 
 class Keeper:
@@ -92,25 +87,16 @@ class Keeper:
     Parameters
     ----------
     solver : Solver
-        Or what another `worker` takes.
     folder : str or Path
         Where a callable's module is looked for, in addition to the usual places.
     memory : float
         Most that it may hold, with its children [bytes].
-    worker : str
-        The module that runs in the process.
     """
 
-    def __init__(
-        self,
-        solver: Named,
-        folder: str | Path = ".",
-        memory: float = 4e9,
-        worker: str = WORKER,
-    ) -> None:
-        self.solver, self.worker = solver, worker
+    def __init__(self, solver: Solver, folder: str | Path = ".", memory: float = 4e9) -> None:
+        self.solver = solver
         self.folder, self.memory = str(Path(folder).resolve()), memory
-        self._process: subprocess.Popen[bytes] | None = None
+        self._process: Supervised | None = None
         self._sent: deque[StandardForm] = deque(maxlen=KEPT)
         self.starts = 0
         self.exchange = 0.0
@@ -177,20 +163,13 @@ class Keeper:
     def tidy(self) -> None:
         """End what has detached itself from the process since it was last tidied."""
         if self._process is not None:
-            processes.end(processes.detached(self._process.pid))
+            self._process.tidy()
 
     def close(self) -> None:
         """End the process, its children, and what they left behind."""
         if self._process is None:
             return
-        pid = self._process.pid
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.kill(pid, signal.SIGSTOP)  # it starts no more of them
-        processes.end(processes.descendants(pid))
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(pid, signal.SIGKILL)
-        self._process.wait()
-        processes.end(processes.marked(self._token))
+        self._process.end()
         self._inbox.close()
         self._outbox.close()
         self._process = None
@@ -215,17 +194,10 @@ class Keeper:
         ours_in, theirs_out = os.pipe()
         root = str(Path(quasistatic_ref.__file__).parents[1])
         path = os.pathsep.join([root, *filter(None, [os.environ.get("PYTHONPATH")])])
-        self._token = uuid.uuid4().hex
-        mark = {"PYTHONPATH": path, processes.TOKEN: self._token}
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", self.worker, str(theirs_in), str(theirs_out)],
-            pass_fds=(theirs_in, theirs_out),
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,  # solvers print
-            stderr=subprocess.DEVNULL,
-            env=os.environ | ONE_THREAD | mark,
-            start_new_session=True,  # an executable that it runs is killed with it
-        )
+        words = [sys.executable, "-m", WORKER, str(theirs_in), str(theirs_out)]
+        variables = ONE_THREAD | {"PYTHONPATH": path}
+        pipes = (theirs_in, theirs_out)  # its own output goes nowhere: solvers print
+        self._process = Supervised(words, variables=variables, descriptors=pipes)
         os.close(theirs_in)
         os.close(theirs_out)
         self._inbox = Connection(ours_in, writable=False)
@@ -246,12 +218,7 @@ class Keeper:
     def _ended(self) -> str:
         """How the process came to its end; it is cleared away."""
         assert self._process is not None
-        process, code = self._process, self._process.poll()
-        for _ in range(100):
-            if code is not None:
-                break
-            sleep(0.01)
-            code = process.poll()
+        code = self._process.status()
         self.close()
         if code is None:
             return "its process closed its pipe"

@@ -13,7 +13,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.study.file.sweeps import MOST_RUNS, Axis, Sweep, sweep_scenario
 from quasistatic_ref.lab.study.measuring.sweep import run_file, run_sweep
-from quasistatic_ref.lab.study.store.store import Row
+from quasistatic_ref.lab.study.store.rows import Row
 from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.overrides import parsed
 from quasistatic_ref.tolerances import LARGE
@@ -41,7 +41,7 @@ def simulate_many(
         Dotted field of the scenario -> its values [the field's unit].
     folder : str or Path
         For ``runs.csv``, one line a run; ``runs/*.npz``, one light trajectory a run; and
-        ``rows.jsonl``, from which the same call goes on after an interruption.
+        ``study.sqlite``, from which the same call goes on after an interruption.
     workers : int, optional
         Processes on this machine; by default as many as there are cores.
     scheduler : str, optional

@@ -1,4 +1,7 @@
-"""One measurement: a call that warms up, one that is graded, and as many as its time needs.
+"""Measurements: of a call, or of the calls on a sequence of steps.
+
+A call is warmed up, graded once, and repeated as often as its time needs; a sequence is repeated
+whole.
 
 Calls of microseconds are timed in one exchange, by the clock of the solver's process, which the
 solver could replace: the clock of the keeper, around the whole exchange, must confirm it. Calls
@@ -7,18 +10,20 @@ with a warm start cannot be confirmed, as the solves that they start from are in
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab import processes
 from quasistatic_ref.lab.study.calling.calls import neighbour
 from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
 from quasistatic_ref.lab.study.calling.solvers import Setting
-from quasistatic_ref.lab.study.measuring import processes
 from quasistatic_ref.lab.study.measuring.grade import (
     CRASHED,
+    MEMORY,
+    NOT_RUN,
     TIMEOUT,
     Prepared,
     grades,
@@ -27,7 +32,8 @@ from quasistatic_ref.lab.study.measuring.grade import (
 )
 from quasistatic_ref.lab.study.measuring.keeper import Ended, Keeper, Request, exchange
 from quasistatic_ref.lab.study.measuring.messages import Response
-from quasistatic_ref.lab.study.problems.qp import Problem, Truth
+from quasistatic_ref.lab.study.problems.problem import Problem
+from quasistatic_ref.lab.study.store.rows import Row
 
 LONG = 2e-3
 """An exchange of calls lasts that long, if `MOST` times the repetitions suffice [s]."""
@@ -61,7 +67,7 @@ class Limits:
 
 def measured(
     keeper: Keeper, problem: Problem, setting: Setting, units: str, warm: bool, limits: Limits
-) -> dict[str, Any]:
+) -> Row:
     """Run one solver on one problem; whatever it does, fields of a row come back.
 
     Parameters
@@ -105,16 +111,104 @@ def measured(
     except Ended as end:
         if seconds["warm_up"] is None and shape not in keeper.seen:
             seconds["warm_up"] = end.seconds
-        feasible = isinstance(problem.answer, Truth)
-        row = ungraded(end.outcome, end.words, end.seconds, feasible)
+        row = ungraded(end.outcome, end.words, end.seconds, problem.feasible)
     keeper.tidy()
     seconds["spent"] = perf_counter() - begin
     return row | {"seconds": row["seconds"] | seconds, "memory": memory}
 
 
-def _graded(
-    keeper: Keeper, ready: Prepared, request: Request, units: str, limits: Limits
-) -> dict[str, Any]:
+def sequence_measured(
+    keeper: Keeper,
+    problems: Sequence[Problem],
+    setting: Setting,
+    units: str,
+    mode: str,
+    limits: Limits,
+    left: float,
+) -> list[Row]:
+    """Run one solver on steps in order, each from what it kept of the one before.
+
+    A process that has to be ended starts again, cold, at the next step.
+
+    Parameters
+    ----------
+    keeper : Keeper
+    problems : sequence of Problem
+        Of equal shapes; all are put in the natural units of the first.
+    setting : Setting
+    units : str
+    mode : str
+    limits : Limits
+    left : float
+        Of the solver's budget [s]: steps beyond it are not run.
+
+    Returns
+    -------
+    list of dict
+        Fields of a row for each problem: the worst answer of the repetitions, quartiles of times.
+
+    Raises
+    ------
+    InputError
+        If the solver cannot be imported.
+    """
+    ready = [prepared(replace(one, units=problems[0].units)) for one in problems]
+    turns: list[list[Row]] = []
+    for _ in range(limits.repetitions):
+        turn: list[Row] = []
+        for place, one in enumerate(ready):
+            first = not turn or turn[-1]["outcome"] in (CRASHED, TIMEOUT, MEMORY)
+            request = Request(setting, limits.call, mode=mode, first=first)
+            shape = (*one.forms[units].A.shape, setting.name, units, mode, min(place, 1))
+            if left <= 0:
+                row = ungraded(NOT_RUN, "not run (budget)", None, not one.answer.farkas)
+                row["seconds"]["spent"] = 0.0
+            else:
+                row = _step(keeper, one, request, units, shape, limits.warm_up)
+            left -= row["seconds"]["spent"]
+            turn.append(row)
+        turns.append(turn)
+    return [_worst(repeated) for repeated in zip(*turns, strict=True)]
+
+
+def _step(
+    keeper: Keeper, ready: Prepared, request: Request, units: str, shape: object, warm_up: float
+) -> Row:
+    """One call on the next step of a sequence."""
+    form = ready.forms[units]
+    try:
+        keeper.start()
+        exchange(keeper, form, request.setting)
+        limit = request.limit if shape in keeper.seen else warm_up
+        response, outside = keeper.answer(form, replace(request, limit=limit))
+    except Ended as end:
+        row = ungraded(end.outcome, end.words, end.seconds, not ready.answer.farkas)
+        row["seconds"]["spent"] = end.seconds
+        return row
+    finally:
+        keeper.tidy()
+    keeper.seen.add(shape)
+    beyond = outside - keeper.exchange
+    agrees = borne_out(response.times, beyond)
+    row = grades(ready, units, response.reply, request.setting.promised)
+    row["seconds"] |= {"call": response.times[0] if agrees else beyond, "spent": outside}
+    return row | {"calls": 1, "clock_agrees": agrees}
+
+
+def _worst(repeated: Sequence[Row]) -> Row:
+    """The worst row of a step that was repeated, with quartiles of its times."""
+    times = [row["seconds"]["call"] for row in repeated if row["seconds"]["call"] is not None]
+    spent = sum(row["seconds"]["spent"] for row in repeated)
+    clocks: Row = {"spent": spent}
+    if times:
+        low, call, high = np.percentile(times, [25, 50, 75]).tolist()
+        clocks |= {"first": times[0], "low": low, "call": call, "high": high}
+    row = min(repeated, key=_goodness)
+    calls = sum(one["calls"] for one in repeated)
+    return row | {"calls": calls, "seconds": row["seconds"] | clocks}
+
+
+def _graded(keeper: Keeper, ready: Prepared, request: Request, units: str, limits: Limits) -> Row:
     """The worse of the first and the last graded reply, with quartiles of the repeated calls."""
     form, promised = ready.forms[units], request.setting.promised
     response, outside = keeper.answer(form, request)
@@ -141,7 +235,7 @@ def borne_out(times: Sequence[float], beyond: float) -> bool:
     return sum(times) >= BORNE * beyond - NOISE
 
 
-def _goodness(row: dict[str, Any]) -> tuple[bool, bool, float]:
+def _goodness(row: Row) -> tuple[bool, bool, float]:
     """What a repeated call is judged by: the worst answer counts."""
     return not row["wrong"], row["said_optimal"], row["digits"]["delta_q"] or 0.0
 

@@ -8,15 +8,17 @@ from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
+from itertools import groupby
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.calling.solvers import Solver
 from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, ungraded
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.measuring.measure import Limits, measured, sequence_measured
 from quasistatic_ref.lab.study.measuring.plan import Measurement
-from quasistatic_ref.lab.study.problems.qp import Problem, Truth
-from quasistatic_ref.lab.study.store.store import Row, Store
+from quasistatic_ref.lab.study.problems.problem import Problem
+from quasistatic_ref.lab.study.store.rows import Row, label_of
+from quasistatic_ref.lab.study.store.store import Store
 from quasistatic_ref.simulate.progress import progress_bar
 
 Block = list[tuple[Measurement, Problem]]
@@ -50,12 +52,25 @@ def block_rows(keeper: Keeper, block: Block, limits: Limits, left: Left) -> list
         If the solver cannot be imported.
     """
     rows: list[Row] = []
+    for _, some in groupby(block, key=lambda item: item[0].together):
+        rows += _measured_together(keeper, list(some), limits, _less(left, rows))
+    return rows
+
+
+def _measured_together(keeper: Keeper, block: Block, limits: Limits, left: Left) -> list[Row]:
+    """The measurements of one problem, or of one sequence."""
+    first, problems = block[0][0], [problem for _, problem in block]
+    if first.mode and min(left) > 0:
+        found = sequence_measured(keeper, problems, first.setting, first.units, first.mode, limits,
+                                  left[0])  # fmt: skip
+        return [m.fields() | row for (m, _), row in zip(block, found, strict=True)]
+    rows: list[Row] = []
     for m, problem in block:
         if min(_less(left, rows)) <= 0:
-            rows.append(unmeasured(m, isinstance(problem.answer, Truth)))
+            rows.append(unmeasured(m, problem.feasible))
         else:
-            found = measured(keeper, problem, m.setting, m.units, m.warm, limits)
-            rows.append(m.fields() | found)
+            row = measured(keeper, problem, m.setting, m.units, m.warm, limits)
+            rows.append(m.fields() | row)
     return rows
 
 
@@ -110,7 +125,7 @@ class Work:
     unreached: dict[str, str] = field(default_factory=dict)
 
 
-def conduct(
+def measure_all(
     work: Work,
     executor: Executor,
     slots: int,
@@ -128,7 +143,7 @@ def conduct(
     answered : callable
         Solver -> the function that the executor calls.
     block : int
-        Measurements of a block; at least those of one problem.
+        Measurements of a block; at least those of one problem, or of one sequence.
     """
     queues: dict[str, deque[tuple[int, Measurement]]] = {}
     for place, m in enumerate(work.todo):
@@ -157,16 +172,15 @@ def conduct(
                         work.unreached[label] = error.problem
                         bar.update(1 + len(queues.pop(label, ())))
                         continue
-                    for row in rows:
-                        work.store.add(row)
-                        bar.update()
+                    work.store.add(*rows)
+                    bar.update(len(rows))
                     left[label] = _less(left[label], rows)
         finally:
             for future in under_way:
                 future.cancel()
 
 
-def conduct_here(work: Work, jobs: int) -> None:
+def measure_here(work: Work, jobs: int) -> None:
     """The same on the cores of this machine, one process for each of `jobs` solvers at once."""
     keepers: dict[str, Keeper] = {}
 
@@ -176,18 +190,18 @@ def conduct_here(work: Work, jobs: int) -> None:
 
     try:
         with ThreadPoolExecutor(jobs) as executor:
-            conduct(work, executor, jobs, answered)
+            measure_all(work, executor, jobs, answered)
     finally:
         for keeper in keepers.values():
             keeper.close()
 
 
 def _taken(queue: deque[tuple[int, Measurement]], block: int) -> list[Measurement]:
-    """Take the next measurements of one solver: whole problems, at least `block` in number."""
+    """Take the next measurements of one solver: whole problems or sequences, at least `block`."""
     taken: list[Measurement] = []
     while queue:
         m = queue[0][1]
-        new = not taken or (m.problem, m.repetition) != (taken[-1].problem, taken[-1].repetition)
+        new = not taken or m.together != taken[-1].together
         if new and len(taken) >= block:
             break
         taken.append(queue.popleft()[1])
@@ -198,6 +212,6 @@ def _left(work: Work, labels: Iterable[str]) -> dict[str, Left]:
     """What each solver has left of its budget after the rows that are there."""
     own: dict[str, list[Row]] = {label: [] for label in labels}
     for row in work.store.rows:
-        if (label := f"{row['interface']}:{row['solver']}") in own:
+        if (label := label_of(row)) in own:
             own[label].append(row)
     return {label: _less((work.budget, work.budget), rows) for label, rows in own.items()}

@@ -19,7 +19,8 @@ from quasistatic_ref.errors import QuasistaticError, RunFailed
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.lab.study.file.sweeps import Sweep, sweep_scenario
 from quasistatic_ref.lab.study.measuring.environment import machine, versions
-from quasistatic_ref.lab.study.store.store import Row, Store, key_of
+from quasistatic_ref.lab.study.store.rows import Row, key_of
+from quasistatic_ref.lab.study.store.store import Store
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.measures import link_motion
 from quasistatic_ref.simulate.progress import progress_bar
@@ -78,10 +79,8 @@ def run_sweep(
 
 
 def sweep_record(sweeps: Sequence[Sweep]) -> dict[str, Any]:
-    """What ``study.json`` of sweeps holds."""
+    """What a store says of sweeps."""
     return {
-        "format": "quasistatic-ref/study-store",
-        "version": 1,
         "kind": "sweep",
         "sweeps": [asdict(sweep) for sweep in sweeps],
         "versions": versions(()),
@@ -91,7 +90,7 @@ def sweep_record(sweeps: Sequence[Sweep]) -> dict[str, Any]:
 
 def run_file(row: Row) -> str:
     """Where the trajectory of a run is kept, in the folder of its store: named by its values."""
-    return f"{RUNS}/{row['sweep']}_{hashlib.sha256(key_of(row).encode()).hexdigest()[:12]}.npz"
+    return f"{RUNS}/{row['sweep']}_{hashlib.sha256(key_of(row)[1].encode()).hexdigest()[:12]}.npz"
 
 
 def sweep_row(sweep: Sweep, point: dict[str, Any]) -> Row:

@@ -16,7 +16,7 @@ from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, ungraded
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.lab.study.measuring.measure import Limits, measured
-from quasistatic_ref.lab.study.problems.qp import Problem, Truth
+from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.report.columns import columns_of
 from quasistatic_ref.lab.study.report.statistics import shifted_geometric_mean, success
 
@@ -75,6 +75,7 @@ def halves(problems: Iterable[Problem]) -> tuple[list[Problem], list[Problem]]:
 
 def run_of(name: str) -> str:
     """The run that a problem is of: its scenario, or itself where it was made alone."""
+    name = name.removeprefix("scenarios/")
     if name.startswith(AGAIN):
         return AGAIN[-1]
     family, _, rest = name.partition("/")
@@ -98,7 +99,7 @@ def scored(solver: str, options: Options, problems: Sequence[Problem], function:
     interface = "callable" if function else "qpsolvers"
     one = Solver(solver, interface, function or solver, {SEARCHED.name: options})
     names = {"family": "", "solver": solver, "interface": interface, "setting": SEARCHED.name,
-             "units": "natural", "warm": False, "repetition": 0}  # fmt: skip
+             "mode": "", "units": "natural", "warm": False, "repetition": 0}  # fmt: skip
     late = perf_counter() + PATIENCE * len(problems)
     rows = []
     with Keeper(one) as keeper:
@@ -106,7 +107,7 @@ def scored(solver: str, options: Options, problems: Sequence[Problem], function:
             if perf_counter() < late:
                 row = measured(keeper, p, SEARCHED, "natural", False, LIMITS)
             else:
-                row = ungraded(NOT_RUN, "not run (patience)", None, isinstance(p.answer, Truth))
+                row = ungraded(NOT_RUN, "not run (patience)", None, p.feasible)
             rows.append(names | {"problem": p.id} | row)
     found = columns_of(rows, LIMITS.call)
     times = np.where(found["digits"] >= WANTED, found["seconds"], LIMITS.call)

@@ -9,22 +9,21 @@ from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rational import exact_form_of
 from quasistatic_ref.lab.scenes.rigid import actuated_step
-from quasistatic_ref.lab.study.problems.answers import cone_answer
+from quasistatic_ref.lab.study.problems.answers import cone_answer, step_of
 from quasistatic_ref.lab.study.problems.families.short import framed
 from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
-from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Member
-from quasistatic_ref.lab.study.problems.qp import step_of
+from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, Metric, sparse_error_bound
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
 
 
-def refutation(one: Member) -> str | None:
+def refutation(one: Problem) -> str | None:
     """What is wrong with the answer of a problem; None if it is proved again.
 
     Parameters
     ----------
-    one : Member
+    one : Problem
     """
     if one.answer.farkas:
         y = [one.answer.farkas.get(i, "0") for i in range(len(one.b))]
@@ -45,13 +44,13 @@ def refutation(one: Member) -> str | None:
     return f"{' and '.join(wrong)} have other bits" if wrong else None
 
 
-def wrong_answers(members: Sequence[Member]) -> list[tuple[str, str]]:
+def wrong_answers(problems: Sequence[Problem]) -> list[tuple[str, str]]:
     """Names of problems whose answers are refuted, and why."""
-    found = [(one.id, refutation(one)) for one in members]
+    found = [(one.id, refutation(one)) for one in problems]
     return [(name, why) for name, why in found if why is not None]
 
 
-def cone_step(one: Member) -> StepData:
+def cone_step(one: Problem) -> StepData:
     """The step in the ellipsoid, friction being 1, whose blocks of rows a problem has."""
     A = one.A.toarray().reshape(-1, 4, len(one.g))
     phi = -one.b.reshape(-1, 4)[:, 0]
@@ -60,14 +59,14 @@ def cone_step(one: Member) -> StepData:
     return actuated_step(H, one.g, np.zeros(len(one.g)), contacts, 1.0).replace(cone=ELLIPSOID)
 
 
-def _different(one: Member, x: np.ndarray, error: float) -> str | None:
+def _different(one: Problem, x: np.ndarray, error: float) -> str | None:
     H, off = one.H.toarray(), x - one.answer.x
     free = float(one.g @ np.linalg.solve(H, one.g))
     far = float(np.sqrt(off @ H @ off / free))
     return None if far <= 2 * (error + one.answer.error) + 1e-16 else f"x is off by {far:.1g}"
 
 
-def _not_bounded(one: Member) -> str | None:
+def _not_bounded(one: Problem) -> str | None:
     natural = one.natural
     H, A = csc_matrix(natural.H), csc_matrix(natural.A)
     form = LargeForm(Metric(H), natural.g, A, natural.b, PlainSizes(natural.A, natural.g))

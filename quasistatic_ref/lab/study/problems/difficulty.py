@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.study.problems.problem import SPARSE, Member
+from quasistatic_ref.lab.study.problems.problem import SPARSE, Problem
 from quasistatic_ref.step.data import Array
 
 TOUCHING = 1e-12
@@ -19,12 +19,12 @@ SHOWN = 4
 """Significant figures."""
 
 
-def measures(one: Member) -> dict[str, Any]:
+def measures(one: Problem) -> dict[str, Any]:
     """Difficulty of a problem, in natural units: numbers without a unit.
 
     Parameters
     ----------
-    one : Member
+    one : Problem
 
     Returns
     -------
@@ -61,12 +61,12 @@ def measures(one: Member) -> dict[str, Any]:
     return _rounded(found)
 
 
-def tags(one: Member, own: tuple[str, ...], found: dict[str, Any]) -> list[str]:
+def tags(one: Problem, own: tuple[str, ...], found: dict[str, Any]) -> list[str]:
     """Words that a problem is chosen by.
 
     Parameters
     ----------
-    one : Member
+    one : Problem
     own : tuple of str
         Of its family.
     found : dict
@@ -91,7 +91,7 @@ def _close(found: dict[str, Any]) -> bool:
     return any(size is not None and size < CLOSE for size in sizes)
 
 
-def _condition(one: Member) -> float | None:
+def _condition(one: Problem) -> float | None:
     """Of H; blocks of six of sparse ones are independent, and any others are not computed."""
     if SPARSE not in one.facts["tags"]:
         return float(np.linalg.cond(one.H.toarray()))
@@ -100,7 +100,7 @@ def _condition(one: Member) -> float | None:
     return float(eigenvalues.max() / eigenvalues.min())
 
 
-def _rank(natural: Member, active: np.ndarray) -> int | None:
+def _rank(natural: Problem, active: np.ndarray) -> int | None:
     if SPARSE in natural.facts["tags"]:
         return None
     rows: Array = natural.A[active].toarray()
@@ -109,7 +109,7 @@ def _rank(natural: Member, active: np.ndarray) -> int | None:
     return int(np.linalg.matrix_rank(rows, tol=DEPENDENT)) if len(rows) else 0
 
 
-def _free(natural: Member) -> float:
+def _free(natural: Problem) -> float:
     """||H^-1 g||_H; 0 where it is not computed."""
     if SPARSE in natural.facts["tags"]:
         return 0.0

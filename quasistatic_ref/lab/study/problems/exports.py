@@ -10,23 +10,24 @@ from scipy.sparse import csc_matrix, csr_matrix
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, text_written, written_whole
-from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Member
+from quasistatic_ref.lab.study.problems.problem import SPARSE, Problem
 from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
 
-FORMATS = ("npz", "parquet", "mat", "json")
+PARQUET = "parquet"
+FORMATS = ("npz", PARQUET, "mat", "json")
 WORDS = ("id", "family", "kind", "status", "dial", "tags")
 VECTORS = ("g", "b")
 ANSWERS = ("x", "net", "slack", "lam")
 
 
-def exported(name: str, members: Sequence[Member], to: str, folder: Path) -> list[Path]:
+def exported(name: str, problems: Sequence[Problem], to: str, folder: Path) -> list[Path]:
     """Write problems in a format.
 
     Parameters
     ----------
     name : str
         Of the files.
-    members : sequence of Member
+    problems : sequence of Problem
         In the units that they are to have.
     to : str
         One of ``npz``, ``parquet``, ``mat``, ``json``.
@@ -41,29 +42,29 @@ def exported(name: str, members: Sequence[Member], to: str, folder: Path) -> lis
     InputError
         If nothing is left to write, a package is missing, or the folder cannot be written.
     """
-    members = [one for one in members if to != "parquet" or for_qpbenchmark(one)]
-    if not members:
+    problems = [one for one in problems if to != PARQUET or for_qpbenchmark(one)]
+    if not problems:
         raise InputError("holds no problem that this format has a place for", value=to)
     own: dict[str, Callable[[], list[Path]]] = {
-        "npz": lambda: [_npz(folder / f"{name}.npz", members)],
-        "mat": lambda: [_mat(folder / f"{name}.mat", members)],
-        "json": lambda: [_json(folder / f"{name}.jsonl", members)],
-        "parquet": lambda: _parquet(name, members, folder),
+        "npz": lambda: [_npz(folder / f"{name}.npz", problems)],
+        "mat": lambda: [_mat(folder / f"{name}.mat", problems)],
+        "json": lambda: [_json(folder / f"{name}.jsonl", problems)],
+        PARQUET: lambda: _parquet(name, problems, folder),
     }
     return own[to]()
 
 
-def for_qpbenchmark(one: Member) -> bool:
+def for_qpbenchmark(one: Problem) -> bool:
     """Whether qpbenchmark's format has a place for it: dense rows, and a solution."""
-    return one.facts["kind"] == QP and SPARSE not in one.facts["tags"] and not one.answer.farkas
+    return one.dense and one.feasible
 
 
-def _npz(path: Path, members: Sequence[Member]) -> Path:
+def _npz(path: Path, problems: Sequence[Problem]) -> Path:
     """``id``, ``family``, ..., and ``K/H``, ``K/g``, ... of problem K; sparse matrices as CSR."""
     arrays: dict[str, Any] = {
-        word: np.array([_word(one.facts[word]) for one in members]) for word in WORDS
+        word: np.array([_word(one.facts[word]) for one in problems]) for word in WORDS
     }
-    for k, one in enumerate(members):
+    for k, one in enumerate(problems):
         for key, value in _parts(one).items():
             if isinstance(value, csr_matrix):
                 arrays |= {f"{k}/{key}/values": value.data, f"{k}/{key}/columns": value.indices,
@@ -73,12 +74,12 @@ def _npz(path: Path, members: Sequence[Member]) -> Path:
     return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
-def _mat(path: Path, members: Sequence[Member]) -> Path:
+def _mat(path: Path, problems: Sequence[Problem]) -> Path:
     """A struct array ``problems``, as MATLAB's and Julia's readers of .mat files show it."""
     names = (*WORDS, "H", "A", *VECTORS, *ANSWERS, "farkas")
-    table = np.zeros(len(members), dtype=[(name, object) for name in names])
+    table = np.zeros(len(problems), dtype=[(name, object) for name in names])
     empty = np.zeros((0, 1))
-    for k, one in enumerate(members):
+    for k, one in enumerate(problems):
         for word in WORDS:
             table[k][word] = _word(one.facts[word])
         parts = _parts(one)
@@ -95,11 +96,11 @@ def _mat(path: Path, members: Sequence[Member]) -> Path:
     return written_whole(path, write)
 
 
-def _json(path: Path, members: Sequence[Member]) -> Path:
+def _json(path: Path, problems: Sequence[Problem]) -> Path:
     """A line for each problem: its facts and its numbers, in shortest round-trip decimal."""
 
     def lines() -> Iterator[str]:
-        for one in members:
+        for one in problems:
             numbers = {
                 key: {"rows": value.shape[0], "starts": value.indptr.tolist(),
                       "columns": value.indices.tolist(), "values": value.data.tolist()}
@@ -112,10 +113,10 @@ def _json(path: Path, members: Sequence[Member]) -> Path:
     return text_written(path, "\n".join(lines()) + "\n")
 
 
-def _parquet(name: str, members: Sequence[Member], folder: Path) -> list[Path]:
+def _parquet(name: str, problems: Sequence[Problem], folder: Path) -> list[Path]:
     """What qpbenchmark's command takes, and what answers are graded by."""
     stem = name.replace("-", "_")
-    programs = [Program(one.id, *one.form, one.answer.x) for one in members]
+    programs = [Program(one.id, *one.form, one.answer.x) for one in problems]
     title = "".join(part.title() for part in stem.split("_"))
     template = (Path(__file__).parent / "test_set.txt").read_text(encoding="utf-8")
     module = template.format(name=stem, title=title, words=name)
@@ -126,7 +127,7 @@ def _parquet(name: str, members: Sequence[Member], folder: Path) -> list[Path]:
     ]
 
 
-def _parts(one: Member) -> dict[str, Any]:
+def _parts(one: Problem) -> dict[str, Any]:
     """Its numbers by name: matrices dense, unless it is a sparse problem."""
     sparse = SPARSE in one.facts["tags"]
     found: dict[str, Any] = {

@@ -29,7 +29,7 @@ from quasistatic_ref.formats.files import (
 )
 from quasistatic_ref.formats.npz import npz_arrays
 from quasistatic_ref.lab.study.problems.families.dials import ends
-from quasistatic_ref.lab.study.problems.problem import Answer, Member
+from quasistatic_ref.lab.study.problems.problem import Answer, Problem
 from quasistatic_ref.solve.units import Units
 
 FORMAT, VERSION = "quasistatic-ref/problem-set", 1
@@ -43,24 +43,25 @@ DATE = (1980, 1, 1, 0, 0, 0)
 """Of every member of an archive: the same bytes whenever it is written."""
 
 
-def family_written(folder: Path, family: str, members: Sequence[Member]) -> list[Path]:
-    """Write one family: its numbers, and its lines until the set is whole."""
-    lines = "".join(json_text(_line(one)) + "\n" for one in members)
-    numbers = bytes_written(folder / NUMBERS / f"{family}.npz", _archive(_flat(members)))
+def family_written(folder: Path, family: str, problems: Sequence[Problem]) -> list[Path]:
+    """Write the problems that a family has so far: its numbers, and its lines apart."""
+    lines = "".join(json_text(_line(one)) + "\n" for one in problems)
+    numbers = bytes_written(folder / NUMBERS / f"{family}.npz", _archive(_flat(problems)))
     return [numbers, text_written(_begun(folder, family), lines)]
 
 
-def finished(folder: Path, family: str) -> bool:
-    """Whether a family of a set that is not yet whole is there."""
-    return _begun(folder, family).exists()
+def problems_begun(folder: Path) -> dict[str, Problem]:
+    """The problems by name of a set that is not yet whole."""
+    found: list[Problem] = []
+    with readable(folder):
+        for path in sorted((folder / NUMBERS).glob("*.jsonl")):
+            found += _problems(folder, path.stem, _lines(path))
+    return {one.id: one for one in found}
 
 
-def family_read(folder: Path, family: str) -> list[Member]:
-    """The problems of a family of a set that is not yet whole."""
-    return _members(folder, family, _lines(_begun(folder, family)))
-
-
-def set_written(folder: Path, name: str, every: Mapping[str, Sequence[Member]]) -> list[Path]:
+def set_written(
+    folder: Path, name: str, every: Mapping[str, Sequence[Problem]], **more: Any
+) -> list[Path]:
     """Write the lines of all families and the manifest; the numbers are there.
 
     Parameters
@@ -68,8 +69,10 @@ def set_written(folder: Path, name: str, every: Mapping[str, Sequence[Member]]) 
     folder : Path
     name : str
         Of the set, with its version.
-    every : mapping of str to sequence of Member
+    every : mapping of str to sequence of Problem
         Its families, in order.
+    more : object
+        What else the manifest says.
     """
     lines = "".join(json_text(_line(one)) + "\n" for part in every.values() for one in part)
     written = [text_written(folder / FACTS, lines)]
@@ -84,6 +87,7 @@ def set_written(folder: Path, name: str, every: Mapping[str, Sequence[Member]]) 
         "name": name,
         "count": sum(map(len, every.values())),
         "families": families,
+        **more,
         "files": [
             {"path": path.relative_to(folder).as_posix(), "sha256": _hash(bytes_read(path))}
             for path in [folder / FACTS, *(folder / NUMBERS / f"{one}.npz" for one in every)]
@@ -94,7 +98,7 @@ def set_written(folder: Path, name: str, every: Mapping[str, Sequence[Member]]) 
 
 def set_read(
     folder: str | Path, families: Sequence[str] | None = None, ids: Sequence[str] | None = None
-) -> list[Member]:
+) -> list[Problem]:
     """The problems of a set, or of some of its families, or those of some names.
 
     Raises
@@ -108,8 +112,8 @@ def set_read(
     for name in families or ():
         if name not in known:
             raise InputError(f"is no family of the set; it has {', '.join(known)}", value=name)
-    found: list[Member] = []
-    with _readable(folder):
+    found: list[Problem] = []
+    with readable(folder):
         lines = _lines(folder / FACTS)
         names = {line["id"] for line in lines}
         for name in ids or ():
@@ -119,13 +123,13 @@ def set_read(
             part = [line for line in lines if line["family"] == family]
             wanted = ids is None or any(line["id"] in ids for line in part)
             if (families is None or family in families) and wanted:
-                members = _members(folder, family, part)
-                found += [one for one in members if ids is None or one.id in ids]
+                problems = _problems(folder, family, part)
+                found += [one for one in problems if ids is None or one.id in ids]
     return found
 
 
 @contextmanager
-def _readable(folder: Path) -> Iterator[None]:
+def readable(folder: Path) -> Iterator[None]:
     """Say that the files are no set where reading them fails."""
     try:
         yield
@@ -173,7 +177,7 @@ def _hash(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def _line(one: Member) -> dict[str, Any]:
+def _line(one: Problem) -> dict[str, Any]:
     units = {
         "length": int(np.log2(one.units.length)),
         "size": int(np.log2(one.units.size)),
@@ -187,10 +191,10 @@ def _lines(path: Path) -> list[dict[str, Any]]:
     return [json.loads(line) for line in text.splitlines()]
 
 
-def _flat(members: Sequence[Member]) -> dict[str, NDArray[Any]]:
+def _flat(problems: Sequence[Problem]) -> dict[str, NDArray[Any]]:
     """The numbers of a family, arrays of one kind after one another."""
     parts: dict[str, list[NDArray[Any]]] = {}
-    for one in members:
+    for one in problems:
         solved = not one.answer.farkas
         for name in MATRICES:
             M = getattr(one, name).sorted_indices()
@@ -217,7 +221,7 @@ def _archive(arrays: Mapping[str, NDArray[Any]]) -> bytes:
     return content.getvalue()
 
 
-def _members(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> list[Member]:
+def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> list[Problem]:
     path = folder / NUMBERS / f"{family}.npz"
     arrays = npz_arrays(path, "the numbers of a family")
     at = dict.fromkeys(arrays, 0)
@@ -235,7 +239,7 @@ def _members(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> l
         values, places = taken(f"{name}_values", count), taken(f"{name}_columns", count)
         return csr_matrix((values, places.astype(np.int32), starts), shape=(rows, columns))
 
-    def one(line: Mapping[str, Any]) -> Member:
+    def one(line: Mapping[str, Any]) -> Problem:
         n, m, solved = line["n"], line["m"], line["farkas"] is None
         H, A = matrix("H", n, n), matrix("A", m, n)
         g, b = taken("g", n), taken("b", m)
@@ -251,9 +255,9 @@ def _members(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> l
         answer = Answer(said["kind"], said["error"], x, net, slack, lam, farkas, said["walks"],
                         said["unique_multipliers"], said["differentiable"])  # fmt: skip
         facts = {key: v for key, v in line.items() if key not in ("log2_units", "farkas")}
-        return Member(facts, H, g, A, b, units, answer)
+        return Problem(facts, H, g, A, b, units, answer)
 
-    members = [one(line) for line in lines]
+    problems = [one(line) for line in lines]
     if any(at[name] != len(array) for name, array in arrays.items()):
         raise InputError("has more numbers than problems", file=path)
-    return members
+    return problems

@@ -1,9 +1,9 @@
-"""The problems of a recipe, made with their answers, family by family: resumed where it stopped."""
+"""Problems made with their answers, family by family: resumed where the making stopped."""
 
 import hashlib
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -14,21 +14,16 @@ from quasistatic_ref.lab.study.problems.answers import (
     NotKnown,
     bounded_answer,
     cone_answer,
-    exact_answer,
+    dense_answer,
 )
 from quasistatic_ref.lab.study.problems.difficulty import measures, tags
 from quasistatic_ref.lab.study.problems.families.cones import cone_rows
 from quasistatic_ref.lab.study.problems.families.dials import DIALS, HARVESTED, one_turned
-from quasistatic_ref.lab.study.problems.families.harvest import Count, no_count
+from quasistatic_ref.lab.study.problems.families.harvest import Count
 from quasistatic_ref.lab.study.problems.families.made import Made
-from quasistatic_ref.lab.study.problems.folder import (
-    family_read,
-    family_written,
-    finished,
-    set_written,
-)
-from quasistatic_ref.lab.study.problems.problem import QP, SOCP, SPARSE, Answer, Member
-from quasistatic_ref.lab.study.problems.recipe import CONTACT_QP_1, Recipe, family_made
+from quasistatic_ref.lab.study.problems.folder import family_written, problems_begun, set_written
+from quasistatic_ref.lab.study.problems.problem import QP, SOCP, SPARSE, Answer, Problem
+from quasistatic_ref.lab.study.problems.recipe import CONTACT_QP_1, Recipe, family_steps
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.solve.units import Units, coordinate_units, metric, units_from, units_of
@@ -39,37 +34,72 @@ ATTEMPTS = 10
 """Draws of a problem, until it has a solution where its family has, and one that is not zero."""
 UNKNOWN = Answer("", 0.0, NONE, NONE, NONE, NONE, {0: "1"})
 """In place of an answer that is still to be found."""
+Kept = Mapping[str, Problem]
+"""Problems by name that were made before."""
+NOTHING: Kept = MappingProxyType({})
+Family = Callable[[Kept, Count], Iterator[Problem]]
+"""(problems made before, count of simulated steps) -> the problems of a family."""
+Numbers = tuple[csr_matrix, Array, csr_matrix, Array]
+"""H, g, A, b."""
 
 
-def made_set(recipe: Recipe, folder: Path, progress: bool = True) -> list[Path]:
-    """Make a set and write its folder; families that are there are not made again.
+def set_made(
+    name: str,
+    families: Mapping[str, Family],
+    folder: Path,
+    total: int,
+    progress: bool = True,
+    **more: Any,
+) -> list[Problem]:
+    """Make a set and write its folder; no answer that was found before is sought again.
 
     Parameters
     ----------
-    recipe : Recipe
+    name : str
+    families : mapping of str to callable
     folder : Path
+    total : int
+        Problems, and steps of the runs that they are taken from: what a bar counts.
     progress : bool
+        Whether to show it on standard error, where that is a terminal.
+    more : object
+        What else the manifest says.
 
-    Returns
-    -------
-    list of Path
-        What was written, the manifest last.
+    Raises
+    ------
+    KeyboardInterrupt
+        After Ctrl-C. The problems made so far are kept.
     """
-    total = sum(recipe.families.values())
-    with progress_bar(total=total, unit="problem", words="exact answers", shown=progress) as bar:
-        for family, count in recipe.families.items():
-            if not finished(folder, family):
-                members = list(family_members(family, count, recipe.seed))
-                family_written(folder, family, members)
-            bar.update(count)
-    every = {family: family_read(folder, family) for family in recipe.families}
-    return set_written(folder, recipe.name, every)
+    kept = problems_begun(folder)
+    every: dict[str, list[Problem]] = {}
+    with progress_bar(total=total, unit="step", words="exact answers", shown=progress) as bar:
+        for family, problems_of in families.items():
+            own = every[family] = []
+            try:
+                for one in problems_of(kept, bar.update):
+                    own.append(one)
+                    bar.update()
+            except KeyboardInterrupt:
+                before = {k: one for k, one in kept.items() if one.facts["family"] == family}
+                family_written(folder, family, list((before | {p.id: p for p in own}).values()))
+                raise
+            family_written(folder, family, own)
+    set_written(folder, name, every, **more)
+    return [one for own in every.values() for one in own]
 
 
-def family_members(
-    family: str, count: int, seed: int, count_steps: Count = no_count
-) -> Iterator[Member]:
-    """The problems of one family with their answers.
+def recipe_made(recipe: Recipe, folder: Path, progress: bool = True) -> list[Problem]:
+    """Make the set of a recipe, as :func:`set_made` does."""
+
+    def family(name: str, count: int) -> Family:
+        return lambda kept, _: family_problems(name, count, recipe.seed, kept)
+
+    families = {name: family(name, count) for name, count in recipe.families.items()}
+    return set_made(recipe.name, families, folder, sum(recipe.families.values()), progress)
+
+
+def family_problems(family: str, count: int, seed: int, kept: Kept = NOTHING) -> Iterator[Problem]:
+    """The problems of one family of a recipe with their answers.
 
     Steps of runs that move nothing are left out, but for those of sequences, and steps that are
     there already, in this family or in one of runs before it.
@@ -79,22 +109,21 @@ def family_members(
     family : str
     count : int
     seed : int
-    count_steps : callable
-        Is called with the number of steps of scenarios that were just simulated.
+    kept : mapping of str to Problem
+        Made before.
     """
     if family in DIALS:
-        for i, one in enumerate(family_made(family, count, seed, count_steps)):
-            yield _good(one, i, seed)
+        for i, one in enumerate(family_steps(family, count, seed)):
+            yield _good(one, i, seed, kept)
         return
     seen: set[bytes] = set()
     for before in list(HARVESTED)[: list(HARVESTED).index(family)]:
-        share = CONTACT_QP_1.families[before]
-        seen |= {_digest(one) for one in family_made(before, share, seed, count_steps)}
-    for one in family_made(family, count, seed, count_steps):
+        seen |= {_digest(one) for one in family_steps(before, CONTACT_QP_1.families[before], seed)}
+    for one in family_steps(family, count, seed):
         if (digest := _digest(one)) in seen and one.sequence is None:
             continue
         seen.add(digest)
-        found = member_of(one)
+        found = problem_of(one, kept)
         if found.answer.x.any() or one.sequence is not None:
             yield found
 
@@ -104,7 +133,7 @@ def _digest(one: Made) -> bytes:
     return hashlib.sha256(b"".join(v.tobytes() for v in standard_form(one.step))).digest()
 
 
-def _good(one: Made, i: int, seed: int) -> Member:
+def _good(one: Made, i: int, seed: int, kept: Kept) -> Problem:
     """The problem, or another in its place that has a solution if it should."""
     dial = DIALS[one.family]
     for again in range(ATTEMPTS):
@@ -112,57 +141,76 @@ def _good(one: Made, i: int, seed: int) -> Member:
             assert one.dial is not None  # of every family in DIALS
             one = one_turned(one.family, one.dial, i, seed, again)
         try:
-            found = member_of(one)
+            found = problem_of(one, kept)
         except NotKnown:
             continue
-        solved = not found.answer.farkas
-        if solved == dial.solvable and (not solved or found.answer.x.any()):
+        if found.feasible == dial.solvable and (not found.feasible or found.answer.x.any()):
             return found
     raise NotKnown(f"{one.id}: no draw is a problem of its family")
 
 
-def member_of(one: Made) -> Member:
-    """A problem of a set from a step, with its answer and what is measured of it.
+def problem_of(one: Made, kept: Kept = NOTHING) -> Problem:
+    """A problem from a step, with its answer and what is measured of it.
+
+    Parameters
+    ----------
+    one : Made
+    kept : mapping of str to Problem
+        Made before; one of the same name and numbers is taken.
 
     Raises
     ------
     NotKnown
         If its answer cannot be proved.
     """
+    kind = SOCP if one.step.cone == "ellipsoid" else QP
     if SPARSE in one.tags:
-        return _measured(one, *_sparse(one), kind=QP)
-    if one.step.cone == "ellipsoid":
-        form, _ = cone_rows(one.step)
+        sparse = sparse_form(one.step, Pattern(one.step))
+        H = csr_matrix(sparse.P + triu(sparse.P, 1).T)
+        numbers: Numbers = H, sparse.g, csr_matrix(sparse.A), sparse.b
+    else:
+        form = cone_rows(one.step)[0] if kind == SOCP else standard_form(one.step)
+        numbers = csr_matrix(form.H), form.g, csr_matrix(form.A), form.b
+    before = kept.get(one.id)
+    if before is not None and _same(before, numbers):
+        return before
+    if SPARSE in one.tags:
+        units = _sparse_units(*numbers)
+        plain = Problem({}, *numbers, units, UNKNOWN).natural
+        answer = bounded_answer(plain.H, plain.g, plain.A, plain.b, units)
+    else:
         units = units_of(form, metric(form.H))
-        parts = csr_matrix(form.H), form.g, csr_matrix(form.A), form.b, units
-        return _measured(one, *parts, cone_answer(one.step, form), kind=SOCP)
-    form = standard_form(one.step)
-    units = units_of(form, metric(form.H))
-    parts = csr_matrix(form.H), form.g, csr_matrix(form.A), form.b, units
-    return _measured(one, *parts, exact_answer(form), kind=QP)
+        answer = cone_answer(one.step, form) if kind == SOCP else dense_answer(form)
+    return _measured(one, kind, numbers, units, answer)
 
 
-def _sparse(one: Made) -> tuple[csr_matrix, Array, csr_matrix, Array, Units, Answer]:
-    """The numbers of a sparse step, and its answer."""
+def _same(problem: Problem, numbers: Numbers) -> bool:
+    H, g, A, b = numbers
+    return (
+        problem.H.shape == H.shape
+        and problem.A.shape == A.shape
+        and np.array_equal(problem.g, g)
+        and np.array_equal(problem.b, b)
+        and not (problem.H != H).nnz
+        and not (problem.A != A).nnz
+    )
+
+
+def _sparse_units(H: csr_matrix, g: Array, A: csr_matrix, b: Array) -> Units:
+    """Natural units of a sparse problem."""
     from scipy.sparse.linalg import spsolve
 
-    form = sparse_form(one.step, Pattern(one.step))
-    H, A = csr_matrix(form.P + triu(form.P, 1).T), csr_matrix(form.A)
     S = coordinate_units(H.diagonal())
     rows = A.multiply(S)
     squares = np.sort(np.asarray(rows.multiply(rows).sum(axis=1)).ravel())
-    energy = float(np.sqrt(form.g @ spsolve(csc_matrix(H), form.g)))
-    units = units_from(S, squares, energy, form.b)
-    plain = Member({}, H, form.g, A, form.b, units, UNKNOWN).natural
-    answer = bounded_answer(plain.H, plain.g, plain.A, plain.b, units)
-    return H, form.g, A, form.b, units, answer
+    energy = float(np.sqrt(g @ spsolve(csc_matrix(H), g)))
+    return units_from(S, squares, energy, b)
 
 
-def _measured(
-    one: Made, H: csr_matrix, g: Array, A: csr_matrix, b: Array, units: Units, answer: Answer,
-    kind: str,
-) -> Member:  # fmt: skip
-    """The member with its line: what it is, how hard it is, how its answer is known."""
+def _measured(one: Made, kind: str, numbers: Numbers, units: Units, answer: Answer) -> Problem:
+    """The problem with its line: what it is, how hard it is, how its answer is known."""
+    H, g, A, b = numbers
+    sequence = one.sequence and {"name": one.sequence[0], "place": one.sequence[1]}
     facts: dict[str, Any] = {
         "id": one.id,
         "family": one.family,
@@ -174,9 +222,7 @@ def _measured(
         "k": one.k,
         "mass_ratio": one.mass_ratio,
         "dial": one.dial,
-        "sequence": None
-        if one.sequence is None
-        else {"name": one.sequence[0], "place": one.sequence[1]},
+        "sequence": sequence,
         "status": answer.status,
         "answer": {
             "kind": answer.kind,
@@ -187,7 +233,7 @@ def _measured(
         },
         "tags": list(one.tags),
     }
-    member = Member(facts, H, g + 0.0, A, b + 0.0, units, answer)
-    found = measures(member)
-    facts |= {"tags": tags(member, one.tags, found), "measures": found}
-    return replace(member, facts=facts)
+    problem = Problem(facts, H, g + 0.0, A, b + 0.0, units, answer)
+    found = measures(problem)
+    facts |= {"tags": tags(problem, one.tags, found), "measures": found}
+    return problem

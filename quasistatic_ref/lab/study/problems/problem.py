@@ -1,14 +1,12 @@
-"""One problem of a set: its numbers without their zeros, its answer, and what is known of it."""
+"""One quadratic program of contact: its numbers without zeros, its answer, what is known of it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from quasistatic_ref.lab.study.problems.qp import Facts, NoSolution, Problem, Truth
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -18,6 +16,7 @@ QP, SOCP = "qp", "socp"
 OPTIMAL, INFEASIBLE = "optimal", "infeasible"
 EXACT, ENCLOSED, BOUNDED = "exact", "enclosed", "bounded"
 """How an answer is known: rounded correctly; off by rounding at most; off by a proved bound."""
+RAW, NATURAL = UNITS = ("raw", "natural")
 SPARSE = "sparse"
 """The tag of problems that are too large to be dense."""
 
@@ -63,7 +62,7 @@ class Answer:
 
 
 @dataclass(frozen=True, eq=False)
-class Member:
+class Problem:
     """min 1/2 x'Hx - g'x subject to A x >= b, or to cones, in SI units.
 
     Parameters
@@ -92,7 +91,17 @@ class Member:
         return str(self.facts["id"])
 
     @property
-    def natural(self) -> "Member":
+    def feasible(self) -> bool:
+        """Whether it has a solution."""
+        return not self.answer.farkas
+
+    @property
+    def dense(self) -> bool:
+        """Whether it has rows, and so few that solvers of dense matrices take it."""
+        return self.facts["kind"] == QP and SPARSE not in self.facts["tags"]
+
+    @property
+    def natural(self) -> "Problem":
         """The same in natural units, without rounding; Farkas vectors are those of SI units."""
         S, ell, rho = self.units.coordinate, self.units.length, self.units.size
         a, one = self.answer, Units(np.ones(len(S)), 1.0, 1.0)
@@ -106,21 +115,9 @@ class Member:
         H = csr_matrix(self.H.multiply(S).multiply(S[:, None]))
         A = csr_matrix(self.A.multiply(S / ell))
         g, b = self.g * (S / rho), self.b / (rho * ell)
-        return Member(self.facts, H, g, A, b, one, answer)
+        return Problem(self.facts, H, g, A, b, one, answer)
 
     @property
     def form(self) -> StandardForm:
         """H, g, A, b as dense arrays."""
         return StandardForm(self.H.toarray(), self.g, self.A.toarray(), self.b)
-
-    @property
-    def problem(self) -> Problem:
-        """The same as a problem of a study, of dense rows."""
-        names = ("id", "family", "contacts", "mass_ratio", "h", "k")
-        answer: Truth | NoSolution = Truth(self.answer.x, self.answer.net, self.answer.error)
-        if self.answer.farkas:
-            y = np.zeros(len(self.b))
-            for row, value in self.answer.farkas.items():
-                y[row] = float(Fraction(value))
-            answer = NoSolution(y)
-        return Problem(Facts(**{name: self.facts[name] for name in names}), self.form, answer)

@@ -1,16 +1,15 @@
 """Which problems ``contact-qp-1`` was made of."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.study.file.study_file import FAMILIES, TestSet
 from quasistatic_ref.lab.study.problems.families.dials import DIALS, turned
+from quasistatic_ref.lab.study.problems.families.drawn import drawn
 from quasistatic_ref.lab.study.problems.families.harvest import Count, no_count
 from quasistatic_ref.lab.study.problems.families.made import Made
 from quasistatic_ref.lab.study.problems.families.windows import windows
-from quasistatic_ref.lab.study.problems.study_problems import made
 
 
 @dataclass(frozen=True)
@@ -55,10 +54,10 @@ CONTACT_QP_1: Final = Recipe(
 )
 
 
-def family_made(
+def family_steps(
     family: str, count: int, seed: int, count_steps: Count = no_count
 ) -> Iterator[Made]:
-    """The problems of one family.
+    """The steps of one family.
 
     Parameters
     ----------
@@ -76,7 +75,4 @@ def family_made(
         for name in names:
             yield from windows(name, count=count_steps)
         return
-    counts = dict.fromkeys(FAMILIES, 0) | {family: count}
-    for one in made(TestSet(seed, counts, names), count_steps):
-        dial = {"time_step": one.step.h, "closest_points": float(one.k)}.get(family)
-        yield replace(one, id=one.id if dial else f"scenarios/{one.id}", family=family, dial=dial)
+    yield from drawn(family, count, seed, names, count_steps=count_steps)

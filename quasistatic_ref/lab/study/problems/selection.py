@@ -1,7 +1,7 @@
 """The problems of a study that are taken from a set, evenly along the dial of each family."""
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +11,9 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.resources import problem_set_folder
-from quasistatic_ref.lab.study.file.study_file import TestSet
 from quasistatic_ref.lab.study.problems.families.dials import ends
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest, set_read
-from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Member
-from quasistatic_ref.lab.study.problems.qp import Problem
+from quasistatic_ref.lab.study.problems.problem import Problem
 
 CONTACT_QP_1 = "contact-qp-1"
 
@@ -43,45 +41,45 @@ def set_identity(source: str) -> dict[str, Any]:
     return {"name": manifest(folder)["name"], "sha256": hashlib.sha256(content).hexdigest()}
 
 
-def problems_taken(test_set: TestSet) -> list[Problem]:
+def problems_taken(
+    source: str, families: Mapping[str, int], most: Mapping[str, float]
+) -> list[Problem]:
     """The problems that a study takes from a set.
 
     Parameters
     ----------
-    test_set : TestSet
-        With a source.
-
-    Returns
-    -------
-    list of Problem
+    source : str
+        A name, or a folder.
+    families : mapping of str to int
+        How many of each.
+    most : mapping of str to float
+        Where dials end.
 
     Raises
     ------
     InputError
         If a family is not there, or has cones or sparse matrices, for which studies have no place.
     """
-    folder = set_folder(test_set.source)
-    wanted = {name: count for name, count in test_set.families.items() if count}
-    members = set_read(folder, list(wanted))
-    found: list[Member] = []
+    wanted = {name: count for name, count in families.items() if count}
+    every = set_read(set_folder(source), list(wanted))
+    found: list[Problem] = []
     for family, count in wanted.items():
-        own = [one for one in members if one.facts["family"] == family]
-        for one in own:
-            if one.facts["kind"] != QP or SPARSE in one.facts["tags"]:
-                words = "has cones or sparse matrices; studies contain dense rows only"
-                raise InputError(words, field="problems.families", value=family)
-        found += chosen(own, family, count, test_set.most.get(family))
-    return [one.problem for one in found]
+        own = [one for one in every if one.facts["family"] == family]
+        if not all(one.dense for one in own):
+            words = "has cones or sparse matrices; studies contain dense rows only"
+            raise InputError(words, field="problems.families", value=family)
+        found += chosen(own, family, count, most.get(family))
+    return found
 
 
 def chosen(
-    own: Sequence[Member], family: str, count: int, most: float | None = None
-) -> list[Member]:
+    own: Sequence[Problem], family: str, count: int, most: float | None = None
+) -> list[Problem]:
     """Some problems of a family, evenly along its dial; of sequences whole ones, in order.
 
     Parameters
     ----------
-    own : sequence of Member
+    own : sequence of Problem
         All of the family.
     family : str
     count : int

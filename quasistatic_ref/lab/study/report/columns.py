@@ -5,13 +5,14 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, SOLVED
-from quasistatic_ref.lab.study.store.store import Row
+from quasistatic_ref.lab.study.store.rows import Row
 
 FLAGS = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong", "wrong_multipliers")
 Columns = Mapping[str, np.ndarray]
 Where = Mapping[str, str | bool | int]
 
-TEXT = ("problem", "family", "interface", "solver", "setting", "units", "outcome", "claimed")
+TEXT = ("problem", "family", "interface", "solver", "setting", "mode", "units", "outcome",
+        "claimed")  # fmt: skip
 
 
 def columns_of(rows: Sequence[Row], limit: float) -> Columns:

@@ -18,8 +18,11 @@ class Comparison:
     Parameters
     ----------
     study : mapping
-        ``study.json``.
+        As a store has it.
+    first : mapping of str to ndarray
+        Of the first repetition.
     columns : mapping of str to ndarray
+        Those of them on problems that have a solution, if there are any.
     settings : list of str
         Each solver's own first, then from loose to tight.
     base : mapping
@@ -28,6 +31,7 @@ class Comparison:
     """
 
     study: Mapping[str, Any]
+    first: Columns
     columns: Columns
     settings: list[str]
     base: Where
@@ -80,7 +84,7 @@ def comparison_of(study: Mapping[str, Any], every: Columns) -> Comparison:
     Parameters
     ----------
     study : mapping
-        ``study.json``.
+        As a store has it.
     every : mapping of str to ndarray
         All rows; what is compared is of the first repetition, on problems that have a solution if
         there are any.
@@ -88,7 +92,8 @@ def comparison_of(study: Mapping[str, Any], every: Columns) -> Comparison:
     first = chosen(every, {"repetition": 0})
     columns = chosen(first, {"feasible": True})
     columns = columns if size(columns) else first
-    return Comparison(study, columns, _settings(study, columns), _widest(columns), noise_of(every))
+    settings, base = _settings(study, columns), _widest(columns)
+    return Comparison(study, first, columns, settings, base, noise_of(every))
 
 
 def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:

@@ -46,13 +46,8 @@ def place_tables(study: Mapping[str, Any]) -> tuple[Table, Table]:
             for key in dict.fromkeys(key for part in parts for key in part)
         )
         columns = (first, *(names or [one]))
-        tables.append(Table(f"{title}.", f"study.json, {field}", columns, lines, len(columns)))
+        tables.append(Table(f"{title}.", f"the store, {field}", columns, lines, len(columns)))
     return tables[0], tables[1]
-
-
-def old_times(study: Mapping[str, Any]) -> list[str]:
-    """The warning about the times of a store of version 1."""
-    return _words()["old"] if study.get("version") == 1 else []
 
 
 def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
@@ -63,7 +58,7 @@ def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
         for setting, options in s["options"].items()
     )
     names = ("solver", "interface", "setting", "its own options")
-    return Table("Options.", "study.json, solvers", names, rows, left=4)
+    return Table("Options.", "the store, options", names, rows, left=4)
 
 
 def settings_table(settings: Sequence[Mapping[str, Any]]) -> Table:
@@ -74,4 +69,4 @@ def settings_table(settings: Sequence[Mapping[str, Any]]) -> Table:
         for s in settings
     )  # fmt: skip
     names = ("setting", "accuracy", "digits promised", "options")
-    return Table("The settings.", "study.json, settings", names, rows)
+    return Table("The settings.", "the store, settings", names, rows)

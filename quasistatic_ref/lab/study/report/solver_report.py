@@ -27,11 +27,11 @@ from quasistatic_ref.lab.study.report.numbers import filter_words
 from quasistatic_ref.lab.study.report.report_words import (
     limitations,
     method,
-    old_times,
     options_table,
     place_tables,
     settings_table,
 )
+from quasistatic_ref.lab.study.report.sequences import sequence_tables
 from quasistatic_ref.lab.study.report.solver_tables import (
     LEVELS,
     contrast,
@@ -46,72 +46,62 @@ from quasistatic_ref.lab.study.report.solver_tables import (
 )
 from quasistatic_ref.lab.study.report.statistics import performance_ratios, success
 from quasistatic_ref.lab.study.report.worst import worst_problems
-from quasistatic_ref.lab.study.store.store import Row
+from quasistatic_ref.lab.study.store.store import Contents
 
 PROFILED = (6.0, 9.0)
 """Digits that count as right in a profile."""
 
 
-def solver_report(
-    study: Mapping[str, Any],
-    facts: Sequence[Mapping[str, Any]],
-    rows: Sequence[Row],
-    unreached: Mapping[str, str] | None = None,
-) -> Report:
+def solver_report(found: Contents) -> Report:
     """The report on a store of solvers.
 
     Parameters
     ----------
-    study : mapping
-        ``study.json``.
-    facts : sequence of mapping
-        ``problems.jsonl``.
-    rows : sequence of dict
-    unreached : mapping of str to str, optional
-        Solvers that could not be imported, with the reason.
-
-    Returns
-    -------
-    Report
+    found : Contents
     """
-    every = columns_of(rows, study["time_limit"])
+    study, facts = found.study, found.problems
+    every = columns_of(found.rows, study["time_limit"])
     first = chosen(every, {"repetition": 0})
-    comparison = comparison_of(study, every)
-    columns, noise = comparison.columns, comparison.noise
-    families = list(dict.fromkeys(fact["family"] for fact in facts))
+    alone = chosen(every, {"mode": ""})
     head = (
-        f"{len(facts):,} problems, {len(set(columns['way'])):,} pairs of solver and interface, "
-        f"{len(rows):,} measurements."
+        f"{len(facts):,} problems, {len(set(every['way'])):,} pairs of solver and interface, "
+        f"{len(found.rows):,} measurements."
     )
-    if machines := study.get("machines"):
-        head += f" Made on {len(machines)} machines: {', '.join(machines)}; "
-        head += f"the figures are of {comparison.drawn}."
-    heads = [head, *old_times(study), noise_words(noise)]
-    options = options_table(study["solvers"])
-    sections: dict[str, Sequence[Block]] = {
-        "Time to so many digits": [*heads, *_headline(comparison, unreached or {})],
-        "Accuracy and time": _compared(comparison),
-        "False claims": [*_claims(comparison), *detection(first)],
-        "Worst problems": worst_problems(
-            columns,
-            comparison.base,
-            [(one.label, one.setting) for one in comparison.fastest()],
-            facts,
-        ),
-        "By problem family": _by_family(comparison, families),
-        "Units, warm starts, interfaces": _contrasts(comparison),
-        "Set-up, solving, conversion": parts_of_calls(
-            [(one.rows, one.setting) for one in comparison.soonest(WANTED[0])], comparison.base
-        ),
+    sections: dict[str, Sequence[Block]] = {}
+    if size(alone):
+        sections |= _of_problems(comparison_of(study, alone), found, head)
+    sections |= {
+        "Steps in order": sequence_tables(found.rows, facts),
         "How calls ended": [outcome_table(first), *failing_clocks(first)],
         "Method": [*method(study["time_limit"]), settings_table(study["settings"])],
         "Limitations": limitations(),
         "Problems": [problem_table(facts)],
-        "Machine, versions, options": [*place_tables(study), options],
+        "Machine, versions, options": [*place_tables(study), options_table(study["solvers"])],
     }
     title = "Solvers on contact problems with exact answers"
     parts = (Section(name, tuple(part)) for name, part in sections.items() if part)
     return Report(title, tuple(parts))
+
+
+def _of_problems(comparison: Comparison, found: Contents, head: str) -> dict[str, Sequence[Block]]:
+    """The sections on problems that were solved one at a time."""
+    columns, facts = comparison.columns, found.problems
+    if machines := found.study.get("machines"):
+        head += f" Made on {len(machines)} machines: {', '.join(machines)}; "
+        head += f"the figures are of {comparison.drawn}."
+    heads = [head, noise_words(comparison.noise)]
+    fastest = [(one.label, one.setting) for one in comparison.fastest()]
+    families = list(dict.fromkeys(fact["family"] for fact in facts))
+    calls = [(one.rows, one.setting) for one in comparison.soonest(WANTED[0])]
+    return {
+        "Time to so many digits": [*heads, *_headline(comparison, found.unreached)],
+        "Accuracy and time": _compared(comparison),
+        "False claims": [*_claims(comparison), *detection(comparison.first)],
+        "Worst problems": worst_problems(columns, comparison.base, fastest, facts),
+        "By problem family": _by_family(comparison, families),
+        "Units, warm starts, interfaces": _contrasts(comparison),
+        "Set-up, solving, conversion": parts_of_calls(calls, comparison.base),
+    }
 
 
 def _headline(comparison: Comparison, unreached: Mapping[str, str]) -> list[Block]:

@@ -235,7 +235,7 @@ def problem_table(facts: Sequence[Mapping[str, Any]]) -> Table:
         rows.append(tuple(cells))
     names = ("family", "problems", "exact answers", "coordinates n", "rows m", "contacts",
              "h [s]", "mass ratio", "condition of H, raw", "condition of H, natural")  # fmt: skip
-    return Table("The problems.", "problems.jsonl", names, tuple(rows))
+    return Table("The problems.", "the store, problems", names, tuple(rows))
 
 
 def _span(values: Sequence[float]) -> str:

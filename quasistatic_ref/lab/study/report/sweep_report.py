@@ -5,7 +5,7 @@ from typing import Any
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section, Table
 from quasistatic_ref.lab.study.report.report_words import place_tables, sweep_method
-from quasistatic_ref.lab.study.store.store import Row
+from quasistatic_ref.lab.study.store.rows import Row
 
 MEASURES = (
     ("rotation_deg", "largest rotation [deg]"),
@@ -28,7 +28,7 @@ def sweep_report(study: Mapping[str, Any], rows: Sequence[Row]) -> Report:
     Parameters
     ----------
     study : mapping
-        ``study.json``.
+        As a store has it.
     rows : sequence of dict
 
     Returns

@@ -30,7 +30,7 @@ def worst_problems(
     ways : sequence of (str, str)
         Label and setting of each solver.
     facts : sequence of mapping
-        ``problems.jsonl``: how far the answer of each problem is known.
+        Of the problems: how far the answer of each problem is known.
     """
     words = (
         "Each table is of one solver, at the setting and through the interface that deliver 6 "

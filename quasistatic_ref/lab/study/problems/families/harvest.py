@@ -81,7 +81,7 @@ def harvested(name: str, count: int) -> Iterator[Made]:
     for s in steps:
         step = run.step_data(int(s))
         k = max(pair.k for pair in scenario.pairs)
-        yield Made(f"{name}/{s}", name, step, mass_ratio(step), k)
+        yield Made(f"scenarios/{name}/{s}", "scenarios", step, mass_ratio(step), k)
 
 
 def stepped_again(

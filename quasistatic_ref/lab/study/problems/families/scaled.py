@@ -28,11 +28,12 @@ def slabs(family: str, field: str, values: Array, seed: int) -> Iterator[Made]:
         numbers = COMMON | {field: float(value)}
         rng = np.random.default_rng([seed, i, len(field)])
         step = slab_step(rng, int(numbers["contacts"]), numbers["ratio"], numbers["h"])
-        yield Made(f"{family}/{value:.6g}/{i}", family, step, numbers["ratio"], 0)
+        name = f"{family}/{value:.6g}/{i}"
+        yield Made(name, family, step, numbers["ratio"], 0, float(value))
 
 
 def towers(bodies: list[int], seed: int) -> Iterator[Made]:
     """A tower of each number of bodies."""
     for i, count in enumerate(bodies):
         step = tower_step(np.random.default_rng([seed, i, 77]), count)
-        yield Made(f"bodies/{count}/{i}", "bodies", step, 1.0, 0)
+        yield Made(f"bodies/{count}/{i}", "bodies", step, 1.0, 0, float(count))

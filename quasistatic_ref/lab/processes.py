@@ -1,4 +1,4 @@
-"""What Linux knows of a solver's process: its memory, its children, also those that detached.
+"""What Linux knows of a process: its memory, its children, also those that detached.
 
 On other systems there is no `/proc`: memory is not known, and only the process's own group ends.
 """
@@ -11,8 +11,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 PROC = Path("/proc")
-TOKEN = "QUASISTATIC_REF_STUDY_WORKER"
-"""Variable of the environment by which children of a worker are known when it has ended."""
+TOKEN = "QUASISTATIC_REF_SUPERVISED"
+"""Variable of the environment by which children of a process are known when it has ended."""
 PAGE = os.sysconf("SC_PAGE_SIZE")
 _SUBREAPER = 36
 """PR_SET_CHILD_SUBREAPER: children whose parents have ended become children of this process."""
