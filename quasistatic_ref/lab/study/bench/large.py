@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.scenes.piles import Pile, pile
 from quasistatic_ref.solve.backends import DEFAULT_OF_LARGE
 from quasistatic_ref.step.data import Array
@@ -91,22 +92,25 @@ def large_step(shape: tuple[int, int, int], k: int = 4, steps: int = STEPS) -> L
     )
 
 
-def table(title: str, steps: Sequence[LargeStep]) -> str:
-    """A Markdown table."""
-    lines = [
-        f"| {title} | contacts | coordinates | rows | sparse | distances [ms] | rows [ms] "
-        "| solve [ms] | integrate [ms] | step [ms] | p99 [ms] | memory [MB] |",
-        "|" + "---|" * 12,
-    ]
-    for step in steps:
-        parts = " | ".join(f"{1e3 * step.parts[name]:.2f}" for name in step.parts)
-        size = step.bodies if step.shape[1:] == (1, 1) else " x ".join(map(str, step.shape))
-        sparse = "yes" if step.sparse else "no"
-        lines.append(
-            f"| {size} | {step.contacts} | {step.coordinates} | {step.rows} | {sparse} | {parts} "
-            f"| {1e3 * step.seconds:.1f} | {1e3 * step.tail:.1f} | {step.megabytes:.1f} |"
+def table(title: str, steps: Sequence[LargeStep]) -> list[str]:
+    """The lines of a table in Markdown."""
+    columns = (
+        title, "contacts", "coordinates", "rows", "sparse", "distances [ms]", "rows [ms]",
+        "solve [ms]", "integrate [ms]", "step [ms]", "p99 [ms]", "memory [MB]",
+    )  # fmt: skip
+    rows = [
+        (
+            str(step.bodies) if step.shape[1:] == (1, 1) else " x ".join(map(str, step.shape)),
+            *map(str, (step.contacts, step.coordinates, step.rows)),
+            "yes" if step.sparse else "no",
+            *(f"{1e3 * seconds:.2f}" for seconds in step.parts.values()),
+            f"{1e3 * step.seconds:.1f}",
+            f"{1e3 * step.tail:.1f}",
+            f"{step.megabytes:.1f}",
         )
-    return "\n".join(lines)
+        for step in steps
+    ]
+    return markdown_table(columns, rows)
 
 
 def _megabytes(some: Pile, q: Array) -> float:

@@ -6,8 +6,8 @@ Every combination of the values is one run, each step exact; a row is what the r
 import hashlib
 import os
 import time
-from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
+from collections.abc import Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor
 from dataclasses import asdict
 from multiprocessing import get_context
 from pathlib import Path
@@ -17,6 +17,7 @@ import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError, RunFailed
 from quasistatic_ref.formats.files import writable_folder
+from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.study.file.sweeps import Sweep, sweep_scenario
 from quasistatic_ref.lab.study.measuring.environment import machine, versions
 from quasistatic_ref.lab.study.store.rows import Row, key_of
@@ -70,11 +71,11 @@ def run_sweep(
             from quasistatic_ref.lab.study.measuring.cluster import executor_of
 
             with executor_of(scheduler) as (executor, slots):
-                _conduct(store, todo, executor, slots, progress, kept)
+                _run(store, todo, executor, slots, progress, kept)
         else:
             jobs = jobs or os.cpu_count() or 1
             with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-                _conduct(store, todo, pool, jobs, progress, kept)
+                _run(store, todo, pool, jobs, progress, kept)
         return sorted(store.rows, key=key_of)
 
 
@@ -116,7 +117,7 @@ def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory | No
     return row | {"seconds": {"call": time.perf_counter() - begin}}, trajectory
 
 
-def _conduct(
+def _run(
     store: Store,
     todo: list[tuple[Sweep, dict[str, Any]]],
     executor: Executor,
@@ -124,22 +125,18 @@ def _conduct(
     progress: bool,
     kept: Path | None,
 ) -> None:
-    left = list(reversed(todo))
-    under_way: set[Future[Any]] = set()
-    call: Callable[..., Any] = sweep_row if kept is None else sweep_run
+    """Run what is left, and add its rows to the store."""
     with progress_bar(total=len(todo), unit="run", shown=progress) as bar:
-        while left or under_way:
-            while left and len(under_way) < slots:
-                under_way.add(executor.submit(call, *left.pop()))
-            done, under_way = wait(under_way, return_when=FIRST_COMPLETED)
-            for future in done:
-                row = future.result()
-                if kept is not None:
-                    row, trajectory = row
-                    if trajectory is not None:  # before the row, which says that it is there
-                        trajectory.save(kept / run_file(row))
+        if kept is None:
+            for row in results(executor, slots, sweep_row, todo):
                 store.add(row)
                 bar.update()
+            return
+        for row, trajectory in results(executor, slots, sweep_run, todo):
+            if trajectory is not None:  # before the row, which says that it is there
+                trajectory.save(kept / run_file(row))
+            store.add(row)
+            bar.update()
 
 
 def _naming(sweep: Sweep, point: dict[str, Any]) -> Row:

@@ -26,8 +26,8 @@ def sequence_tables(rows: Sequence[Row], facts: Sequence[Mapping[str, Any]]) -> 
     for row in rows:
         if row["mode"] and row["problem"] in later:
             who = "@".join(filter(None, [label_of(row), row.get("machine")]))
-            own = groups.setdefault((who, row["setting"], row["units"]), {})
-            own.setdefault(row["mode"], []).append(row)
+            modes = groups.setdefault((who, row["setting"], row["units"]), {})
+            modes.setdefault(row["mode"], []).append(row)
     lines = []
     for key, modes in groups.items():
         cold = _median_call(modes.get(COLD, []))
