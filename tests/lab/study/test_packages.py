@@ -62,7 +62,12 @@ def test_a_solver_of_an_installed_package_is_called_by_its_name(planted, run, tm
     assert {s["interface"] for s in study["solvers"]} == {"package", "qpsolvers"}
 
 
-def test_it_is_in_every_table_and_it_is_run_on_one_problem(planted, run, tmp_path, capsys):
+def test_it_is_in_every_table_and_it_is_run_on_one_problem(
+    planted, run, tmp_path, monkeypatch, capsys
+):
+    """Nothing of a study but the export of its numbers needs pandas or pyarrow."""
+    for name in ("pandas", "pyarrow"):
+        monkeypatch.setitem(sys.modules, name, None)
     planted("planted-qp", {"mine": "planted_package:solve"})
     run(PROBLEMS + '[[runs]]\nsolvers = ["package:mine", "qpsolvers:daqp"]\n')
     assert main(["study", "report", str(tmp_path / "store")]) == 0
