@@ -18,7 +18,7 @@ sys.path.insert(0, str(ROOT))
 from docs.fields_page import reference_page  # noqa: E402 the path has to be there first
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
 from quasistatic_ref.lab.examples.gallery import EXAMPLES  # noqa: E402 the path has to be there first
-from quasistatic_ref.lab.study.spec_table import TABLES as STUDY  # noqa: E402 the path has to be there first
+from quasistatic_ref.lab.study.file.fields import TABLES as STUDY  # noqa: E402 the path has to be there first
 from quasistatic_ref.scenario.scenario_table import TABLES as SCENARIO  # noqa: E402 the path has to be there first
 
 project = "quasistatic_ref"

@@ -24,10 +24,10 @@ from scipy.sparse.linalg import spsolve
 from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.figures.study_pens import pens
-from quasistatic_ref.lab.study.calls import tried
-from quasistatic_ref.lab.study.sessions import Native
-from quasistatic_ref.lab.study.sets.folder import manifest, set_read
-from quasistatic_ref.lab.study.sets.member import SOCP, SPARSE, Member
+from quasistatic_ref.lab.study.calling.calls import tried
+from quasistatic_ref.lab.study.calling.sessions import Native
+from quasistatic_ref.lab.study.problems.folder import manifest, set_read
+from quasistatic_ref.lab.study.problems.problem import SOCP, SPARSE, Problem
 from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import PAGE
 from quasistatic_ref.solve.adapters.clarabel import Clarabel
@@ -50,7 +50,7 @@ PARTS = 5
 """Of a dial, with equally many problems each."""
 
 
-def graded_answer(one: Member, solver: str) -> dict[str, Any]:
+def graded_answer(one: Problem, solver: str) -> dict[str, Any]:
     """What a solver says to a problem, and how many digits of it are right."""
     natural = one.natural
     reply = tried(lambda: replied(natural, solver))
@@ -61,7 +61,7 @@ def graded_answer(one: Member, solver: str) -> dict[str, Any]:
     return row
 
 
-def replied(natural: Member, solver: str) -> Reply:
+def replied(natural: Problem, solver: str) -> Reply:
     """Natively; of sparse matrices through qpsolvers."""
     options = BACKENDS[solver].plain(ACCURACY)
     if SPARSE in natural.facts["tags"]:
@@ -70,10 +70,10 @@ def replied(natural: Member, solver: str) -> Reply:
     if natural.facts["kind"] == SOCP:
         H, g, A, b = natural.form
         return Clarabel(Program(H, -g, A, b, cones=len(b) // 4), options).reply(True, False)
-    return Native(solver, "cold", ACCURACY)(natural.form, None)
+    return Native(solver, "cold", BACKENDS[solver].plain(ACCURACY))(natural.form, None)
 
 
-def digits(natural: Member, x: np.ndarray) -> float:
+def digits(natural: Problem, x: np.ndarray) -> float:
     """Correct digits of x, in natural units."""
     if not np.isfinite(x).all():
         return 0.0
@@ -85,7 +85,7 @@ def digits(natural: Member, x: np.ndarray) -> float:
     return digits_of_error(max(error, natural.answer.error))
 
 
-def rows_of(members: Iterable[Member]) -> list[dict[str, Any]]:
+def rows_of(members: Iterable[Problem]) -> list[dict[str, Any]]:
     """Every solver on every problem that it has a place for."""
     rows = []
     for one in members:

@@ -16,8 +16,8 @@ import numpy as np
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.study.environment import machine
-from quasistatic_ref.lab.study.large import CHAINS
+from quasistatic_ref.lab.study.bench.large import CHAINS
+from quasistatic_ref.lab.study.measuring.environment import machine
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import constants
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
-from quasistatic_ref.lab.study.page import digits, milliseconds, options_words, percent
+from quasistatic_ref.lab.study.report.numbers import digits, milliseconds, options_words, percent
 from validation.study_advice import table_text
 
 Line = dict[str, Any]

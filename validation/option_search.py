@@ -20,11 +20,17 @@ from typing import Any
 
 from quasistatic_ref.formats.files import json_text, text_written
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.study.page import milliseconds, options_words
-from quasistatic_ref.lab.study.problems import problem_set
-from quasistatic_ref.lab.study.qp import Problem
-from quasistatic_ref.lab.study.spec import FAMILIES, TestSet
-from quasistatic_ref.lab.study.tuning import Options, Score, halves, line, scored, searched
+from quasistatic_ref.lab.study.measuring.tuning import (
+    Options,
+    Score,
+    halves,
+    line,
+    scored,
+    searched,
+)
+from quasistatic_ref.lab.study.problems.for_study import TestSet, study_problems
+from quasistatic_ref.lab.study.problems.problem import Problem
+from quasistatic_ref.lab.study.report.numbers import milliseconds, options_words
 from validation.option_report import Spaces, is_searched, report
 
 HERE = Path(__file__).parent
@@ -34,8 +40,7 @@ COUNTS = {"scenarios": 100, "contacts": 30, "mass_ratio": 40, "time_step": 20, "
 
 def problems(folder: str) -> list[Problem]:
     """The 200 problems, made in a folder or read from there."""
-    families = dict.fromkeys(FAMILIES, 0) | COUNTS
-    return problem_set(TestSet(1, families, tuple(scenario_names())), folder)
+    return study_problems(TestSet(1, COUNTS, tuple(scenario_names())), folder)
 
 
 def lines(solver: str, space: dict[str, Any], every: Sequence[Problem]) -> Iterator[dict[str, Any]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 
 from quasistatic_ref.lab.study.bench.profile import PARTS, SOLVE, Microseconds, measured, share
-from quasistatic_ref.lab.study.environment import machine
+from quasistatic_ref.lab.study.measuring.environment import machine
 
 
 def main() -> int:

@@ -15,15 +15,21 @@ import numpy as np
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Report, Section, Table
-from quasistatic_ref.lab.study.columns import Columns, chosen, columns_of, common, groups, size
-from quasistatic_ref.lab.study.comparison import Comparison, comparison_of
-from quasistatic_ref.lab.study.environment import UNKNOWN
-from quasistatic_ref.lab.study.headline import LIMITS, WANTED, Soonest, soonest_table
-from quasistatic_ref.lab.study.page import digits, milliseconds, options_words, percent
-from quasistatic_ref.lab.study.report_words import old_times
-from quasistatic_ref.lab.study.spec import solver_study, study_path
-from quasistatic_ref.lab.study.statistics import success
-from quasistatic_ref.lab.study.store import rows_read, study_read
+from quasistatic_ref.lab.study.file.study_file import solver_study, study_path
+from quasistatic_ref.lab.study.measuring.environment import UNKNOWN
+from quasistatic_ref.lab.study.report.columns import (
+    Columns,
+    chosen,
+    columns_of,
+    common,
+    groups,
+    size,
+)
+from quasistatic_ref.lab.study.report.comparison import Comparison, comparison_of
+from quasistatic_ref.lab.study.report.headline import LIMITS, WANTED, Soonest, soonest_table
+from quasistatic_ref.lab.study.report.numbers import digits, milliseconds, options_words, percent
+from quasistatic_ref.lab.study.report.statistics import success
+from quasistatic_ref.lab.study.store.store import contents
 
 NAME = "advice.md"
 HARDEST = 2
@@ -34,7 +40,8 @@ FALSE = 1.0
 
 def advice(folder: Path) -> str:
     """The text, in Markdown, of a store that is packed or not."""
-    study, rows = study_read(folder), rows_read(folder)
+    found = contents(folder)
+    study, rows = found.study, found.rows
     every = columns_of(rows, study["time_limit"])
     comparison = comparison_of(study, every)
     first = chosen(every, {"repetition": 0})
@@ -64,7 +71,6 @@ def _extent(comparison: Comparison, study: dict) -> Iterator[str]:
     path = study_path("default")
     if solver_study(path, toml_read(path)).problems.families != problems["families"]:
         yield "The problems of these rows are an earlier selection than that of today's study file."
-    yield from old_times(study)
 
 
 def _headline(comparison: Comparison) -> str:

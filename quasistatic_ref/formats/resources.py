@@ -24,7 +24,7 @@ def reality_folder() -> Path:
 
 def problem_set_folder() -> Path:
     """The folder of the set of quadratic programs that comes with the package."""
-    return _folder("validation/contact_qp_1", "lab/study/sets/data")
+    return _folder("validation/contact_qp_1", "lab/study/problems/data")
 
 
 def _folder(next_to: str, inside: str) -> Path:

@@ -90,9 +90,9 @@ def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch):
 
 def test_an_unusable_file_is_named_and_is_not_standard_output(monkeypatch, capsys):
     def full(options):
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "rows.jsonl")
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "study.sqlite")
 
     monkeypatch.setattr("quasistatic_ref.cli.backends.run", full)
     assert main(["backends"]) == 2
     printed = capsys.readouterr().err
-    assert printed == "quasistatic-ref: rows.jsonl: cannot be used: No space left on device\n"
+    assert printed == "quasistatic-ref: study.sqlite: cannot be used: No space left on device\n"

@@ -9,7 +9,7 @@ from quasistatic_ref.cli import options
 from quasistatic_ref.cli.main import COMMANDS, command_parser, main
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.registry import BY_NAME
-from quasistatic_ref.lab.study.spec import study_names
+from quasistatic_ref.lab.study.file.study_file import study_names
 from quasistatic_ref.solve.backends import CERTIFY, installed_backends
 from quasistatic_ref.step.cones import CONES, cone
 

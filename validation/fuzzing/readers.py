@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import lzma
-import shutil
 import struct
 import tempfile
 from pathlib import Path
@@ -16,10 +14,13 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, toml_read
 from quasistatic_ref.formats.resources import models_folder, vectors_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.problems import FACTS, HEADER, NUMBERS, problem_set, problems_read
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.spec import FAMILIES, TestSet, solver_study, study_kind
-from quasistatic_ref.lab.study.spec_sweep import sweep_study
+from quasistatic_ref.lab.study.file.study_file import solver_study, study_kind
+from quasistatic_ref.lab.study.file.sweeps import sweep_study
+from quasistatic_ref.lab.study.problems.folder import FACTS, MANIFEST, NUMBERS, set_read
+from quasistatic_ref.lab.study.problems.for_study import FOLDER, TestSet, study_problems
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.store.pack import packed
+from quasistatic_ref.lab.study.store.store import STORE
 from quasistatic_ref.lab.vectors.check.answers import answers_read
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.check.report import Report
@@ -41,6 +42,7 @@ from validation.fuzzing import texts
 from validation.fuzzing.files import (
     Form,
     npy_bytes,
+    spoilt_bytes,
     spoilt_json,
     spoilt_lines,
     spoilt_npy,
@@ -232,26 +234,24 @@ def _stores(folder: Path) -> dict[str, Reader]:
     stores = ("solvers", made_store.written), ("sweep", made_store.sweep_written)
     for kind, made in stores:
         home = folder / f"store of {kind}"
-        made(home) if kind == "sweep" else made(home, problems=3)
-        for file in sorted(path.name for path in home.iterdir()):
-            form = spoilt_json if file.endswith(".json") else spoilt_lines
-            good = (home / file).read_bytes()
-            name = f"{home.name}/{file}"
-            found[f"study of {kind}, {file}"] = Reader(name, (good,), form, reported)
-    packed = folder / "packed"
-    shutil.copytree(folder / "store of solvers", packed)
-    rows = lzma.compress((packed / "rows.jsonl").read_bytes(), preset=0)
-    (packed / "rows.jsonl").unlink()
-    found["study, rows.jsonl.xz"] = Reader("packed/rows.jsonl.xz", (rows,), spoilt_xz, reported)
+        made(home, count=3) if kind == "solvers" else made(home)
+        good = (home / STORE).read_bytes()
+        found[f"study of {kind}, {STORE}"] = Reader(
+            f"{home.name}/{STORE}", (good,), spoilt_bytes, reported
+        )
+    kept = packed(folder / "store of solvers", folder / "packed")
+    name = f"packed/{kept.name}"
+    found[f"study, {kept.name}"] = Reader(name, (kept.read_bytes(),), spoilt_xz, reported)
 
     def problems(path: Path) -> None:
-        problems_read(path.parent)
+        set_read(path.parent.parent if path.parent.name == NUMBERS else path.parent)
 
-    home = folder / "problems"
-    problem_set(TestSet(1, dict.fromkeys(FAMILIES, 0) | {"contacts": 2}, ()), home, progress=False)
-    for file, form in {HEADER: spoilt_json, FACTS: spoilt_lines, NUMBERS: spoilt_npz}.items():
+    study_problems(TestSet(1, {"contacts": 2}, ()), folder, progress=False)
+    home = folder / FOLDER
+    numbers = f"{NUMBERS}/contacts.npz"
+    for file, form in {MANIFEST: spoilt_json, FACTS: spoilt_lines, numbers: spoilt_npz}.items():
         good = (home / file).read_bytes()
-        found[f"test set, {file}"] = Reader(f"problems/{file}", (good,), form, problems)
+        found[f"test set, {file}"] = Reader(f"{FOLDER}/{file}", (good,), form, problems)
     return found
 
 

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import HOLDS, Comparison, Finding
+from quasistatic_ref.lab.page.markdown import markdown_table
 
 HEAD = """# Claims
 
@@ -105,22 +106,23 @@ def _chapter(finding: Finding) -> list[str]:
     if record["trouble"]:
         lines += [f"It could not be measured: {record['trouble']}.", ""]
     if record["comparisons"]:
-        lines += ["| quantity | points | measured | expected | error | tolerance | verdict |"]
-        lines += ["|---|---|---|---|---|---|---|"]
-        for c in record["comparisons"]:
-            expected = c["expected"] if isinstance(c["expected"], str) else _number(c["expected"])
-            cells = [
-                c["what"].replace("|", "\\|"),
-                str(c["points"]),
-                _number(c["measured"]),
-                expected,
-                _short(c["error"]),
-                _short(c["tolerance"]),
-                "holds" if c["holds"] else "FAILS",
-            ]
-            lines.append(f"| {' | '.join(cells)} |")
-        lines.append("")
+        names = ("quantity", "points", "measured", "expected", "error", "tolerance", "verdict")
+        lines += [*markdown_table(names, list(map(_compared, record["comparisons"]))), ""]
     return lines
+
+
+def _compared(comparison: Mapping[str, Any]) -> tuple[str, ...]:
+    """The line of a comparison."""
+    expected = comparison["expected"]
+    return (
+        comparison["what"],
+        str(comparison["points"]),
+        _number(comparison["measured"]),
+        expected if isinstance(expected, str) else _number(expected),
+        _short(comparison["error"]),
+        _short(comparison["tolerance"]),
+        "holds" if comparison["holds"] else "FAILS",
+    )
 
 
 def _number(x: float | None) -> str:

@@ -3,7 +3,7 @@
 import argparse
 import json
 
-from quasistatic_ref.lab.study.spec_table import study_schema
+from quasistatic_ref.lab.study.file.fields import study_schema
 from quasistatic_ref.scenario.scenario_table import scenario_schema
 
 SCHEMAS = {"scenario": scenario_schema, "study": study_schema}

@@ -13,9 +13,9 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.commands import study_ask, study_problems, study_sequences
 from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
-from quasistatic_ref.lab.study.grade import OUTCOMES
-from quasistatic_ref.lab.study.store import ROWS, Row, label_of
-from quasistatic_ref.lab.study.unreached import unreached_read
+from quasistatic_ref.lab.study.measuring.grade import OUTCOMES
+from quasistatic_ref.lab.study.store.rows import Row, label_of
+from quasistatic_ref.lab.study.store.store import STORE, contents
 
 ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
@@ -62,7 +62,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _studies() -> list[str]:
-    from quasistatic_ref.lab.study.spec import study_names
+    from quasistatic_ref.lab.study.file.study_file import study_names
 
     return sorted(study_names())
 
@@ -86,7 +86,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.jobs is not None and options.jobs < 1:
         raise InputError("must be at least 1", field="--jobs", value=options.jobs)
     shared.progress_line(options, "loads solvers")  # said at once: to import them takes seconds
-    from quasistatic_ref.lab.study.spec import study_kind, study_path
+    from quasistatic_ref.lab.study.file.study_file import study_kind, study_path
 
     path = study_path(options.study)
     tables = toml_read(path)
@@ -105,13 +105,13 @@ def _run(options: argparse.Namespace) -> int:
 def _measured(path: Path, tables: dict[str, Any], kind: str, options: argparse.Namespace) -> int:
     where = {"jobs": options.jobs, "scheduler": options.scheduler, "progress": not options.quiet}
     if kind == "sweep":
-        from quasistatic_ref.lab.study.spec_sweep import sweep_study
-        from quasistatic_ref.lab.study.sweep import run_sweep
+        from quasistatic_ref.lab.study.file.sweeps import sweep_study
+        from quasistatic_ref.lab.study.measuring.sweep import run_sweep
 
         rows = run_sweep(sweep_study(path, tables, options.quick), options.out, **where)
         return _swept(rows, options)
-    from quasistatic_ref.lab.study.run import run_study
-    from quasistatic_ref.lab.study.spec import solver_study
+    from quasistatic_ref.lab.study.file.study_file import solver_study
+    from quasistatic_ref.lab.study.measuring.run import run_study
 
     rows = run_study(solver_study(path, tables, options.quick), options.out, **where)
     if options.json:
@@ -119,9 +119,9 @@ def _measured(path: Path, tables: dict[str, Any], kind: str, options: argparse.N
         shared.print_json({"rows": len(rows), "outcomes": dict(counts), "store": str(options.out)})
         return 0
     shared.print_rows(_summary(rows))
-    for label, reason in unreached_read(options.out).items():
+    for label, reason in contents(options.out).unreached.items():
         print(f"{label} was left out: it {reason}")
-    print(f"wrote {options.out / ROWS}")
+    print(f"wrote {options.out / STORE}")
     return 0
 
 
@@ -159,16 +159,20 @@ def _swept(rows: list[Row], options: argparse.Namespace) -> int:
         table.append((row["sweep"], values, row["outcome"], *cells))
     shared.print_rows(table)
     print(
-        f"{len(rows)} runs (fast path), {failed} of which ended early; wrote {options.out / ROWS}"
+        f"{len(rows)} runs (fast path), {failed} of which ended early; wrote {options.out / STORE}"
     )
     return 0
 
 
 def _export(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.parquet import benchmark_written
+    from quasistatic_ref.lab.study.problems.exports import PARQUET, exported
+    from quasistatic_ref.lab.study.problems.folder import set_read
+    from quasistatic_ref.lab.study.problems.for_study import FOLDER
 
     if options.every < 1:
         raise InputError("must be at least 1", field="--every", value=options.every)
-    for path in benchmark_written(options.store, options.out, options.every):
-        print(f"wrote {path}")
+    raw = set_read(options.store / FOLDER)[:: options.every]
+    for name, problems in {"raw": raw, "natural": [one.natural for one in raw]}.items():
+        for path in exported(f"contact_{name}", problems, PARQUET, options.out):
+            print(f"wrote {path}")
     return 0

@@ -7,7 +7,7 @@ from typing import Any
 from quasistatic_ref.cli import options as shared
 
 UNITS = ("natural", "raw")
-"""As in lab/study/qp.py, which takes a while to import; a test holds them equal."""
+"""As in lab/study/problems/qp.py, which takes a while to import; a test holds them equal."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -26,7 +26,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run_ask(options: argparse.Namespace) -> int:
     """Run the solver, and print what came of it; 1 if the solver's claim is false."""
-    from quasistatic_ref.lab.study.ask import measured_again, question
+    from quasistatic_ref.lab.study.measuring.ask import measured_again, question
 
     one = question(options.problem, options.solver, options.setting, options.units, options.warm,
                    options.store)  # fmt: skip
@@ -41,7 +41,7 @@ def run_ask(options: argparse.Namespace) -> int:
 
 
 def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
-    from quasistatic_ref.lab.study.page import milliseconds, options_words
+    from quasistatic_ref.lab.study.report.numbers import milliseconds, options_words
 
     form, facts, seconds = one.problem.form, one.problem.facts, row["seconds"]
     options = options_words(one.solver.settings_of(one.setting, one.limits.call))
@@ -60,8 +60,8 @@ def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
         span = " to ".join(milliseconds(seconds[name]) for name in ("low", "high"))
         time += f", quartiles {span} ms, {row['calls']} calls"
     return [
-        ("problem", f"{facts.id}: {len(form.g)} coordinates, {len(form.b)} rows, "
-         f"{facts.contacts} contacts" + ("" if row["feasible"] else ", no solution")),
+        ("problem", f"{one.problem.id}: {len(form.g)} coordinates, {len(form.b)} rows, "
+         f"{facts['contacts']} contacts" + ("" if row["feasible"] else ", no solution")),
         ("call", f"{one.solver.label} at {one.setting.name} ({options}), {one.units} units, "
          f"{'warm' if one.warm else 'cold'}"),
         ("outcome", f"{row['outcome']}; its own status: {row['claimed']}"),

@@ -18,7 +18,7 @@ ACTIONS = {
 }
 UNITS = ("raw", "natural")
 FORMATS = ("npz", "parquet", "mat", "json")
-"""As in lab/study/sets/exports.py, which takes a while to import; a test holds them equal."""
+"""As in lab/study/problems/exports.py, which takes a while to import; a test holds them equal."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -58,7 +58,7 @@ def _folder(options: argparse.Namespace) -> Path:
 
 
 def _list(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.sets.folder import manifest
+    from quasistatic_ref.lab.study.problems.folder import manifest
 
     head = manifest(_folder(options))
     if options.json:
@@ -75,8 +75,8 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _export(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.sets.exports import exported, for_qpbenchmark
-    from quasistatic_ref.lab.study.sets.folder import manifest, set_read
+    from quasistatic_ref.lab.study.problems.exports import exported, for_qpbenchmark
+    from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 
     if options.every < 1:
         raise InputError("must be at least 1", field="--every", value=options.every)
@@ -86,9 +86,9 @@ def _export(options: argparse.Namespace) -> int:
     found = [one for one in found if options.tag is None or options.tag in one.facts["tags"]]
     found = found[:: options.every]
     natural = options.units == "natural"
-    members = [one.natural for one in found] if natural else found
+    problems = [one.natural for one in found] if natural else found
     name = manifest(folder)["name"] + ("-natural" if natural else "")
-    for path in exported(name, members, options.to, options.out):
+    for path in exported(name, problems, options.to, options.out):
         print(f"wrote {path}")
     left = 0 if options.to != "parquet" else sum(not for_qpbenchmark(one) for one in found)
     if left:
@@ -98,41 +98,41 @@ def _export(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.sets.checking import refutation
-    from quasistatic_ref.lab.study.sets.editions import edition_problem
-    from quasistatic_ref.lab.study.sets.folder import set_read
+    from quasistatic_ref.lab.study.problems.checking import refutation
+    from quasistatic_ref.lab.study.problems.editions import edition_problem
+    from quasistatic_ref.lab.study.problems.folder import set_read
     from quasistatic_ref.simulate.progress import progress_bar
 
     folder = _folder(options)
-    members = set_read(folder)
+    problems = set_read(folder)
     wrong = {}
     if options.exact:
-        with progress_bar(total=len(members), unit="problem", words="proved again",
+        with progress_bar(total=len(problems), unit="problem", words="proved again",
                           shown=not options.quiet) as bar:  # fmt: skip
-            for one in members:
+            for one in problems:
                 why = refutation(one)
                 if why is not None:
                     wrong[one.id] = why
                 bar.update()
     other = edition_problem(folder)
-    kinds = Counter(one.answer.kind if not one.answer.farkas else "infeasible" for one in members)
+    kinds = Counter(one.answer.kind if not one.answer.farkas else "infeasible" for one in problems)
     if options.json:
-        found = {"problems": len(members), "answers": kinds, "refuted": wrong, "edition": other}
+        found = {"problems": len(problems), "answers": kinds, "refuted": wrong, "edition": other}
         shared.print_json(found)
         return int(bool(wrong or other))
     said = ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))
-    print(f"{len(members)} problems, as the manifest lists them: {said}")
+    print(f"{len(problems)} problems, as the manifest lists them: {said}")
     if options.exact:
-        print(f"{len(members) - len(wrong)} answers proved again, {len(wrong)} refuted")
+        print(f"{len(problems) - len(wrong)} answers proved again, {len(wrong)} refuted")
     for sentence in (*(f"{name}: {why}" for name, why in wrong.items()), *filter(None, [other])):
         print(f"quasistatic-ref: {sentence}", file=sys.stderr)
     return int(bool(wrong or other))
 
 
 def _make(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.sets.making import made_set
-    from quasistatic_ref.lab.study.sets.recipe import CONTACT_QP_1
+    from quasistatic_ref.lab.study.problems.making import recipe_made
+    from quasistatic_ref.lab.study.problems.recipe import CONTACT_QP_1
 
-    for path in made_set(CONTACT_QP_1, options.out, not options.quiet):
-        print(f"wrote {path}")
+    problems = recipe_made(CONTACT_QP_1, options.out, not options.quiet)
+    print(f"wrote {options.out}: {len(problems)} problems")
     return 0

@@ -12,7 +12,7 @@ def run_report(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.page.html import html_page, sorting
     from quasistatic_ref.lab.page.markdown import markdown_page
     from quasistatic_ref.lab.page.numbers import csv_text, parquet_bytes
-    from quasistatic_ref.lab.study.report import study_report
+    from quasistatic_ref.lab.study.report.report import study_report
 
     report = study_report(options.store)
     out = options.store / "report" if options.out is None else options.out
@@ -38,20 +38,22 @@ def run_report(options: argparse.Namespace) -> int:
 
 def run_pack(options: argparse.Namespace) -> int:
     """Write the packed store."""
-    from quasistatic_ref.lab.study.pack import packed
+    from quasistatic_ref.lab.study.store.pack import packed
 
     out = options.store / "packed" if options.out is None else options.out
-    for path in packed(options.store, out):
-        print(f"wrote {path}")
+    print(f"wrote {packed(options.store, out)}")
     return 0
 
 
 def run_merge(options: argparse.Namespace) -> int:
     """Write the merged store."""
-    from quasistatic_ref.lab.study.merge import merged, part_read
+    from quasistatic_ref.lab.study.store.merge import merged, part_read
 
     parts = [part_read(words) for words in options.parts]
     folder = merged(parts, options.out)
-    rows, machines = sum(len(part.rows) for part in parts), {m for p in parts for m in p.machines}
+    rows, machines = (
+        sum(len(part.found.rows) for part in parts),
+        {m for p in parts for m in p.machines},
+    )
     print(f"wrote {folder}: {rows:,} rows of {len(machines)} machines")
     return 0

@@ -4,18 +4,21 @@ import argparse
 import csv
 import io
 import sys
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
-
-import numpy as np
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.page.parts import Table
+from quasistatic_ref.lab.study.store.rows import Row, label_of
 
 MODES = ("cold", "updates", "primal", "primal-dual", "active set")
-"""As in lab/study/sequences.py, which takes a while to import; a test holds them equal."""
+"""As in lab/study/calling/sessions.py, which is slow to import; a test holds them equal."""
 
 WARM_UP = 10.0
 """Of a call at a sequence's beginning [s]."""
@@ -46,7 +49,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(
             name, type=float, default=value, metavar="LIMIT", help=f"{words} ({value:g})"
         )
-    shared.add(parser, "--out", default=None)
+    words = "folder for the store, which an interrupted run goes on with, and a table (none)"
+    parser.add_argument("--out", type=Path, metavar="FOLDER", help=words)
     shared.add(parser, "--json")
 
 
@@ -54,15 +58,12 @@ def run_sequences(options: argparse.Namespace) -> int:
     """Run solvers; print a line for each solver and mode. InputError if that is not possible."""
     from quasistatic_ref.formats.files import text_written
     from quasistatic_ref.formats.resources import problem_set_folder
-    from quasistatic_ref.lab.study.sequences import (
-        SequenceRow,
-        SolverLimits,
-        checked,
-        sequence_rows,
-    )
-    from quasistatic_ref.lab.study.sets.folder import set_read
-    from quasistatic_ref.lab.study.sets.member import Member
-    from quasistatic_ref.simulate.progress import progress_bar
+    from quasistatic_ref.lab.study.calling.solvers import Setting
+    from quasistatic_ref.lab.study.file.study_file import Part, Study
+    from quasistatic_ref.lab.study.measuring.run import run_study
+    from quasistatic_ref.lab.study.problems.folder import set_read
+    from quasistatic_ref.lab.study.problems.for_study import TestSet, fact_of
+    from quasistatic_ref.lab.study.report.sequences import sequence_tables
 
     if options.repetitions < 1:
         raise InputError("must be at least 1", field="--repetitions", value=options.repetitions)
@@ -72,62 +73,84 @@ def run_sequences(options: argparse.Namespace) -> int:
         if not 0 < (value := getattr(options, name)) < LONGEST:
             words = f"must be above 0 and below {LONGEST:g}"
             raise InputError(words, field=f"--{name.replace('_', '-')}", value=value)
-    limits = SolverLimits(options.time_limit, max(WARM_UP, options.time_limit),
-                          options.repetitions, 1e9 * options.memory, options.budget)  # fmt: skip
-    modes = checked(options.solvers, options.modes.split(",") if options.modes else None)
-    sequences: dict[str, list[Member]] = defaultdict(list)
-    for one in set_read(problem_set_folder(), ["sequences"]):
-        name = one.facts["sequence"]["name"]
-        wanted = options.scenario in (None, name.partition("/")[0])
-        if wanted and one.facts["dial"] == options.stride:
-            sequences[name].append(one)
-    if not sequences:
+    setting = Setting("sequences", options.accuracy, 0.0)
+    solvers = tuple(_solver(name, setting) for name in options.solvers)
+    modes = _modes(solvers, options.modes.split(",") if options.modes else None)
+    problems = [
+        one
+        for one in set_read(problem_set_folder(), ["sequences"])
+        if options.scenario in (None, one.facts["sequence"]["name"].partition("/")[0])
+        and one.facts["dial"] == options.stride
+    ]
+    if not problems:
         raise InputError("have no such sequence", field="--scenario and --stride",
                          value=[options.scenario, options.stride])  # fmt: skip
-    total = sum(map(len, sequences.values())) * sum(map(len, modes.values()))
-    rows: list[SequenceRow] = []
-    with progress_bar(
-        total=total, unit="problem", words="calls made", shown=not options.quiet
-    ) as bar:
-        for row in sequence_rows(sequences, modes, options.accuracy, limits):
-            rows.append(row)
-            bar.update()
+    part = Part(solvers, (setting,), ("natural",), (False,), every=1, again=0, modes=modes)
+    study = Study(
+        Path("sequences.toml"), TestSet(1, {"sequences": len(problems)}, ()),
+        options.time_limit, options.budget, max(WARM_UP, options.time_limit),
+        1e9 * options.memory, options.repetitions, (part,),
+    )  # fmt: skip
+    with _folder(options.out) as folder:
+        rows = run_study(study, folder, problems=problems, progress=not options.quiet)
+    facts = {one.id: fact_of(one) for one in problems}
     if options.out is not None:
-        path = text_written(options.out / "sequences.csv", _table(rows))
+        path = text_written(options.out / "sequences.csv", _table(rows, facts))
         print(f"wrote {path}", file=sys.stderr if options.json else sys.stdout)
     if options.json:
-        shared.print_json([asdict(row) for row in rows])
+        shared.print_json(rows)
         return 0
-    shared.print_rows(_summary(rows, modes))
-    ends = Counter((r.solver, r.mode, r.outcome) for r in rows if r.outcome not in ORDINARY)
+    for table in sequence_tables(rows, list(facts.values())):
+        assert isinstance(table, Table)
+        shared.print_rows([table.columns, *table.rows])
+    ends = Counter((label_of(r), r["mode"], r["outcome"]) for r in rows)
     for (solver, mode, outcome), count in ends.items():
-        print(f"{solver}, {mode}: {count} {outcome.replace('_', ' ')}")
+        if outcome not in ORDINARY:
+            print(f"{solver}, {mode}: {count} {outcome.replace('_', ' ')}")
     return 0
 
 
-def _summary(rows: list[Any], modes: Mapping[str, Sequence[str]]) -> list[tuple[str, ...]]:
-    """One line a solver and mode, of all problems but the first of each sequence."""
-    heading = ("solver", "mode", "problems", "solved", "digits, worst", "iterations, median",
-               "time, median [ms]", "over cold")  # fmt: skip
-    table: list[tuple[str, ...]] = [heading]
-    for solver, own in modes.items():
-        cost = {}
-        for mode in own:
-            some = [r for r in rows if (r.solver, r.mode) == (solver, mode) and r.place > 0]
-            counts = [r.iterations for r in some if r.iterations is not None]
-            cost[mode] = 1e3 * float(np.median([r.seconds for r in some]))
-            over = f"{cost[mode] / cost['cold']:.2f}" if "cold" in cost else "-"
-            table.append((
-                solver, mode, str(len(some)), str(sum(r.solved for r in some)),
-                f"{min(r.digits for r in some):.1f}",
-                f"{np.median(counts):g}" if counts else "-", f"{cost[mode]:.3g}", over,
-            ))  # fmt: skip
-    return table
+def _solver(name: str, setting: Any) -> Any:
+    """A solver; a name alone is that of a backend, in its own interface.
+
+    One that has nothing to set is called without options.
+    """
+    from quasistatic_ref.lab.study.measuring.ask import solver_named
+
+    found = solver_named(name if ":" in name else f"native:{name}")
+    return found if found.takes(setting) else replace(found, options={setting.name: {}})
 
 
-def _table(rows: list[Any]) -> str:
+def _modes(solvers: Sequence[Any], named: Sequence[str] | None) -> tuple[str, ...]:
+    """The modes that are named, if all solvers can do them; else every mode that there is."""
+    from quasistatic_ref.lab.study.measuring.run import modes_of_solver
+
+    for mode in named or ():
+        if mode not in MODES:
+            raise InputError(f"is none of {', '.join(MODES)}", field="--modes", value=mode)
+    for solver in solvers:
+        own = modes_of_solver(solver)
+        for mode in named or ():
+            if mode not in own:
+                words = f"is no mode of {solver.label}, which has {', '.join(own)}"
+                raise InputError(words, field="--modes", value=mode)
+    return tuple(named or MODES)
+
+
+def _folder(out: Path | None) -> AbstractContextManager[str | Path]:
+    """The folder of the store: that which is given, or one for the time being."""
+    return TemporaryDirectory() if out is None else nullcontext(out)
+
+
+def _table(rows: Sequence[Row], facts: Mapping[str, Mapping[str, Any]]) -> str:
+    """One line a problem and mode."""
     text = io.StringIO()
-    writer = csv.DictWriter(text, list(asdict(rows[0])), lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(asdict(row) for row in rows)
+    lines = csv.writer(text, lineterminator="\n")
+    lines.writerow(["sequence", "place", "solver", "mode", "outcome", "said", "digits",
+                    "iterations", "seconds"])  # fmt: skip
+    for row in rows:
+        fact = facts[row["problem"]]
+        lines.writerow([fact["sequence"], fact["place"], label_of(row), row["mode"],
+                        row["outcome"], row["claimed"], row["digits"]["delta_q"],
+                        row["iterations"], row["seconds"]["call"]])  # fmt: skip
     return text.getvalue()

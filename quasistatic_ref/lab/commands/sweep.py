@@ -4,8 +4,8 @@ import argparse
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.many import TABLE, simulate_many, swept_values
-from quasistatic_ref.lab.study.sweep import DONE
+from quasistatic_ref.lab.study.measuring.many import TABLE, simulate_many, swept_values
+from quasistatic_ref.lab.study.measuring.sweep import DONE
 
 MEASURES = ("rotation_deg", "rise_mm", "travel_mm", "exact")
 """What is printed of each run; the rest is in the table."""

@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.lab.examples.runs import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
-from quasistatic_ref.lab.study.many import simulate_many
+from quasistatic_ref.lab.study.measuring.many import simulate_many
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.step.data import Array, Mask

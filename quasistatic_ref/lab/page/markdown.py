@@ -1,4 +1,6 @@
-"""A report as Markdown, its figures in the folder ``figures`` next to it."""
+"""A report as Markdown, its figures in the folder ``figures`` next to it; and any table."""
+
+from collections.abc import Sequence
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Table
 
@@ -27,11 +29,29 @@ def _block(block: Block) -> list[str]:
 
 
 def _table(table: Table) -> list[str]:
-    rule = ["---"] * table.left + ["---:"] * (len(table.columns) - table.left)
-    lines = [f"**{table.title}**{_rows(table.where)}", ""]
-    for cells in (table.columns, tuple(rule), *table.rows):
-        lines.append(f"| {' | '.join(c.replace('|', chr(92) + '|') for c in cells)} |")
-    return lines
+    title = f"**{table.title}**{_rows(table.where)}"
+    return [title, "", *markdown_table(table.columns, table.rows, table.left)]
+
+
+def markdown_table(
+    columns: Sequence[str], rows: Sequence[Sequence[str]], left: int | None = None
+) -> list[str]:
+    """The lines of a table.
+
+    Parameters
+    ----------
+    columns : sequence of str
+    rows : sequence of sequence of str
+    left : int, optional
+        How many columns are text; the others are numbers, to the right. None: all are text.
+    """
+    text = len(columns) if left is None else left
+    rule = ["---"] * text + ["---:"] * (len(columns) - text)
+    return [_line(cells) for cells in (columns, rule, *rows)]
+
+
+def _line(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 
 
 def _rows(where: str) -> str:

@@ -6,7 +6,7 @@ on from there; a last line that was cut off is dropped.
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from os import cpu_count
 from pathlib import Path
@@ -16,6 +16,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read, json_text, text_of, text_written
+from quasistatic_ref.lab.parallel import results
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted
 from quasistatic_ref.lab.reality.push import Pushed
@@ -119,16 +120,9 @@ def _worked(
         for name, tasks in chunks:
             yield rows_of(name, scenes[name], tasks, certify)
         return
-    left = list(reversed(chunks))
+    calls = [(name, scenes[name], tasks, certify) for name, tasks in chunks]
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        under_way: set[Future[list[Row]]] = set()
-        while left or under_way:
-            while left and len(under_way) < 2 * jobs:
-                name, tasks = left.pop()
-                under_way.add(pool.submit(rows_of, name, scenes[name], tasks, certify))
-            finished, under_way = wait(under_way, return_when=FIRST_COMPLETED)
-            for future in finished:
-                yield future.result()
+        yield from results(pool, 2 * jobs, rows_of, calls)
 
 
 def rows_of(

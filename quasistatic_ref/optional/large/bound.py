@@ -96,12 +96,15 @@ class EnclosedAnswer:
     ----------
     delta_q, net : ndarray, shape (n_v,)
         Displacement [m, rad] and net impulse A'lam [N s, N m s], near the optimal ones.
+    lam : ndarray, shape (m,)
+        Multipliers that make up the net impulse [N s].
     error : float
         ||delta_q - delta_q*||_H / ||H^-1 g||_H <= error [-]; rounding to float64 is included.
     """
 
     delta_q: Array
     net: Array
+    lam: Array
     error: float
 
 
@@ -140,7 +143,8 @@ def enclosed_answer(step: StepData, active: Sequence[int]) -> EnclosedAnswer | N
         delta_q = np.array([float(v * form.x_unit) for v in x.entries()])
         net = np.array([float(v * form.net_unit) for v in push])
         _, error = _distance(form, balls, _column(delta_q, form.x_unit), moved, y)
-        return EnclosedAnswer(delta_q, net, error)
+        lam = np.array([float(v * form.lam_unit) for v in y.entries()])
+        return EnclosedAnswer(delta_q, net, lam, error)
 
 
 def _distance(

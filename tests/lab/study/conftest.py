@@ -6,12 +6,14 @@ import pytest
 
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.resources import problem_set_folder
-from quasistatic_ref.lab.study.problems import problem_of
-from quasistatic_ref.lab.study.run import run_study
-from quasistatic_ref.lab.study.sets.folder import set_read
-from quasistatic_ref.lab.study.spec import solver_study
+from quasistatic_ref.lab.study.file.study_file import solver_study
+from quasistatic_ref.lab.study.measuring.keeper import Keeper
+from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.measuring.run import run_study
+from quasistatic_ref.lab.study.problems.folder import set_read
+from quasistatic_ref.lab.study.problems.making import problem_of
 from tests.lab.study import made_store
-from tests.lab.study.planted import FAKES, slab
+from tests.lab.study.planted import ANY, FAKES, setting, slab
 
 
 @pytest.fixture
@@ -41,6 +43,20 @@ def run(study, tmp_path):
 def problem():
     """One problem of 12 contacts with its exact answer."""
     return problem_of(slab())
+
+
+@pytest.fixture(scope="session")
+def harmless(tmp_path_factory):
+    """A function: the row of a planted solver that is harmless, all of them in one process."""
+    folder = tmp_path_factory.mktemp("harmless")
+    (folder / "planted_solvers.py").write_text(FAKES)
+    with Keeper(ANY, folder) as keeper:
+
+        def row_of(name, problem, units="natural", warm=False):
+            limits = Limits(30.0, 30.0, 2)
+            return measured(keeper, problem, setting(name), units, warm, limits)
+
+        yield row_of
 
 
 @pytest.fixture(scope="session")

@@ -1,9 +1,9 @@
 """A store of no real run: rows at random, of every outcome, so that a report has all there is."""
 
-import json
 import random
 
-from quasistatic_ref.lab.study.grade import CLOCKS
+from quasistatic_ref.lab.study.store.rows import CLOCKS
+from quasistatic_ref.lab.study.store.store import Store
 
 SOLVERS = ("qpsolvers:ant", "qpsolvers:bee", "qpsolvers:cat", "cvxpy:ant")
 SETTINGS = {"default": (None, 3.0), "mid": (1e-6, 2.5), "high": (1e-9, 4.0)}
@@ -29,6 +29,7 @@ def measurement(chance, problem, solver, setting, units, warm, repetition=0):
         "solver": name,
         "interface": interface,
         "setting": setting,
+        "mode": "",
         "warm": warm,
         "units": units,
         "repetition": repetition,
@@ -46,16 +47,16 @@ def measurement(chance, problem, solver, setting, units, warm, repetition=0):
         "seconds": dict.fromkeys(CLOCKS) | own,
         "calls": 5,
         "clock_agrees": chance.random() < 0.99,
-        "memory": 1e8 * chance.random(),
+        "memory": int(1e8 * chance.random()),
         "iterations": chance.choice([None, 7, 12]),
     }  # fmt: skip
 
 
-def written(folder, problems=12, seed=3):
+def written(folder, count=12, seed=3, **changes):
     """Write the store; returns its rows."""
     chance = random.Random(seed)
     rows = []
-    for problem in range(problems):
+    for problem in range(count):
         for solver in SOLVERS:
             for setting in SETTINGS:
                 for units in ("raw", "natural"):
@@ -66,38 +67,42 @@ def written(folder, problems=12, seed=3):
                             rows.append(measurement(chance, *one))
                             if problem % 5 == 0:  # run again, for the noise
                                 rows.append(measurement(chance, *one, repetition=1))
-    study = {
-        "format": "quasistatic-ref/study-store",
-        "version": 2,
-        "kind": "solvers",
-        "time_limit": LIMIT,
-        "settings": [
-            {"name": name, "accuracy": accuracy, "promised": promised, "tuned": False}
-            for name, (accuracy, promised) in SETTINGS.items()
-        ],
-        "solvers": [
-            {
-                "name": s.split(":")[1],
-                "interface": s.split(":")[0],
-                "options": {name: {"eps": accuracy or 0.0} for name, (accuracy, _) in
-                            SETTINGS.items()},
-            }
-            for s in SOLVERS
-        ],
-        "machine": {"processor": "slide rule"},
-        "versions": {"ant": "1.0"},
-    }  # fmt: skip
-    facts = [
+    folder.mkdir()
+    with Store(folder, STUDY | changes, facts(count)) as store:
+        store.add(*rows)
+    return rows
+
+
+STUDY = {
+    "kind": "solvers",
+    "time_limit": LIMIT,
+    "settings": [
+        {"name": name, "accuracy": accuracy, "promised": promised, "tuned": False}
+        for name, (accuracy, promised) in SETTINGS.items()
+    ],
+    "solvers": [
+        {
+            "name": s.split(":")[1],
+            "interface": s.split(":")[0],
+            "target": s.split(":")[1],
+            "options": {name: {"eps": accuracy or 0.0} for name, (accuracy, _) in SETTINGS.items()},
+        }
+        for s in SOLVERS
+    ],
+    "machine": {"processor": "slide rule"},
+    "versions": {"ant": "1.0"},
+}
+
+
+def facts(problems):
+    """Of so many problems; of those with more than 30 rows seven digits are known."""
+    return [
         {"id": f"{FAMILIES[p % 2]}/{p}", "family": FAMILIES[p % 2], "contacts": p + 1, "h": 0.01,
          "mass_ratio": 1.0, "k": 1, "n": 6, "m": 4 * p + 4, "condition": 10.0 * p + 1,
-         "condition_natural": 1.5, "kind": "exact" if p % 2 else "enclosure", "bound": 0.0}
+         "condition_natural": 1.5, "kind": "exact" if p <= 6 else "enclosed",
+         "bound": 0.0 if p <= 6 else 1e-7, "sequence": None, "place": None}
         for p in range(problems)
     ]  # fmt: skip
-    folder.mkdir()
-    (folder / "study.json").write_text(json.dumps(study))
-    (folder / "problems.jsonl").write_text("".join(json.dumps(f) + "\n" for f in facts))
-    (folder / "rows.jsonl").write_text("".join(json.dumps(r) + "\n" for r in rows))
-    return rows
 
 
 SWEEP_AXES = {"mu": (0.0, 0.3, 0.1), "h": (0.02, 0.01)}
@@ -114,12 +119,9 @@ def sweep_written(folder):
          "seconds": {"call": 1.0}}
         for mu in SWEEP_AXES["mu"] for h in SWEEP_AXES["h"]
     ]  # fmt: skip
-    study = {
-        "format": "quasistatic-ref/study-store", "version": 1, "kind": "sweep",
-        "sweeps": [{"name": "slide", "scenario": "block", "link": "block", "since": 0.0}],
-        "machine": {}, "versions": {},
-    }  # fmt: skip
+    sweep = {"name": "slide", "scenario": "block", "link": "block", "since": 0.0, "axes": []}
+    study = {"kind": "sweep", "sweeps": [sweep], "machine": {}, "versions": {}}
     folder.mkdir()
-    (folder / "study.json").write_text(json.dumps(study))
-    (folder / "rows.jsonl").write_text("".join(json.dumps(r) + "\n" for r in rows))
+    with Store(folder, study) as store:
+        store.add(*rows)
     return rows

@@ -1,4 +1,4 @@
-"""The numbers of a report again, from ``rows.jsonl``, by plain loops; shares no code with it."""
+"""The numbers of a report again, from the rows, by plain loops; shares no code with it."""
 
 import math
 import re

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.study.store import rows_read
+from quasistatic_ref.lab.study.store.store import contents
 from quasistatic_ref.optional.fast.compiled.library import compiler
 
 PAGE = (Path(__file__).parents[3] / "docs" / "guides" / "add_your_solver.md").read_text("utf-8")
@@ -51,7 +51,7 @@ def test_every_command_of_the_page_does_what_it_says(folder, capsys):
         assert main(words[1:]) == 0, line
         ran.append(words[2])
     assert ran == ["ask", "run", "report", "ask", "merge", "report"]
-    rows = [row for row in rows_read("study") if row["repetition"] == 0]
+    rows = [row for row in contents("study").rows if row["repetition"] == 0]
     by = {name: [row for row in rows if row["solver"] == name] for name in ("nnls", "hildreth")}
     assert len(by["nnls"]) == len(by["hildreth"]) == 10
     feasible = [row for row in by["nnls"] if row["feasible"]]

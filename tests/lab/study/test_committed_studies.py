@@ -1,18 +1,15 @@
 """The committed studies: each report is what the rows beside it give."""
 
-import json
 from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.qp import Truth
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.sets.selection import problems_taken
-from quasistatic_ref.lab.study.solver_report import solver_report
-from quasistatic_ref.lab.study.spec import solver_study, study_path
-from quasistatic_ref.lab.study.store import rows_read, study_read
+from quasistatic_ref.lab.study.file.study_file import solver_study, study_path
+from quasistatic_ref.lab.study.problems.selection import problems_taken
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.report.solver_report import solver_report
+from quasistatic_ref.lab.study.store.store import contents
 
 STUDIES = Path(__file__).parents[3] / "validation" / "studies"
 DEFAULT = STUDIES / "default"
@@ -21,14 +18,8 @@ MOST = 3 * 2**20
 
 
 @pytest.fixture(scope="module")
-def rows():
-    return rows_read(DEFAULT)
-
-
-@pytest.fixture(scope="module")
-def facts():
-    text = (DEFAULT / "problems.jsonl").read_text("utf-8")
-    return [json.loads(line) for line in text.splitlines()]
+def found():
+    return contents(DEFAULT)
 
 
 def is_kept(folder, report):
@@ -39,30 +30,31 @@ def is_kept(folder, report):
     assert sum(path.stat().st_size for path in folder.rglob("*.*")) < MOST
 
 
-def test_the_report_on_solvers_is_what_the_rows_beside_it_give(rows, facts):
-    is_kept(DEFAULT, solver_report(study_read(DEFAULT), facts, rows))
+def test_the_report_on_solvers_is_what_the_rows_beside_it_give(found):
+    is_kept(DEFAULT, solver_report(found))
 
 
 def test_the_report_on_the_grip_is_what_the_rows_beside_it_give():
     is_kept(STUDIES / "bunny_torsion", study_report(STUDIES / "bunny_torsion"))
 
 
-def test_the_committed_study_has_eight_solvers_and_300_problems(rows, facts):
-    ids = {fact["id"] for fact in facts}
-    assert len(ids) == study_read(DEFAULT)["problems"]["count"] >= 300
-    assert len({row["solver"] for row in rows}) >= 8
-    assert {row["problem"] for row in rows} == ids
+def test_the_committed_study_has_eight_solvers_and_300_problems(found):
+    ids = {fact["id"] for fact in found.problems}
+    assert len(ids) == found.study["problems"]["count"] >= 300
+    assert len({row["solver"] for row in found.rows}) >= 8
+    assert {row["problem"] for row in found.rows} == ids
 
 
 def test_the_default_study_selects_from_every_family_with_dense_rows(members):
     """310 of contact-qp-1: 15 of its 17 families; those with cones and sparse ones are left out."""
     path = study_path("default")
-    study = solver_study(path, toml_read(path))
-    problems = problems_taken(study.problems)
+    study = solver_study(path(path))
+    own = study.problems
+    problems = problems_taken(own.source, own.families, own.most)
     families = {one.facts["family"] for one in members} - {"ellipsoid", "sparse"}
-    assert {problem.facts.family for problem in problems} == families
+    assert {problem.facts["family"] for problem in problems} == families
     assert len(problems) == sum(study.problems.families.values()) == 310
     assert len({problem.id for problem in problems}) == 310
     assert study.repetitions >= 5
-    trivial = [p for p in problems if isinstance(p.answer, Truth) and not p.answer.delta_q.any()]
+    trivial = [p for p in problems if p.feasible and not p.answer.x.any()]
     assert len(trivial) <= 0.05 * len(problems)

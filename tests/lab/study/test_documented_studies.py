@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.lab.study.spec import solver_study, study_kind
+from quasistatic_ref.lab.study.file.study_file import solver_study, study_kind
 
 DOCS = Path(__file__).parents[3] / "docs"
 FILE = re.compile(r"^```toml\n(.*?)^```$", re.MULTILINE | re.DOTALL)

@@ -7,15 +7,15 @@ import pytest
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.rational import exact_form, exact_form_of
-from quasistatic_ref.lab.study.families.dials import DIALS, one_turned, turned
-from quasistatic_ref.lab.study.families.shaped import copied
-from quasistatic_ref.lab.study.qp import units_of
-from quasistatic_ref.lab.study.sessions import Native
-from quasistatic_ref.lab.study.sets import making
-from quasistatic_ref.lab.study.sets.folder import NUMBERS, set_read
-from quasistatic_ref.lab.study.sets.making import family_members, made_set, member_of
-from quasistatic_ref.lab.study.sets.recipe import Recipe
-from quasistatic_ref.solve.units import natural_form
+from quasistatic_ref.lab.study.calling.sessions import Native
+from quasistatic_ref.lab.study.problems import making
+from quasistatic_ref.lab.study.problems.families.dials import DIALS, one_turned, turned
+from quasistatic_ref.lab.study.problems.families.shaped import copied
+from quasistatic_ref.lab.study.problems.folder import problems_begun, set_read
+from quasistatic_ref.lab.study.problems.making import family_problems, problem_of, recipe_made
+from quasistatic_ref.lab.study.problems.recipe import Recipe
+from quasistatic_ref.solve.backends import BACKENDS
+from quasistatic_ref.solve.units import metric, natural_form, units_of
 from quasistatic_ref.step.standard_form import standard_form
 
 SHORT = [name for name in DIALS if name not in ("sparse", "ellipsoid", "near_copies", "condition")]
@@ -64,8 +64,8 @@ def test_copies_multiply_rows_and_leave_the_answer():
 def test_exact_copies_cost_an_active_set_method_no_step_and_no_bit(seed):
     """Of 16 copies one bears; the others are then met without rounding."""
     forms = [standard_form(copied(np.random.default_rng(seed), copies)) for copies in (1, 4, 16)]
-    own = [natural_form(form, units_of(forms[0])) for form in forms]
-    replies = [Native("daqp", "cold", 1e-9)(form, None) for form in own]
+    own = [natural_form(form, units_of(forms[0], metric(forms[0].H))) for form in forms]
+    replies = [Native("daqp", "cold", BACKENDS["daqp"].plain(1e-9))(form, None) for form in own]
     assert [len(form.b) // len(own[0].b) for form in own] == [1, 4, 16]
     assert len({reply.iterations for reply in replies}) == 1
     assert replies[0].iterations > 5
@@ -76,7 +76,7 @@ def test_exact_copies_cost_an_active_set_method_no_step_and_no_bit(seed):
 @pytest.mark.parametrize("overlap", [1e-2, 1e-6, 1e-13])
 def test_walls_that_overlap_leave_no_solution(overlap):
     """Rows a x >= -phi and -a x >= phi + overlap, whose sum is 0 >= overlap."""
-    tight = member_of(one_turned("infeasible", overlap, 0, 1))
+    tight = problem_of(one_turned("infeasible", overlap, 0, 1))
     y = tight.answer.farkas
     assert isinstance(dual_active_set(exact_form_of(*tight.form)), Farkas)
     assert sum(float(Fraction(v)) * tight.b[i] for i, v in y.items()) > 0
@@ -85,46 +85,46 @@ def test_walls_that_overlap_leave_no_solution(overlap):
 @pytest.mark.parametrize("room", [1e-3, 1e-7, 1e-13])
 def test_a_cage_with_room_allows_to_stand_still_and_one_without_nothing(room):
     """All gaps positive: x = 0 satisfies A x >= b; all negative, and normals all around: none."""
-    roomy = member_of(one_turned("narrow", room, 1, 1))
+    roomy = problem_of(one_turned("narrow", room, 1, 1))
     assert (roomy.b < 0).all()
     assert not roomy.answer.farkas
-    assert member_of(one_turned("infeasible", room, 1, 1)).answer.farkas
+    assert problem_of(one_turned("infeasible", room, 1, 1)).answer.farkas
 
 
 def test_a_wedge_is_left_by_its_depth_over_its_angle():
     """Walls that reach 1e-4 m into a body, an angle of 1e-5 apart: it moves by about 10 m."""
-    (one,) = family_members("wedge", 1, 3)
+    (one,) = family_problems("wedge", 1, 3)
     assert one.facts["dial"] == 1e-9
-    found = member_of(one_turned("wedge", 1e-5, 0, 3))
+    found = problem_of(one_turned("wedge", 1e-5, 0, 3))
     assert 1.0 < np.abs(found.answer.x).max() < 1e3
 
 
 def test_a_wall_of_bricks_is_bounded_and_has_few_entries():
-    (one,) = (
-        family_members("sparse", 1, 2) if False else [member_of(one_turned("sparse", 20, 0, 2))]
-    )
+    one = problem_of(one_turned("sparse", 20, 0, 2))
     assert one.facts["n"] == 120
     assert one.A.nnz < 13 * one.facts["m"]
     assert 0 < one.answer.error < 1e-6
 
 
 def test_a_set_that_was_interrupted_is_made_from_where_it_stopped(tmp_path, monkeypatch):
-    recipe, made_ids = Recipe("mine", 1, {"wedge": 2, "gaps": 3, "infeasible": 2}), []
-    honest = making.member_of
+    """No answer is sought twice, but for that of the problem in which the keys were pressed."""
+    recipe, sought = Recipe("mine", 1, {"wedge": 2, "gaps": 3, "infeasible": 2}), []
+    honest = making.dense_answer
 
-    def interrupted(one):
-        made_ids.append(one.id)
-        if len(made_ids) == 4:
+    def interrupted(form):
+        sought.append(form)
+        if len(sought) == 4:
             raise KeyboardInterrupt
-        return honest(one)
+        return honest(form)
 
-    monkeypatch.setattr(making, "member_of", interrupted)
+    monkeypatch.setattr(making, "dense_answer", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        made_set(recipe, tmp_path, progress=False)
-    assert (tmp_path / NUMBERS / "wedge.npz").exists()
-    before = len([name for name in made_ids if name.startswith("wedge")])
-    made_set(recipe, tmp_path, progress=False)
-    assert len([name for name in made_ids if name.startswith("wedge")]) == before
-    assert [one.facts["family"] for one in set_read(tmp_path)] == [
+        recipe_made(recipe, tmp_path, progress=False)
+    assert len(problems_begun(tmp_path)) == 3
+    made = recipe_made(recipe, tmp_path, progress=False)
+    assert len(sought) == 7 + 1
+    assert [one.facts["family"] for one in made] == [
         *["wedge"] * 2, *["gaps"] * 3, *["infeasible"] * 2
     ]  # fmt: skip
+    assert [one.id for one in set_read(tmp_path)] == [one.id for one in made]
+    assert not problems_begun(tmp_path)

@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study import guests
-from quasistatic_ref.lab.study.calls import call_of
-from quasistatic_ref.lab.study.guests import GUESTS, installed_here, natively
-from quasistatic_ref.lab.study.infeasibility import says_infeasible
-from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
-from quasistatic_ref.lab.study.spec_solvers import solvers_named
-from quasistatic_ref.lab.study.unreached import unreached_read
+from quasistatic_ref.lab.study.calling import guests
+from quasistatic_ref.lab.study.calling.calls import call_of
+from quasistatic_ref.lab.study.calling.guests import GUESTS, installed_here, natively
+from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.file.solver_lists import solvers_named
+from quasistatic_ref.lab.study.store.store import contents
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.tolerances import ROUNDING
@@ -212,6 +212,6 @@ def test_a_guest_that_cannot_be_imported_costs_no_other_solver(tmp_path, monkeyp
     problems = "repetitions = 2\n[problems]\nfamilies = { mass_ratio = 2 }\n"
     rows = run(problems + '[[runs]]\nsolvers = ["native:mpax", "native:daqp"]\n')
     assert {(row["solver"], row["outcome"]) for row in rows} == {("daqp", "solved")}
-    (reason,) = unreached_read(tmp_path / "store").items()
+    (reason,) = contents(tmp_path / "store").unreached.items()
     assert reason[0] == "native:mpax"
     assert "no wheel of it here" in reason[1]

@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.study.problems import problem_of
-from quasistatic_ref.lab.study.qp import units_of
+from quasistatic_ref.lab.study.problems.making import problem_of
 from quasistatic_ref.solve.through_cvxpy import CANON
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
-from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, planted_step
@@ -40,8 +38,9 @@ def test_highs_still_does_not_solve_each_of_20_contact_problems():
 def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():
     claims = []
     for seed in (1, 25, 63, 88, 138):
-        form = problem_of(slab(seed)).form  # raises where there is no answer
-        claims.append(qpsolvers_reply(natural_form(form, units_of(form)), "proxqp", {}).status)
+        problem = problem_of(slab(seed))
+        assert problem.feasible
+        claims.append(qpsolvers_reply(problem.natural.form, "proxqp", {}).status)
     assert "PROXQP_PRIMAL_INFEASIBLE" in claims
 
 

@@ -1,5 +1,6 @@
 """Results of several machines in one store: every row once, or a sentence that says why not."""
 
+import copy
 import json
 import os
 
@@ -8,10 +9,11 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.merge import merged, part_read
-from quasistatic_ref.lab.study.problems import problems_read
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.store import Store, rows_read, study_read
+from quasistatic_ref.lab.study.problems.folder import set_read
+from quasistatic_ref.lab.study.problems.for_study import FOLDER
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.store.merge import merged, part_read
+from quasistatic_ref.lab.study.store.store import Store, contents
 from tests.lab.study import made_store, plain_report
 
 STUDY = """
@@ -26,16 +28,9 @@ solvers = ["qpsolvers:daqp", "mine"]
 SET = {"problems": {"sha256": "a"}}
 
 
-def changed(folder, name="study.json", **fields):
-    path = folder / name
-    path.write_text(json.dumps(json.loads(path.read_text()) | fields))
-
-
 def made(folder, seed, **fields):
     """A store of a machine; another seed gives other rows of the same measurements."""
-    rows = made_store.written(folder, seed=seed)
-    changed(folder, **SET, **fields)
-    return rows
+    return made_store.written(folder, seed=seed, **SET | fields)
 
 
 @pytest.fixture
@@ -60,12 +55,12 @@ def key(row):
 def test_every_row_of_every_machine_is_there_once_with_its_machine(stores):
     folder, both = stores
     out = merged(parts(folder / "fast", folder / "slow"), folder / "all")
-    rows = rows_read(out)
+    rows = contents(out).rows
     assert len(rows) == sum(map(len, both.values()))
     for name, own in both.items():
         there = [without(row) for row in rows if row["machine"] == name]
         assert sorted(map(key, there)) == sorted(map(key, own))
-    study = study_read(out)
+    study = contents(out).study
     assert study["machines"] == ["fast", "slow"]
     assert study["machine"]["fast"] == {"processor": "slide rule"}
 
@@ -74,7 +69,7 @@ def test_machines_are_lines_of_tables_and_compared_on_the_same_problems(stores):
     """The report of the merged store against its rows: n problems of each machine, its median."""
     folder, _ = stores
     out = merged(parts(folder / "fast", folder / "slow"), folder / "all")
-    rows = [row for row in rows_read(out) if row["repetition"] == 0]
+    rows = [row for row in contents(out).rows if row["repetition"] == 0]
     tables = plain_report.parsed(markdown_page(study_report(out)))
     (_, where, names, body) = next(t for t in tables if t[0].startswith("Setting mid"))
     assert names[:3] == ["solver", "interface", "machine"]
@@ -100,8 +95,8 @@ def test_what_was_merged_is_merged_again_with_more(stores):
     two = merged(parts(folder / "fast", folder / "slow"), folder / "two")
     third = made(folder / "third", 5)
     out = merged(parts(two, folder / "third"), folder / "three")
-    assert len(rows_read(out)) == sum(map(len, both.values())) + len(third)
-    assert study_read(out)["machines"] == ["fast", "slow", "third"]
+    assert len(contents(out).rows) == sum(map(len, both.values())) + len(third)
+    assert contents(out).study["machines"] == ["fast", "slow", "third"]
     with pytest.raises(InputError, match="was merged already, of fast, slow"):
         part_read(f"name={two}")
 
@@ -129,33 +124,29 @@ def test_rows_are_never_counted_twice_under_whatever_name(stores):
 ])  # fmt: skip
 def test_results_of_another_study_are_refused_by_what_differs(stores, fields, words):
     folder, _ = stores
-    changed(folder / "slow", **fields)
+    made(folder / "other", 4, **fields)
     with pytest.raises(InputError, match=words):
-        merged(parts(folder / "fast", folder / "slow"), folder / "out")
-    assert sorted(p.name for p in folder.iterdir()) == ["fast", "slow"]
+        merged(parts(folder / "fast", folder / "other"), folder / "out")
+    assert sorted(p.name for p in folder.iterdir()) == ["fast", "other", "slow"]
 
 
 def test_other_options_of_a_solver_are_refused(stores):
     folder, _ = stores
-    study = json.loads((folder / "slow" / "study.json").read_text())
-    study["solvers"][0]["options"]["mid"] = {"eps": 1.0}
-    changed(folder / "slow", **study)
+    solvers = copy.deepcopy(made_store.STUDY["solvers"])
+    solvers[0]["options"]["mid"] = {"eps": 1.0}
+    made(folder / "other", 4, solvers=solvers)
     with pytest.raises(InputError, match="another solver or options qpsolvers:ant than"):
-        merged(parts(folder / "fast", folder / "slow"), folder / "out")
+        merged(parts(folder / "fast", folder / "other"), folder / "out")
 
 
-@pytest.mark.parametrize(("spoil", "words"), [
-    (lambda f: (f / "rows.jsonl").write_text(""), "holds no rows yet"),
-    (lambda f: changed(f, problems={}), "does not say which problems"),
-    (lambda f: changed(f, version=1), "is a store of version 1"),
-    (lambda f: (f / "problems.jsonl").write_text(
-        (f / "problems.jsonl").read_text().replace("stack/0", "stack/100")), "not listed"),
-])  # fmt: skip
-def test_a_folder_that_cannot_be_merged_is_refused(stores, spoil, words):
-    folder, _ = stores
-    spoil(folder / "slow")
-    with pytest.raises(InputError, match=words):
-        part_read(str(folder / "slow"))
+def test_a_folder_that_cannot_be_merged_is_refused(tmp_path):
+    with Store(tmp_path, made_store.STUDY | SET):
+        pass
+    with pytest.raises(InputError, match="holds no rows yet"):
+        part_read(str(tmp_path))
+    made(tmp_path / "unsaid", 3, problems={})
+    with pytest.raises(InputError, match="does not say which problems"):
+        part_read(str(tmp_path / "unsaid"))
 
 
 def test_a_sweep_is_refused(tmp_path):
@@ -189,9 +180,9 @@ def test_runs_on_two_machines_are_merged_by_the_command_and_not_continued(run, t
     names = [str(tmp_path / name) for name in ("one", "two")]
     assert main(["study", "merge", *names, "--out", str(out)]) == 0
     assert "rows of 2 machines" in capsys.readouterr().out
-    assert len(problems_read(out)) == 3
-    assert len(rows_read(out)) == 2 * len(rows_read(tmp_path / "one"))
+    assert len(set_read(out / FOLDER)) == 3
+    assert len(contents(out).rows) == 2 * len(contents(tmp_path / "one").rows)
     assert main(["study", "report", str(out)]) == 0
     assert "daqp | qpsolvers | two" in (out / "report" / "report.md").read_text()
     with pytest.raises(InputError, match="holds merged results"):
-        Store(out, study_read(tmp_path / "one"))
+        Store(out, contents(tmp_path / "one").study)

@@ -11,7 +11,7 @@ import piqp
 import pytest
 import qpalm
 
-from quasistatic_ref.lab.study.tuning import MOST_SETTINGS, Score
+from quasistatic_ref.lab.study.measuring.tuning import MOST_SETTINGS, Score
 from quasistatic_ref.solve.backends import BACKENDS
 from validation import option_search
 from validation.option_report import report

@@ -7,9 +7,8 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.packages import announced, loaded
-from quasistatic_ref.lab.study.store import study_read
-from quasistatic_ref.lab.study.unreached import unreached_read
+from quasistatic_ref.lab.study.calling.packages import announced, loaded
+from quasistatic_ref.lab.study.store.store import contents
 
 PROBLEMS = "repetitions = 2\n[problems]\nfamilies = { mass_ratio = 2 }\n"
 MODULE = """
@@ -58,12 +57,17 @@ def test_a_solver_of_an_installed_package_is_called_by_its_name(planted, run, tm
     assert len(digits["qpsolvers", "daqp"]) == len(digits["package", "mine"]) >= 2
     assert min(digits["package", "mine"] + digits["package", "damped"]) > 12
     assert max(digits["package", "half"]) < 3
-    study = study_read(tmp_path / "store")
+    study = contents(tmp_path / "store").study
     assert study["versions"]["planted-qp"] == "1.2"
     assert {s["interface"] for s in study["solvers"]} == {"package", "qpsolvers"}
 
 
-def test_it_is_in_every_table_and_it_is_run_on_one_problem(planted, run, tmp_path, capsys):
+def test_it_is_in_every_table_and_it_is_run_on_one_problem(
+    planted, run, tmp_path, monkeypatch, capsys
+):
+    """Nothing of a study but the export of its numbers needs pandas or pyarrow."""
+    for name in ("pandas", "pyarrow"):
+        monkeypatch.setitem(sys.modules, name, None)
     planted("planted-qp", {"mine": "planted_package:solve"})
     run(PROBLEMS + '[[runs]]\nsolvers = ["package:mine", "qpsolvers:daqp"]\n')
     assert main(["study", "report", str(tmp_path / "store")]) == 0
@@ -116,4 +120,4 @@ def test_a_package_that_cannot_be_imported_costs_itself_only(planted, run, tmp_p
     assert "\n" not in str(caught.value)
     rows = run(PROBLEMS + '[[runs]]\nsolvers = ["package:mine", "qpsolvers:daqp"]\n')
     assert {row["solver"] for row in rows} == {"daqp"}
-    assert words in unreached_read(tmp_path / "store")["package:mine"]
+    assert words in contents(tmp_path / "store").unreached["package:mine"]

@@ -1,7 +1,7 @@
 """Set-up, solving and conversion in the report, against rows whose parts are planted."""
 
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.report import study_report
+from quasistatic_ref.lab.study.report.report import study_report
 from tests.lab.study import made_store
 from tests.lab.study.plain_report import agrees, parsed, quantile, rows_of_line
 

@@ -10,10 +10,10 @@ import time
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.keeper import Keeper
-from quasistatic_ref.lab.study.measure import Limits, measured
-from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
-from quasistatic_ref.lab.study.worker import GRACE
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.measuring.keeper import Keeper, Request
+from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.measuring.worker import GRACE
 from tests.lab.study.planted import FAKES
 
 DEFAULT = SETTINGS[0]
@@ -53,15 +53,15 @@ def fake(name):
 
 
 @pytest.mark.parametrize("name", REPORTED)
-def test_a_planted_solver_is_reported_as_what_it_is(name, folder, problem):
+def test_a_planted_solver_is_reported_as_what_it_is(name, harmless, problem):
     outcome, claimed, said_optimal, wrong = REPORTED[name]
-    row = row_of(fake(name), problem, folder)
+    row = harmless(name, problem)
     assert (row["outcome"], row["said_optimal"], row["wrong"]) == (outcome, said_optimal, wrong)
     assert claimed in row["claimed"]
 
 
-def test_an_honest_solver_gets_its_digits_and_a_liar_none(folder, problem):
-    honest, liar = (row_of(fake(name), problem, folder) for name in ("honest", "liar"))
+def test_an_honest_solver_gets_its_digits_and_a_liar_none(harmless, problem):
+    honest, liar = (harmless(name, problem) for name in ("honest", "liar"))
     assert min(honest["digits"].values()) > 12
     assert liar["digits"]["delta_q"] < 1
     # the residuals of x = 0, lam = 0 show nothing of it where gaps are positive: only the balance
@@ -84,9 +84,9 @@ def test_a_looping_solver_whose_keeper_was_killed_ends_itself(folder, problem):
     with keeper:
         keeper.start()
         keeper._outbox.send((1, problem.form))
-        request = {"setting": DEFAULT, "count": 1, "g": None, "start": None, "limit": 0.1}
-        keeper._outbox.send(request | {"form": 1, "patience": 0.1})
-        assert keeper._process.wait(timeout=GRACE + 15) == -signal.SIGALRM
+        request = vars(Request(DEFAULT, 0.1)) | {"form": 1, "patience": 0.1}
+        keeper._outbox.send(request)
+        assert keeper._process.process.wait(timeout=GRACE + 15) == -signal.SIGALRM
 
 
 DIES_BEFORE_A_CALL = """

@@ -13,7 +13,7 @@ from scipy.sparse import csr_matrix
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.commands.study_problems import FORMATS
-from quasistatic_ref.lab.study.sets import exports
+from quasistatic_ref.lab.study.problems import exports
 
 FEW = ["--families", "wedge,infeasible,ellipsoid,sparse", "--every", "80"]
 

@@ -1,6 +1,5 @@
 """The report: each number of it is made again from the rows that it names, by plain loops."""
 
-import json
 import re
 from html.parser import HTMLParser
 
@@ -13,15 +12,16 @@ from quasistatic_ref.lab.figures.study import profile
 from quasistatic_ref.lab.figures.study_images import KINDS, drawn, images
 from quasistatic_ref.lab.page.html import html_page, sorting
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.columns import columns_of
-from quasistatic_ref.lab.study.noise import noise_of, noise_words
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.statistics import (
+from quasistatic_ref.lab.study.report.columns import columns_of
+from quasistatic_ref.lab.study.report.noise import noise_of, noise_words
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.report.statistics import (
     interval,
     performance_ratios,
     resampled,
     shifted_geometric_mean,
 )
+from quasistatic_ref.lab.study.store.store import contents
 from quasistatic_ref.optional.show.figures import faults
 from tests.lab.study import made_store, plain_report
 from tests.lab.study.plain_report import agrees, delivered, number, picked, quantile, rows_of_line
@@ -33,8 +33,7 @@ TEXT = {"solver", "setting", "its own options", "family", "interface", "tie with
 @pytest.fixture(scope="module")
 def rows(store):
     """Those that are compared: what was repeated is for the noise."""
-    every = [json.loads(line) for line in (store / "rows.jsonl").read_text().splitlines()]
-    return [row for row in every if row["repetition"] == 0]
+    return [row for row in contents(store).rows if row["repetition"] == 0]
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +47,7 @@ def tables(report):
 
 
 def of_store(tables):
-    return [t for t in tables if not t[1].startswith(("study.json", "problems.jsonl"))]
+    return [t for t in tables if not t[1].startswith("the store, ")]
 
 
 def lines(tables, *, titled):
@@ -137,7 +136,7 @@ def test_bootstraps_hold_their_value_and_narrow_with_the_root_of_the_count():
 
 def test_the_noise_is_the_difference_of_what_was_repeated(store):
     """Median of |t_1 / t_2 - 1|, the larger time above, over all pairs."""
-    every = [json.loads(line) for line in (store / "rows.jsonl").read_text().splitlines()]
+    every = contents(store).rows
     by_key = {}
     for row in every:
         names = ("problem", "solver", "interface", "setting", "units", "warm")

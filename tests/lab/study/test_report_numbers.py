@@ -12,7 +12,7 @@ from quasistatic_ref.lab.page.html import sorting
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.numbers import COLUMNS, csv_text, parquet_bytes
 from quasistatic_ref.lab.page.parts import Report
-from quasistatic_ref.lab.study.report import study_report
+from quasistatic_ref.lab.study.report.report import study_report
 from tests.lab.study import made_store, plain_report
 
 

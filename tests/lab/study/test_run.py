@@ -6,10 +6,12 @@ import pty
 import random
 import re
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
 import warnings
+from contextlib import closing
 from pathlib import Path
 
 import distributed
@@ -17,9 +19,10 @@ import pytest
 
 import quasistatic_ref
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.lab.study.run import run_study
-from quasistatic_ref.lab.study.spec import solver_study
-from quasistatic_ref.lab.study.store import ROWS, rows_read, study_read, table
+from quasistatic_ref.lab.study.file.study_file import solver_study
+from quasistatic_ref.lab.study.measuring.run import run_study
+from quasistatic_ref.lab.study.store.rows import table
+from quasistatic_ref.lab.study.store.store import STORE, contents
 
 SMALL = """
 time_limit = 20.0
@@ -45,16 +48,16 @@ def whole(tmp_path_factory):
 
 
 def test_every_measurement_of_the_plan_is_in_the_table_once(whole):
-    rows = rows_read(whole)
+    rows = contents(whole).rows
     assert len(rows) == len({json.dumps(r) for r in table(rows)}) == CALLS
     assert {r["outcome"] for r in rows} <= {"solved", "failed"}
-    there = study_read(whole)
+    there = contents(whole).study
     assert there["problems"]["count"] == there["problems"]["exact"] == 7
     assert {"clarabel", "daqp", "qpsolvers", "numpy"} <= set(there["versions"])
 
 
 def test_an_active_set_solver_in_natural_units_has_nearly_all_digits(whole):
-    rows = [r for r in rows_read(whole) if r["solver"] == "daqp" and r["units"] == "natural"]
+    rows = [r for r in contents(whole).rows if r["solver"] == "daqp" and r["units"] == "natural"]
     found = [r["digits"]["delta_q"] for r in rows if r["setting"] == "high"]
     assert len(found) == 7 + 1
     assert min(found) > 9
@@ -109,7 +112,7 @@ def test_the_making_of_problems_is_shown_and_may_be_interrupted(tmp_path):
     assert "exact answers" not in quiet
     assert "calls made" not in quiet
     assert status == 0
-    assert len(rows_read(tmp_path / "store")) == 3 + 1  # one is run again
+    assert len(contents(tmp_path / "store").rows) == 3 + 1  # one is run again
 
 
 def command(path, store):
@@ -118,8 +121,11 @@ def command(path, store):
 
 
 def lines(store):
-    path = store / ROWS
-    return path.read_bytes().count(b"\n") if path.exists() else 0
+    try:
+        with closing(sqlite3.connect(f"file:{store / STORE}?mode=ro", uri=True)) as tables:
+            return tables.execute("SELECT count(*) FROM rows").fetchone()[0]
+    except sqlite3.Error:  # not there yet
+        return 0
 
 
 def test_a_study_killed_at_random_moments_gives_the_same_table(study, run, whole, tmp_path):
@@ -132,22 +138,22 @@ def test_a_study_killed_at_random_moments_gives_the_same_table(study, run, whole
             command(path, store), env=environment, stdout=subprocess.DEVNULL, cwd=tmp_path
         )
         while lines(store) < moment and process.poll() is None:
-            time.sleep(0.001)
+            time.sleep(0.01)
         process.send_signal(signal.SIGKILL)
         process.wait()
         assert lines(store) >= moment
-    before = rows_read(store)
+    before = contents(store).rows
     assert len(before) < CALLS, f"killed at {chosen}, the study was over already"
     rows = run(SMALL, "killed")
-    assert table(rows) == table(rows_read(whole)), f"killed at {chosen}"
+    assert table(rows) == table(contents(whole).rows), f"killed at {chosen}"
     kept = [r for r in rows if r in before]  # nothing is measured twice: times are the old ones
     assert len(kept) == len(before)
 
 
 def test_a_finished_study_measures_nothing_again(study, whole):
-    before = (whole / ROWS).read_bytes()
+    before = contents(whole).rows
     run_study(study(SMALL), whole, progress=False)
-    assert (whole / ROWS).read_bytes() == before
+    assert contents(whole).rows == before
 
 
 PLANTED = """
@@ -178,8 +184,8 @@ def test_what_a_budget_does_not_reach_is_said_also_after_an_interruption(run, tm
     assert set(outcomes["loops"]) == {"timeout", "not_run_budget"}
     assert outcomes["honest"][0] == "solved"  # one solver's budget is not another's
 
-    kept = [r for r in rows if r["outcome"] != "not_run_budget"]
-    (tmp_path / "store" / ROWS).write_text("".join(json.dumps(r) + "\n" for r in kept))
+    with closing(sqlite3.connect(tmp_path / "store" / STORE)) as tables, tables:
+        tables.execute("DELETE FROM rows WHERE outcome = 'not_run_budget'")
     assert table(run(text)) == table(rows)
 
 
@@ -188,4 +194,4 @@ def test_on_a_cluster_of_two_workers_the_results_are_the_same(run, whole):
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
     ) as cluster:
         there = run(SMALL, "there", scheduler=cluster.scheduler_address)
-    assert table(there) == table(rows_read(whole))
+    assert table(there) == table(contents(whole).rows)

@@ -8,19 +8,16 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import study_sequences
-from quasistatic_ref.lab.study import sequences
-from quasistatic_ref.lab.study.keeper import EXTRA
-from quasistatic_ref.lab.study.sequences import (
-    SolverLimits,
-    checked,
-    in_one_unit,
-    modes_of,
-    sequence_rows,
-)
+from quasistatic_ref.lab.page.markdown import markdown_page
+from quasistatic_ref.lab.study.calling import sessions
+from quasistatic_ref.lab.study.measuring.ask import solver_named
+from quasistatic_ref.lab.study.measuring.keeper import EXTRA
+from quasistatic_ref.lab.study.measuring.run import modes_of_solver
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.store.rows import label_of, table
+from quasistatic_ref.lab.study.store.store import contents
 
-ONCE = SolverLimits(repetitions=1)
 CALLABLES = '''
 import json
 import os
@@ -79,48 +76,51 @@ def broken(P, q, G, h):
 
 
 @pytest.fixture
-def grasp(members):
-    """Two sequences, in order."""
-    own = [one for one in members if one.facts["sequence"]]
-    return {name: [one for one in own if one.facts["sequence"]["name"] == name]
-            for name in ("bunny_grasp/0", "stack/0")}  # fmt: skip
-
-
-@pytest.fixture
 def own(tmp_path, monkeypatch):
     (tmp_path / "sequence_solvers.py").write_text(CALLABLES)
     monkeypatch.chdir(tmp_path)
     return "sequence_solvers"
 
 
+@pytest.fixture
+def sequences(own, capsys):
+    """A function: the command on the sequences of a scenario; its rows."""
+
+    def ran(*words, scenario="door", stride="4", repetitions="1"):
+        command = ["study", "sequences", *words, "--scenario", scenario, "--stride", stride]
+        assert main([*command, "--repetitions", repetitions, "--json", "--quiet"]) == 0
+        return json.loads(capsys.readouterr().out)
+
+    return ran
+
+
+def of(rows, name):
+    return [row for row in rows if row["solver"] == name]
+
+
 def test_every_mode_is_that_of_the_command():
-    assert study_sequences.MODES == sequences.MODES
+    assert study_sequences.MODES == sessions.MODES
 
 
-def test_what_a_solver_can_start_from_is_a_fact_of_its_interface(own):
-    assert modes_of("daqp") == ("cold", "updates", "active set")
-    assert modes_of("osqp") == ("cold", "updates", "primal-dual")
-    assert modes_of("clarabel") == modes_of("piqp") == ("cold", "updates")
-    assert modes_of("quadprog") == modes_of(f"{own}:solved") == ("cold",)
-    assert modes_of("qpsolvers:osqp") == ("cold", "primal")
-    assert modes_of(f"{own}:warm") == ("cold", "primal-dual")
-
-
-@pytest.mark.parametrize(("solver", "mode"), [
-    ("clarabel", "primal-dual"), ("quadprog", "updates"), ("daqp", "primal"),
-    ("sequence_solvers:solved", "primal-dual"),
+@pytest.mark.parametrize(("solver", "modes"), [
+    ("native:daqp", ("cold", "updates", "active set")),
+    ("native:osqp", ("cold", "updates", "primal-dual")), ("native:piqp", ("cold", "updates")),
+    ("native:quadprog", ("cold",)), ("qpsolvers:osqp", ("cold", "primal")),
 ])  # fmt: skip
-def test_a_mode_that_a_solver_does_not_have_is_an_error(solver, mode, own, capsys):
-    with pytest.raises(InputError, match=f"is no mode of {solver}"):
-        checked([solver], ["cold", mode])
-    assert main(["study", "sequences", solver, "--modes", mode]) == 2
-    assert "is no mode of" in capsys.readouterr().err
+def test_what_a_solver_can_start_from_is_a_fact_of_its_interface(solver, modes):
+    assert sessions.modes_of(solver_named(solver)) == modes
+
+
+def test_what_a_callable_can_start_from_its_own_process_finds_out(own):
+    assert modes_of_solver(solver_named(f"{own}:solved")) == ("cold",)
+    assert modes_of_solver(solver_named(f"{own}:warm")) == ("cold", "primal-dual")
 
 
 @pytest.mark.parametrize(("more", "words"), [
-    (["nobody"], "is none of"),
-    (["qpsolvers:nobody"], "is not a solver that qpsolvers reaches here"),
+    (["nobody"], "holds no solver of native"),
+    (["qpsolvers:nobody"], "holds no solver of qpsolvers"),
     (["daqp", "--modes", "hot"], "is none of cold"),
+    (["clarabel", "--modes", "primal-dual"], "is no mode of native:clarabel"),
     (["daqp", "--scenario", "nowhere"], "have no such sequence"),
     (["daqp", "--repetitions", "0"], "must be at least 1"),
     (["daqp", "--accuracy", "2"], "must be between 0 and 1"),
@@ -132,44 +132,26 @@ def test_what_cannot_be_run_is_refused(more, words, capsys):
     assert words in capsys.readouterr().err
 
 
-def test_a_sequence_has_one_system_of_units_and_the_same_answers(grasp):
-    forms, answers = in_one_unit(grasp["bunny_grasp/0"])
-    for form, x in zip(forms, answers, strict=True):
-        slack, size = form.A @ x - form.b, np.abs(form.A) @ np.abs(x) + np.abs(form.b)
-        assert slack.min() >= -1e-14 * size.max()
-    H = [form.H for form in forms]
-    assert all(np.allclose(np.diag(one), np.diag(H[0]), rtol=0.1) for one in H)
-
-
-def test_solvers_keep_their_digits_in_every_mode(grasp):
-    modes = checked(["daqp", "osqp", "clarabel", "qpsolvers:daqp"], None)
-    rows = list(sequence_rows(grasp, modes, 1e-9, ONCE))
-    assert len(rows) == 24 * sum(map(len, modes.values()))
-    assert all(row.solved and row.digits > 4 for row in rows if row.solver != "osqp")
-    assert sum(row.solved for row in rows if row.solver == "osqp") > 60
+def test_solvers_keep_their_digits_in_every_mode_and_a_callable_starts_from_its_answer(
+    sequences, own
+):
+    """12 steps in 3, 3 and 2 modes; the callable writes down what it was given and returned."""
+    rows = sequences("daqp", "osqp", f"{own}:warm", scenario="bunny_grasp")
+    assert len(rows) == 12 * (3 + 3 + 2)
+    assert all(row["digits"]["delta_q"] > 4 for row in [*of(rows, "daqp"), *of(rows, "warm")])
+    assert sum(row["outcome"] == "solved" for row in of(rows, "osqp")) > 30
+    first = min(row["problem"] for row in rows)
     found = {
-        mode: sum(r.iterations for r in rows if (r.solver, r.mode) == ("daqp", mode) and r.place)
-        for mode in modes["daqp"]
-    }
+        mode: sum(row["iterations"] for row in of(rows, "daqp")
+                  if row["mode"] == mode and row["problem"] != first)
+        for mode in ("cold", "updates", "active set")
+    }  # fmt: skip
     assert found["active set"] < found["updates"] == found["cold"]
-
-
-def test_a_callable_starts_from_its_own_answer_to_the_step_before(grasp, own):
-    list(sequence_rows(grasp, {f"{own}:warm": ("primal-dual",)}, 1e-9, ONCE))
     starts = [json.loads(line) for line in Path("starts.jsonl").read_text().splitlines()]
-    assert len(starts) == 24
-    for place, (start, _) in enumerate(starts):
-        if place % 12 == 0:
-            assert start is None
-        else:
-            np.testing.assert_array_equal(start, starts[place - 1][1])
-
-
-def test_a_callable_that_raises_costs_itself_only(grasp, own):
-    modes = {f"{own}:broken": ("cold",), f"{own}:solved": ("cold",)}
-    rows = list(sequence_rows(grasp, modes, 1e-9, ONCE))
-    assert {row.solver: row.solved for row in rows} == {f"{own}:broken": False,
-                                                        f"{own}:solved": True}  # fmt: skip
+    warm = [one for one in starts if one[0] is not None]
+    assert len(warm) == 11
+    for start, _ in warm:
+        np.testing.assert_array_equal(start, starts[starts.index([start, _]) - 1][1])
 
 
 @pytest.mark.parametrize(("solver", "outcome", "words"), [
@@ -177,38 +159,38 @@ def test_a_callable_that_raises_costs_itself_only(grasp, own):
     ("eats", "memory", "GB of memory"),
     ("dies", "crashed", "ended with status 3"),
 ])  # fmt: skip
-def test_a_solver_that_hangs_eats_or_dies_costs_itself_only(grasp, own, solver, outcome, words):
-    """After each start of its process it is right twice: of 6 steps 4, 2 ended."""
-    bad, one = f"{own}:{solver}", {"stack/0": grasp["stack/0"][:6]}
+def test_a_solver_that_hangs_eats_or_dies_costs_itself_only(
+    sequences, own, solver, outcome, words, monkeypatch
+):
+    """After each start of its process it is right twice: of 12 steps 8, 4 ended."""
     wait = 30.0 if solver == "eats" else 0.5
-    limits = SolverLimits(repetitions=1, call=wait, warm_up=wait, memory=5e8)
-    modes = {bad: ("cold",), "daqp": ("cold",)}
-    rows = list(sequence_rows(one, modes, 1e-9, limits))
-    assert all(row.solved and row.digits > 12 for row in rows if row.solver == "daqp")
-    ends = [row for row in rows if row.solver == bad]
-    assert len(ends) == 6
-    assert [row.outcome for row in ends] == ["solved", "solved", outcome] * 2
+    monkeypatch.setattr(study_sequences, "WARM_UP", wait)
+    limits = ["--modes", "cold", "--time-limit", str(wait), "--memory", "0.5"]
+    rows = sequences(f"{own}:{solver}", "daqp", *limits)
+    assert all(row["digits"]["delta_q"] > 12 for row in of(rows, "daqp"))
+    ends = sorted(of(rows, solver), key=lambda row: row["problem"])
+    assert [row["outcome"] for row in ends] == ["solved", "solved", outcome] * 4
     for row in ends:
-        assert row.digits > 12 if row.solved else (words in row.said and row.digits == 0)
+        solved = row["outcome"] == "solved"
+        assert row["digits"]["delta_q"] > 12 if solved else words in row["claimed"]
 
 
-def test_a_budget_ends_a_solver_and_no_other(grasp, own):
+def test_a_budget_ends_a_solver_and_no_other(sequences, own, monkeypatch):
     """A hang takes its limit and what is waited beyond it, 1 s: two of them are over 1.5 s."""
     assert 0.5 + EXTRA == 1.0
-    bad, one = f"{own}:hangs", {"stack/0": grasp["stack/0"]}
-    limits = SolverLimits(repetitions=1, call=0.5, warm_up=0.5, budget=1.5)
-    modes = {bad: ("cold",), "daqp": ("cold",)}
-    rows = list(sequence_rows(one, modes, 1e-9, limits))
-    assert sum(row.outcome == "timeout" for row in rows) == 2
-    late = [row for row in rows if row.outcome == "not_run_budget"]
-    assert {row.solver for row in late} == {bad}
-    assert len(late) == 12 - 2 * 3
+    monkeypatch.setattr(study_sequences, "WARM_UP", 0.5)
+    limits = ["--modes", "cold", "--time-limit", "0.5", "--budget", "1.5"]
+    rows = sequences(f"{own}:hangs", "daqp", *limits)
+    ends = [row["outcome"] for row in of(rows, "hangs")]
+    assert (ends.count("timeout"), ends.count("not_run_budget")) == (2, 12 - 2 * 3)
+    assert {row["outcome"] for row in of(rows, "daqp")} == {"solved"}
 
 
-def test_a_clock_that_was_stopped_is_not_believed(grasp, own):
-    one = {"stack/0": grasp["stack/0"]}
-    rows = list(sequence_rows(one, {f"{own}:stops_the_clock": ("cold",)}, 1e-9, ONCE))
-    assert all(row.solved and row.seconds > 4e-3 for row in rows)
+def test_a_clock_that_was_stopped_is_not_believed_and_an_exception_costs_its_solver(sequences, own):
+    rows = sequences(f"{own}:stops_the_clock", f"{own}:broken", "--modes", "cold")
+    stopped = of(rows, "stops_the_clock")
+    assert all(row["seconds"]["call"] > 4e-3 and not row["clock_agrees"] for row in stopped)
+    assert {row["outcome"] for row in of(rows, "broken")} == {"failed"}
 
 
 def test_a_callable_that_cannot_be_imported_is_refused(own, tmp_path, capsys):
@@ -217,19 +199,32 @@ def test_a_callable_that_cannot_be_imported_is_refused(own, tmp_path, capsys):
     assert "cannot be imported: RuntimeError: no licence" in capsys.readouterr().err
 
 
-def test_the_command_tells_what_ended_and_goes_on(own, capsys):
+STUDY = """
+repetitions = 1
+[problems]
+set = "contact-qp-1"
+families = { sequences = 12 }
+[[runs]]
+solvers = ["native:daqp"]
+settings = ["high"]
+modes = ["cold", "active set"]
+"""
+
+
+def test_a_study_has_sequences_in_its_store_resumes_and_reports_them(run, tmp_path):
+    rows = run(STUDY)
+    assert [label_of(row) for row in rows] == ["native:daqp"] * 24
+    assert table(run(STUDY)) == table(contents(tmp_path / "store").rows) == table(rows)
+    assert contents(tmp_path / "store").rows == sorted(rows, key=lambda row: (
+        row["problem"], row["mode"]))  # fmt: skip
+    page = markdown_page(study_report(tmp_path / "store"))
+    assert "| native:daqp | high | natural | active set | 11 |" in page
+
+
+def test_the_command_says_what_ended_and_writes_a_table(own, tmp_path, capsys):
     command = ["study", "sequences", f"{own}:dies", "daqp", "--modes", "cold", "--scenario",
-               "door", "--stride", "4", "--repetitions", "1"]  # fmt: skip
+               "door", "--stride", "4", "--repetitions", "1", "--out", str(tmp_path)]  # fmt: skip
     assert main(command) == 0
-    assert f"{own}:dies, cold: 4 crashed" in capsys.readouterr().out
-
-
-def test_the_command_writes_a_row_for_each_problem_and_mode(own, tmp_path, capsys):
-    command = ["study", "sequences", "daqp", f"{own}:warm", "--scenario", "door", "--stride", "4",
-               "--repetitions", "1", "--out", str(tmp_path)]  # fmt: skip
-    assert main(command) == 0
-    assert "active set" in capsys.readouterr().out
+    assert "callable:dies, cold: 4 crashed" in capsys.readouterr().out
     with (tmp_path / "sequences.csv").open() as file:
-        rows = list(csv.DictReader(file))
-    assert len(rows) == 12 * (3 + 2)
-    assert {row["said"] for row in rows} == {"optimal", "returned"}
+        assert len(list(csv.DictReader(file))) == 2 * 12

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.problems import made, problem_set, problems_read
-from quasistatic_ref.lab.study.sets.selection import chosen, problems_taken
+from quasistatic_ref.lab.study.problems.families.drawn import drawn
+from quasistatic_ref.lab.study.problems.for_study import study_problems
+from quasistatic_ref.lab.study.problems.selection import chosen, problems_taken
 
 STUDY = """
 [problems]
@@ -38,37 +39,26 @@ def test_sequences_are_taken_whole_and_in_order(members):
     assert [one.facts["sequence"]["place"] for one in found] == [*range(12), *range(12)]
 
 
-def test_a_study_asks_the_problems_of_a_set_as_they_are(study, members, tmp_path):
-    test_set = taken(study, "wedge = { count = 3, most = 1e-3 }, gaps = 2")
-    found = problem_set(test_set, tmp_path / "store", progress=False)
-    assert [p.facts.family for p in found] == ["gaps"] * 2 + ["wedge"] * 3
+def test_a_study_takes_the_problems_of_a_set_as_they_are(study, members, tmp_path):
+    test_set = taken(study, "wedge = { count = 3, most = 1e-3 }, gaps = 2, infeasible = 2")
+    found = study_problems(test_set, tmp_path, progress=False)
+    families = [one.facts["family"] for one in found]
+    assert families == ["gaps"] * 2 + ["wedge"] * 3 + ["infeasible"] * 2
     by_id = {one.id: one for one in members}
-    for problem in problems_read(tmp_path / "store"):
-        one = by_id[problem.id]
-        np.testing.assert_array_equal(problem.form.A, one.A.toarray())
-        np.testing.assert_array_equal(problem.answer.delta_q, one.answer.x)
+    for one in study_problems(test_set, tmp_path, progress=False):
+        there = by_id[one.id]
+        assert dict(one.facts) == dict(there.facts)
+        np.testing.assert_array_equal(one.A.toarray(), there.A.toarray())
+        np.testing.assert_array_equal(one.answer.x, there.answer.x)
+        assert one.answer.farkas == there.answer.farkas
     with pytest.raises(InputError, match="holds another test set"):
-        problem_set(taken(study, "gaps = 2"), tmp_path / "store", progress=False)
+        study_problems(taken(study, "gaps = 2"), tmp_path, progress=False)
 
 
 @pytest.mark.parametrize("family", ["sparse", "ellipsoid"])
-def test_families_that_studies_have_no_place_for_are_refused(study, family):
+def test_families_that_studies_have_no_place_for_are_refused(family):
     with pytest.raises(InputError, match="studies contain dense rows only"):
-        problems_taken(taken(study, f"{family} = 2"))
-
-
-def test_problems_without_a_solution_come_with_their_farkas_vectors(study, tmp_path):
-    """Y >= 0 with b'y > 0 and A'y = 0, but for the rounding of y."""
-    test_set = taken(study, "infeasible = 3, gaps = 1")
-    made = problem_set(test_set, tmp_path / "store", progress=False)
-    read = problems_read(tmp_path / "store")
-    assert [p.facts.family for p in read] == ["gaps"] + ["infeasible"] * 3
-    for problem, again in zip(made[1:], read[1:], strict=True):
-        A, b, y = again.form.A, again.form.b, again.answer.farkas
-        np.testing.assert_array_equal(y, problem.answer.farkas)
-        assert y.min() >= 0 < b @ y
-        assert (abs(A.T @ y) <= 1e-15 * (abs(A).T @ y)).all()
-    assert read[0].answer.bound == 0.0
+        problems_taken("contact-qp-1", {family: 2}, {})
 
 
 @pytest.mark.parametrize(("text", "words"), [
@@ -79,15 +69,17 @@ def test_problems_without_a_solution_come_with_their_farkas_vectors(study, tmp_p
     ("families = { contacts = { most = 3 } }", "count"),
     ('set = "contact-qp-1"\nfamilies = { wedge = { count = 3, most = -1 } }', "must be greater"),
 ])  # fmt: skip
-def test_what_cannot_be_taken_is_said(study, text, words):
+def test_what_cannot_be_taken_is_said(study, tmp_path, text, words):
     with pytest.raises(InputError, match=words):
-        problems_taken(
-            study(f"[problems]\n{text}\n[[runs]]\nsolvers = ['qpsolvers:daqp']").problems
+        study_problems(
+            study(f"[problems]\n{text}\n[[runs]]\nsolvers = ['qpsolvers:daqp']").problems, tmp_path
         )
 
 
 def test_a_dial_of_a_study_without_a_set_may_end_elsewhere(study):
     text = "[problems]\nfamilies = { contacts = { count = 4, most = 27 }, mass_ratio = 2 }"
     test_set = study(f"{text}\n[[runs]]\nsolvers = ['qpsolvers:daqp']").problems
-    found = [one.step.contacts.n_c for one in made(test_set) if one.family == "contacts"]
+    found = [
+        one.step.contacts.n_c for one in drawn("contacts", 4, 1, (), test_set.most["contacts"])
+    ]
     assert found == [1, 3, 9, 27]

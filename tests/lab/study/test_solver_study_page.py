@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.lab.study.store import rows_read, study_read
+from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study.plain_report import (
     agrees,
     delivered,
@@ -39,9 +39,18 @@ OWN = re.compile(
 
 
 @pytest.fixture(scope="module")
-def rows():
-    every = rows_read(DEFAULT)
-    return [row for row in every if row["repetition"] == 0 and row["feasible"]]
+def found():
+    return contents(DEFAULT)
+
+
+@pytest.fixture(scope="module")
+def limit(found):
+    return found.study["time_limit"]
+
+
+@pytest.fixture(scope="module")
+def rows(found):
+    return [row for row in found.rows if row["repetition"] == 0 and row["feasible"]]
 
 
 @pytest.fixture(scope="module")
@@ -71,9 +80,8 @@ def test_the_sentences_of_the_page_are_made_of_the_committed_rows(text):
     assert f"studies/default/{NAME}" in PAGE.read_text("utf-8")
 
 
-def test_every_advice_is_that_of_the_rows_by_plain_loops(text, rows):
+def test_every_advice_is_that_of_the_rows_by_plain_loops(text, rows, limit):
     """Shares, median time and claims, of each solver named; the time limit where not solved."""
-    limit = study_read(DEFAULT)["time_limit"]
     cold = picked(rows, "units = natural, warm = false")
     compared = shared(cold, ["label", "setting"])
     bullets = list(BULLET.finditer(text))
@@ -93,9 +101,8 @@ def test_every_advice_is_that_of_the_rows_by_plain_loops(text, rows):
         assert whole(missed and missed[1]) == sum(delivered(row) < 6 for row in own)
 
 
-def test_a_solver_is_advised_at_no_setting_with_later_digits(text, rows):
+def test_a_solver_is_advised_at_no_setting_with_later_digits(text, rows, limit):
     """No setting of the same solver and interface has a lower mean time to 6 digits."""
-    limit = study_read(DEFAULT)["time_limit"]
     compared = shared(picked(rows, "units = natural, warm = false"), ["label", "setting"])
     for found in BULLET.finditer(text):
         own = picked(compared, f"label = {found['label']}")
@@ -106,8 +113,8 @@ def test_a_solver_is_advised_at_no_setting_with_later_digits(text, rows):
         assert found["setting"] == min(means, key=means.get)
 
 
-def test_claims_of_the_whole_study_are_counted(text):
-    rows = [row for row in rows_read(DEFAULT) if row["repetition"] == 0]
+def test_claims_of_the_whole_study_are_counted(text, found):
+    rows = [row for row in found.rows if row["repetition"] == 0]
     counts = re.search(
         r"Of ([\d,]+) claims of success, ([\d,]+) are false; of ([\d,]+) claims that there is "
         r"no solution, ([\d,]+) are false\.", text)  # fmt: skip

@@ -5,8 +5,8 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.lab.study.plan import plan
-from quasistatic_ref.lab.study.spec import QUICK, solver_study, study_path
+from quasistatic_ref.lab.study.file.study_file import QUICK, solver_study, study_path
+from quasistatic_ref.lab.study.measuring.plan import plan
 from quasistatic_ref.solve.backends import BACKENDS, installed
 
 HEAD = 'format = "quasistatic-ref/study"\nversion = 1\n'

@@ -10,9 +10,13 @@ from docs.fields_page import reference_page
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.lab.study.spec import solver_study, study_kind, study_names
-from quasistatic_ref.lab.study.spec_sweep import sweep_study
-from quasistatic_ref.lab.study.spec_table import TABLES, study_schema
+from quasistatic_ref.lab.study.file.fields import TABLES, study_schema
+from quasistatic_ref.lab.study.file.study_file import (
+    solver_study,
+    study_kind,
+    study_names,
+)
+from quasistatic_ref.lab.study.file.sweeps import sweep_study
 
 
 def test_every_field_of_a_study_is_on_the_page_that_is_made_of_the_table():

@@ -1,170 +1,158 @@
-"""Rows are only ever added; what a sudden end leaves is read, or refused in one sentence."""
+"""Rows are added whole; what no study has written is refused in one sentence."""
 
-import json
 import resource
+import sqlite3
 
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.environment import UNKNOWN
-from quasistatic_ref.lab.study.grade import CLOCKS, ungraded
-from quasistatic_ref.lab.study.store import ROWS, Store, rows_read, study_read, table
-
-STUDY = {"format": "quasistatic-ref/study-store", "version": 2, "kind": "solvers"}
-
-
-SECONDS = dict.fromkeys(CLOCKS) | {"call": 1.0, "spent": 1.0}
+from quasistatic_ref.lab.study.store import store as stores
+from quasistatic_ref.lab.study.store.rows import flat, key_of, nested, table
+from quasistatic_ref.lab.study.store.store import PACKED, STORE, Store, contents, packed_tables
+from tests.lab.study import made_store
 
 
-def row(problem, **changes):
-    named = {"problem": problem, "family": "f", "solver": "s", "interface": "callable"}
-    named |= {"setting": "default", "warm": False, "units": "raw", "repetition": 0}
-    return named | ungraded("failed", "sorry", 1.0) | {"seconds": SECONDS} | changes
+@pytest.fixture
+def rows(tmp_path):
+    """Those of a store in ``tmp_path / "store"``, sorted."""
+    return sorted(made_store.written(tmp_path / "store", count=2), key=key_of)
 
 
-def test_rows_come_back_sorted_whatever_their_order_in_the_file(tmp_path):
-    with Store(tmp_path, STUDY) as store:
-        for name in ("b", "c", "a"):
-            store.add(row(name))
-    assert [r["problem"] for r in rows_read(tmp_path)] == ["a", "b", "c"]
+@pytest.fixture
+def folder(tmp_path, rows):
+    return tmp_path / "store"
 
 
-@pytest.mark.parametrize("torn", ['{"prob', "\x00\x00", "{}\n", "[1]\n", '{"problem": "x"}\n'])
-def test_a_torn_last_line_is_dropped_and_the_store_goes_on(tmp_path, torn):
-    with Store(tmp_path, STUDY) as store:
-        store.add(row("a"))
-    with (tmp_path / ROWS).open("a") as file:
-        file.write(torn)
-    assert [r["problem"] for r in rows_read(tmp_path)] == ["a"]
-    with Store(tmp_path, STUDY) as store:
-        assert len(store.keys) == 1
-        store.add(row("b"))
-    assert [r["problem"] for r in rows_read(tmp_path)] == ["a", "b"]
+def changed(folder, statement):
+    """Change a store behind its back: its schema is not asked."""
+    tables = sqlite3.connect(folder / STORE)
+    with tables:
+        tables.execute("PRAGMA ignore_check_constraints = ON")
+        tables.execute(statement)
+    tables.close()
 
 
-def test_a_broken_line_in_the_middle_is_refused_by_its_number(tmp_path):
-    with Store(tmp_path, STUDY) as store:
-        store.add(row("a"))
-    text = (tmp_path / ROWS).read_text()
-    (tmp_path / ROWS).write_text(text + "{broken\n" + text)
-    with pytest.raises(InputError, match=r"rows\.jsonl: line 2: is no row"):
-        rows_read(tmp_path)
+def test_rows_come_back_whole_and_sorted(folder, rows):
+    assert contents(folder).rows == rows
+    assert nested(flat(rows[0])) == rows[0]
 
 
-def test_every_prefix_of_a_store_is_a_store(tmp_path):
-    """Whatever a sudden end leaves of the file, all rows but the torn one are there."""
-    with Store(tmp_path, STUDY) as store:
-        for name in ("a", "b", "c"):
-            store.add(row(name))
-    content = (tmp_path / ROWS).read_bytes()
-    for length in range(0, len(content) + 1, 7):
-        (tmp_path / ROWS).write_bytes(content[:length])
-        assert len(rows_read(tmp_path)) == content[:length].count(b"\n")
+def test_rows_are_in_the_file_all_together_or_not_at_all(folder, rows):
+    """A row that is there already ends the transaction, and the one before it is not there."""
+    with Store(folder, made_store.STUDY, made_store.facts(2)) as store:
+        new = rows[0] | {"repetition": 7}
+        with pytest.raises(InputError, match="cannot be written: UNIQUE"):
+            store.add(new, rows[0])
+        assert contents(folder).rows == rows
+        store.add(new)
+    assert len(contents(folder).rows) == len(rows) + 1
 
 
-def test_another_study_in_the_folder_is_refused_by_the_field_that_differs(tmp_path):
-    with Store(tmp_path, STUDY | {"budget": 1.0}):
-        pass
-    with pytest.raises(InputError, match="another 'budget'"):
-        Store(tmp_path, STUDY | {"budget": 2.0})
+def test_another_study_in_the_folder_is_refused_by_the_field_that_differs(folder):
+    with pytest.raises(InputError, match="another 'time_limit'"):
+        Store(folder, made_store.STUDY | {"time_limit": 2.0})
 
 
-def test_two_runs_cannot_write_one_store(tmp_path):
-    with Store(tmp_path, STUDY), pytest.raises(InputError, match="being written by another run"):
-        Store(tmp_path, STUDY)
-    with Store(tmp_path, STUDY):
+def test_two_runs_cannot_write_one_store(folder):
+    with Store(folder, made_store.STUDY, made_store.facts(2)):
+        with pytest.raises(InputError, match="being written by another run"):
+            Store(folder, made_store.STUDY)
+        assert contents(folder).rows  # it can be read meanwhile
+    with Store(folder, made_store.STUDY, made_store.facts(2)):
         pass  # after the end of the first, it is free again
 
 
-def test_a_full_disk_is_reported_by_the_name_of_the_file_and_loses_no_row(tmp_path):
-    """A limit on the size of files ends a write in the middle of a line, as a full disk does."""
-    with Store(tmp_path, STUDY) as store:
-        store.add(row("a"))
+def test_a_full_disk_is_reported_by_the_name_of_the_file_and_loses_no_row(folder, rows):
+    """A limit on the size of files ends a write, as a full disk does."""
+    with Store(folder, made_store.STUDY, made_store.facts(2)) as store:
         limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-        resource.setrlimit(
-            resource.RLIMIT_FSIZE, ((tmp_path / ROWS).stat().st_size + 10, limits[1])
-        )
+        resource.setrlimit(resource.RLIMIT_FSIZE, ((folder / STORE).stat().st_size, limits[1]))
         try:
-            with pytest.raises(InputError, match=r"rows\.jsonl: cannot be written: File too large"):
-                store.add(row("b"))
+            with pytest.raises(InputError, match=r"study\.sqlite: cannot be written"):
+                store.add(*(row | {"repetition": 7 + k} for k in range(9) for row in rows))
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-    with Store(tmp_path, STUDY) as store:
-        assert [r["problem"] for r in store.rows] == ["a"]
-        store.add(row("b"))
-    assert [r["problem"] for r in rows_read(tmp_path)] == ["a", "b"]
+    assert contents(folder).rows == rows
 
 
-def test_a_store_whose_rows_are_a_folder_is_refused_by_name(tmp_path):
-    (tmp_path / ROWS).mkdir()
-    with pytest.raises(InputError, match=r"rows\.jsonl: cannot be written: Is a directory"):
-        Store(tmp_path, STUDY)
-
-
-def test_a_table_leaves_out_times_and_nothing_else():
-    (kept,) = table([row("a")])
+def test_a_table_leaves_out_times_and_nothing_else(rows):
+    (kept,) = table(rows[:1])
     measured = ("seconds", "calls", "clock_agrees", "memory")
-    assert kept == {k: v for k, v in row("a").items() if k not in measured}
+    assert kept == {k: v for k, v in rows[0].items() if k not in measured}
 
 
-def test_a_store_is_plain_json_lines(tmp_path):
-    with Store(tmp_path, STUDY) as store:
-        store.add(row("a"))
-    assert json.loads((tmp_path / ROWS).read_text()) == row("a")
+def test_solvers_come_and_go_while_a_study_goes_on(folder, rows):
+    for names in (["ant", "bee"], ["bee"], ["ant", "bee", "cat"]):
+        solvers = [one for one in made_store.STUDY["solvers"] if one["name"] in names]
+        with Store(folder, made_store.STUDY | {"solvers": solvers}, made_store.facts(2)) as store:
+            assert len(store.rows) == len(rows)  # rows wait for their solver to come back
+        found = contents(folder)
+        assert {one["name"] for one in found.study["solvers"]} == set(names)
+        assert {row["solver"] for row in found.rows} == set(names)
+    solvers[0] = solvers[0] | {"options": {"mid": {"eps": 7.0}}}
+    with pytest.raises(InputError, match="another 'solver or options qpsolvers:ant'"):
+        Store(folder, made_store.STUDY | {"solvers": solvers})
 
 
-OLD = {"problem": "a", "family": "f", "solver": "s", "road": "qpsolvers", "setting": "default",
-       "warm": False, "units": "raw", "repetition": 0, "outcome": "failed",
-       "claimed": "PROXQP_PRIMAL_INFEASIBLE", "said_optimal": False, "wrong": False,
-       "digits": {"delta_q": None, "net_wrench": None}, "residuals": {}, "iterations": None,
-       "seconds": {"solver": 0.1, "call": 1.0, "spent": 1.0}}  # fmt: skip
+SPOILT = {
+    "an outcome that there is not": "UPDATE rows SET outcome = 'won'",
+    "a time before its begin": "UPDATE rows SET seconds_call = -1.0",
+    "infinite digits": "UPDATE rows SET digits_delta_q = 9e999",
+    "a claim that is no truth value": "UPDATE rows SET wrong = 2",
+    "a name without end": "UPDATE problems SET family = hex(zeroblob(2000))",
+    "a solver of no study": "UPDATE rows SET solver = 'dog' WHERE interface = 'cvxpy'",
+    "a setting without options": "DELETE FROM options",
+    "a problem of no study": "DELETE FROM problems",
+    "no study": "DELETE FROM study",
+    "two studies": "INSERT INTO study SELECT * FROM study",
+    "a limit of less than nothing": "UPDATE study SET time_limit = -1",
+    "a machine of words": "UPDATE machines SET facts = '3'",
+    "what is no JSON": "UPDATE options SET options = '{'",
+    "no rows at all": "DROP TABLE rows",
+    "a column more": "ALTER TABLE rows ADD COLUMN price REAL",
+}
 
 
-def test_rows_of_version_1_are_read_with_what_they_did_not_measure_null(tmp_path):
-    """An interface was a road; a claim that there is no solution was no false claim."""
-    (tmp_path / ROWS).write_text(json.dumps(OLD) + "\n")
-    solvers = [{"name": "s", "road": "qpsolvers", "options": {}}]
-    (tmp_path / "study.json").write_text(json.dumps(STUDY | {"version": 1, "solvers": solvers}))
-    (read,) = rows_read(tmp_path)
-    assert (read["interface"], read["said_infeasible"], read["wrong"]) == ("qpsolvers", True, True)
-    assert (read["memory"], read["calls"], read["seconds"]["call"]) == (None, 1, 1.0)
-    assert read["seconds"]["solver"] is None  # it was qpsolvers' clock
-    (solver,) = study_read(tmp_path)["solvers"]
-    assert solver == {"name": "s", "interface": "qpsolvers", "options": {}}
-    with pytest.raises(InputError, match="a store of version 1, which is read and reported but"):
-        Store(tmp_path, STUDY)
+@pytest.mark.parametrize("statement", SPOILT.values(), ids=SPOILT)
+def test_what_no_study_has_written_is_refused(folder, statement):
+    changed(folder, statement)
+    with pytest.raises(InputError, match="holds what no study has written") as refused:
+        contents(folder)
+    assert "\n" not in str(refused.value)
 
 
-def begun(*names, eps=1e-3):
-    solvers = [
-        {"name": n, "interface": "callable", "target": "m:f", "options": {"high": {"eps": eps}}}
-        for n in names
-    ]
-    settings = [{"name": "high", "accuracy": 1e-9}]
-    return STUDY | {"solvers": solvers, "settings": settings, "runs": [list(names)],
-                    "versions": {}, "machine": {"cores": 2, "load": str(names)}}  # fmt: skip
+@pytest.mark.parametrize("measures", ["{}", '{"rotation_deg": "a", "boundary_layer_um": 1}', "3"])
+def test_a_run_without_its_measures_is_refused(tmp_path, measures):
+    made_store.sweep_written(tmp_path / "sweep")
+    changed(tmp_path / "sweep", f"UPDATE runs SET measures = '{measures}' WHERE outcome = 'done'")
+    with pytest.raises(InputError, match="holds what no study has written"):
+        contents(tmp_path / "sweep")
 
 
-def test_solvers_come_and_go_while_a_study_goes_on(tmp_path):
-    for names, gone in (
-        (["a", "b"], []), (["b", "c"], ["callable:a"]), (["a", "b"], ["callable:c"])
-    ):  # fmt: skip
-        with Store(tmp_path, begun(*names)) as store:
-            if "a" in names and not store.rows:
-                store.add(row("x", solver="a"))
-            assert len(store.rows) == 1  # a's rows wait for it to come back
-        there = study_read(tmp_path)
-        assert [solver["name"] for solver in there["solvers"]] == names
-        assert there.get("removed", []) == gone
-    with pytest.raises(InputError, match=r"another 'solvers\.callable:a'"):
-        Store(tmp_path, begun("a", eps=1e-6))
+@pytest.mark.parametrize("content", [b"", b"[]", bytes(5000), b"SQLite format 3\0" + bytes(90)])
+def test_a_file_of_something_else_is_refused(folder, content):
+    (folder / STORE).write_bytes(content)
+    with pytest.raises(InputError, match="holds what no study has written"):
+        contents(folder)
 
 
-def test_a_store_begun_before_facts_were_unknown_goes_on(tmp_path):
-    """A fact that the system does not report was written "not told", today "unknown"."""
-    old, new = (
-        begun("a") | {"machine": {"cores": 2, "governor": words}} for words in ("not told", UNKNOWN)
-    )
-    (tmp_path / "study.json").write_text(json.dumps(old))
-    with Store(tmp_path, new):
-        assert json.loads((tmp_path / "study.json").read_text())["machine"] == new["machine"]
+@pytest.mark.parametrize("tables", [[], {}, {"rows": {"a b": [1]}}])
+def test_packed_tables_of_something_else_are_refused(tmp_path, tables):
+    (tmp_path / PACKED).write_bytes(packed_tables(tables))
+    with pytest.raises(InputError, match="holds what no study has written"):
+        contents(tmp_path)
+
+
+def test_packed_tables_that_unpack_without_end_are_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(stores, "LARGEST_UNPACKED", 2**20)
+    (tmp_path / PACKED).write_bytes(packed_tables({"rows": {"a": [0] * 2**21}}))
+    with pytest.raises(InputError, match="unpacks to more than 1 MiB"):
+        contents(tmp_path)
+    (tmp_path / PACKED).write_bytes(packed_tables({})[:-4])
+    with pytest.raises(InputError, match="is no xz file, or was cut off"):
+        contents(tmp_path)
+
+
+def test_a_folder_without_a_store_is_refused(tmp_path):
+    with pytest.raises(InputError, match="holds no store of a study"):
+        contents(tmp_path)

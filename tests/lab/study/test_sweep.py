@@ -6,9 +6,10 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.lab.study.spec_sweep import sweep_study
-from quasistatic_ref.lab.study.store import rows_read, table
-from quasistatic_ref.lab.study.sweep import sweep_row
+from quasistatic_ref.lab.study.file.sweeps import sweep_study
+from quasistatic_ref.lab.study.measuring.sweep import sweep_row
+from quasistatic_ref.lab.study.store.rows import table
+from quasistatic_ref.lab.study.store.store import contents
 
 HEAD = 'format = "quasistatic-ref/study"\nversion = 1\nkind = "sweep"\n'
 SLIDE = """
@@ -95,13 +96,13 @@ def test_a_sweep_runs_resumes_and_prints_a_table(tmp_path, capsys):
     command = ["study", "run", str(path), "--out", str(tmp_path / "store"), "--jobs", "1"]
     assert main(command) == 0
     assert "2 runs (fast path), 0 of which ended early" in capsys.readouterr().out
-    rows = rows_read(tmp_path / "store")
+    rows = contents(tmp_path / "store").rows
     assert [row["values"] for row in table(rows)] == [
         {"mu": 0.0, "h": 0.01},
         {"mu": 0.3, "h": 0.01},
     ]
     assert main(command) == 0  # nothing is run again
-    assert rows_read(tmp_path / "store") == rows
+    assert contents(tmp_path / "store").rows == rows
 
 
 BAD = {

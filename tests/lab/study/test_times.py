@@ -5,11 +5,11 @@ import time
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.study.grade import prepared
-from quasistatic_ref.lab.study.keeper import Keeper
-from quasistatic_ref.lab.study.measure import Limits, measured
-from quasistatic_ref.lab.study.problems import problem_of
-from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.measuring.grade import prepared
+from quasistatic_ref.lab.study.measuring.keeper import Keeper
+from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.problems.making import problem_of
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 from tests.lab.study.planted import slab
 

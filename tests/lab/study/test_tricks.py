@@ -3,15 +3,14 @@
 import os
 import time
 
-import numpy as np
 import pytest
 
-from quasistatic_ref.lab.study.keeper import Keeper
-from quasistatic_ref.lab.study.measure import Limits, measured
-from quasistatic_ref.lab.study.qp import Facts, NoSolution, Problem
-from quasistatic_ref.lab.study.solvers import SETTINGS, Solver
-from quasistatic_ref.lab.study.unreached import unreached_read
-from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.measuring.keeper import Keeper
+from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.problems.families.dials import one_turned
+from quasistatic_ref.lab.study.problems.making import problem_of
+from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study.planted import FAKES
 
 DEFAULT = SETTINGS[0]
@@ -35,28 +34,26 @@ def test_no_answer_is_to_be_found_in_the_process_of_a_solver(folder, problem):
     assert row["wrong"]
 
 
-def test_a_clock_that_was_stopped_is_not_believed(folder, problem):
+def test_a_clock_that_was_stopped_is_not_believed(folder, harmless, problem):
     """It works for 3 ms; its process says 0."""
     row = row_of("stops_the_clock", problem, folder)
     assert row["clock_agrees"] is False
     assert row["seconds"]["call"] > 1e-3
-    honest = row_of("honest", problem, folder)
+    honest = harmless("honest", problem)
     assert honest["clock_agrees"] is True
     assert 0 < honest["seconds"]["low"] <= honest["seconds"]["call"] <= honest["seconds"]["high"]
     assert honest["calls"] >= LIMITS.repetitions
 
 
-@pytest.mark.parametrize("name", ["honest", "stops_the_clock"])
-def test_clocks_of_warm_calls_are_not_compared(name, folder, problem):
+def test_clocks_of_warm_calls_are_not_compared(harmless, problem):
     """An exchange holds the solves that warm calls start from, so its length confirms nothing."""
-    with Keeper(Solver(name, "callable", f"planted_solvers:{name}"), folder) as keeper:
-        row = measured(keeper, problem, DEFAULT, "natural", True, LIMITS)
+    row = harmless("honest", problem, warm=True)
     assert row["outcome"] == "solved"
     assert row["clock_agrees"] is None
 
 
-def test_multipliers_that_are_none_are_found_beside_a_right_answer(folder, problem):
-    row, honest = (row_of(name, problem, folder) for name in ("minus_one", "honest"))
+def test_multipliers_that_are_none_are_found_beside_a_right_answer(harmless, problem):
+    row, honest = (harmless(name, problem) for name in ("minus_one", "honest"))
     assert row["digits"]["delta_q"] == honest["digits"]["delta_q"] > 12
     assert row["wrong_multipliers"]
     assert row["digits"]["multipliers"] < 1
@@ -83,11 +80,11 @@ def test_what_a_solver_leaves_behind_is_ended(name, folder, problem):
     assert alive(folder) == []
 
 
-def test_a_solver_that_eats_memory_is_ended_and_its_memory_reported(folder, problem):
+def test_a_solver_that_eats_memory_is_ended_and_its_memory_reported(folder, harmless, problem):
     row = row_of("eats", problem, folder, memory=3e8)
     assert row["outcome"] == "memory"
     assert "0.3 GB" in row["claimed"]
-    assert 1e7 < row_of("honest", problem, folder)["memory"] < 3e8
+    assert 1e7 < harmless("honest", problem)["memory"] < 1e9
 
 
 def test_what_is_no_reply_is_a_crash_and_nothing_is_unpickled(folder, problem):
@@ -106,13 +103,12 @@ def test_the_first_call_of_a_shape_is_outside_of_the_time_limit(folder, problem)
     assert row["seconds"]["warm_up"] >= 1.0 > row["seconds"]["first"]
 
 
+@pytest.fixture(scope="module")
 def none_to_find():
-    """X >= 1 and -x >= 0: y = (1, 1) has A'y = 0 and b'y = 1."""
-    form = StandardForm(np.eye(1), np.ones(1), np.array([[1.0], [-1.0]]), np.array([1.0, 0.0]))
-    y = np.ones(2)
-    assert (form.A.T @ y == 0).all()
-    assert form.b @ y > 0
-    return Problem(Facts("none/0", "none", 0, 1.0, 1.0, 0), form, NoSolution(y))
+    """A problem without a solution."""
+    found = problem_of(one_turned("infeasible", 1e-2, 0, 1))
+    assert not found.feasible
+    return found
 
 
 JUDGED = {  # on a problem with a solution, and on one without: (says there is none, wrong)
@@ -123,9 +119,9 @@ JUDGED = {  # on a problem with a solution, and on one without: (says there is n
 
 
 @pytest.mark.parametrize("name", JUDGED)
-def test_a_claim_that_there_is_no_solution_is_judged(name, folder, problem):
-    for judged, (said, wrong) in zip((problem, none_to_find()), JUDGED[name], strict=True):
-        row = row_of(name, judged, folder)
+def test_a_claim_that_there_is_no_solution_is_judged(name, harmless, problem, none_to_find):
+    for judged, (said, wrong) in zip((problem, none_to_find), JUDGED[name], strict=True):
+        row = harmless(name, judged)
         assert (row["said_infeasible"], row["wrong"]) == (said, wrong)
 
 
@@ -156,5 +152,5 @@ def test_bad_solvers_cost_themselves_only(run, tmp_path):
     assert by_name["honest"] == by_name["daqp"] == 4 * ["solved"]
     assert by_name["missing"] == []
     assert set(by_name["slow"]) == {"not_run_budget", "timeout"}
-    (reason,) = unreached_read(tmp_path / "store").values()
+    (reason,) = contents(tmp_path / "store").unreached.values()
     assert "cannot be imported" in reason

@@ -4,14 +4,12 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.scenes.slabs import tower_step
-from quasistatic_ref.lab.study import truth
-from quasistatic_ref.lab.study.calls import NEAR, neighbour
-from quasistatic_ref.lab.study.grade import grades, prepared
-from quasistatic_ref.lab.study.qp import condition, step_of, units_of
-from quasistatic_ref.lab.study.truth import NoAnswer, answer_of
+from quasistatic_ref.lab.study.calling.calls import NEAR, neighbour
+from quasistatic_ref.lab.study.measuring.grade import grades, prepared
+from quasistatic_ref.lab.study.problems import answers
+from quasistatic_ref.lab.study.problems.answers import dense_answer, step_of
 from quasistatic_ref.optional.large.bound import enclosed_answer
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.units import natural_form
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from tests.lab.study.planted import slab
 
@@ -28,35 +26,35 @@ def planted(rng, n=6, m=20):
 
 def test_the_answer_of_a_planted_program_is_what_it_was_made_around():
     form, x, lam = planted(np.random.default_rng(3))
-    answer = answer_of(form)
-    np.testing.assert_allclose(answer.delta_q, x, rtol=0, atol=1e-12)
+    answer = dense_answer(form)
+    np.testing.assert_allclose(answer.x, x, rtol=0, atol=1e-12)
     np.testing.assert_allclose(answer.net, form.A.T @ lam, rtol=0, atol=1e-11)
-    assert answer.bound == 0.0
+    assert answer.error == 0.0
 
 
-def test_a_program_without_solution_has_no_answer():
+def test_a_program_without_solution_has_a_farkas_vector():
+    """X >= 1, -x >= 1: y = (1, 1) has A'y = 0 and b'y = 2."""
     one = np.eye(1)
-    form = StandardForm(one, np.zeros(1), np.vstack([one, -one]), np.ones(2))  # x >= 1, -x >= 1
-    with pytest.raises(NoAnswer):
-        answer_of(form)
+    form = StandardForm(one, np.zeros(1), np.vstack([one, -one]), np.ones(2))
+    assert dense_answer(form).farkas == {0: "1", 1: "1"}
 
 
 def test_an_enclosure_holds_the_exact_answer(monkeypatch):
     form = standard_form(tower_step(np.random.default_rng(2), 4))
-    exact = answer_of(form)
-    monkeypatch.setattr(truth, "EXACT_COORDINATES", 10)
-    enclosed = answer_of(form)
-    assert exact.bound == 0.0
-    assert 0 < enclosed.bound < 1e-6
-    H_off = form.H @ (enclosed.delta_q - exact.delta_q)
+    exact = dense_answer(form)
+    monkeypatch.setattr(answers, "EXACT_COORDINATES", 10)
+    enclosed = dense_answer(form)
+    assert exact.error == 0.0
+    assert 0 < enclosed.error < 1e-6
+    H_off = form.H @ (enclosed.x - exact.x)
     free = np.linalg.solve(form.H, form.g)
-    error = np.sqrt((enclosed.delta_q - exact.delta_q) @ H_off / (free @ form.H @ free))
-    assert error <= enclosed.bound
+    error = np.sqrt((enclosed.x - exact.x) @ H_off / (free @ form.H @ free))
+    assert error <= enclosed.error
 
 
 def test_a_wrong_active_set_is_enclosed_honestly(problem):
     """Without any rows x is H^-1 g: no nearer to the answer than the distance of the two."""
-    form, x = problem.form, problem.answer.delta_q
+    form, x = problem.form, problem.answer.x
     free = np.linalg.solve(form.H, form.g)
     far = np.sqrt((free - x) @ form.H @ (free - x) / (free @ form.H @ free))
     enclosed = enclosed_answer(step_of(form), [])
@@ -66,11 +64,11 @@ def test_a_wrong_active_set_is_enclosed_honestly(problem):
 
 
 def test_natural_units_change_nothing_but_the_units(problem):
-    natural = natural_form(problem.form, units_of(problem.form))
-    units = units_of(problem.form)
+    natural, units = problem.natural, problem.units
     scale = units.size * units.coordinate
-    np.testing.assert_array_equal(answer_of(natural).delta_q * scale, problem.answer.delta_q)
-    assert condition(natural) < condition(problem.form)
+    np.testing.assert_array_equal(dense_answer(natural.form).x * scale, problem.answer.x)
+    measures = problem.facts["measures"]
+    assert measures["condition_natural"] < measures["condition"]
 
 
 def reply_of(x, lam, said_optimal=True):
@@ -90,7 +88,7 @@ def test_digits_are_those_that_were_spoilt(problem, units, exponent):
     H, g = problem.form.H, problem.form.g
     v = np.linalg.solve(H, g) / np.sqrt(g @ np.linalg.solve(H, g))
     free = np.sqrt(g @ np.linalg.solve(H, g))
-    x = problem.answer.delta_q + 10.0**-exponent * free * v
+    x = problem.answer.x + 10.0**-exponent * free * v
     lam = lam_of(problem.form, x)  # H x - g = A' lam: the net impulse is off by H (x - x*)
     if units == "natural":
         x = x / (ready.units.size * ready.units.coordinate)
@@ -118,7 +116,7 @@ def test_residuals_are_those_of_qpbenchmark(problem):
 
 
 def test_a_solver_that_gave_up_has_failed_and_keeps_its_digits(problem):
-    row = grades(prepared(problem), "raw", reply_of(problem.answer.delta_q, None, False), 3.0)
+    row = grades(prepared(problem), "raw", reply_of(problem.answer.x, None, False), 3.0)
     assert (row["outcome"], row["wrong"]) == ("failed", False)
     assert row["digits"] == {"delta_q": 16.0, "net_wrench": None, "multipliers": None}
 
@@ -130,12 +128,13 @@ def test_a_solver_that_gave_up_and_left_no_numbers_has_failed_too(problem):
 
 
 def test_a_neighbour_differs_in_g_alone_by_one_percent_at_most(problem):
-    near = neighbour(problem.form, problem.id)
-    assert near.H is problem.form.H
-    assert near.A is problem.form.A
-    change = np.abs(near.g / problem.form.g - 1)[problem.form.g != 0]
+    form = problem.form
+    near = neighbour(form, problem.id)
+    assert near.H is form.H
+    assert near.A is form.A
+    change = np.abs(near.g / form.g - 1)[form.g != 0]
     assert 0 < change.max() <= NEAR * (1 + 1e-12)
-    np.testing.assert_array_equal(near.g, neighbour(problem.form, problem.id).g)
+    np.testing.assert_array_equal(near.g, neighbour(form, problem.id).g)
 
 
 def test_the_slabs_gaps_are_never_negative():

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from quasistatic_ref.lab.study import tuning
-from quasistatic_ref.lab.study.tuning import (
+from quasistatic_ref.lab.study.measuring import tuning
+from quasistatic_ref.lab.study.measuring.tuning import (
     LIMITS,
     MOST_SETTINGS,
     Score,

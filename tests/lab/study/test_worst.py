@@ -11,10 +11,10 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.commands import study_ask
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.ask import question
-from quasistatic_ref.lab.study.qp import UNITS
-from quasistatic_ref.lab.study.report import study_report
-from quasistatic_ref.lab.study.store import rows_read
+from quasistatic_ref.lab.study.measuring.ask import question
+from quasistatic_ref.lab.study.problems.problem import UNITS
+from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study import made_store, plain_report
 from tests.lab.study.plain_report import delivered, picked, said, seconds
 
@@ -48,11 +48,7 @@ def most(bound):
 def test_the_ten_worst_miss_the_most_digits_and_then_take_longest(tmp_path):
     """Sorted again by plain loops, both downwards; 12 problems, of which 10 are shown."""
     rows = made_store.written(tmp_path / "store")
-    path = tmp_path / "store" / "problems.jsonl"
-    facts = [json.loads(line) for line in path.read_text().splitlines()]
-    facts = [fact | {"bound": 1e-9 if fact["m"] > 30 else 0.0} for fact in facts]
-    path.write_text("".join(json.dumps(fact) + "\n" for fact in facts))
-    bounds = {fact["id"]: fact["bound"] for fact in facts}
+    bounds = {fact["id"]: fact["bound"] for fact in made_store.facts(12)}
     rows = [row for row in rows if row["repetition"] == 0]
     tables = worst_tables(tmp_path / "store")
     assert len(tables) == 3  # ant, bee and cat, each by one interface
@@ -77,7 +73,7 @@ def test_each_command_runs_the_same_again_and_finds_the_same(run, tmp_path, monk
     """Digits of a deterministic solver to the last; its options are those of the study."""
     run(STUDY)
     monkeypatch.chdir(tmp_path)
-    rows = [row for row in rows_read(tmp_path / "store") if row["repetition"] == 0]
+    rows = [row for row in contents(tmp_path / "store").rows if row["repetition"] == 0]
     tables = worst_tables(tmp_path / "store")
     assert {re.search(r"label = (\S+?)[,.]?$", where)[1] for _, where, *_ in tables} == {
         "qpsolvers:proxqp", "callable:mine"}  # fmt: skip

@@ -3,9 +3,10 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.bench.acceptance import PAPER, STRETCH
 from quasistatic_ref.lab.study.bench.grasp import PARTS, PLAIN
-from quasistatic_ref.lab.study.large import LargeStep, table
+from quasistatic_ref.lab.study.bench.large import LargeStep, table
 from quasistatic_ref.solve.backends import CERTIFY
 
 Rows = list[tuple[str, ...]]
@@ -61,6 +62,7 @@ def plain_words(tables: Mapping[str, Any]) -> str:
 def page(tables: Mapping[str, Any]) -> str:
     """The tables in Markdown."""
     m, times = tables["machine"], tables["certification"].items()
+    promises = promise_rows(tables["promises"])
     parts = _formatted(BY_PART, tables["parts"])
     certified: Rows = [("certify", "step [us]"), *((kind, f"{us:.0f}") for kind, us in times)]
     lines = [
@@ -73,7 +75,7 @@ def page(tables: Mapping[str, Any]) -> str:
         "",
         f"In short: {paper_sentence(tables)}.",
         "",
-        *_table(promise_rows(tables["promises"])),
+        *markdown_table(promises[0], promises[1:]),
         *_section("The step of the bunny by every interface", _interfaces(tables)),
         *_section("By part, interface and backend [us], all in turn, caches cold", parts),
         *_section(
@@ -107,17 +109,12 @@ def _formatted(columns: Mapping[str, str], records: Sequence[Mapping[str, Any]])
 
 
 def _sizes(sizes: Sequence[Mapping[str, Any]]) -> list[str]:
-    return table("bodies", [LargeStep(**row) for row in sizes]).split("\n") if sizes else []
+    return table("bodies", [LargeStep(**row) for row in sizes]) if sizes else []
 
 
 def _section(title: str, rows: Rows) -> list[str]:
-    return _titled(title, _table(rows)) if len(rows) > 1 else []
+    return _titled(title, markdown_table(rows[0], rows[1:])) if len(rows) > 1 else []
 
 
 def _titled(title: str, lines: list[str]) -> list[str]:
     return ["", f"## {title}", "", *lines] if lines else []
-
-
-def _table(rows: Rows) -> list[str]:
-    head, *body = (f"| {' | '.join(row)} |" for row in rows)
-    return [head, "|" + "---|" * len(rows[0]), *body]

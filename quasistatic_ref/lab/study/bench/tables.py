@@ -10,7 +10,6 @@ import numpy as np
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.measures import slope
-from quasistatic_ref.lab.study import environment
 from quasistatic_ref.lab.study.bench.acceptance import from_paper, promises
 from quasistatic_ref.lab.study.bench.clouds import clouds
 from quasistatic_ref.lab.study.bench.grasp import (
@@ -21,9 +20,7 @@ from quasistatic_ref.lab.study.bench.grasp import (
     places,
     residual_over_off,
 )
-from quasistatic_ref.lab.study.bench.mujoco_grasp import mujoco_grasp
-from quasistatic_ref.lab.study.bench.push import pushes
-from quasistatic_ref.lab.study.large import (
+from quasistatic_ref.lab.study.bench.large import (
     CHAINS,
     CONTACTS,
     FEW,
@@ -34,6 +31,9 @@ from quasistatic_ref.lab.study.large import (
     LargeStep,
     large_step,
 )
+from quasistatic_ref.lab.study.bench.mujoco_grasp import mujoco_grasp
+from quasistatic_ref.lab.study.bench.push import pushes
+from quasistatic_ref.lab.study.measuring import environment
 from quasistatic_ref.solve.backends import installed
 
 Tell = Callable[[str], None]

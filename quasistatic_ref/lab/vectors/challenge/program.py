@@ -18,6 +18,7 @@ from typing import IO, Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.lab.supervised import Supervised
 from quasistatic_ref.lab.vectors.check.answers import QUATERNIONS, TANGENTS, Answers
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
@@ -78,7 +79,7 @@ class Program:
         if not self._words:
             raise InputError("is empty", field="command", value=command)
         self._timeout, self._warming = timeout, (START - 1) * timeout
-        self._process: subprocess.Popen[bytes] | None = None
+        self._process: Supervised | None = None
         self._heard = False
         self._answered: set[str] = set()
         self.said = Answers()
@@ -177,9 +178,7 @@ class Program:
     def _crash(self, strays: list[str]) -> Reply:
         process, heard = self._process, self._heard
         assert process is not None
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(timeout=1.0)
-        status = process.poll()
+        status = process.status()
         self._stop()
         how = "closed its output" if status is None else f"ended with status {status}"
         if status is not None and status < 0:
@@ -192,13 +191,7 @@ class Program:
 
     def _start(self) -> None:
         try:
-            self._process = subprocess.Popen(
-                self._words,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                start_new_session=True,
-            )
+            self._process = Supervised(self._words, subprocess.PIPE)
         except OSError as error:
             problem = f"cannot be started: {error.strerror or error}"
             raise InputError(problem, field="command", value=self._words[0]) from None
@@ -206,7 +199,8 @@ class Program:
         self._heard = False
         self._lines: queue.Queue[bytes | None] = queue.Queue(maxsize=1000)
         self._inbox: queue.Queue[bytes | None] = queue.Queue()
-        pipes = self._process.stdin, self._process.stdout, self._process.stderr
+        own = self._process.process
+        pipes = own.stdin, own.stdout, own.stderr
         assert all(pipe is not None for pipe in pipes)
         self._threads = [
             threading.Thread(target=target, args=arguments, daemon=True)
@@ -231,17 +225,15 @@ class Program:
         if process is None:
             return
         self._inbox.put(None)
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
+        process.end()
         until = (
             time.monotonic() + 1.0
         )  # what it started may hold its pipes, and be no child of ours
         while self._threads[1].is_alive() and time.monotonic() < until:
             with contextlib.suppress(queue.Empty):  # it may wait for room
                 self._lines.get(timeout=0.02)
-        pipes = process.stdin, process.stdout, process.stderr
-        for thread, pipe in zip(self._threads, pipes, strict=True):
+        own = process.process
+        for thread, pipe in zip(self._threads, (own.stdin, own.stdout, own.stderr), strict=True):
             thread.join(timeout=1.0)
             if pipe is not None and not thread.is_alive():
                 with contextlib.suppress(OSError, ValueError):

@@ -1,0 +1,115 @@
+"""What Linux knows of a process: its memory, its children, also those that detached.
+
+On other systems there is no `/proc`: memory is not known, and only the process's own group ends.
+"""
+
+import contextlib
+import ctypes
+import os
+import signal
+from collections.abc import Iterator
+from pathlib import Path
+
+PROC = Path("/proc")
+TOKEN = "QUASISTATIC_REF_SUPERVISED"
+"""Variable of the environment by which children of a process are known when it has ended."""
+PAGE = os.sysconf("SC_PAGE_SIZE")
+_SUBREAPER = 36
+"""PR_SET_CHILD_SUBREAPER: children whose parents have ended become children of this process."""
+
+
+def adopt_orphans() -> None:
+    """Become the parent of whatever this process's children leave behind; die first of memory."""
+    if PROC.exists():
+        with contextlib.suppress(OSError, AttributeError):
+            ctypes.CDLL(None).prctl(_SUBREAPER, 1, 0, 0, 0)
+            Path("/proc/self/oom_score_adj").write_text("1000")
+
+
+def descendants(pid: int) -> list[int]:
+    """The children of a process, theirs, and so on."""
+    found: list[int] = []
+    for child in _children(pid):
+        found += [child, *descendants(child)]
+    return found
+
+
+def detached(pid: int) -> list[int]:
+    """Those descendants that have left the session of a process that leads one."""
+    return [child for child in descendants(pid) if _session(child) not in (pid, None)]
+
+
+def marked(token: str) -> list[int]:
+    """Processes whose environment has a token, wherever they are."""
+    words = f"{TOKEN}={token}".encode()
+    found = []
+    for folder in PROC.glob("[0-9]*"):
+        with contextlib.suppress(OSError):
+            if words in (folder / "environ").read_bytes().split(b"\0"):
+                found.append(int(folder.name))
+    return [pid for pid in found if pid != os.getpid()]
+
+
+def end(pids: list[int]) -> None:
+    """Kill processes."""
+    for pid in pids:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.kill(pid, signal.SIGKILL)
+
+
+def resident(pid: int) -> int:
+    """Resident memory of a process and of its descendants [bytes]; 0 where it is not known."""
+    return sum(_resident(one) for one in (pid, *descendants(pid)))
+
+
+def reset_peak(pid: int) -> None:
+    """Begin a new peak of resident memory."""
+    with contextlib.suppress(OSError):
+        (PROC / str(pid) / "clear_refs").write_text("5")
+
+
+def peak(pid: int) -> int | None:
+    """Most resident memory of a process since its peak was reset [bytes]; None if not known."""
+    with contextlib.suppress(OSError, ValueError):
+        for line in (PROC / str(pid) / "status").read_text().splitlines():
+            if line.startswith("VmHWM:"):
+                return 1024 * int(line.split()[1])
+    return None
+
+
+def computed_and_waited(pid: int) -> tuple[float, float]:
+    """Seconds on a core of a process, and those that it and this thread waited for one [s].
+
+    Both are 0 where they are not known.
+    """
+    computed, waited = _scheduled(PROC / str(pid))
+    return computed, waited + _scheduled(PROC / "thread-self")[1]
+
+
+def _scheduled(folder: Path) -> tuple[float, float]:
+    try:
+        computed, waited, _ = map(int, (folder / "schedstat").read_text().split())
+    except (OSError, ValueError):
+        return 0.0, 0.0
+    return 1e-9 * computed, 1e-9 * waited
+
+
+def _children(pid: int) -> Iterator[int]:
+    with contextlib.suppress(OSError):
+        for task in (PROC / str(pid) / "task").iterdir():
+            with contextlib.suppress(OSError):
+                yield from map(int, (task / "children").read_text().split())
+
+
+def _session(pid: int) -> int | None:
+    try:
+        return os.getsid(pid)
+    except OSError:
+        return None
+
+
+def _resident(pid: int) -> int:
+    try:
+        return PAGE * int((PROC / str(pid) / "statm").read_text().split()[1])
+    except (OSError, IndexError, ValueError):
+        return 0

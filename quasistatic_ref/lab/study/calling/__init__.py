@@ -1,0 +1,1 @@
+"""Solvers, and the interfaces through which they are called."""

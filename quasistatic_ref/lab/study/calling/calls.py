@@ -1,0 +1,277 @@
+"""Six interfaces to a solver: CVXPY, qpsolvers, its own, a package, a callable, an executable."""
+
+import importlib
+import json
+import shutil
+import subprocess
+import sys
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.lab.study.calling.guests import GUESTS, Native, natively
+from quasistatic_ref.lab.study.calling.packages import loaded
+from quasistatic_ref.lab.study.calling.solvers import Solver
+from quasistatic_ref.solve.adapters.program import Program, Reply
+from quasistatic_ref.solve.backends import BACKENDS
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import StandardForm
+
+Options = dict[str, Any]
+Call = Callable[[StandardForm, Options, StandardForm | None, float], Reply]
+"""(problem, options, neighbour to start from or None, time limit [s]) -> reply."""
+
+NEAR = 0.01
+"""How far the neighbour's g is from the problem's, entry by entry and relative: a warm start comes
+from the answer to the neighbour, as it does from the step before."""
+
+
+def neighbour(form: StandardForm, name: str) -> StandardForm:
+    """The problem that a warm start comes from: each g_i changed by up to 1 %.
+
+    Parameters
+    ----------
+    form : StandardForm
+    name : str
+        Of the problem; the change is a function of it.
+
+    Returns
+    -------
+    StandardForm
+    """
+    rng = np.random.default_rng(zlib.crc32(name.encode()))
+    return StandardForm(form.H, form.g * (1 + NEAR * rng.uniform(-1, 1, len(form.g))), form.A,
+                        form.b)  # fmt: skip
+
+
+def call_of(solver: Solver, folder: str = ".") -> Call:
+    """The function that puts a problem to a solver.
+
+    Parameters
+    ----------
+    solver : Solver
+    folder : str
+        Where an executable is looked for and runs.
+
+    Raises
+    ------
+    InputError
+        If a package, a callable or a guest cannot be imported, or there is no such executable.
+    """
+    if solver.interface == "cvxpy":
+        return _by_cvxpy(str(solver.target))
+    if solver.interface == "qpsolvers":
+        return _directly(str(solver.target))
+    if solver.interface == "native":
+        name = str(solver.target)
+        return _by_itself(natively(name) if name in GUESTS else _adapted(name))
+    if solver.interface in ("package", "callable"):
+        function = function_of(solver)
+        return lambda form, options, start, limit: function_reply(function, form, options)
+    return _running(_command(tuple(solver.target), folder), folder)
+
+
+def imported(target: str) -> Callable[..., Any]:
+    """The function of ``module:function``.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    module, _, name = target.partition(":")
+    try:
+        function: Callable[..., Any] = getattr(importlib.import_module(module), name)
+    except Exception as error:  # a module may raise anything when it is imported
+        words = f"cannot be imported: {type(error).__name__}: {error}"
+        raise InputError(f"{words}; write module:function", value=target) from None
+    if not callable(function):
+        raise InputError("is not a function", value=target)
+    return function
+
+
+def tried(call: Callable[[], Reply]) -> Reply:
+    """The reply of a call; of one that raises, what it raised and when."""
+    begin = perf_counter()
+    try:
+        return call()
+    except Exception as error:  # whatever another package raises
+        return _failed(words_of(error), perf_counter() - begin)
+
+
+def _failed(words: str, seconds: float) -> Reply:
+    return Reply(None, None, False, words, call_seconds=seconds)
+
+
+def _by_cvxpy(name: str) -> Call:
+    from quasistatic_ref.solve.through_cvxpy import PlainPrograms  # heavy, not every worker's
+
+    programs = PlainPrograms(name)
+
+    def call(
+        form: StandardForm, options: Options, start: StandardForm | None, limit: float
+    ) -> Reply:
+        if start is not None:
+            tried(lambda: programs.reply(start, options))
+        return tried(lambda: programs.reply(form, options, warm=start is not None))
+
+    return call
+
+
+def _directly(name: str) -> Call:
+    from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
+
+    def call(
+        form: StandardForm, options: Options, start: StandardForm | None, limit: float
+    ) -> Reply:
+        guess = None
+        if start is not None:
+            guess = tried(lambda: qpsolvers_reply(start, name, options)).x
+        return tried(lambda: qpsolvers_reply(form, name, options, guess))
+
+    return call
+
+
+def _adapted(name: str) -> Native:
+    adapter = getattr(
+        importlib.import_module(f"quasistatic_ref.solve.adapters.{name}"), BACKENDS[name].adapter
+    )
+
+    def reply(form: StandardForm, options: Options) -> Reply:
+        program = Program(
+            np.array(form.H, order=adapter.ORDER), -form.g, np.array(form.A, order=adapter.ORDER),
+            form.b.copy(),
+        )  # fmt: skip
+        begin = perf_counter()
+        solver = adapter(program, options)
+        ready = perf_counter()
+        said: Reply = solver.reply(True, False)
+        end = perf_counter()
+        said.call_seconds, said.own, said.setup = end - begin, said.seconds, ready - begin
+        return said
+
+    return reply
+
+
+def _by_itself(reply: Native) -> Call:
+    def call(
+        form: StandardForm, options: Options, start: StandardForm | None, limit: float
+    ) -> Reply:
+        return tried(lambda: reply(form, options))
+
+    return call
+
+
+def function_of(solver: Solver) -> Callable[..., Any]:
+    """The function that a package announces, or that a module has.
+
+    Raises
+    ------
+    InputError
+        If it cannot be imported.
+    """
+    target = str(solver.target)
+    return loaded(target) if solver.interface == "package" else imported(target)
+
+
+def function_reply(function: Callable[..., Any], form: StandardForm, options: Options) -> Reply:
+    """What a function ``(P, q, G, h, **options) -> (x, z)`` returns."""
+    P, q, G, h = form.H.copy(), -form.g, -form.A, -form.b
+    begin = perf_counter()
+    try:
+        returned = function(P, q, G, h, **options)
+    except Exception as error:  # whatever a user's solver raises
+        return _failed(words_of(error), perf_counter() - begin)
+    seconds = perf_counter() - begin
+    if returned is None or isinstance(returned, str):
+        said = "returned None" if returned is None else returned
+        return _failed(" ".join(said.split())[:200], seconds)
+    try:
+        x, z = returned
+    except (TypeError, ValueError):
+        x, z = np.zeros((0, 0)), None  # no pair: a wrong shape
+    lam = None if z is None else _numbers(z)
+    return Reply(_numbers(x), lam, True, "returned", call_seconds=seconds)
+
+
+def _command(words: tuple[str, ...], folder: str) -> tuple[str, ...]:
+    program = shutil.which(words[0]) or shutil.which(str(Path(folder, words[0])))
+    if program is None:
+        raise InputError("there is no such program, or it may not be executed", value=words[0])
+    return (program, *words[1:])
+
+
+def _running(command: tuple[str, ...], folder: str) -> Call:
+    def call(
+        form: StandardForm, options: Options, start: StandardForm | None, limit: float
+    ) -> Reply:
+        text = json_text({"H": form.H, "g": form.g, "A": form.A, "b": form.b})
+        begin = perf_counter()
+        done = subprocess.run(
+            command,
+            input=text.encode(),
+            capture_output=True,
+            check=False,
+            timeout=limit,
+            cwd=folder,
+        )
+        seconds = perf_counter() - begin
+        if done.returncode < 0:
+            raise Crashed(f"killed by signal {-done.returncode}", seconds)
+        if done.returncode > 0:
+            last = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
+            words = f"exit status {done.returncode}: {' '.join(last)[:160]}"
+            return _failed(words, seconds)
+        return _written(done.stdout, seconds)
+
+    return call
+
+
+class Crashed(Exception):
+    """An executable was ended by a signal, after some `seconds` [s]."""
+
+    def __init__(self, words: str, seconds: float) -> None:
+        self.seconds = seconds
+        super().__init__(words)
+
+
+def _written(output: bytes, seconds: float) -> Reply:
+    """The reply in an executable's JSON."""
+    try:
+        said = json.loads(output)
+        status = str(said.get("status", "optimal"))
+        x = None if said.get("delta_q") is None else _numbers(said["delta_q"])
+        lam = None if said.get("lam") is None else _numbers(said["lam"])
+        own = said.get("seconds")
+        iterations = said.get("iterations")
+        return Reply(
+            x, lam, status == "optimal" and x is not None, status,
+            None if iterations is None else int(iterations),
+            None if own is None else float(own), seconds, None if own is None else float(own),
+        )  # fmt: skip
+    except (ValueError, TypeError, AttributeError, RecursionError) as error:
+        return _failed(f"no usable JSON: {words_of(error)}", seconds)
+
+
+def _numbers(values: Any) -> Array:
+    try:
+        return np.array(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        return np.zeros((0, 0))  # no numbers: a wrong shape
+
+
+def words_of(error: Exception) -> str:
+    """What was raised, on one line."""
+    return " ".join(f"{type(error).__name__}: {error}".split())[:200]
+
+
+def on_path(folder: str) -> None:
+    """Make modules in a folder importable, as they are for ``python -m``."""
+    if folder not in sys.path:
+        sys.path.insert(0, folder)

@@ -1,0 +1,1 @@
+"""Calls in processes of their own, timed and graded; studies, sweeps and sequences run."""

@@ -1,0 +1,154 @@
+"""One solver run on one problem again, in a process of its own, and graded."""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
+from quasistatic_ref.lab.study.file.fields import MODULE
+from quasistatic_ref.lab.study.file.solver_lists import BY_INTERFACE, PACKAGE, solvers_named
+from quasistatic_ref.lab.study.measuring.keeper import Keeper
+from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.problems.folder import MANIFEST, set_read
+from quasistatic_ref.lab.study.problems.for_study import FOLDER
+from quasistatic_ref.lab.study.problems.problem import Problem
+from quasistatic_ref.lab.study.store.store import contents
+
+LIMITS = Limits(2.0, 10.0, 5)
+"""Of a call that belongs to no study, as study files have them by default."""
+MEMORY = 4e9
+"""[bytes]"""
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """One measurement, resolved.
+
+    Parameters
+    ----------
+    problem : Problem
+    solver : Solver
+    setting : Setting
+    units : str
+    warm : bool
+    limits : Limits
+    memory : float
+        [bytes]
+    """
+
+    problem: Problem
+    solver: Solver
+    setting: Setting
+    units: str = "natural"
+    warm: bool = False
+    limits: Limits = LIMITS
+    memory: float = MEMORY
+
+
+def question(
+    problem: str,
+    solver: str,
+    setting: str,
+    units: str = "natural",
+    warm: bool = False,
+    store: str | Path | None = None,
+) -> Question:
+    """A measurement by its names.
+
+    Parameters
+    ----------
+    problem : str
+        Id: of the store, or of contact-qp-1.
+    solver : str
+        ``interface:name`` as a report has it, or ``module:function``.
+    setting : str
+    units : str
+    warm : bool
+    store : str or Path, optional
+        Folder of a study, whose solvers, options and limits count; else the package's own.
+
+    Raises
+    ------
+    InputError
+        If there is no such problem, solver or setting, or the solver cannot start warm.
+    """
+    found = _problem(problem, store)
+    if store is None:
+        own, settings = solver_named(solver), list(SETTINGS)
+        limits, memory = LIMITS, MEMORY
+    else:
+        study = contents(store).study
+        if study["kind"] != "solvers":
+            raise InputError("holds a sweep, and no solvers", file=store)
+        own, settings = _of_store(solver, study), [Setting(**s) for s in study["settings"]]
+        limits = Limits(study["time_limit"], study["warm_up"], study["repetitions"])
+        memory = study["memory"]
+    known = {one.name: one for one in settings if own.takes(one)}
+    if setting not in known:
+        hint = suggestion(setting, known)
+        raise InputError(f"is no setting that {own.label} takes{hint}", value=setting)
+    if warm and not own.warm:
+        raise InputError(f"cannot be used with {own.label}, which takes no start", field="--warm")
+    return Question(found, own, known[setting], units, warm, limits, memory)
+
+
+def measured_again(one: Question, folder: str | Path = ".") -> dict[str, Any]:
+    """The fields of a row that are measured.
+
+    Parameters
+    ----------
+    one : Question
+    folder : str or Path
+        Where callables and executables are looked for.
+
+    Raises
+    ------
+    InputError
+        If the solver cannot be imported.
+    """
+    with Keeper(one.solver, folder, one.memory) as keeper:
+        return measured(keeper, one.problem, one.setting, one.units, one.warm, one.limits)
+
+
+def _problem(name: str, store: str | Path | None) -> Problem:
+    own = None if store is None else Path(store) / FOLDER
+    kept = own is not None and (own / MANIFEST).exists()
+    try:
+        (found,) = set_read(own if own and kept else problem_set_folder(), ids=[name])
+    except InputError as error:
+        if kept:
+            raise
+        words = "is no problem of contact-qp-1; others need --store, the folder of a "
+        raise InputError(f"{words}study that holds its problems", value=name) from error
+    if not found.dense:
+        words = "has cones or sparse matrices; studies contain dense rows only"
+        raise InputError(words, value=name)
+    return found
+
+
+def solver_named(label: str) -> Solver:
+    """A solver of the package's table, or a callable."""
+    interface = label.partition(":")[0]
+    if interface in (*BY_INTERFACE, PACKAGE):
+        return solvers_named(label)[0]
+    if not re.fullmatch(MODULE, label):
+        words = "is neither interface:name nor module:function; a study's own need --store"
+        raise InputError(words, value=label)
+    return Solver(label.partition(":")[2], "callable", label)
+
+
+def _of_store(label: str, study: Mapping[str, Any]) -> Solver:
+    """A solver as it was called in a study, at the same options."""
+    entries: Sequence[Mapping[str, Any]] = study["solvers"]
+    labels = {f"{one['interface']}:{one['name']}": one for one in entries}
+    if label not in labels:
+        raise InputError(f"is no solver of the study{suggestion(label, labels)}", value=label)
+    one = labels[label]
+    target = one["target"]
+    command = tuple(target) if isinstance(target, list) else target
+    return Solver(one["name"], one["interface"], command, one["options"])

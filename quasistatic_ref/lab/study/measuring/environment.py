@@ -1,0 +1,73 @@
+"""Where a study ran: machine and versions, recorded with its times."""
+
+import os
+import platform
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from quasistatic_ref.lab.study.calling.guests import EVERY
+from quasistatic_ref.lab.study.calling.packages import entry_of, package_of
+from quasistatic_ref.lab.study.calling.solvers import Solver
+
+CPU = Path("/sys/devices/system/cpu/cpu0")
+UNKNOWN = "unknown"
+"""What stands for a fact that the system does not report."""
+
+
+def machine() -> dict[str, object]:
+    """Processor, cores, caches, governor of its frequency, memory, system, Python, the load."""
+    return {
+        "processor": _processor(),
+        "cores": os.cpu_count(),
+        "caches": _caches(),
+        "governor": _read(CPU / "cpufreq" / "scaling_governor") or UNKNOWN,
+        "memory [GB]": round(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 1e9, 1),
+        "system": f"{platform.system()} {platform.release()}",
+        "python": platform.python_version(),
+        "load": " ".join(f"{one:.2f}" for one in os.getloadavg()),
+    }
+
+
+def versions(solvers: tuple[Solver, ...]) -> dict[str, str]:
+    """Versions of this package, of what stands between it and the solvers, and of these."""
+    packages = ["quasistatic-ref", "numpy", "scipy", "cvxpy", "qpsolvers"]
+    packages += [EVERY[str(s.target)].to_install for s in solvers if s.target in EVERY]
+    packages += [package_of(entry_of(str(s.target))) for s in solvers if s.interface == "package"]
+    return {name: _version(name) for name in dict.fromkeys(packages)}
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        if package == "quasistatic-ref":
+            from quasistatic_ref import __version__
+
+            return __version__
+        return "not known"
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text().strip()
+    except OSError:
+        return ""
+
+
+def _caches() -> str:
+    """Sizes by level and kind, such as ``L1 data 32K``."""
+    found = []
+    for folder in sorted((CPU / "cache").glob("index*")):
+        kind = _read(folder / "type").lower().replace("unified", "")
+        found.append(f"L{_read(folder / 'level')} {kind}".strip() + f" {_read(folder / 'size')}")
+    return ", ".join(found) or UNKNOWN
+
+
+def _processor() -> str:
+    try:
+        for line in Path("/proc/cpuinfo").read_text().splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()

@@ -1,0 +1,182 @@
+"""A reply against the truth: correct digits, residuals, and whether its claim holds.
+
+Errors and digits are computed in natural units, whichever units the solver was called in: the
+conversion is lossless, and digits are relative. Residuals are those in the units of the call.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.certify.digits import MOST, digits_of_error
+from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
+from quasistatic_ref.formats.quoting import clipped
+from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
+from quasistatic_ref.lab.study.problems.problem import NATURAL, RAW, Answer, Problem
+from quasistatic_ref.lab.study.store.rows import CLOCKS
+from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.units import Units
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import StandardForm
+
+SOLVED, FAILED, NAN, WRONG_SHAPE = "solved", "failed", "nan", "wrong_shape"
+CRASHED, TIMEOUT, MEMORY, NOT_RUN = "crashed", "timeout", "memory", "not_run_budget"
+OUTCOMES = (SOLVED, FAILED, CRASHED, TIMEOUT, MEMORY, NAN, WRONG_SHAPE, NOT_RUN)
+SLACK = 1e-13
+"""Slacks below that, relative to the numbers that they are the difference of, may be rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """A problem prepared for calls and their grading.
+
+    Parameters
+    ----------
+    forms : dict of str to StandardForm
+        By units, ``"raw"`` and ``"natural"``.
+    units : Units
+    answer : Answer
+        In natural units.
+    norm : EnergyNorm
+        Of the problem in natural units.
+    free : float
+        ||H^-1 g||_H in natural units [-].
+    """
+
+    forms: dict[str, StandardForm]
+    units: Units
+    answer: Answer
+    norm: EnergyNorm
+    free: float
+
+
+@lru_cache(maxsize=8)  # of the problem at which all solvers are
+def prepared(problem: Problem) -> Prepared:
+    """A problem prepared: its natural units, and the norm that errors are measured in."""
+    natural = problem.natural
+    form = natural.form
+    norm = energy_norm(form.H)
+    free = float(norm.impulses(form.g[None])[0])
+    return Prepared({RAW: problem.form, NATURAL: form}, problem.units, natural.answer, norm, free)
+
+
+def grades(ready: Prepared, units: str, reply: Reply, promised: float) -> dict[str, Any]:
+    """Outcome, claims, digits, residuals of one reply, as fields of a row.
+
+    Parameters
+    ----------
+    ready : Prepared
+    units : str
+        ``"raw"`` or ``"natural"``.
+    reply : Reply
+    promised : float
+        Digits [-] of delta_q, and of multipliers, below which "optimal" is a false claim.
+
+    Returns
+    -------
+    dict
+    """
+    outcome, x, lam = _usable(ready.forms[units], reply)
+    row = ungraded(outcome, reply.status, reply.call_seconds, not ready.answer.farkas)
+    with np.errstate(all="ignore"):
+        if x is not None:
+            row["residuals"] = _residuals(ready.forms[units], x, lam)
+            if units == RAW:
+                x = x / (ready.units.size * ready.units.coordinate)
+                lam = None if lam is None else lam * (ready.units.length / ready.units.size)
+            if not ready.answer.farkas:
+                row["digits"] = _digits(ready, ready.answer, x, lam)
+    said = row["said_infeasible"] = not reply.solved and says_infeasible(reply.status)
+    found, dual = (row["digits"][name] for name in ("delta_q", "multipliers"))
+    if row["feasible"]:
+        row["wrong"] = said or (reply.solved and (found is None or found < promised))
+        row["wrong_multipliers"] = bool(reply.solved and dual is not None and dual < promised)
+    else:
+        row["wrong"] = reply.solved
+    row["seconds"] |= {"solver": _finite(reply.own), "setup": _finite(reply.setup)}
+    return row | {"said_optimal": reply.solved, "iterations": reply.iterations}
+
+
+def ungraded(
+    outcome: str, claimed: str, seconds: float | None, feasible: bool = True
+) -> dict[str, Any]:
+    """The same fields of a call that never came back, after `seconds` [s], or never was made."""
+    return {
+        "outcome": outcome,
+        "claimed": clipped(claimed),
+        "feasible": feasible,
+        "said_optimal": False,
+        "said_infeasible": False,
+        "wrong": False,
+        "wrong_multipliers": False,
+        "digits": {"delta_q": None, "net_wrench": None, "multipliers": None},
+        "residuals": {"primal": None, "dual": None, "gap": None},
+        "seconds": dict.fromkeys(CLOCKS) | {"call": seconds},
+        "calls": 0,
+        "clock_agrees": None,
+        "memory": None,
+        "iterations": None,
+    }
+
+
+def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array | None]:
+    """Outcome, and the numbers if they can be judged."""
+    if reply.x is None:
+        return FAILED, None, None
+    if reply.x.shape != form.g.shape or (reply.lam is not None and reply.lam.shape != form.b.shape):
+        return WRONG_SHAPE, None, None
+    lam_finite = reply.lam is None or bool(np.isfinite(reply.lam).all())
+    if not np.isfinite(reply.x).all() or not lam_finite:
+        # A solver that gave up and says so has failed, whatever it left in its arrays.
+        return (NAN if reply.solved else FAILED), None, None
+    return (SOLVED if reply.solved else FAILED), reply.x, reply.lam
+
+
+def _digits(of: Prepared, answer: Answer, x: Array, lam: Array | None) -> dict[str, float | None]:
+    digits: dict[str, float | None] = {
+        "delta_q": _digits_of(of.norm.displacement(x - answer.x), of, answer.error),
+        "net_wrench": None,
+        "multipliers": None,
+    }
+    if lam is not None:
+        form = of.forms[NATURAL]
+        A, bound = form.A, answer.error
+        net, negative = A.T @ lam - answer.net, A.T @ np.minimum(lam, 0.0)
+        off, below = of.norm.impulses(np.array([net, negative]))
+        digits["net_wrench"] = _digits_of(float(off), of, bound)
+        # Slacks of the exact answer that rounding alone may have made are none. What multipliers
+        # of others add to the dual's gap bounds an error by strong convexity, as a gap does.
+        slack = A @ answer.x - form.b
+        slack[slack < SLACK * (abs(A) @ abs(answer.x) + abs(form.b))] = 0.0
+        gap = float(np.maximum(lam, 0.0) @ slack)
+        worst = max(float(off), float(below), float(np.sqrt(2 * gap)))
+        digits["multipliers"] = _digits_of(worst, of, bound)
+    return digits
+
+
+def _digits_of(size: float, of: Prepared, bound: float) -> float:
+    if of.free == 0:
+        return MOST if size == 0 else 0.0
+    # Of an enclosure no more digits are reported than are known.
+    return digits_of_error(max(size / of.free, bound))
+
+
+def _residuals(form: StandardForm, x: Array, lam: Array | None) -> dict[str, float | None]:
+    """Primal and dual residual and duality gap, defined as in qpbenchmark, in the call's units."""
+    slack = form.A @ x - form.b
+    primal = float(np.maximum(-slack, 0.0).max(initial=0.0))
+    if lam is None:
+        return {"primal": _finite(primal), "dual": None, "gap": None}
+    balance = form.H @ x - form.g - form.A.T @ lam
+    gap = abs(float(x @ form.H @ x - form.g @ x - form.b @ lam))
+    return {
+        "primal": _finite(primal),
+        "dual": _finite(float(np.abs(balance).max(initial=0.0))),
+        "gap": _finite(gap),
+    }
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and np.isfinite(value) else None

@@ -1,0 +1,263 @@
+"""Measurements: of a call, or of the calls on a sequence of steps.
+
+A call is warmed up, graded once, and repeated as often as its time needs; a sequence is repeated
+whole.
+
+Calls of microseconds are timed in one exchange, by the clock of the solver's process, which the
+solver could replace: the clock of the keeper, around the whole exchange, must confirm it. Calls
+with a warm start cannot be confirmed, as the solves that they start from are in the same exchange.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.lab import processes
+from quasistatic_ref.lab.study.calling.calls import neighbour
+from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
+from quasistatic_ref.lab.study.calling.solvers import Setting
+from quasistatic_ref.lab.study.measuring.grade import (
+    CRASHED,
+    MEMORY,
+    NOT_RUN,
+    TIMEOUT,
+    Prepared,
+    grades,
+    prepared,
+    ungraded,
+)
+from quasistatic_ref.lab.study.measuring.keeper import Ended, Keeper, Request, exchange
+from quasistatic_ref.lab.study.measuring.messages import Response
+from quasistatic_ref.lab.study.problems.problem import Problem
+from quasistatic_ref.lab.study.store.rows import Row
+
+LONG = 2e-3
+"""An exchange of calls lasts that long, if `MOST` times the repetitions suffice [s]."""
+MOST = 10
+TRIES = 3
+"""Exchanges of which one must bear the solver's clock out: another program may hold one up."""
+BORNE = 0.5
+"""Share of an exchange, beyond what an empty one takes, that the calls in it must account for..."""
+NOISE = 2e-4
+"""...but for that [s]: messages of this size are written and read in less."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a call may take.
+
+    Parameters
+    ----------
+    call : float
+        Time of a call [s].
+    warm_up : float
+        Of the first call of a shape, at a setting, in a process [s].
+    repetitions : int
+        Calls of a measurement that are timed; more where they are short.
+    """
+
+    call: float
+    warm_up: float = 10.0
+    repetitions: int = 5
+
+
+def measured(
+    keeper: Keeper, problem: Problem, setting: Setting, units: str, warm: bool, limits: Limits
+) -> Row:
+    """Run one solver on one problem; whatever it does, fields of a row come back.
+
+    Parameters
+    ----------
+    keeper : Keeper
+    problem : Problem
+    setting : Setting
+    units : str
+    warm : bool
+    limits : Limits
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    InputError
+        If the solver cannot be imported.
+    """
+    begin = perf_counter()
+    keeper.start()
+    seconds: dict[str, float | None] = {"start": perf_counter() - begin, "warm_up": None}
+    ready = prepared(problem)
+    form = ready.forms[units]
+    other = neighbour(form, problem.id).g
+    start = other if warm else None
+    assert keeper.pid is not None  # it was started
+    processes.reset_peak(keeper.pid)
+    begin, memory = perf_counter(), None
+    shape = (*form.A.shape, units, setting.name, warm)
+    try:
+        exchange(keeper, form, setting)
+        if shape not in keeper.seen:
+            keeper.answer(form, Request(setting, limits.warm_up, g=other, start=start))
+            keeper.seen.add(shape)
+            seconds["warm_up"] = perf_counter() - begin
+        begin = perf_counter()
+        row = _graded(keeper, ready, Request(setting, limits.call, start=start), units, limits)
+        memory = None if keeper.pid is None else processes.peak(keeper.pid)
+    except Ended as end:
+        if seconds["warm_up"] is None and shape not in keeper.seen:
+            seconds["warm_up"] = end.seconds
+        row = ungraded(end.outcome, end.words, end.seconds, problem.feasible)
+    keeper.tidy()
+    seconds["spent"] = perf_counter() - begin
+    return row | {"seconds": row["seconds"] | seconds, "memory": memory}
+
+
+def sequence_measured(
+    keeper: Keeper,
+    problems: Sequence[Problem],
+    setting: Setting,
+    units: str,
+    mode: str,
+    limits: Limits,
+    left: float,
+) -> list[Row]:
+    """Run one solver on steps in order, each from what it kept of the one before.
+
+    A process that has to be ended starts again, cold, at the next step.
+
+    Parameters
+    ----------
+    keeper : Keeper
+    problems : sequence of Problem
+        Of equal shapes; all are put in the natural units of the first.
+    setting : Setting
+    units : str
+    mode : str
+    limits : Limits
+    left : float
+        Of the solver's budget [s]: steps beyond it are not run.
+
+    Returns
+    -------
+    list of dict
+        Fields of a row for each problem: the worst answer of the repetitions, quartiles of times.
+
+    Raises
+    ------
+    InputError
+        If the solver cannot be imported.
+    """
+    ready = [prepared(replace(one, units=problems[0].units)) for one in problems]
+    turns: list[list[Row]] = []
+    for _ in range(limits.repetitions):
+        turn: list[Row] = []
+        for place, one in enumerate(ready):
+            first = not turn or turn[-1]["outcome"] in (CRASHED, TIMEOUT, MEMORY)
+            request = Request(setting, limits.call, mode=mode, first=first)
+            shape = (*one.forms[units].A.shape, setting.name, units, mode, min(place, 1))
+            if left <= 0:
+                row = ungraded(NOT_RUN, "not run (budget)", None, not one.answer.farkas)
+                row["seconds"]["spent"] = 0.0
+            else:
+                row = _step(keeper, one, request, units, shape, limits.warm_up)
+            left -= row["seconds"]["spent"]
+            turn.append(row)
+        turns.append(turn)
+    return [_worst(repeated) for repeated in zip(*turns, strict=True)]
+
+
+def _step(
+    keeper: Keeper, ready: Prepared, request: Request, units: str, shape: object, warm_up: float
+) -> Row:
+    """One call on the next step of a sequence."""
+    form = ready.forms[units]
+    try:
+        keeper.start()
+        exchange(keeper, form, request.setting)
+        limit = request.limit if shape in keeper.seen else warm_up
+        response, outside = keeper.answer(form, replace(request, limit=limit))
+    except Ended as end:
+        row = ungraded(end.outcome, end.words, end.seconds, not ready.answer.farkas)
+        row["seconds"]["spent"] = end.seconds
+        return row
+    finally:
+        keeper.tidy()
+    keeper.seen.add(shape)
+    beyond = outside - keeper.exchange
+    agrees = borne_out(response.times, beyond)
+    row = grades(ready, units, response.reply, request.setting.promised)
+    row["seconds"] |= {"call": response.times[0] if agrees else beyond, "spent": outside}
+    return row | {"calls": 1, "clock_agrees": agrees}
+
+
+def _worst(repeated: Sequence[Row]) -> Row:
+    """The worst row of a step that was repeated, with quartiles of its times."""
+    times = [row["seconds"]["call"] for row in repeated if row["seconds"]["call"] is not None]
+    spent = sum(row["seconds"]["spent"] for row in repeated)
+    clocks: Row = {"spent": spent}
+    if times:
+        low, call, high = np.percentile(times, [25, 50, 75]).tolist()
+        clocks |= {"first": times[0], "low": low, "call": call, "high": high}
+    row = min(repeated, key=_goodness)
+    calls = sum(one["calls"] for one in repeated)
+    return row | {"calls": calls, "seconds": row["seconds"] | clocks}
+
+
+def _graded(keeper: Keeper, ready: Prepared, request: Request, units: str, limits: Limits) -> Row:
+    """The worse of the first and the last graded reply, with quartiles of the repeated calls."""
+    form, promised = ready.forms[units], request.setting.promised
+    response, outside = keeper.answer(form, request)
+    if response.ended:
+        outcome = TIMEOUT if response.ended == TIMEOUT else CRASHED
+        raise Ended(outcome, response.reply.status, response.times[-1])
+    row = grades(ready, units, response.reply, promised)
+    row["seconds"]["first"] = response.times[0]
+    if not response.reply.solved and not says_infeasible(response.reply.status):
+        return row | {"calls": 1}
+    again, times, agrees = _timed(keeper, form, request, outside, limits)
+    if again.ended:
+        raise Ended(CRASHED, again.reply.status, again.times[-1])
+    other = grades(ready, units, again.reply, promised)
+    row = min(row, other, key=_goodness) | {"calls": len(times), "clock_agrees": agrees}
+    low, call, high = np.percentile(times, [25, 50, 75]).tolist()
+    clocks = {"first": response.times[0], "low": low, "call": call, "high": high}
+    clocks |= {name: other["seconds"][name] for name in ("setup", "solver")}  # as warm as these
+    return row | {"seconds": row["seconds"] | clocks}
+
+
+def borne_out(times: Sequence[float], beyond: float) -> bool:
+    """Whether a solver's own times [s] account for an exchange, beyond an empty one [s]."""
+    return sum(times) >= BORNE * beyond - NOISE
+
+
+def _goodness(row: Row) -> tuple[bool, bool, float]:
+    """What a repeated call is judged by: the worst answer counts."""
+    return not row["wrong"], row["said_optimal"], row["digits"]["delta_q"] or 0.0
+
+
+def _timed(
+    keeper: Keeper, form: Any, request: Request, outside: float, limits: Limits
+) -> tuple[Response, tuple[float, ...], bool | None]:
+    """Calls in one exchange: the last reply, their times [s], whether the keeper's clock agrees.
+
+    Where it does not, each call took its share of the shortest exchange. With a warm start the two
+    clocks are not compared, and the third is None.
+    """
+    about = max(outside - keeper.exchange, 1e-6)
+    count = min(max(math.ceil(LONG / about), limits.repetitions), MOST * limits.repetitions)
+    many = Request(request.setting, request.limit, count, start=request.start)
+    shortest = math.inf
+    for _ in range(TRIES):
+        response, whole = keeper.answer(form, many)
+        beyond = whole - keeper.exchange
+        shortest = min(shortest, beyond)
+        if request.start is not None:
+            return response, response.times, None
+        if borne_out(response.times, beyond):
+            return response, response.times, True
+    return response, (shortest / count,) * count, False

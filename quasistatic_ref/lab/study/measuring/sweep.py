@@ -1,0 +1,197 @@
+"""Simulation parameters swept over scenarios: mu_omega, h, K_q, k, the cone, or any other field.
+
+Every combination of the values is one run, each step exact; a row is what the run came to.
+"""
+
+import hashlib
+import os
+import time
+from collections.abc import Iterator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor
+from contextlib import contextmanager
+from dataclasses import asdict
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.formats.files import writable_folder
+from quasistatic_ref.lab.parallel import results
+from quasistatic_ref.lab.study.file.sweeps import Sweep, sweep_scenario
+from quasistatic_ref.lab.study.measuring.environment import machine, versions
+from quasistatic_ref.lab.study.store.rows import Row, key_of
+from quasistatic_ref.lab.study.store.store import Store
+from quasistatic_ref.scenario.scenario import Scenario
+from quasistatic_ref.simulate.measures import link_motion
+from quasistatic_ref.simulate.progress import progress_bar
+from quasistatic_ref.simulate.trajectory import Trajectory
+
+RUNS = "runs"
+"""Folder of trajectories in that of a store."""
+DONE, ENDED_EARLY = "done", "ended_early"
+
+
+def run_sweep(
+    sweeps: Sequence[Sweep],
+    folder: str | Path,
+    *,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    progress: bool = True,
+    keep_runs: bool = False,
+) -> list[Row]:
+    """Run sweeps, or what is left of them. What cannot be run is refused before any is.
+
+    Parameters
+    ----------
+    sweeps : sequence of Sweep
+    folder : str or Path
+        The store.
+    jobs : int, optional
+        Runs at once.
+    scheduler : str, optional
+        Address of a Dask scheduler.
+    progress : bool
+    keep_runs : bool
+        Whether the trajectory of each run is kept, in :func:`run_file` of the folder.
+
+    Returns
+    -------
+    list of dict
+        All rows of the store, sorted.
+
+    Raises
+    ------
+    InputError
+        If any of the scenarios is unusable, or the folder is or holds something else.
+    """
+    every = [(sweep, point) for sweep in sweeps for point in sweep.points()]
+    with _workers(jobs, scheduler) as (executor, slots):
+        for _ in executor.map(check_point, *zip(*every, strict=True)):
+            pass  # an error of any of them is raised here
+        folder = writable_folder(folder)
+        kept = writable_folder(folder / RUNS).parent if keep_runs else None
+        with Store(folder, sweep_record(sweeps)) as store:
+            done = store.keys
+            todo = [(s, p) for s, p in every if key_of(_naming(s, p)) not in done]
+            _run(store, todo, executor, slots, progress, kept)
+            return sorted(store.rows, key=key_of)
+
+
+@contextmanager
+def _workers(jobs: int | None, scheduler: str | None) -> Iterator[tuple[Executor, int]]:
+    """What runs several scenarios at once, and how many."""
+    if scheduler is not None:
+        from quasistatic_ref.lab.study.measuring.cluster import executor_of
+
+        with executor_of(scheduler) as workers:
+            yield workers
+    else:
+        jobs = jobs or os.cpu_count() or 1
+        with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+            yield pool, jobs
+
+
+def check_point(sweep: Sweep, point: dict[str, Any]) -> None:
+    """Refuse a point whose scenario cannot be run; InputError as :func:`.load_scenario` has it."""
+    sweep_scenario(sweep, point).simulator()
+
+
+def sweep_record(sweeps: Sequence[Sweep]) -> dict[str, Any]:
+    """What a store says of sweeps."""
+    return {
+        "kind": "sweep",
+        "sweeps": [asdict(sweep) for sweep in sweeps],
+        "versions": versions(()),
+        "machine": machine(),
+    }
+
+
+def run_file(row: Row) -> str:
+    """Where the trajectory of a run is kept, in the folder of its store: named by its values."""
+    return f"{RUNS}/{row['sweep']}_{hashlib.sha256(key_of(row)[1].encode()).hexdigest()[:12]}.npz"
+
+
+def sweep_row(sweep: Sweep, point: dict[str, Any]) -> Row:
+    """One run, and what it came to; a run that ends early is a result too."""
+    return sweep_run(sweep, point)[0]
+
+
+def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory]:
+    """The same with its trajectory."""
+    begin = time.perf_counter()
+    scenario = sweep_scenario(sweep, point)
+    outcome, reason = DONE, None
+    try:
+        trajectory = scenario.run(progress=False)
+    except RunFailed as failure:
+        outcome, reason, trajectory = ENDED_EARLY, failure.reason, failure.trajectory
+    measures = outcomes(scenario, trajectory, sweep.link, sweep.since)
+    row = _naming(sweep, point) | {"outcome": outcome, "reason": reason, "measures": measures}
+    return row | {"seconds": {"call": time.perf_counter() - begin}}, trajectory
+
+
+def _run(
+    store: Store,
+    todo: list[tuple[Sweep, dict[str, Any]]],
+    executor: Executor,
+    slots: int,
+    progress: bool,
+    kept: Path | None,
+) -> None:
+    """Run what is left, and add its rows to the store."""
+    with progress_bar(total=len(todo), unit="run", shown=progress) as bar:
+        if kept is None:
+            for row in results(executor, slots, sweep_row, todo):
+                store.add(row)
+                bar.update()
+            return
+        for row, trajectory in results(executor, slots, sweep_run, todo):
+            trajectory.save(kept / run_file(row))  # before the row, which names it
+            store.add(row)
+            bar.update()
+
+
+def _naming(sweep: Sweep, point: dict[str, Any]) -> Row:
+    return {"sweep": sweep.name, "scenario": Path(sweep.scenario).stem, "values": point}
+
+
+def outcomes(
+    scenario: Scenario, trajectory: Trajectory, link: str, since: float
+) -> dict[str, float | None]:
+    """Measured outcomes of one run.
+
+    Parameters
+    ----------
+    scenario : Scenario
+    trajectory : Trajectory
+    link : str
+        Whose motion is measured.
+    since : float
+        From when on [s].
+
+    Returns
+    -------
+    dict
+        ``rotation_deg`` (largest since then), ``rise_mm`` and ``travel_mm`` (from then to the
+        end), ``deepest_um`` (largest penetration of any step), ``boundary_layer_um``,
+        ``quasi_dynamic_number``, ``steps`` and ``exact`` (share of steps certified exactly).
+    """
+    motion = link_motion(scenario.system, trajectory, link)
+    start = motion.index(since)
+    way = motion.t[-1] - motion.t[start]
+    phi = trajectory["phi"] if trajectory.steps else np.zeros(0)
+    Pi = trajectory.header["quasi_dynamic_number"]
+    exact = trajectory["certificate"] == "exact" if trajectory.steps else np.ones(1)
+    return {
+        "rotation_deg": float(np.degrees(motion.rotation_since(since)[start:].max())),
+        "rise_mm": 1e3 * float(way[2]),
+        "travel_mm": 1e3 * float(np.linalg.norm(way)),
+        "deepest_um": 1e6 * max(0.0, float(-phi.min(initial=0.0))),
+        "boundary_layer_um": 1e6 * float(trajectory.header["largest_boundary_layer"]),
+        "quasi_dynamic_number": None if Pi is None else float(Pi),
+        "steps": float(trajectory.steps),
+        "exact": float(np.mean(exact)),
+    }

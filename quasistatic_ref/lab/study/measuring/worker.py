@@ -1,0 +1,144 @@
+"""The process in which one solver lives: it may loop, crash or print, and nothing else suffers.
+
+``python -m quasistatic_ref.lab.study.measuring.worker READ WRITE`` is started by
+:mod:`~quasistatic_ref.lab.study.measuring.keeper` with two pipes. It receives a solver, then
+programs and requests, and sends each reply as it is. It never gets an answer: grading is done
+elsewhere.
+"""
+
+import signal
+import subprocess
+import sys
+from collections import OrderedDict
+from multiprocessing.connection import Connection
+from time import perf_counter
+from typing import Any
+
+from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.lab.processes import adopt_orphans
+from quasistatic_ref.lab.study.calling.calls import Crashed, Options, call_of, on_path, words_of
+from quasistatic_ref.lab.study.calling.sessions import Session, modes_of, session_of
+from quasistatic_ref.lab.study.calling.solvers import Solver
+from quasistatic_ref.lab.study.measuring.messages import NOTHING, Response, to_bytes
+from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.step.standard_form import StandardForm
+
+KEPT = 2
+"""Programs that are kept, as :class:`~.keeper.Keeper` knows."""
+GRACE = 2
+"""Seconds after which a worker that was forgotten ends itself: its keeper may have been killed."""
+
+
+def serve(read: int, write: int) -> None:
+    """Serve requests through two pipes, until the keeper goes away."""
+    adopt_orphans()
+    inbox, outbox = Connection(read, writable=False), Connection(write, readable=False)
+    try:
+        solver, folder = inbox.recv()
+        on_path(folder)
+        try:
+            called = Called(solver, folder)
+            outbox.send_bytes(b"")
+        except QuasistaticError as error:
+            outbox.send_bytes(str(error).encode())
+            return
+        _served(inbox, outbox, called)
+    except (EOFError, BrokenPipeError):
+        return  # the keeper is gone
+
+
+class Called:
+    """A solver that is called: on one problem at a time, or step after step.
+
+    Parameters
+    ----------
+    solver : Solver
+    folder : str
+        Where an executable is looked for and runs.
+
+    Raises
+    ------
+    InputError
+        If the solver cannot be reached.
+    """
+
+    def __init__(self, solver: Solver, folder: str) -> None:
+        self.solver, self.call = solver, call_of(solver, folder)
+        self.session: Session | None = None
+        self.before: Reply | None = None
+
+    def response(self, form: StandardForm, request: dict[str, Any]) -> Response:
+        """What is sent back; a request for no call gets the modes that the solver can be called in.
+
+        Parameters
+        ----------
+        form : StandardForm
+        request : dict
+            The fields of a :class:`~.keeper.Request`.
+        """
+        if not request["count"]:
+            return Response(Reply(None, None, False, ",".join(modes_of(self.solver))))
+        limit = float(request["limit"])
+        options = self.solver.settings_of(request["setting"], limit)
+        if request["mode"]:
+            return self._next(form, request, options, limit)
+        return self._alone(form, request, options, limit)
+
+    def _next(
+        self, form: StandardForm, request: dict[str, Any], options: Options, limit: float
+    ) -> Response:
+        """The next step of a sequence."""
+        if request["first"] or self.session is None:
+            self.session = session_of(self.solver, request["mode"], options, self.call, limit)
+            self.before = None
+        begin = perf_counter()
+        try:
+            self.before = self.session(form, self.before)
+        except Exception as error:  # whatever another package raises
+            self.before, self.session = Reply(None, None, False, words_of(error)), None
+        return Response(self.before, (perf_counter() - begin,))
+
+    def _alone(
+        self, form: StandardForm, request: dict[str, Any], options: Options, limit: float
+    ) -> Response:
+        """One problem, as often as it is asked for."""
+        start = None
+        # The matrices stay the same arrays: what is compiled of them is kept, and a start is taken.
+        if request["g"] is not None:
+            form = StandardForm(form.H, request["g"], form.A, form.b)
+        if request["start"] is not None:
+            start = StandardForm(form.H, request["start"], form.A, form.b)
+        reply, times, begin = NOTHING, [], perf_counter()
+        try:
+            for _ in range(request["count"]):
+                begin = perf_counter()
+                reply = self.call(form, options, start, limit)
+                times.append(reply.call_seconds)
+        except subprocess.TimeoutExpired:
+            late = Reply(None, None, False, f"no answer in {limit:g} s")
+            return Response(late, (perf_counter() - begin,), "timeout")
+        except Crashed as crash:
+            return Response(Reply(None, None, False, str(crash)), (crash.seconds,), "crashed")
+        return Response(reply, tuple(times))
+
+
+def _served(inbox: Connection, outbox: Connection, called: Called) -> None:
+    forms: OrderedDict[int, StandardForm] = OrderedDict()
+    while True:
+        message = inbox.recv()
+        if isinstance(message, tuple):
+            key, forms[message[0]] = message
+            forms.move_to_end(key)
+            while len(forms) > KEPT:
+                forms.popitem(last=False)
+            continue
+        form = forms[message["form"]]
+        # A looping solver holds the interpreter; this signal's default action ends the process.
+        signal.setitimer(signal.ITIMER_REAL, message["patience"] + GRACE)
+        response = called.response(form, message)
+        outbox.send_bytes(to_bytes(response, (len(form.g), len(form.b))))
+        signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+if __name__ == "__main__":
+    serve(int(sys.argv[1]), int(sys.argv[2]))

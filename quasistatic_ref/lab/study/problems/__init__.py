@@ -1,0 +1,1 @@
+"""Quadratic programs of contact with exact answers: sets of them, made, kept, checked, exported."""

@@ -1,0 +1,75 @@
+"""Every answer of a set proved again, without a solver."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.sparse import csc_matrix
+
+from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.rational import exact_form_of
+from quasistatic_ref.lab.scenes.rigid import actuated_step
+from quasistatic_ref.lab.study.problems.answers import cone_answer, step_of
+from quasistatic_ref.lab.study.problems.families.short import framed
+from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
+from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
+from quasistatic_ref.optional.large.sparse_bound import LargeForm, Metric, sparse_error_bound
+from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.data import StepData
+
+
+def refutation(one: Problem) -> str | None:
+    """What is wrong with the answer of a problem; None if it is proved again.
+
+    Parameters
+    ----------
+    one : Problem
+    """
+    if one.answer.farkas:
+        y = [one.answer.farkas.get(i, "0") for i in range(len(one.b))]
+        return farkas_refutation(step_of(one.form), y)
+    if one.facts["kind"] == SOCP:
+        again = cone_answer(cone_step(one), one.form)
+        return _different(one, again.x, again.error)
+    if one.answer.kind == BOUNDED:
+        return _not_bounded(one)
+    warm = np.flatnonzero(one.answer.lam).tolist()
+    found = exact_optimum(exact_form_of(*one.form), warm)
+    if not isinstance(found, ExactOptimum):
+        return "it has no solution"
+    parts = {"x": found.delta_q, "net": found.net, "slack": found.slack}
+    wrong = [
+        name for name, v in parts.items() if v.tobytes() != getattr(one.answer, name).tobytes()
+    ]
+    return f"{' and '.join(wrong)} have other bits" if wrong else None
+
+
+def wrong_answers(problems: Sequence[Problem]) -> list[tuple[str, str]]:
+    """Names of problems whose answers are refuted, and why."""
+    found = [(one.id, refutation(one)) for one in problems]
+    return [(name, why) for name, why in found if why is not None]
+
+
+def cone_step(one: Problem) -> StepData:
+    """The step in the ellipsoid, friction being 1, whose blocks of rows a problem has."""
+    A = one.A.toarray().reshape(-1, 4, len(one.g))
+    phi = -one.b.reshape(-1, 4)[:, 0]
+    contacts = framed(A[:, [1, 2, 0, 3]], phi, 1.0, 1.0, 6)
+    H = one.H.toarray()
+    return actuated_step(H, one.g, np.zeros(len(one.g)), contacts, 1.0).replace(cone=ELLIPSOID)
+
+
+def _different(one: Problem, x: np.ndarray, error: float) -> str | None:
+    H, off = one.H.toarray(), x - one.answer.x
+    free = float(one.g @ np.linalg.solve(H, one.g))
+    far = float(np.sqrt(off @ H @ off / free))
+    return None if far <= 2 * (error + one.answer.error) + 1e-16 else f"x is off by {far:.1g}"
+
+
+def _not_bounded(one: Problem) -> str | None:
+    natural = one.natural
+    H, A = csc_matrix(natural.H), csc_matrix(natural.A)
+    form = LargeForm(Metric(H), natural.g, A, natural.b, PlainSizes(natural.A, natural.g))
+    error = sparse_error_bound(form, natural.answer.x, natural.answer.lam)
+    worse = error > 1.01 * one.answer.error
+    return f"its error is bounded by {error:.1g} only" if worse else None

@@ -1,0 +1,123 @@
+"""How hard a problem is, in numbers, and in words that problems are chosen by."""
+
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.lab.study.problems.problem import SPARSE, Problem
+from quasistatic_ref.step.data import Array
+
+TOUCHING = 1e-12
+"""Slack in natural units [-] below which a row counts as active: ties that rounding splits."""
+DEPENDENT = 1e-9
+"""Singular value of active rows of length one [-] that counts as none."""
+ILL = 1e8
+"""Condition number of H in natural units from which it is called ill-conditioned."""
+CLOSE = 1e-6
+"""Least slack or multiplier in natural units [-] below which activity is hard to tell."""
+SHOWN = 4
+"""Significant figures."""
+
+
+def measures(one: Problem) -> dict[str, Any]:
+    """Difficulty of a problem, in natural units: numbers without a unit.
+
+    Parameters
+    ----------
+    one : Problem
+
+    Returns
+    -------
+    dict
+        ``condition`` (in SI units), ``condition_natural``; ``row_ratio``, of the lengths of the
+        rows; and, of a problem with an answer, ``active`` rows, their ``rank``, ``dependent``: how
+        many are more than that; ``smallest_slack`` of the other rows, ``smallest_multiplier`` of
+        those that bear, and ``size``: ||x*||_H / ||H^-1 g||_H. None: not known.
+    """
+    natural = one.natural
+    lengths = np.sqrt(np.asarray(natural.A.multiply(natural.A).sum(axis=1)).ravel())
+    positive = lengths[lengths > 0]
+    found: dict[str, Any] = {
+        "condition": _condition(one),
+        "condition_natural": _condition(natural),
+        "row_ratio": float(positive.max() / positive.min()) if positive.size else None,
+    }
+    if one.answer.farkas or one.facts["kind"] != "qp":
+        return _rounded(found)
+    slack, lam = natural.answer.slack, natural.answer.lam
+    reach = TOUCHING if one.answer.error == 0 else one.answer.error
+    active = np.flatnonzero(slack <= reach)
+    idle, bearing = np.delete(slack, active), lam[lam > 0]
+    rank, sharp = _rank(natural, active), one.answer.error == 0
+    x, g, free = natural.answer.x, natural.g, _free(natural)
+    found |= {
+        "active": len(active),
+        "rank": rank,
+        "dependent": None if rank is None else len(active) - rank,
+        "smallest_slack": float(idle.min()) if sharp and idle.size else None,
+        "smallest_multiplier": float(bearing.min()) if sharp and bearing.size else None,
+        "size": float(np.sqrt(x @ (natural.H @ x))) / free if free > 0 and g.any() else None,
+    }
+    return _rounded(found)
+
+
+def tags(one: Problem, own: tuple[str, ...], found: dict[str, Any]) -> list[str]:
+    """Words that a problem is chosen by.
+
+    Parameters
+    ----------
+    one : Problem
+    own : tuple of str
+        Of its family.
+    found : dict
+        Its :func:`measures`.
+    """
+    answer = one.answer
+    said = {
+        "diagonal H": not one.H.nnz > len(one.g),
+        "infeasible": bool(answer.farkas),
+        "trivial": not answer.farkas and not answer.x.any(),
+        "dependent": bool(found.get("dependent")),
+        "several multipliers": answer.unique is False,
+        "ill-conditioned": (found["condition_natural"] or 0) >= ILL,
+        "close call": _close(found),
+        "penetrating": bool((one.b > 0).any()),
+    }
+    return list(dict.fromkeys([*own, *(word for word, holds in said.items() if holds)]))
+
+
+def _close(found: dict[str, Any]) -> bool:
+    sizes = [found.get("smallest_slack"), found.get("smallest_multiplier")]
+    return any(size is not None and size < CLOSE for size in sizes)
+
+
+def _condition(one: Problem) -> float | None:
+    """Of H; blocks of six of sparse ones are independent, and any others are not computed."""
+    if SPARSE not in one.facts["tags"]:
+        return float(np.linalg.cond(one.H.toarray()))
+    blocks = [one.H[i : i + 6, i : i + 6].toarray() for i in range(0, len(one.g), 6)]
+    eigenvalues = np.concatenate([np.linalg.eigvalsh(block) for block in blocks])
+    return float(eigenvalues.max() / eigenvalues.min())
+
+
+def _rank(natural: Problem, active: np.ndarray) -> int | None:
+    if SPARSE in natural.facts["tags"]:
+        return None
+    rows: Array = natural.A[active].toarray()
+    lengths = np.linalg.norm(rows, axis=1, keepdims=True)
+    rows = rows / np.where(lengths > 0, lengths, 1.0)
+    return int(np.linalg.matrix_rank(rows, tol=DEPENDENT)) if len(rows) else 0
+
+
+def _free(natural: Problem) -> float:
+    """||H^-1 g||_H; 0 where it is not computed."""
+    if SPARSE in natural.facts["tags"]:
+        return 0.0
+    z = np.linalg.solve(natural.H.toarray(), natural.g)
+    return float(np.sqrt(max(float(natural.g @ z), 0.0)))
+
+
+def _rounded(found: dict[str, Any]) -> dict[str, Any]:
+    return {
+        name: float(f"{v:.{SHOWN}g}") if isinstance(v, float) else v for name, v in found.items()
+    }

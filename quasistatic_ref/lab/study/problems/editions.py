@@ -1,0 +1,33 @@
+"""Versions of sets: a name is one content, and a folder that has another is not that set."""
+
+import hashlib
+from pathlib import Path
+from typing import Final
+
+from quasistatic_ref.formats.files import bytes_read
+from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest
+
+FROZEN: Final = {
+    "contact-qp-1": "8e1afbb65c99bf8960de581918bd3fa00846080b4f505cff78b99db0af83e9cb",
+}
+"""SHA-256 of the manifest of each set that was released; an entry is never edited."""
+
+
+def edition_problem(folder: Path) -> str | None:
+    """Why a folder is not the set that it says it is; None if it is, or bears a name of its own.
+
+    Parameters
+    ----------
+    folder : Path
+        Its files are checked against its manifest by :func:`~.folder.manifest`.
+
+    Raises
+    ------
+    InputError
+        If it is no set, or a file was changed.
+    """
+    name = manifest(folder)["name"]
+    found = hashlib.sha256(bytes_read(folder / MANIFEST)).hexdigest()
+    if FROZEN.get(name, found) == found:
+        return None
+    return f"calls itself {name} and has other problems: give it another name"

@@ -1,0 +1,151 @@
+"""A set in the formats that others read: npz, qpbenchmark's parquet, MATLAB's mat, JSON lines."""
+
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+from scipy.io import savemat
+from scipy.sparse import csc_matrix, csr_matrix
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import json_text, text_written, written_whole
+from quasistatic_ref.lab.study.problems.problem import SPARSE, Problem
+from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
+
+PARQUET = "parquet"
+FORMATS = ("npz", PARQUET, "mat", "json")
+WORDS = ("id", "family", "kind", "status", "dial", "tags")
+VECTORS = ("g", "b")
+ANSWERS = ("x", "net", "slack", "lam")
+
+
+def exported(name: str, problems: Sequence[Problem], to: str, folder: Path) -> list[Path]:
+    """Write problems in a format.
+
+    Parameters
+    ----------
+    name : str
+        Of the files.
+    problems : sequence of Problem
+        In the units that they are to have.
+    to : str
+        One of ``npz``, ``parquet``, ``mat``, ``json``.
+    folder : Path
+
+    Returns
+    -------
+    list of Path
+
+    Raises
+    ------
+    InputError
+        If nothing is left to write, a package is missing, or the folder cannot be written.
+    """
+    problems = [one for one in problems if to != PARQUET or for_qpbenchmark(one)]
+    if not problems:
+        raise InputError("holds no problem that this format has a place for", value=to)
+    own: dict[str, Callable[[], list[Path]]] = {
+        "npz": lambda: [_npz(folder / f"{name}.npz", problems)],
+        "mat": lambda: [_mat(folder / f"{name}.mat", problems)],
+        "json": lambda: [_json(folder / f"{name}.jsonl", problems)],
+        PARQUET: lambda: _parquet(name, problems, folder),
+    }
+    return own[to]()
+
+
+def for_qpbenchmark(one: Problem) -> bool:
+    """Whether qpbenchmark's format has a place for it: dense rows, and a solution."""
+    return one.dense and one.feasible
+
+
+def _npz(path: Path, problems: Sequence[Problem]) -> Path:
+    """``id``, ``family``, ..., and ``K/H``, ``K/g``, ... of problem K; sparse matrices as CSR."""
+    arrays: dict[str, Any] = {
+        word: np.array([_word(one.facts[word]) for one in problems]) for word in WORDS
+    }
+    for k, one in enumerate(problems):
+        for key, value in _parts(one).items():
+            if isinstance(value, csr_matrix):
+                arrays |= {f"{k}/{key}/values": value.data, f"{k}/{key}/columns": value.indices,
+                           f"{k}/{key}/starts": value.indptr}  # fmt: skip
+            else:
+                arrays[f"{k}/{key}"] = value
+    return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
+
+
+def _mat(path: Path, problems: Sequence[Problem]) -> Path:
+    """A struct array ``problems``, as MATLAB's and Julia's readers of .mat files show it."""
+    names = (*WORDS, "H", "A", *VECTORS, *ANSWERS, "farkas")
+    table = np.zeros(len(problems), dtype=[(name, object) for name in names])
+    empty = np.zeros((0, 1))
+    for k, one in enumerate(problems):
+        for word in WORDS:
+            table[k][word] = _word(one.facts[word])
+        parts = _parts(one)
+        for key in names[len(WORDS) :]:
+            value = parts.get(key, empty)
+            column = isinstance(value, np.ndarray) and value.ndim == 1
+            table[k][key] = csc_matrix(value) if isinstance(value, csr_matrix) else value
+            if column:
+                table[k][key] = value[:, None]
+
+    def write(file: IO[bytes]) -> None:
+        savemat(file, {"problems": table}, do_compression=True)
+
+    return written_whole(path, write)
+
+
+def _json(path: Path, problems: Sequence[Problem]) -> Path:
+    """A line for each problem: its facts and its numbers, in shortest round-trip decimal."""
+
+    def lines() -> Iterator[str]:
+        for one in problems:
+            numbers = {
+                key: {"rows": value.shape[0], "starts": value.indptr.tolist(),
+                      "columns": value.indices.tolist(), "values": value.data.tolist()}
+                if isinstance(value, csr_matrix) else value.tolist()
+                for key, value in _parts(one).items() if key != "farkas"
+            }  # fmt: skip
+            farkas = {str(i): y for i, y in one.answer.farkas.items()}
+            yield json_text(dict(one.facts) | numbers | ({"farkas": farkas} if farkas else {}))
+
+    return text_written(path, "\n".join(lines()) + "\n")
+
+
+def _parquet(name: str, problems: Sequence[Problem], folder: Path) -> list[Path]:
+    """What qpbenchmark's command takes, and what answers are graded by."""
+    stem = name.replace("-", "_")
+    programs = [Program(one.id, *one.form, one.answer.x) for one in problems]
+    title = "".join(part.title() for part in stem.split("_"))
+    template = (Path(__file__).parent / "test_set.txt").read_text(encoding="utf-8")
+    module = template.format(name=stem, title=title, words=name)
+    return [
+        parquet_written(folder / f"{stem}.parquet", programs),
+        npz_written(folder / f"{stem}.npz", programs),
+        text_written(folder / f"{stem}.py", module),
+    ]
+
+
+def _parts(one: Problem) -> dict[str, Any]:
+    """Its numbers by name: matrices dense, unless it is a sparse problem."""
+    sparse = SPARSE in one.facts["tags"]
+    found: dict[str, Any] = {
+        "H": one.H if sparse else one.H.toarray(),
+        "A": one.A if sparse else one.A.toarray(),
+        "g": one.g,
+        "b": one.b,
+    }
+    if not one.answer.farkas:
+        return found | {key: getattr(one.answer, key) for key in ANSWERS}
+    y = np.zeros(len(one.b))
+    for i, text in one.answer.farkas.items():
+        above, _, below = text.partition("/")
+        y[i] = int(above) / int(below or 1)
+    return found | {"farkas": y}
+
+
+def _word(value: Any) -> Any:
+    if isinstance(value, list):
+        return ", ".join(value)
+    return float("nan") if value is None else value

@@ -1,0 +1,263 @@
+"""The folder of a set: lines of facts, numbers family by family, and a manifest of hashes.
+
+``problems.jsonl`` has a line for each problem, in order, and ``numbers/FAMILY.npz`` the numbers of
+a family, one problem after the other. Any NumPy opens it; see its README.
+"""
+
+import hashlib
+import io
+import json
+import lzma
+import zipfile
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_matrix
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.files import (
+    bytes_read,
+    bytes_written,
+    json_read,
+    json_text,
+    text_written,
+)
+from quasistatic_ref.formats.npz import npz_arrays
+from quasistatic_ref.lab.study.problems.families.dials import ends
+from quasistatic_ref.lab.study.problems.problem import Answer, Problem
+from quasistatic_ref.solve.units import Units
+
+FORMAT, VERSION = "quasistatic-ref/problem-set", 1
+MANIFEST, FACTS, NUMBERS = "manifest.json", "problems.jsonl", "numbers"
+MATRICES: Final = ("H", "A")
+OF_N, OF_M, ANSWER_N, ANSWER_M = ("g", "coordinate"), ("b",), ("x", "net"), ("slack", "lam")
+UNREADABLE: Final = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
+                     RecursionError, lzma.LZMAError)  # fmt: skip
+"""What reading raises of files that agree with their manifest, and are something else."""
+DATE = (1980, 1, 1, 0, 0, 0)
+"""Of every member of an archive: the same bytes whenever it is written."""
+
+
+def family_written(folder: Path, family: str, problems: Sequence[Problem]) -> list[Path]:
+    """Write the problems that a family has so far: its numbers, and its lines apart."""
+    lines = "".join(json_text(_line(one)) + "\n" for one in problems)
+    numbers = bytes_written(folder / NUMBERS / f"{family}.npz", _archive(_flat(problems)))
+    return [numbers, text_written(_begun(folder, family), lines)]
+
+
+def problems_begun(folder: Path) -> dict[str, Problem]:
+    """The problems by name of a set that is not yet whole."""
+    found: list[Problem] = []
+    with readable(folder):
+        for path in sorted((folder / NUMBERS).glob("*.jsonl")):
+            found += _problems(folder, path.stem, _lines(path))
+    return {one.id: one for one in found}
+
+
+def set_written(
+    folder: Path, name: str, every: Mapping[str, Sequence[Problem]], **more: Any
+) -> list[Path]:
+    """Write the lines of all families and the manifest; the numbers are there.
+
+    Parameters
+    ----------
+    folder : Path
+    name : str
+        Of the set, with its version.
+    every : mapping of str to sequence of Problem
+        Its families, in order.
+    more : object
+        What else the manifest says.
+    """
+    lines = "".join(json_text(_line(one)) + "\n" for part in every.values() for one in part)
+    written = [text_written(folder / FACTS, lines)]
+    for family in every:
+        _begun(folder, family).unlink(missing_ok=True)
+    families = {
+        family: {"count": len(part), "dial": ends(family)} for family, part in every.items()
+    }
+    head = {
+        "format": FORMAT,
+        "version": VERSION,
+        "name": name,
+        "count": sum(map(len, every.values())),
+        "families": families,
+        **more,
+        "files": [
+            {"path": path.relative_to(folder).as_posix(), "sha256": _hash(bytes_read(path))}
+            for path in [folder / FACTS, *(folder / NUMBERS / f"{one}.npz" for one in every)]
+        ],
+    }
+    return [*written, text_written(folder / MANIFEST, json.dumps(head, indent=1) + "\n")]
+
+
+def set_read(
+    folder: str | Path, families: Sequence[str] | None = None, ids: Sequence[str] | None = None
+) -> list[Problem]:
+    """The problems of a set, or of some of its families, or those of some names.
+
+    Raises
+    ------
+    InputError
+        If it is no set, a file is not the one that its manifest lists, or a name is unknown.
+    """
+    folder = Path(folder)
+    head = manifest(folder)
+    known = head["families"]
+    for name in families or ():
+        if name not in known:
+            raise InputError(f"is no family of the set; it has {', '.join(known)}", value=name)
+    found: list[Problem] = []
+    with readable(folder):
+        lines = _lines(folder / FACTS)
+        names = {line["id"] for line in lines}
+        for name in ids or ():
+            if name not in names:
+                raise InputError("is no problem of the set", field="id", value=name)
+        for family in known:
+            part = [line for line in lines if line["family"] == family]
+            wanted = ids is None or any(line["id"] in ids for line in part)
+            if (families is None or family in families) and wanted:
+                problems = _problems(folder, family, part)
+                found += [one for one in problems if ids is None or one.id in ids]
+    return found
+
+
+@contextmanager
+def readable(folder: Path) -> Iterator[None]:
+    """Say that the files are no set where reading them fails."""
+    try:
+        yield
+    except UNREADABLE as error:
+        if isinstance(error, InputError):
+            raise
+        words = f"{type(error).__name__}: {error}"
+        raise InputError(
+            f"holds files that are no set of problems: {words}"[:200], file=folder
+        ) from None
+
+
+def manifest(folder: Path) -> dict[str, Any]:
+    """The manifest of a set, every file of it checked against its hash.
+
+    Raises
+    ------
+    InputError
+        If it is missing or no manifest, or a file was changed.
+    """
+    path = folder / MANIFEST
+    if not path.exists():
+        raise InputError("holds no set of problems", file=folder)
+    try:
+        top = Fields(head := json_read(path))
+        top.check_format(FORMAT, VERSION)
+        top.table("families")
+        for i, entry in enumerate(top.sequence("files")):
+            one = Fields(entry, f"files[{i}]")
+            name, wanted = one.text("path"), one.text("sha256")
+            if name not in (FACTS, *(f"{NUMBERS}/{family}.npz" for family in head["families"])):
+                raise one.fail("path", "is no file of a set", name)
+            if _hash(bytes_read(folder / name)) != wanted:
+                raise one.fail("sha256", "is not that of the file, which was changed", name)
+    except InputError as error:
+        raise error.in_file(path) from None
+    return dict(head)
+
+
+def _begun(folder: Path, family: str) -> Path:
+    return folder / NUMBERS / f"{family}.jsonl"
+
+
+def _hash(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+def _line(one: Problem) -> dict[str, Any]:
+    units = {
+        "length": int(np.log2(one.units.length)),
+        "size": int(np.log2(one.units.size)),
+    }
+    farkas = {str(i): y for i, y in one.answer.farkas.items()} or None
+    return dict(one.facts) | {"log2_units": units, "farkas": farkas}
+
+
+def _lines(path: Path) -> list[dict[str, Any]]:
+    text = bytes_read(path).decode("utf-8")
+    return [json.loads(line) for line in text.splitlines()]
+
+
+def _flat(problems: Sequence[Problem]) -> dict[str, NDArray[Any]]:
+    """The numbers of a family, arrays of one kind after one another."""
+    parts: dict[str, list[NDArray[Any]]] = {}
+    for one in problems:
+        solved = not one.answer.farkas
+        for name in MATRICES:
+            M = getattr(one, name).sorted_indices()
+            parts.setdefault(f"{name}_values", []).append(M.data + 0.0)
+            parts.setdefault(f"{name}_columns", []).append(M.indices.astype(np.uint16))
+            parts.setdefault(f"{name}_entries", []).append(np.diff(M.indptr).astype(np.uint16))
+        exponents = np.log2(one.units.coordinate).astype(np.int16)
+        vectors: dict[str, NDArray[Any]] = {"g": one.g, "b": one.b, "coordinate": exponents}
+        answers = {name: getattr(one.answer, name) + 0.0 for name in (*ANSWER_N, *ANSWER_M)}
+        for name, values in (vectors | answers if solved else vectors).items():
+            parts.setdefault(name, []).append(values)
+    return {name: np.concatenate(arrays) for name, arrays in parts.items()}
+
+
+def _archive(arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """An .npz of them, packed by LZMA: NumPy opens it as any other."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_LZMA) as archive:
+        for name, array in arrays.items():
+            part = io.BytesIO()
+            np.lib.format.write_array(part, array, version=(1, 0))
+            info = zipfile.ZipInfo(f"{name}.npy", DATE)
+            archive.writestr(info, part.getvalue(), zipfile.ZIP_LZMA)
+    return content.getvalue()
+
+
+def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> list[Problem]:
+    path = folder / NUMBERS / f"{family}.npz"
+    arrays = npz_arrays(path, "the numbers of a family")
+    at = dict.fromkeys(arrays, 0)
+
+    def taken(name: str, size: int) -> NDArray[Any]:
+        first, last = at[name], at[name] + size
+        if last > len(arrays[name]):
+            raise InputError(f"has too few numbers of {name}", file=path)
+        at[name] = last
+        return arrays[name][first:last]
+
+    def matrix(name: str, rows: int, columns: int) -> csr_matrix:
+        starts = np.concatenate([[0], np.cumsum(taken(f"{name}_entries", rows), dtype=np.int64)])
+        count = int(starts[-1])
+        values, places = taken(f"{name}_values", count), taken(f"{name}_columns", count)
+        return csr_matrix((values, places.astype(np.int32), starts), shape=(rows, columns))
+
+    def one(line: Mapping[str, Any]) -> Problem:
+        n, m, solved = line["n"], line["m"], line["farkas"] is None
+        H, A = matrix("H", n, n), matrix("A", m, n)
+        g, b = taken("g", n), taken("b", m)
+        S = np.exp2(taken("coordinate", n).astype(np.float64))
+        own = line["log2_units"]
+        units = Units(S, 2.0 ** own["length"], 2.0 ** own["size"])
+        said = line["answer"]
+        x, net, slack, lam = (
+            taken(name, size if solved else 0) if name in arrays else np.zeros(0)
+            for name, size in (("x", n), ("net", n), ("slack", m), ("lam", m))
+        )
+        farkas = {int(i): y for i, y in (line["farkas"] or {}).items()}
+        answer = Answer(said["kind"], said["error"], x, net, slack, lam, farkas, said["walks"],
+                        said["unique_multipliers"], said["differentiable"])  # fmt: skip
+        facts = {key: v for key, v in line.items() if key not in ("log2_units", "farkas")}
+        return Problem(facts, H, g, A, b, units, answer)
+
+    problems = [one(line) for line in lines]
+    if any(at[name] != len(array) for name, array in arrays.items()):
+        raise InputError("has more numbers than problems", file=path)
+    return problems

@@ -1,0 +1,147 @@
+"""The problems of a study: taken from a set, or made from a seed, and kept in its folder."""
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.lab.study.problems.families.drawn import drawn, scenarios_run
+from quasistatic_ref.lab.study.problems.families.harvest import Count, scenario_of
+from quasistatic_ref.lab.study.problems.folder import (
+    MANIFEST,
+    family_written,
+    manifest,
+    set_read,
+    set_written,
+)
+from quasistatic_ref.lab.study.problems.making import Family, Kept, problem_of, set_made
+from quasistatic_ref.lab.study.problems.problem import INFEASIBLE, Problem
+from quasistatic_ref.lab.study.problems.selection import problems_taken, set_identity
+
+FOLDER: Final = "problems"
+"""Within that of a study."""
+
+
+@dataclass(frozen=True)
+class TestSet:
+    """Which problems.
+
+    Parameters
+    ----------
+    seed : int
+    families : mapping of str to int
+        Number of problems of each.
+    scenarios : tuple of str
+        Those that are harvested.
+    source : str
+        The set of problems that they are taken from: a name, or a folder; else they are made.
+    most : mapping of str to float
+        Where the dials of families end [the unit of each]; else at their hard ends.
+    """
+
+    __test__ = False  # no test of pytest's
+
+    seed: int
+    families: Mapping[str, int]
+    scenarios: tuple[str, ...]
+    source: str = ""
+    most: Mapping[str, float] = field(default_factory=dict)
+
+
+def study_problems(test_set: TestSet, study: str | Path, progress: bool = True) -> list[Problem]:
+    """The problems of a test set: those in the folder of a study, or taken or made, and kept there.
+
+    Parameters
+    ----------
+    test_set : TestSet
+    study : str or Path
+        The folder of the study.
+    progress : bool
+        Whether to show a bar on standard error, where that is a terminal.
+
+    Raises
+    ------
+    InputError
+        If the folder holds another test set.
+    KeyboardInterrupt
+        After Ctrl-C. The problems made so far are kept.
+    """
+    folder = Path(study) / FOLDER
+    made_of = _made_of(test_set)
+    if (folder / MANIFEST).exists():
+        if manifest(folder).get("made_of") != json.loads(json_text(made_of)):
+            words = "holds another test set; choose another folder with --out, or remove this one"
+            raise InputError(words, file=folder)
+        return set_read(folder)
+    if test_set.source:
+        taken = problems_taken(test_set.source, test_set.families, test_set.most)
+        every: dict[str, list[Problem]] = {}
+        for one in taken:
+            every.setdefault(str(one.facts["family"]), []).append(one)
+        for family, own in every.items():
+            family_written(folder, family, own)
+        set_written(folder, FOLDER, every, made_of=made_of)
+        return taken
+    counts = {name: count for name, count in test_set.families.items() if count}
+    runs = [
+        name for one, n in counts.items() for name in scenarios_run({one: n}, test_set.scenarios)
+    ]
+    total = sum(counts.values()) + sum(scenario_of(name).steps for name in runs)
+    families = {name: _family(test_set, name, count) for name, count in counts.items()}
+    return set_made(FOLDER, families, folder, total, progress, made_of=made_of)
+
+
+def _family(test_set: TestSet, family: str, count: int) -> Family:
+    def problems(kept: Kept, count_steps: Count) -> Iterator[Problem]:
+        most = test_set.most.get(family)
+        for one in drawn(family, count, test_set.seed, test_set.scenarios, most, count_steps):
+            yield problem_of(one, kept)
+
+    return problems
+
+
+def _made_of(test_set: TestSet) -> dict[str, Any]:
+    """What tells one test set from another."""
+    return {
+        "seed": test_set.seed,
+        "asked": dict(test_set.families),
+        "scenarios": list(test_set.scenarios),
+        "most": dict(test_set.most),
+        "set": set_identity(test_set.source) if test_set.source else None,
+    }
+
+
+def problems_record(problems: Sequence[Problem]) -> dict[str, Any]:
+    """How many problems of which family there are, and their fingerprint."""
+    families: dict[str, int] = {}
+    digest = hashlib.sha256()
+    for one in problems:
+        families[one.facts["family"]] = families.get(one.facts["family"], 0) + 1
+        for numbers in (one.H.toarray(), one.g, one.A.toarray(), one.b, one.answer.x):
+            digest.update((numbers + 0.0).tobytes())
+        digest.update(json_text({str(k): v for k, v in one.answer.farkas.items()}).encode())
+    return {
+        "count": len(problems),
+        "exact": sum(fact_of(one)["kind"] == "exact" for one in problems),
+        "families": families,
+        "sha256": digest.hexdigest(),
+    }
+
+
+def fact_of(problem: Problem) -> dict[str, Any]:
+    """What a store keeps of a problem."""
+    facts, answer = problem.facts, problem.answer
+    names = ("id", "family", "contacts", "mass_ratio", "h", "k", "n", "m")
+    sequence = facts["sequence"] or {}
+    return {
+        **{name: facts[name] for name in names},
+        **{name: facts["measures"][name] for name in ("condition", "condition_natural")},
+        "kind": answer.kind if problem.feasible else INFEASIBLE,
+        "bound": answer.error,
+        "sequence": sequence.get("name"),
+        "place": sequence.get("place"),
+    }

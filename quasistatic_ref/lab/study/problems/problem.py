@@ -1,0 +1,123 @@
+"""One quadratic program of contact: its numbers without zeros, its answer, what is known of it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from quasistatic_ref.solve.units import Units
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import StandardForm
+
+QP, SOCP = "qp", "socp"
+"""Rows A x >= b; or blocks of four, (A x - b)_0 >= |(A x - b)_1:3|."""
+OPTIMAL, INFEASIBLE = "optimal", "infeasible"
+EXACT, ENCLOSED, BOUNDED = "exact", "enclosed", "bounded"
+"""How an answer is known: rounded correctly; off by rounding at most; off by a proved bound."""
+RAW, NATURAL = UNITS = ("raw", "natural")
+SPARSE = "sparse"
+"""The tag of problems that are too large to be dense."""
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What is known of a solution.
+
+    Parameters
+    ----------
+    kind : str
+        ``"exact"``, ``"enclosed"`` or ``"bounded"``.
+    error : float
+        ||x - x*||_H / ||H^-1 g||_H is at most that [-]; 0.0 where only rounding is between.
+    x, net : ndarray, shape (n,)
+        The optimum [m, rad], and A'lam [N s, N m s].
+    slack, lam : ndarray, shape (m,)
+        A x - b [m], and multipliers [N s], which are one choice of many.
+    farkas : mapping of int to str
+        Of an infeasible problem, in place of the rest: y_i > 0 by row as ``"p/q"``, with A'y = 0
+        and b'y > 0 without rounding.
+    walks : int
+        Rows that the exact method adds from no rows; 0 where it was not used.
+    unique, differentiable : bool or None
+        Whether lam is the only one, and x is differentiable with respect to g; None: not known.
+    """
+
+    kind: str
+    error: float
+    x: Array
+    net: Array
+    slack: Array
+    lam: Array
+    farkas: Mapping[int, str]
+    walks: int = 0
+    unique: bool | None = None
+    differentiable: bool | None = None
+
+    @property
+    def status(self) -> str:
+        """``"optimal"`` or ``"infeasible"``."""
+        return INFEASIBLE if self.farkas else OPTIMAL
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """min 1/2 x'Hx - g'x subject to A x >= b, or to cones, in SI units.
+
+    Parameters
+    ----------
+    facts : mapping
+        Its line of ``problems.jsonl``.
+    H, A : csr_matrix, shapes (n, n) and (m, n)
+    g, b : ndarray, shapes (n,) and (m,)
+    units : Units
+        Natural ones, powers of two: part of the set, so that they are the same everywhere.
+    answer : Answer
+        In SI units.
+    """
+
+    facts: Mapping[str, Any]
+    H: csr_matrix
+    g: Array
+    A: csr_matrix
+    b: Array
+    units: Units
+    answer: Answer
+
+    @property
+    def id(self) -> str:
+        """Its name."""
+        return str(self.facts["id"])
+
+    @property
+    def feasible(self) -> bool:
+        """Whether it has a solution."""
+        return not self.answer.farkas
+
+    @property
+    def dense(self) -> bool:
+        """Whether it has rows, and so few that solvers of dense matrices take it."""
+        return self.facts["kind"] == QP and SPARSE not in self.facts["tags"]
+
+    @property
+    def natural(self) -> "Problem":
+        """The same in natural units, without rounding; Farkas vectors are those of SI units."""
+        S, ell, rho = self.units.coordinate, self.units.length, self.units.size
+        a, one = self.answer, Units(np.ones(len(S)), 1.0, 1.0)
+        lam_unit = ell / rho
+        if a.farkas:
+            answer = a
+        else:
+            slack, lam = a.slack / (rho * ell), a.lam * lam_unit
+            answer = Answer(a.kind, a.error, a.x / (rho * S), a.net * S / rho, slack, lam, {},
+                            a.walks, a.unique, a.differentiable)  # fmt: skip
+        H = csr_matrix(self.H.multiply(S).multiply(S[:, None]))
+        A = csr_matrix(self.A.multiply(S / ell))
+        g, b = self.g * (S / rho), self.b / (rho * ell)
+        return Problem(self.facts, H, g, A, b, one, answer)
+
+    @property
+    def form(self) -> StandardForm:
+        """H, g, A, b as dense arrays."""
+        return StandardForm(self.H.toarray(), self.g, self.A.toarray(), self.b)

@@ -1,0 +1,105 @@
+"""The problems of a study that are taken from a set, evenly along the dial of each family."""
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import bytes_read
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.study.problems.families.dials import ends
+from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest, set_read
+from quasistatic_ref.lab.study.problems.problem import Problem
+
+CONTACT_QP_1 = "contact-qp-1"
+
+
+def set_folder(source: str) -> Path:
+    """The folder of a set: that which comes along by its name, or a folder.
+
+    Raises
+    ------
+    InputError
+        If there is neither.
+    """
+    if source == CONTACT_QP_1:
+        return problem_set_folder()
+    if not Path(source).is_dir():
+        hint = suggestion(source, [CONTACT_QP_1])
+        raise InputError(f"is neither a folder nor a set that comes along{hint}", value=source)
+    return Path(source)
+
+
+def set_identity(source: str) -> dict[str, Any]:
+    """Name of a set, and the hash of its manifest: what a store says it took problems from."""
+    folder = set_folder(source)
+    content = bytes_read(folder / MANIFEST)
+    return {"name": manifest(folder)["name"], "sha256": hashlib.sha256(content).hexdigest()}
+
+
+def problems_taken(
+    source: str, families: Mapping[str, int], most: Mapping[str, float]
+) -> list[Problem]:
+    """The problems that a study takes from a set.
+
+    Parameters
+    ----------
+    source : str
+        A name, or a folder.
+    families : mapping of str to int
+        How many of each.
+    most : mapping of str to float
+        Where dials end.
+
+    Raises
+    ------
+    InputError
+        If a family is not there, or has cones or sparse matrices, for which studies have no place.
+    """
+    wanted = {name: count for name, count in families.items() if count}
+    every = set_read(set_folder(source), list(wanted))
+    found: list[Problem] = []
+    for family, count in wanted.items():
+        own = [one for one in every if one.facts["family"] == family]
+        if not all(one.dense for one in own):
+            words = "has cones or sparse matrices; studies contain dense rows only"
+            raise InputError(words, field="problems.families", value=family)
+        found += chosen(own, family, count, most.get(family))
+    return found
+
+
+def chosen(
+    own: Sequence[Problem], family: str, count: int, most: float | None = None
+) -> list[Problem]:
+    """Some problems of a family, evenly along its dial; of sequences whole ones, in order.
+
+    Parameters
+    ----------
+    own : sequence of Problem
+        All of the family.
+    family : str
+    count : int
+        At most so many.
+    most : float, optional
+        Where the dial ends [its unit].
+    """
+    dial = ends(family)
+    if most is not None and dial is not None:
+        up = dial["first"] < dial["most"]
+        own = [one for one in own if (one.facts["dial"] <= most) == up or one.facts["dial"] == most]
+    if own and own[0].facts["sequence"] is not None:
+        names = list(dict.fromkeys(one.facts["sequence"]["name"] for one in own))
+        length = len(own) // len(names)
+        kept = {names[i] for i in _evenly(len(names), max(count // length, 1))}
+        return [one for one in own if one.facts["sequence"]["name"] in kept]
+    order = own if dial is None else sorted(own, key=lambda one: float(one.facts["dial"]))
+    return [order[i] for i in _evenly(len(order), count)]
+
+
+def _evenly(there: int, count: int) -> list[int]:
+    places = np.linspace(0, there - 1, min(count, there)).round().astype(int)
+    return [int(i) for i in np.unique(places)]

@@ -1,0 +1,37 @@
+"""The report on a store, as data; drawing and writing it is the command's."""
+
+from pathlib import Path
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.page.parts import Report
+from quasistatic_ref.lab.study.report.solver_report import solver_report
+from quasistatic_ref.lab.study.report.sweep_report import sweep_report
+from quasistatic_ref.lab.study.store.store import UNREADABLE, contents
+
+
+def study_report(folder: str | Path) -> Report:
+    """The report on a store.
+
+    Parameters
+    ----------
+    folder : str or Path
+
+    Returns
+    -------
+    Report
+
+    Raises
+    ------
+    InputError
+        If there is no store, or nothing in it yet.
+    """
+    found = contents(folder)
+    if not found.rows:
+        raise InputError("holds no rows yet; run the study first", file=folder)
+    try:
+        if found.study["kind"] == "sweep":
+            return sweep_report(found.study, found.rows)
+        return solver_report(found)
+    except UNREADABLE as error:
+        words = " ".join(f"holds what no study has written: {type(error).__name__} {error}".split())
+        raise InputError(words[:200], file=folder) from error

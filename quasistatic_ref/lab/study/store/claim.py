@@ -1,0 +1,89 @@
+"""A study that goes on in its folder: what may have changed since it was begun, and what not."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.errors import InputError
+
+PASSING = ("load",)
+"""What is of the moment, and not of the machine."""
+SAME = ("kind", "time_limit", "budget", "warm_up", "memory", "repetitions", "problems", "sweeps")
+"""What rows are comparable under, besides settings and options."""
+Differs = Callable[[str], InputError]
+"""What differs -> the error that says so."""
+
+
+def continued(there: Mapping[str, Any], wanted: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """What a store of a study that goes on holds: solvers may come, and go.
+
+    Parameters
+    ----------
+    there : mapping
+        What the folder holds.
+    wanted : mapping
+        What the study file gives today.
+    folder : Path
+
+    Returns
+    -------
+    dict
+        `wanted`, with the settings, versions and machine of the rows that are there; solvers that
+        are no longer in the study file are not ``present``.
+
+    Raises
+    ------
+    InputError
+        If rows of today could not be compared with those that are there.
+    """
+    if "machines" in there:
+        problem = "holds merged results, which no machine continues; choose another with --out"
+        raise InputError(problem, file=folder)
+
+    def differs(name: str) -> InputError:
+        words = f"holds a study that was begun with another {name!r}; choose another folder with "
+        return InputError(f"{words}--out, or remove this one", file=folder)
+
+    both = joined(there, wanted, differs)
+    labels = {label(solver) for solver in wanted.get("solvers", ())}
+    for solver in both["solvers"]:
+        solver["present"] = label(solver) in labels
+    places = {}
+    for name in ("machine", "versions"):
+        if lasting(there[name], wanted[name]) != lasting(wanted[name], there[name]):
+            raise differs(name)
+        places[name] = {**wanted[name], **there[name]}
+    return {**wanted, **both, **places}
+
+
+def joined(one: Mapping[str, Any], other: Mapping[str, Any], differs: Differs) -> dict[str, Any]:
+    """Settings and solvers of two studies, each solver with the options of every setting."""
+    for name in SAME:
+        if (one.get(name) or None) != (other.get(name) or None):
+            raise differs(name)
+    settings = {setting["name"]: setting for setting in one["settings"]}
+    for setting in other.get("settings", ()):
+        if settings.setdefault(setting["name"], setting) != setting:
+            raise differs(f"setting {setting['name']}")
+    solvers = {label(solver): dict(solver) for solver in one["solvers"]}
+    for solver in other.get("solvers", ()):
+        own = solvers.setdefault(label(solver), dict(solver))
+        new = solver["options"]
+        if own["target"] != solver["target"] or any(
+            own["options"].get(name, value) != value for name, value in new.items()
+        ):
+            raise differs(f"solver or options {label(solver)}")
+        own["options"] = {**own["options"], **new}
+        own["present"] = own.get("present", True) or solver.get("present", True)
+    order = dict.fromkeys([*map(label, other.get("solvers", ())), *solvers])
+    return {"settings": list(settings.values()), "solvers": [solvers[name] for name in order]}
+
+
+def label(solver: Mapping[str, Any]) -> str:
+    """``interface:name`` of a solver of a study."""
+    return f"{solver['interface']}:{solver['name']}"
+
+
+def lasting(facts: Mapping[str, Any], shared: Sequence[str] | Mapping[str, Any]) -> dict[str, Any]:
+    """Facts that both have, without those of the moment."""
+    return {name: v for name, v in facts.items() if name in shared and name not in PASSING}

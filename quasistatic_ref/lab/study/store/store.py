@@ -1,0 +1,349 @@
+"""The store of a study: one SQLite file in its folder, or the same tables packed, to be kept.
+
+Rows are added in transactions: whatever ends the program, those that were added are there, whole.
+What is read is first copied into a store in memory, whose schema refuses what no study has written.
+"""
+
+import fcntl
+import json
+import lzma
+import os
+import sqlite3
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import bytes_read, json_text
+from quasistatic_ref.lab.study.store.claim import continued, label
+from quasistatic_ref.lab.study.store.rows import Row, flat, key_of, label_of, nested
+
+STORE, PACKED = "study.sqlite", "study.json.xz"
+FORMAT, VERSION = "quasistatic-ref/study-store", 3
+"""Versions 1 and 2 were lines of JSON."""
+SCHEMA: Final = (Path(__file__).parent / "schema.sql").read_text("utf-8")
+TABLES: Final = ("study", "machines", "settings", "solvers", "options", "problems", "unreached",
+                 "sweeps", "rows", "runs")  # fmt: skip
+ABOUT: Final = ("study", "machines", "settings", "solvers", "options", "problems", "sweeps")
+"""Tables that say what is studied."""
+APART: Final = ("kind", "time_limit", "settings", "solvers", "sweeps", "machine", "versions",
+                "machines")  # fmt: skip
+"""What has a table or a column of its own; the rest of a study is JSON."""
+Line = tuple[Any, ...]
+LARGEST_UNPACKED: Final = 256 * 2**20
+"""Largest size of packed tables [bytes]: those of the study 'default' have 12 MiB."""
+MEMORY: Final = 128 * 2**20
+"""What the unpacking itself may take [bytes]: 65 MiB at the strongest setting."""
+UNREADABLE: Final = (sqlite3.Error, ValueError, TypeError, KeyError, AttributeError, IndexError,
+                     OverflowError, RecursionError)  # fmt: skip
+"""What reading raises of files that no study has written."""
+
+
+@dataclass(frozen=True, eq=False)
+class Contents:
+    """What a store holds.
+
+    Parameters
+    ----------
+    study : dict
+        ``kind``, the limits, ``settings``, ``solvers``, ``sweeps``, ``machine`` and ``versions``;
+        of a merged store, in which these two are by the names in ``machines``.
+    rows : list of dict
+        Sorted by their keys.
+    problems : list of dict
+        Facts of each.
+    unreached : dict of str to str
+        Solvers that could not be imported, with the reason.
+    """
+
+    study: dict[str, Any]
+    rows: list[Row]
+    problems: list[Row]
+    unreached: dict[str, str]
+
+
+class Store:
+    """A store opened for writing, by one program at a time.
+
+    Parameters
+    ----------
+    folder : Path
+    study : mapping
+        What it is a store of, as :class:`Contents` says. A folder that holds another is refused.
+    problems : sequence of mapping
+        Facts of each.
+
+    Raises
+    ------
+    InputError
+        If the folder holds another study, is in use, or cannot be read.
+    """
+
+    def __init__(
+        self,
+        folder: str | Path,
+        study: Mapping[str, Any],
+        problems: Sequence[Mapping[str, Any]] = (),
+    ) -> None:
+        self.path, wanted = Path(folder) / STORE, json.loads(json_text(study))
+        self._folder = os.open(folder, os.O_RDONLY)
+        try:
+            fcntl.flock(self._folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            os.close(self._folder)
+            raise InputError(
+                "is being written by another run; wait for its end", file=folder
+            ) from (None)
+        try:
+            there = contents(folder, every=True) if self.path.exists() else None
+            claimed = wanted if there is None else continued(there.study, wanted, Path(folder))
+            self.rows = [] if there is None else there.rows
+            with self._written():
+                self._tables = sqlite3.connect(self.path)
+                self._tables.execute("PRAGMA foreign_keys = ON")
+                if there is None:
+                    self._tables.executescript(SCHEMA)
+            with self._written(), self._tables:
+                about_written(self._tables, claimed, problems)
+        except BaseException:
+            os.close(self._folder)
+            raise
+
+    @property
+    def keys(self) -> set[tuple[Any, ...]]:
+        """Keys of the measurements that are there."""
+        return set(map(key_of, self.rows))
+
+    def add(self, *rows: Row) -> None:
+        """Add measurements; all of them are in the file when this returns, or none.
+
+        Raises
+        ------
+        InputError
+            If they cannot be written, as on a full disk; the rows before them are kept.
+        """
+        with self._written(), self._tables:
+            for row in rows:
+                row_put(self._tables, row)
+        self.rows += rows
+
+    def unreached(self, reasons: Mapping[str, str]) -> None:
+        """Keep which solvers could not be imported, and why; a later run tries them again."""
+        with self._written(), self._tables:
+            self._tables.execute("DELETE FROM unreached")
+            for solver, reason in reasons.items():
+                put(self._tables, "unreached", {"solver": solver, "reason": reason})
+
+    @contextmanager
+    def _written(self) -> Iterator[None]:
+        try:
+            yield
+        except sqlite3.Error as error:
+            remedy = "its rows are kept; make room, and run the study again to go on"
+            raise InputError(f"cannot be written: {error}; {remedy}", file=self.path) from None
+
+    def close(self) -> None:
+        """Close the file, and let others write."""
+        self._tables.close()
+        os.close(self._folder)
+
+    def __enter__(self) -> "Store":
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()
+
+
+def contents(folder: str | Path, every: bool = False) -> Contents:
+    """What a store holds, packed or not.
+
+    Parameters
+    ----------
+    folder : str or Path
+    every : bool
+        Whether solvers that are no longer in the study file are among its solvers, and their rows
+        among the rows.
+
+    Raises
+    ------
+    InputError
+        If there is no store, or one that no study has written.
+    """
+    folder = Path(folder)
+    path = next((folder / name for name in (STORE, PACKED) if (folder / name).exists()), None)
+    if path is None:
+        raise InputError("holds no store of a study", file=folder)
+    with closing(sqlite3.connect(":memory:")) as tables:
+        tables.executescript(SCHEMA)
+        try:
+            with tables:
+                for name, columns, lines in (_unpacked if path.name == PACKED else _stored)(path):
+                    inserted(tables, name, columns, lines)
+            return _contents(tables, every)
+        except UNREADABLE as error:
+            if isinstance(error, InputError):
+                raise
+            words = " ".join(f"holds what no study has written: {error}".split())[:200]
+            raise InputError(words, file=path) from None
+
+
+def packed_tables(tables: Mapping[str, Mapping[str, list[Any]]]) -> bytes:
+    """A packed store of some tables, column by column."""
+    head = {"format": FORMAT, "version": VERSION, "tables": tables}
+    text = json.dumps(head, separators=(",", ":"), allow_nan=False)
+    return lzma.compress(text.encode(), preset=9 | lzma.PRESET_EXTREME)
+
+
+def about_written(
+    tables: sqlite3.Connection, study: Mapping[str, Any], problems: Sequence[Mapping[str, Any]]
+) -> None:
+    """Write what is studied, in place of what stands there."""
+    for name in reversed(ABOUT):
+        tables.execute(f"DELETE FROM {name}")
+    facts = {name: value for name, value in study.items() if name not in APART}
+    head = {"kind": study["kind"], "time_limit": study.get("time_limit"), "facts": facts}
+    put(tables, "study", head)
+    if "machines" in study:
+        for name in study["machines"]:
+            own = {"facts": study["machine"][name], "versions": study["versions"][name]}
+            put(tables, "machines", {"name": name, **own})
+    else:
+        own = {"facts": study["machine"], "versions": study["versions"]}
+        put(tables, "machines", {"name": "", **own})
+    for solver in study.get("solvers", ()):
+        names = {"interface": solver["interface"], "name": solver["name"]}
+        present = solver.get("present", True)
+        put(tables, "solvers", {**names, "target": solver["target"], "present": present})
+        for setting, options in solver["options"].items():
+            names = {"interface": solver["interface"], "solver": solver["name"]}
+            put(tables, "options", {**names, "setting": setting, "options": options})
+    for name, records in (
+        ("settings", study.get("settings", ())),
+        ("problems", problems),
+        ("sweeps", study.get("sweeps", ())),
+    ):
+        for record in records:
+            put(tables, name, record)
+
+
+def row_put(tables: sqlite3.Connection, row: Row) -> None:
+    """Add a row, of solvers or of a sweep."""
+    if "sweep" not in row:
+        put(tables, "rows", {"machine": "", **row})
+        return
+    names = ("sweep", "scenario", "outcome", "reason", "measures")
+    run = {name: row[name] for name in names}
+    put(tables, "runs", {**run, "point": row["values"], "seconds": row["seconds"]["call"]})
+
+
+def put(tables: sqlite3.Connection, name: str, record: Mapping[str, Any]) -> None:
+    """Add a record to a table."""
+    columns = flat(record)
+    inserted(tables, name, list(columns), [tuple(columns.values())])
+
+
+def inserted(
+    tables: sqlite3.Connection, name: str, columns: Sequence[str], lines: Iterable[Line]
+) -> None:
+    """Add lines to a table."""
+    if not all(column.isidentifier() for column in columns):
+        raise ValueError("a column without a name")
+    if columns:
+        marks = ", ".join("?" * len(columns))
+        tables.executemany(f"INSERT INTO {name} ({', '.join(columns)}) VALUES ({marks})", lines)
+
+
+def lines_of(tables: sqlite3.Connection, name: str) -> tuple[list[str], Iterable[Line]]:
+    """Columns and lines of a table."""
+    found = tables.execute(f"SELECT * FROM {name}")
+    return [column[0] for column in found.description], found
+
+
+def records_of(tables: sqlite3.Connection, name: str) -> Iterator[Row]:
+    """The records of a table."""
+    columns, lines = lines_of(tables, name)
+    for line in lines:
+        yield nested(dict(zip(columns, line, strict=True)))
+
+
+def _stored(path: Path) -> Iterator[tuple[str, list[str], Iterable[Line]]]:
+    """Every table of a file of SQLite, with its columns and lines."""
+    with closing(sqlite3.connect(path)) as there:
+        for name in TABLES:
+            yield name, *lines_of(there, name)
+
+
+def _unpacked(path: Path) -> Iterator[tuple[str, list[str], Iterable[Line]]]:
+    """Every packed table, with its columns and lines."""
+    head = json.loads(_decompressed(path))
+    if (head["format"], head["version"]) != (FORMAT, VERSION):
+        raise ValueError("another format or version")
+    for name in TABLES:
+        columns = head["tables"][name]
+        yield name, list(columns), zip(*columns.values(), strict=True)
+
+
+def _decompressed(path: Path) -> bytes:
+    """The content of an xz file, unless it is larger than any study's."""
+    stream = lzma.LZMADecompressor(lzma.FORMAT_XZ, memlimit=MEMORY)
+    try:
+        content = stream.decompress(bytes_read(path), LARGEST_UNPACKED + 1)
+    except lzma.LZMAError:
+        content = b""
+    if len(content) > LARGEST_UNPACKED:
+        raise InputError(f"unpacks to more than {LARGEST_UNPACKED / 2**20:g} MiB", file=path)
+    if not stream.eof:
+        raise InputError("is no xz file, or was cut off; copy it again", file=path)
+    return content
+
+
+def _contents(tables: sqlite3.Connection, every: bool) -> Contents:
+    found = {name: list(records_of(tables, name)) for name in TABLES}
+    (head,) = found["study"]
+    solvers = [_solver(one, found["options"]) for one in found["solvers"]]
+    study = {
+        **head["facts"],
+        "kind": head["kind"],
+        "time_limit": head["time_limit"],
+        "settings": found["settings"],
+        "sweeps": found["sweeps"],
+        "solvers": [one for one in solvers if every or one["present"]],
+        **_machines(found["machines"]),
+    }
+    labels = set(map(label, study["solvers"]))
+    rows = [row for row in found["rows"] if label_of(row) in labels]
+    if "machines" not in study:
+        for row in rows:
+            del row["machine"]
+    rows += [_run(run) for run in found["runs"]]
+    unreached = {one["solver"]: one["reason"] for one in found["unreached"]}
+    return Contents(study, sorted(rows, key=key_of), found["problems"], unreached)
+
+
+def _run(record: Row) -> Row:
+    names = ("sweep", "scenario", "outcome", "reason", "measures")
+    seconds = {"call": record["seconds"]}
+    return {**{n: record[n] for n in names}, "values": record["point"], "seconds": seconds}
+
+
+def _solver(record: Row, options: Iterable[Row]) -> Row:
+    """A solver with its options by setting."""
+    own = {
+        one["setting"]: one["options"]
+        for one in options
+        if (one["interface"], one["solver"]) == (record["interface"], record["name"])
+    }
+    return record | {"options": own}
+
+
+def _machines(records: list[Row]) -> Row:
+    """Machine and versions; of merged stores by the names of the machines."""
+    if [one["name"] for one in records] == [""]:
+        return {"machine": records[0]["facts"], "versions": records[0]["versions"]}
+    return {
+        "machines": [one["name"] for one in records],
+        "machine": {one["name"]: one["facts"] for one in records},
+        "versions": {one["name"]: one["versions"] for one in records},
+    }
