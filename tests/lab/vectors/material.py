@@ -1,10 +1,7 @@
-"""The committed vectors and the NumPy runner, for the tests of the checker."""
+"""The committed vectors, for the tests of the checker."""
 
 import functools
-import importlib
 import json
-import sys
-import tomllib
 from pathlib import Path
 
 from quasistatic_ref.lab.vectors.check.answers import Answers
@@ -14,10 +11,9 @@ from quasistatic_ref.lab.vectors.layers import LAYERS
 
 ROOT = Path(__file__).parents[3]
 VECTORS = ROOT / "validation" / "vectors"
-RUNNERS = ROOT / "validation" / "runners"
 JAVASCRIPT = LAYERS[1:7]
 NUMPY = LAYERS[:8]
-"""Layers that the runners answer."""
+"""Layers that the runner in JavaScript and the plain program answer."""
 
 
 @functools.cache
@@ -53,28 +49,6 @@ def report_on(layer, outputs, **declared):
     given = [case for case in cases(layer) if case.id in outputs]
     known = {case.id: expected(layer)[case.id] for case in given}
     return layer_report(layer, given, known, Answers(outputs, "test", **declared))
-
-
-@functools.cache
-def runner(name="numpy_runner"):
-    """A module of the NumPy runner."""
-    if str(RUNNERS) not in sys.path:
-        sys.path.insert(0, str(RUNNERS))
-    return importlib.import_module(name)
-
-
-def runner_answers(layer, change=lambda case: case):
-    """What the NumPy runner answers to some cases of a layer, their inputs changed."""
-    module = runner()
-    solve = getattr(module, layer)
-    return {case.id: module.plain(solve(change(case.input))) for case in small_cases(layer)}
-
-
-@functools.cache
-def planted_bugs():
-    """The mistakes that are put into the runners; not to be changed."""
-    text = (ROOT / "validation" / "planted" / "bugs.toml").read_text(encoding="utf-8")
-    return {bug["name"]: bug for bug in tomllib.loads(text)["bug"]}
 
 
 def answer_file(folder, layer, outputs, **head):

@@ -1,11 +1,13 @@
-"""Derivatives of the NumPy runner's step by differences in float64: no code of the package."""
+"""Derivatives of the plain program's step by differences in float64: no code of the package."""
 
 import copy
 from unittest import mock
 
 import numpy as np
 
-from tests.lab.vectors.material import runner
+from quasistatic_ref.lab.vectors.program import step
+from quasistatic_ref.lab.vectors.program.integration import difference, moved
+from quasistatic_ref.lab.vectors.program.mechanism import kinematics, slices
 
 EPS = 1e-5
 """Rounding of q+, 1e-16, is 1e-11 of a quotient, and eps^4 next to nothing."""
@@ -15,7 +17,7 @@ WEIGHTS = ((1, 8 / 12), (2, -1 / 12))
 
 def parts(case):
     """Body, entries of q and entries of delta_q of each joint that has any."""
-    at, _, n_v = runner("runner_mechanism").slices(case["mechanism"])
+    at, _, n_v = slices(case["mechanism"])
     bodies = [body for body in case["mechanism"]["bodies"] if body["name"] in at]
     found = [(body, *at[body["name"]]) for body in bodies]
     return [one for one in found if one[2].stop > one[2].start], n_v
@@ -26,7 +28,7 @@ def plus(case, q, way):
     after = np.array(q, dtype=float)
     for body, entries, columns in parts(case)[0]:
         if entries.stop <= len(after):
-            after[entries] = runner("runner_mechanism").moved(body, after[entries], way[columns])
+            after[entries] = moved(body, after[entries], way[columns])
     return after
 
 
@@ -35,27 +37,27 @@ def minus(case, q, other):
     joints, n_v = parts(case)
     found = np.zeros(n_v)
     for body, entries, columns in joints:
-        found[columns] = runner("runner_mechanism").difference(body, q[entries], other[entries])
+        found[columns] = difference(body, q[entries], other[entries])
     return found
 
 
 def q_next(case):
-    """Configuration after a step of the runner, with an additional generalised force in ``tau``."""
-    right = runner().masses
+    """Configuration after the program's step, with a further generalised force in ``tau``."""
+    right = step.masses
 
     def loaded(case, at, n_a, n_v):
         M, tau = right(case, at, n_a, n_v)
         return M, tau + case.get("tau", 0.0)
 
-    with mock.patch.object(runner(), "masses", loaded):
-        return np.array(runner().step(case)["q_next"])
+    with mock.patch.object(step, "masses", loaded):
+        return np.array(step.step(case)["q_next"])
 
 
 def held(case):
     """The case with its wrenches as the generalised force that they are at q."""
     _, n_v = parts(case)
-    at = runner().kinematics(case["mechanism"], np.array(case["q"]))
-    both = [runner().masses(c, at, 0, n_v)[1] for c in (case, {**case, "wrenches": []})]
+    at = kinematics(case["mechanism"], np.array(case["q"]))
+    both = [step.masses(c, at, 0, n_v)[1] for c in (case, {**case, "wrenches": []})]
     return {**case, "wrenches": [], "tau": both[0] - both[1]}
 
 

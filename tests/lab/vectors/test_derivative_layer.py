@@ -1,14 +1,17 @@
-"""Layer `derivative`: against float64 differences of the runner; kinks, and mistakes."""
+"""Layer `derivative`: against float64 differences of the plain program; kinks, and mistakes."""
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.lab.vectors.check.case import case_verdict
-from quasistatic_ref.lab.vectors.check.hypotheses import HYPOTHESES
+from quasistatic_ref.lab.vectors.check.mistakes import MISTAKES
 from quasistatic_ref.lab.vectors.converters import tangent_map
 from quasistatic_ref.lab.vectors.families.derivative_kinks import kink_cases
 from quasistatic_ref.lab.vectors.layers import layer
-from tests.lab.vectors.material import cases, expected, report_on, runner
+from quasistatic_ref.lab.vectors.program import step
+from quasistatic_ref.lab.vectors.program.candidates import tangents
+from quasistatic_ref.lab.vectors.program.mechanism import kinematics
+from tests.lab.vectors.material import cases, expected, report_on
 from tests.lab.vectors.slopes import EPS, MOVES, held, minus, parts, q_next, rate, slopes
 
 CHECKED = ("ball/pyramid", "forces/turned", "arm/passive_elbow", "planar/push",
@@ -131,9 +134,9 @@ def contacts_taken(change):
     """Derivatives of a step whose contacts are changed, given what they were at q."""
 
     def answer(case, monkeypatch):
-        right = runner().step_contacts
-        start = right(case, runner().kinematics(case["mechanism"], np.array(case["q"])))
-        before = runner().kinematics(case["mechanism"], np.array(case["q"]))
+        right = step.contacts_of
+        start = right(case, kinematics(case["mechanism"], np.array(case["q"])))
+        before = kinematics(case["mechanism"], np.array(case["q"]))
 
         def wrong(other, at):
             return [
@@ -142,7 +145,7 @@ def contacts_taken(change):
             ]
 
         with monkeypatch.context() as patch:
-            patch.setattr(runner(), "step_contacts", wrong)
+            patch.setattr(step, "contacts_of", wrong)
             return slopes(case)
 
     return answer
@@ -154,7 +157,7 @@ def carried(own, before, at, side):
 
 
 def framed(n):
-    d1, d2 = runner().tangents(n)
+    d1, d2 = tangents(n)
     return {"n": n, "d1": d1, "d2": d2}
 
 
@@ -187,7 +190,7 @@ def summed(case, monkeypatch):
     return np.eye(len(rates)) + np.column_stack(rates)
 
 
-MISTAKES = {
+PLANTED = {
     "normal frozen": contacts_taken(frozen),
     "contact point taken as material": contacts_taken(material),
     "curvature of one body only": contacts_taken(beta_flat),
@@ -196,12 +199,12 @@ MISTAKES = {
 }
 
 
-@pytest.mark.parametrize("mistake", MISTAKES)
+@pytest.mark.parametrize("mistake", PLANTED)
 def test_a_planted_mistake_is_found_and_named(mistake, monkeypatch):
     answers = {}
     for name in CURVED:
         case = case_of(name)
-        D = MISTAKES[mistake](case.input, monkeypatch)
+        D = PLANTED[mistake](case.input, monkeypatch)
         answers[case.id] = {"differentiable": True, "dq_dq": D.tolist()}
     report = report_on("derivative", answers)
     assert report.count("failed") == len(answers)
@@ -224,6 +227,6 @@ def test_numbers_at_a_kink_are_found_and_named(mistake, wanted):
 
 
 def test_every_mistake_about_derivatives_is_planted():
-    known = {one.name for one in HYPOTHESES if set(one.predictions) == {"derivative"}}
-    planted = {*MISTAKES, "sub-gradient at a tie", "sensitivity of a multiplier that is not unique"}
+    known = {one.name for one in MISTAKES if set(one.predictions) == {"derivative"}}
+    planted = {*PLANTED, "sub-gradient at a tie", "sensitivity of a multiplier that is not unique"}
     assert known == planted

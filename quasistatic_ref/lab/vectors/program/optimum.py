@@ -1,4 +1,4 @@
-"""min 1/2 x'Hx - g'x subject to A x >= b, or to second-order cones, in plain NumPy.
+"""Layer 5: min 1/2 x'Hx - g'x subject to A x >= b, or to second-order cones.
 
 With H = LL' and u = L'x - L^-1 g this is the point u of least length with M u >= d, and that is
 one non-negative least-squares problem (Lawson & Hanson, Solving Least Squares Problems, ch. 23).
@@ -106,12 +106,17 @@ def optimum(H, g, A, b):
     return x, lam
 
 
+def solution(A, b, x, lam):
+    """The fields of an output."""
+    return {"delta_q": x, "lam": lam, "A_lam": A.T @ lam, "slack": A @ x - b}
+
+
 def qp_answer(H, g, A, b):
     """The output of a polyhedral case."""
     x, lam = optimum(H, g, A, b)
     if x is None:
         return {"farkas": lam}
-    return {"delta_q": x, "lam": lam, "A_lam": A.T @ lam, "slack": A @ x - b}
+    return solution(A, b, x, lam)
 
 
 def conic_answer(H, g, blocks):
@@ -135,8 +140,7 @@ def conic_answer(H, g, blocks):
     for (j, w), value in zip(cuts, lam, strict=True):
         impulse[j] += value * w
     x, impulse = newton(H, g, F, f, x, impulse)
-    lam, A = impulse.ravel(), F.reshape(-1, n)
-    return {"delta_q": x, "lam": lam, "A_lam": A.T @ lam, "slack": A @ x + f.ravel()}
+    return solution(F.reshape(-1, n), -f.ravel(), x, impulse.ravel())
 
 
 def newton(H, g, F, f, x, impulse):
@@ -172,3 +176,12 @@ def newton(H, g, F, f, x, impulse):
         new[j] = value * np.append(1, -z[j, 1:] / np.linalg.norm(z[j, 1:]))
     new[tips] = multipliers[len(sides) :].reshape(-1, 4)
     return x, new
+
+
+def qp(case):
+    """Layer 5."""
+    H, g = np.array(case["H"]), np.array(case["g"])
+    if "second_order" in case:
+        blocks = [(np.array(c["F"]), np.array(c["f"])) for c in case["second_order"]]
+        return conic_answer(H, g, blocks)
+    return qp_answer(H, g, np.array(case["A"]).reshape(-1, len(g)), np.array(case["b"]))

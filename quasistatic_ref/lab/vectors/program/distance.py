@@ -1,13 +1,15 @@
-"""Signed distances of two shapes in plain NumPy.
+"""Layer 1: signed distances of two shapes.
 
 Sphere, point, capsule, box and convex hull are cores, points with a radius about them. Apart, the
 shortest vector of two cores is Wolfe's; in penetration the best of all normals of faces and
 pairs of edges. A half-space meets the farthest point. Cylinder, cone and ellipsoid have the
-signed distance of a point (runner_curved.py); other pairs of them are projected to and fro.
+signed distance of a point (curved.py); other pairs of them are projected to and fro.
 """
 
 import numpy as np
-from runner_curved import farthest, point_on
+
+from .curved import farthest, point_on
+from .rotation import frame
 
 AXES = np.eye(3)
 NEAR = 1e-3
@@ -127,14 +129,15 @@ def on_halfspace(half, pose_h, shape, pose):
     """phi, alpha on the half-space, beta, n."""
     normal = np.array(half["normal"])
     length = np.linalg.norm(normal)
-    n, origin = pose_h[0] @ normal / length, half["offset"] / length
+    n = pose_h[0] @ normal / length
+    offset = half["offset"] / length
     found = core(shape, pose)
     if found is None:
         beta = transformed(pose, farthest(shape, -pose[0].T @ n))[0]
     else:
         points, radius = found
         beta = points[int(np.argmin(points @ n))] - radius * n
-    phi = n @ (beta - pose_h[1]) - origin
+    phi = n @ (beta - pose_h[1]) - offset
     return phi, beta - phi * n, beta, n
 
 
@@ -150,7 +153,8 @@ def points_on(shape, P):
     if kind == "halfspace":
         length = np.linalg.norm(shape["normal"])
         n = np.array(shape["normal"]) / length
-        return P @ n - shape["offset"] / length, np.tile(n, (len(P), 1))
+        offset = shape["offset"] / length
+        return P @ n - offset, np.tile(n, (len(P), 1))
     if kind in ("sphere", "capsule"):
         half = shape.get("length", 0.0) / 2
         away = P - np.clip(P[:, 2:], -half, half) * AXES[2]
@@ -183,7 +187,7 @@ def cloud_on(cloud, pose_c, shape, pose):
     return phi, x, x + phi[:, None] * n, n
 
 
-def closest_points(alpha, pose_alpha, beta, pose_beta):
+def closest(alpha, pose_alpha, beta, pose_beta):
     """phi, alpha, beta, n of two shapes; lists of them where one is a cloud."""
     kinds = alpha["kind"], beta["kind"]
     if kinds[0] == "cloud":
@@ -197,7 +201,7 @@ def closest_points(alpha, pose_alpha, beta, pose_beta):
     if core(alpha, pose_alpha) is None:
         if core(beta, pose_beta) is None:
             return by_projections(alpha, pose_alpha, beta, pose_beta)
-        return swapped(closest_points(beta, pose_beta, alpha, pose_alpha))
+        return swapped(closest(beta, pose_beta, alpha, pose_alpha))
     # In the frame of beta, whose corners are then not rounded.
     R, t = pose_beta
     a, r = core(alpha, (R.T @ pose_alpha[0], R.T @ (pose_alpha[1] - t)))
@@ -270,3 +274,19 @@ def from_afar(alpha, pose_alpha, beta, pose_beta, n):
         n = n / np.linalg.norm(n)
     radii = [shape["radius"] if shape["kind"] == "capsule" else 0.0 for shape in (alpha, beta)]
     return x - radii[0] * n, y + radii[1] * n - n / 8, n
+
+
+def closest_points(alpha, pose_alpha, beta, pose_beta):
+    """The same in the conventions of the vectors.
+
+    n points from alpha's body to beta's, also in penetration, where phi is negative.
+    """
+    phi, at_alpha, at_beta, n = closest(alpha, pose_alpha, beta, pose_beta)
+    return phi, at_alpha, at_beta, n
+
+
+def distance(case):
+    """Layer 1."""
+    pose_alpha, pose_beta = frame(case["pose_alpha"]), frame(case["pose_beta"])
+    phi, alpha, beta, n = closest_points(case["alpha"], pose_alpha, case["beta"], pose_beta)
+    return {"phi": phi, "alpha": alpha, "beta": beta, "n": n}

@@ -1,4 +1,4 @@
-"""Points of cylinders, cones and ellipsoids, in closed form or by bisection, in plain NumPy."""
+"""Points of cylinders, cones and ellipsoids, in closed form or by bisection."""
 
 import numpy as np
 
