@@ -25,11 +25,12 @@ PARTS: dict[str, list[str]] = {
     "derivatives": [],
     "doctor": ["--strict"],
     "extensions": [],
+    "fast": ["--fast"],
     "runs": ["--resume"],
     "show": ["--view"],
 }
 """The parts that can go, and of each the option of ``run`` that needs it; ``tests/meta/layers.py``
-lists the imports for which the others (ellipsoid, fast, large) cannot go yet."""
+lists the imports for which the others (ellipsoid, large) cannot go yet."""
 
 
 def package_copied(folder: Path, *without: str) -> Path:
@@ -79,7 +80,7 @@ def faults(expected: dict[str, bytes], steps: int, *gone: str) -> list[str]:
         for name in gone:
             for option in PARTS[name]:
                 said = ended(folder, 0, option)
-                sentence = f"{option} needs quasistatic_ref/optional/{name}"
+                sentence = f"{option.removeprefix('--')} needs quasistatic_ref/optional/{name}"
                 if said.returncode != 2 or sentence not in said.stderr:
                     wrong.append(f"{option} is not refused in a sentence: {said.stderr}")
         return wrong
