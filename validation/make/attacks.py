@@ -93,7 +93,7 @@ class Attack:
         """The solution file of a step; None, and counted, where there is an error in its place."""
         try:
             solver = solver_for(step, backend, fast=backend != NONE)
-            return solution_text(step, solve_step(step, solver, certify=certify))
+            return solution_text(solve_step(step, solver, certify=certify))
         except StepInfeasible as said:
             return infeasible_text(step, said.farkas.exact)
         except QuasistaticError as said:
@@ -180,7 +180,7 @@ def exact_answers(attack: Attack, family: str, number: int) -> None:
 
 def bounds(attack: Attack, family: str, number: int) -> None:
     """Bounds of backends' own answers, until there are so many."""
-    for backend, step in zip(cycle(BACKENDS), steps(family), strict=False):
+    for backend, step in islice(zip(cycle(BACKENDS), steps(family), strict=False), 50 * number):
         if attack.counts["bounded"] == number:
             break
         text, file = step_text(step), attack.file(step, backend, "residual")
