@@ -1,7 +1,7 @@
 """What commands write, as tried by validation/make/outputs.py: its page, and a sample of it."""
 
 from validation.make.outputs import (
-    CHOICES,
+    COUNT,
     FULL,
     OTHERS,
     RESULT,
@@ -17,11 +17,11 @@ def test_the_committed_page_says_that_nothing_was_lost():
         "pipes, devices, logs that are appended to": len(STREAMS),
         "full disks": len(FULL),
         "results that are there": len(OTHERS),
-        "backend, engine, cone, certificate": len(CHOICES),
+        "backend, speed, cone, certificate": COUNT,
         "runs ended by signals, and resumed": 3,
     }
     tried = [(kind, "", "") for kind, count in kinds.items() for _ in range(count)]
-    assert RESULT.read_text(encoding="utf-8") == page(tried, len(CHOICES))
+    assert RESULT.read_text(encoding="utf-8") == page(tried, COUNT)
 
 
 def test_what_was_lost_is_named_with_its_command():

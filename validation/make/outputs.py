@@ -57,7 +57,7 @@ rows = 6
 """
 SUNK = "--set 'bodies.ball.pose.xyz=[0, 0, -0.04]'"
 """0.09 m deep: the first step is beyond the limit of 0.05 m."""
-LONG = "--set steps=2000 --set record=light"
+LONG = "--set steps=600 --set record=light"
 PATIENCE = 120.0
 """For a run to save its first steps [s]."""
 
@@ -81,8 +81,8 @@ def shell(folder: Path, command: str) -> subprocess.CompletedProcess[str]:
 
 def contents(folder: Path) -> dict[str, bytes]:
     """Every file of a folder."""
-    files = (file for file in folder.rglob("*") if file.is_file())
-    return {str(file.relative_to(folder)): file.read_bytes() for file in files}
+    paths = folder.rglob("*")
+    return {str(p.relative_to(folder)): p.read_bytes() for p in paths if p.is_file()}
 
 
 def prepared(folder: Path) -> str:
@@ -210,10 +210,12 @@ def ended_by(folder: Path, _: str) -> Iterator[Found]:
 
 
 BACKENDS = ("clarabel", "daqp", "osqp", "piqp", "scs", "proxqp", "highs", "quadprog", "none")
+COUNT = 100
+"""How many of the choices are tried, of 306."""
 CHOICES = list(
     itertools.product(
         (*BACKENDS, *(f"qpsolvers:{name}" for name in BACKENDS[:-1])),
-        ("", "cvxpy", "native"),
+        (False, True),
         ("pyramid", "ellipsoid", "product"),
         ("full", "residual", "off"),
     )
@@ -230,7 +232,7 @@ for line in sys.stdin:
 
 
 def choices(folder: Path, count: int) -> Iterator[Found]:
-    """Backends, engines, cones and certificates at random: `inspect` and `run` say the same.
+    """Backends, speeds, cones and certificates at random: `inspect` and `run` say the same.
 
     Where they refuse, nothing is written; where not, each step is solved or fails by itself, and a
     failed run leaves the result that is there.
@@ -245,9 +247,9 @@ def choices(folder: Path, count: int) -> Iterator[Found]:
         said = next(line for line in server.stdout or () if line.startswith("STATUS "))
         return int(said.removeprefix("STATUS "))
 
-    for name, engine, cone, certify in random.Random(0).sample(CHOICES, count):
+    for name, fast, cone, certify in random.Random(0).sample(CHOICES, count):
         fields = {"solver.backend": name, "solver.certify": certify, "cone": cone}
-        fields |= {"solver.engine": engine} if engine else {}
+        fields |= {"fast": "true"} if fast else {}
         sets = [word for key, value in fields.items() for word in ("--set", f"{key}={value}")]
         looked = status("inspect", "scene.toml", *sets)
         before = contents(folder)
@@ -260,7 +262,7 @@ def choices(folder: Path, count: int) -> Iterator[Found]:
             lost = "files were written"
         elif ran == 3 and after["out/scene.npz"] != before["out/scene.npz"]:
             lost = "the result"
-        yield "backend, engine, cone, certificate", " ".join(sets), lost
+        yield "backend, speed, cone, certificate", " ".join(sets), lost
     server.communicate()
 
 
@@ -288,7 +290,7 @@ def page(tried: list[Found], count: int) -> str:
 def main() -> int:
     """Write the page; 1 if something was lost."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=len(CHOICES), help="of the last kind but one")
+    parser.add_argument("--count", type=int, default=COUNT, help="of the choices")
     count = parser.parse_args().count
     tried = list(found(count))
     RESULT.write_text(page(tried, count), encoding="utf-8")
