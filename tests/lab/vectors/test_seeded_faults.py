@@ -11,7 +11,8 @@ from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.compare import difference, parts, tolerance_of
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
 from quasistatic_ref.lab.vectors.check.mistakes import MISTAKES
-from quasistatic_ref.lab.vectors.check.patched import patched_texts, program, table
+from quasistatic_ref.lab.vectors.check.patched import patched_texts, program
+from quasistatic_ref.lab.vectors.check.table import ENTRIES, FACTOR
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from tests.lab.vectors.material import cases, expected, report_on, right_answers, small_cases
 from validation import planted_bugs
@@ -19,14 +20,10 @@ from validation import planted_bugs
 IMPOSSIBLE = (ArithmeticError, LookupError, TypeError, ValueError)
 """What a patched program raises in cases in which the mistake cannot be made."""
 PATCHES = {
-    f"{layer}: {mistake['name']} {number}": (
-        mistake["name"],
-        layer,
-        patch["lines"].replace("TIME_STEP", "0.01"),
-    )
-    for mistake in table()
-    for number, patch in enumerate(mistake["patch"], start=1)
-    for layer in patch["layers"]
+    f"{layer}: {entry.name} {number}": (entry.name, layer, patch.lines.replace(FACTOR, "0.01"))
+    for entry in ENTRIES
+    for number, patch in enumerate(entry.patches, start=1)
+    for layer in patch.layers
 }
 NAMED = {
     (name, layer): patch
@@ -117,7 +114,7 @@ def test_a_bug_planted_in_javascript_is_named(name, tmp_path):
     bug = BUGS[name]
     planted_bugs.planted(bug["changes"], tmp_path)
     layer = "step" if bug["layer"] == "distance" else bug["layer"]
-    asked = by_size("step")[:60] if layer == "step" else small_cases(layer)
+    asked = cases("step") if layer == "step" else small_cases(layer)
     command = planted_bugs.JAVASCRIPT.format(folder=tmp_path)
     report = report_on(layer, javascript(layer, asked, command))
     assert report.count("failed") > 0
@@ -133,7 +130,7 @@ def test_every_mistake_that_is_recognised_is_planted_in_javascript_too():
 
 def test_a_patch_whose_line_is_not_in_the_program_is_refused():
     with pytest.raises(ValueError, match="'b = phi' stands 0 times"):
-        patched_texts("rows.py\n- b = phi\n+ b = -phi")
+        patched_texts("rows.py:\n- b = phi\n+ b = -phi")
 
 
 def test_answers_that_are_right_have_no_mistake():

@@ -15,13 +15,13 @@ from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.vectors.check.compare import difference, leaves, parts, tolerance_of
 from quasistatic_ref.lab.vectors.check.mistake import Mistake
 from quasistatic_ref.lab.vectors.check.multipliers import program_rows
-from quasistatic_ref.lab.vectors.check.patched import PATCHED
 from quasistatic_ref.lab.vectors.check.report import Named
+from quasistatic_ref.lab.vectors.check.table import ENTRIES
 from quasistatic_ref.lab.vectors.check.verdict import Verdict
 from quasistatic_ref.lab.vectors.check.wrong_derivatives import DERIVATIVES
 from quasistatic_ref.lab.vectors.expected import Json
 
-MISTAKES: Final = (*PATCHED, *DERIVATIVES)
+MISTAKES: Final = (*(entry.mistake for entry in ENTRIES), *DERIVATIVES)
 """Tried in this order; of equally good explanations all are named."""
 SAMPLE: Final = 12
 """Failing cases that are tried, and right ones: mistakes are systematic, some predictions slow."""

@@ -1,25 +1,15 @@
-"""The plain program with lines of it replaced, and the mistakes that it then makes.
-
-mistakes.toml has the lines; a mistake predicts what the program answers with them.
-"""
+"""The plain program with lines of it replaced."""
 
 import sys
-import tomllib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from functools import cache
 from importlib.resources import files
 from types import CodeType, ModuleType
 from typing import Final
 
-from quasistatic_ref.lab.vectors import check
 from quasistatic_ref.lab.vectors import program as plain_program
-from quasistatic_ref.lab.vectors.check.compare import parts
-from quasistatic_ref.lab.vectors.check.mistake import Mistake, Prediction
 from quasistatic_ref.lab.vectors.expected import Json
 
-TABLE: Final = "mistakes.toml"
-TIME_STEPS: Final = ("0.1", "0.05", "0.02", "0.01", "0.005", "0.002", "0.001")
-"""h [s] that are tried where a layer does not know it."""
 MODULES: Final = (
     *("rotation", "mechanism", "integration", "curved", "distance", "candidates"),
     *("rows", "wrench", "optimum", "step", "layers"),
@@ -47,7 +37,7 @@ def patched_texts(patch: str) -> dict[str, str]:
     Parameters
     ----------
     patch : str
-        The name of a file, then its lines: those after ``-`` are replaced by those after ``+``.
+        A file and a colon, then its lines: those after ``-`` are replaced by those after ``+``.
 
     Raises
     ------
@@ -57,20 +47,19 @@ def patched_texts(patch: str) -> dict[str, str]:
     found: dict[str, list[str]] = {}
     lines: list[str] = []
     at, margin = 0, ""
-    for line in patch.strip().splitlines():
+    for line in patch.splitlines():
         sign, _, text = line.partition(" ")
         if sign == "-":
             places = [i for i, known in enumerate(lines) if known.strip() == text]
             if len(places) != 1:
                 raise ValueError(f"{text!r} stands {len(places)} times in its file")
             at = places[0]
-            margin = lines[at].removesuffix(text)
-            del lines[at]
+            margin = lines.pop(at).removesuffix(text)
         elif sign == "+":
             lines.insert(at, margin + text)
             at += 1
         else:
-            module = sign.removesuffix(".py")
+            module = sign.removesuffix(".py:")
             lines = found.setdefault(module, text_of(module).splitlines())
     return {module: "\n".join(text) + "\n" for module, text in found.items()}
 
@@ -96,45 +85,3 @@ def program(patch: str = "") -> Program:
         return copy.plain(copy.LAYERS[layer](case))
 
     return answer
-
-
-def _predictions(patches: Sequence[str], layer: str) -> Prediction:
-    """What each patch changes in the program's answer."""
-
-    def predicted(case: Json, output: Json) -> Iterable[Json]:
-        right = parts(program()(layer, case))
-        for patch in patches:
-            try:
-                wrong = parts(program(patch)(layer, case))
-            except (ArithmeticError, LookupError, TypeError, ValueError):
-                continue  # a mistake that cannot be made in this case
-            yield {name: value for name, value in wrong.items() if value != right.get(name)}
-
-    return predicted
-
-
-def _variants(lines: str) -> list[str]:
-    """A patch for each value of h that it is to be tried with."""
-    if "TIME_STEP" not in lines:
-        return [lines]
-    return [lines.replace("TIME_STEP", h) for h in TIME_STEPS]
-
-
-@cache
-def table() -> tuple[Json, ...]:
-    """The entries of mistakes.toml; not to be changed."""
-    text = (files(check) / TABLE).read_text(encoding="utf-8")
-    return tuple(tomllib.loads(text)["mistake"])
-
-
-def _mistake(entry: Json) -> Mistake:
-    patches: dict[str, list[str]] = {}
-    for patch in entry["patch"]:
-        for layer in patch["layers"]:
-            patches.setdefault(layer, []).extend(_variants(patch["lines"]))
-    predictions = {layer: _predictions(lines, layer) for layer, lines in patches.items()}
-    return Mistake(entry["name"], entry["sentence"], predictions)
-
-
-PATCHED: Final = tuple(_mistake(entry) for entry in table())
-"""The mistakes of the table."""
