@@ -21,7 +21,7 @@ CHECK = [
     ("this package brings version {}.", lambda: [RELEASE]),
     ("`quasi-dynamic-vectors-{}.zip`", lambda: [RELEASE]),
 ]  # fmt: skip
-CHALLENGE = [("sends that runner and the plain program, without any mistake, {:,} cases", lambda: [ANSWERS])]
+CHALLENGE = [("the plain program, without any mistake, {:,} cases", lambda: [ANSWERS])]
 
 HELD = {
     "docs/guides/check_your_implementation.md": lambda: CHECK,
