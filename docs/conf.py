@@ -103,7 +103,7 @@ from quasistatic_ref.step.cones import direction
 
 PACKAGE = ROOT / "quasistatic_ref"
 LAB = PACKAGE / "lab"
-CLOSED_FORMS = ("derivations", "cones", "sensitivity", "derivatives")
+CLOSED_FORMS = ("derivations", "cones", "sensitivity", "derivatives", "distances")
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
 RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")
 KEPT = re.compile(

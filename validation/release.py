@@ -112,6 +112,11 @@ RESULTS = (
          "--out", "{temporary}", "--table", "validation/results/hostile_steps.md"),
         ("validation/results/hostile_steps.md",),
     ),
+    Result(
+        "aligned_poses",
+        ("validation.make.aligned_poses",),
+        ("validation/results/aligned_poses.md",),
+    ),
     Result("outputs", ("validation.make.outputs",), ("validation/results/outputs.md",)),
     Result(
         "mutations",

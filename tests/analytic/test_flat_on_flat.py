@@ -77,7 +77,7 @@ def simulator_of(system, touching, k, mu_v=0.0, world=None):
     pairs = [ContactPair(f"p{i}", a, b, mu_v, 0.0, 4, k) for i, (a, b) in enumerate(touching)]
     gravity = -G * (UP if world is None else world @ UP)
     none = np.zeros((0, 0))
-    return Simulator(system, pairs, h=H, K_q=none, gravity=gravity.tolist(), solver="none")
+    return Simulator(system, pairs, h=H, K_q=none, gravity=gravity.tolist(), backend="none")
 
 
 def taken(system, touching, k, mu_v=0.0):

@@ -107,7 +107,7 @@ def step_of(
     alpha, beta = sides if swapped else sides[::-1]
     pair = ContactPair("p", alpha, beta, mu_v, 0.0, 4, k)
     simulator = Simulator(
-        system, [pair], h=H, K_q=np.zeros((0, 0)), gravity=[0.0, 0.0, 0.0], solver="none"
+        system, [pair], h=H, K_q=np.zeros((0, 0)), gravity=[0.0, 0.0, 0.0], backend="none"
     )
     q = system.q_start
     load = sum(system.centre_of_mass_force(q, f"b{i}", f[:3], f[3:]) for i, f in enumerate(force))

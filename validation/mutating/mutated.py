@@ -113,13 +113,14 @@ def ordered(own: str) -> tuple[str, ...]:
 TESTS: dict[str, tuple[str, ...]] = {
     "step/problem.py": ("step/test_standard_form.py", *PAGE, "step/test_problem.py"),
     "step/friction.py": ("step/test_friction.py", *PAGE, "step/test_cones.py"),
-    "step/pivots.py": units("step", "pivots"),
+    "step/pivots.py": units("pivots"),
     "step/standard_form.py": ("step/test_standard_form.py", *PAGE),
     "certify/optimality.py": (
         "certify/test_optimality.py",
         *JUDGE,
         "optional/ellipsoid/test_enclosure.py",
     ),
+    "certify/arithmetic.py": units("environments"),
     "certify/dyadic.py": ordered("rational"),
     "certify/rational.py": ordered("rational"),
     "certify/kkt.py": ordered("exact"),

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import solver_study, study_path
 from quasistatic_ref.lab.study.problems.selection import problems_taken
@@ -48,7 +49,7 @@ def test_the_committed_study_has_eight_solvers_and_300_problems(found):
 def test_the_default_study_selects_from_every_family_with_dense_rows(members):
     """310 of contact-qp-1: 15 of its 17 families; those with cones and sparse ones are left out."""
     path = study_path("default")
-    study = solver_study(path(path))
+    study = solver_study(path, toml_read(path))
     own = study.problems
     problems = problems_taken(own.source, own.families, own.most)
     families = {one.facts["family"] for one in members} - {"ellipsoid", "sparse"}

@@ -132,7 +132,13 @@ def _problem(name: str, store: str | Path | None) -> Problem:
 
 
 def solver_named(label: str) -> Solver:
-    """A solver of the package's table, or a callable."""
+    """A solver of the package's table, or a callable.
+
+    Raises
+    ------
+    InputError
+        If the label is of neither form, or names no solver.
+    """
     interface = label.partition(":")[0]
     if interface in (*BY_INTERFACE, PACKAGE):
         return solvers_named(label)[0]

@@ -43,10 +43,10 @@ def simulate_many(
         Dotted field of the scenario -> its values [the field's unit].
     folder : str or Path
         For ``runs.csv``, one line a run; ``runs/*.npz``, one light trajectory a run; and
-            ``study.sqlite``, from which the same call goes on after an interruption.
+        ``study.sqlite``, from which the same call goes on after an interruption.
     settings : sequence of str
         Changes of the scenario that all runs have, as :func:`.load_scenario` takes them.
-        workers : int, optional
+    workers : int, optional
         Processes on this machine; by default as many as there are cores.
     scheduler : str, optional
         Address of a Dask scheduler, in place of this machine's processes.

@@ -130,7 +130,12 @@ def set_read(
 
 @contextmanager
 def readable(folder: Path) -> Iterator[None]:
-    """Say that the files are no set where reading them fails."""
+    """Say that the files are no set where reading them fails.
+
+    Raises
+    ------
+    InputError
+    """
     try:
         yield
     except UNREADABLE as error:

@@ -53,7 +53,7 @@ def problems_taken(
     families : mapping of str to int
         How many of each.
     most : mapping of str to float
-        Where dials end.
+        Where dials end [of the dial].
 
     Raises
     ------

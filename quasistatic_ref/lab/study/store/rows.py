@@ -17,7 +17,7 @@ TABLES: Final = {
 """Fields that are tables."""
 FLAGS: Final = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong",
                 "wrong_multipliers", "clock_agrees", "tuned", "present")  # fmt: skip
-JSON: Final = ("facts", "versions", "target", "options", "axes", "point", "measures")
+JSON: Final = ("facts", "versions", "target", "options", "axes", "fixed", "point", "measures")
 KEY: Final = ("problem", "solver", "interface", "setting", "mode", "warm", "units", "repetition")
 """What makes a measurement the same one."""
 MACHINE_DEPENDENT: Final = ("seconds", "calls", "clock_agrees", "memory")

@@ -108,7 +108,8 @@ CREATE TABLE sweeps (
   link TEXT NOT NULL,
   duration REAL,                                 -- [s]
   since REAL NOT NULL,                           -- [s]
-  axes TEXT NOT NULL CHECK (json_type(axes) = 'array')
+  axes TEXT NOT NULL CHECK (json_type(axes) = 'array'),
+  fixed TEXT NOT NULL DEFAULT '[]' CHECK (json_type(fixed) = 'array')  -- changes that every run has
 ) STRICT;
 
 CREATE TABLE runs (                              -- one run of a sweep each

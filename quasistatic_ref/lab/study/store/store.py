@@ -247,7 +247,13 @@ def put(tables: sqlite3.Connection, name: str, record: Mapping[str, Any]) -> Non
 def inserted(
     tables: sqlite3.Connection, name: str, columns: Sequence[str], lines: Iterable[Line]
 ) -> None:
-    """Add lines to a table."""
+    """Add lines to a table.
+
+    Raises
+    ------
+    ValueError
+        If a column has no name.
+    """
     if not all(column.isidentifier() for column in columns):
         raise ValueError("a column without a name")
     if columns:
