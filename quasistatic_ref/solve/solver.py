@@ -299,7 +299,7 @@ def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> S
         Of the backend; with ``qpsolvers:`` it is reached through qpsolvers, otherwise through
         CVXPY. By default Clarabel; with `fast` DAQP.
     fast : bool
-        Whether to solve as :mod:`~quasistatic_ref.optional.fast` does: by the backend's own
+        Whether to solve as ``optional/fast`` does: by the backend's own
         interface where it has one, and with a quick proof of the optimum before the exact method.
 
     Raises

@@ -42,7 +42,7 @@ class Patch:
     layers : list of str
         Those whose answers it changes.
     lines : str
-        As :func:`patched_texts` has them.
+        As :func:`~quasistatic_ref.lab.vectors.check.patched.patched_texts` has them.
     """
 
     layers: list[str]
