@@ -215,7 +215,7 @@ def next_to_a_mode(count: int) -> Counter[str]:
 
 def by_two_threads(kind: str, count: int) -> Counter[str]:
     """Two threads that take steps at once: with one simulator, two of a system, or a deep copy."""
-    scenario = load_scenario("sphere_spin", ["record=light"])
+    scenario = load_scenario("sphere_spin", ["record=light"], fast=True)  # it keeps more
     one = scenario.simulator()
     two = {"one simulator": one, "one system": scenario.simulator()}.get(kind, deepcopy(one))
     goals = [scenario.targets(scenario.h * (k + 1)) for k in range(LONG)]

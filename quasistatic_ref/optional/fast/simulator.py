@@ -11,6 +11,7 @@ from quasistatic_ref.optional.fast.geometry import posed_geometry
 from quasistatic_ref.optional.fast.posed import constants
 from quasistatic_ref.optional.fast.spare import Spare
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
+from quasistatic_ref.simulate.one_thread import by_one_thread
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import DEFAULT
@@ -64,6 +65,7 @@ class FastSimulator(Simulator):
         in_c = compiled("step")
         self.compiled: Any = None if in_c is None else in_c.compiled_step(self)
 
+    @by_one_thread
     def step(self, q: Array, q_bar_a: Array, force: Array | float = 0.0) -> StepResult:
         """One step, as in the base; by compiled code where that takes it, with the same numbers."""
         if self.compiled is not None:
