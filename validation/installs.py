@@ -73,8 +73,8 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         *shell_lines(WALK),
         *(f"quasistatic-ref run {name} --json" for name in OWN if name != "bunny_grasp"),
         "quasistatic-ref run bunny_grasp --set contacts.grip.mu_omega=0 --set steps=20 --json",
-        "quasistatic-ref run sphere_spin --set steps=5 --backend osqp --json",
-        "quasistatic-ref run sphere_spin --set steps=5 --cone ellipsoid",
+        "quasistatic-ref run sphere_spin --set steps=5 --out short --backend osqp --json",
+        "quasistatic-ref run sphere_spin --set steps=5 --out short --cone ellipsoid",
         "quasistatic-ref extract results/stack.npz --step 5 -o step.json",
         "quasistatic-ref solve step.json -o solution.json",
         "quasistatic-ref verify step.json solution.json",
@@ -126,7 +126,7 @@ SCRIPTS: Final = {
 REFUSED: Final = {
     "base": {
         "quasistatic-ref run panda_push": "quasistatic-ref[robots]",
-        "quasistatic-ref run sphere_spin --set steps=5 --view": "quasistatic-ref[view]",
+        "quasistatic-ref run sphere_spin --set steps=5 --out short --view": "quasistatic-ref[view]",
         "quasistatic-ref run sphere_spin --backend proxqp": "quasistatic-ref[study]",
         "quasistatic-ref vectors export": "quasistatic-ref[parquet]",
         "quasistatic-ref figures robot_push": "quasistatic-ref[robots]",
