@@ -165,7 +165,7 @@ def steps_in(name: str, command: str) -> dict[str, str | None]:
         except subprocess.TimeoutExpired:
             return {"broke": "it hangs"}
     if done.returncode:
-        return {"broke": done.stderr[-300:]}
+        return {"broke": f"status {done.returncode}: {done.stderr[-300:]}"}
     found: dict[str, str | None] = json.loads(done.stdout.replace(folder, "CACHE"))
     return found
 

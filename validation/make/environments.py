@@ -267,7 +267,7 @@ def tried(name: str, count: int) -> Counter[str]:
         [*command, "--count", str(count)], cwd=ROOT, capture_output=True, text=True, check=False
     )
     if done.returncode:
-        return Counter({f"broke: {done.stderr[-300:]}": 1})
+        return Counter({f"broke: status {done.returncode}: {done.stderr[-300:]}": 1})
     return Counter(json.loads(done.stdout))
 
 
