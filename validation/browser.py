@@ -42,7 +42,8 @@ class Browser:
 
     def __init__(self) -> None:
         self.events: list[dict[str, Any]] = []
-        self._folder = tempfile.TemporaryDirectory()
+        # Chromium's helper processes end after it and still write into the folder.
+        self._folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_child, from_us = os.pipe()
         from_child, to_us = os.pipe()
         ends = [fcntl.fcntl(end, fcntl.F_DUPFD, 10) for end in (to_child, to_us)]
