@@ -1,7 +1,7 @@
 """Every field of every kind of solution file, forged: ``python -m validation.forgeries``.
 
-Good files of each kind in ``step.solution_files.CLAIMS`` and ``ELLIPSOID_CLAIMS``, and of an
-infeasible step, are spoilt one field at a time. The fields are those that stand in the file: one
+Good files of each kind of certificate in the pyramid and in the ellipsoid, and of an infeasible
+step, are spoilt one field at a time. The fields are those that stand in the file: one
 that is added to the format is attacked without a line here. Each number is moved by one unit in
 the last place, in both directions, and replaced by nonsense; each word, truth, fraction, row and
 list is replaced, left out, lengthened; fields are added. Multipliers are forged with the wrenches

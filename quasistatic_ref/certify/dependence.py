@@ -15,8 +15,8 @@ from flint import fmpq, fmpz, fmpz_mat, nmod_mat
 from quasistatic_ref.certify.dyadic import dyadic
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.certify.rows import places
+from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Indices, StepData
-from quasistatic_ref.step.friction import cone_matrix
 
 PRIME: Final = (1 << 61) - 1
 """The first prime tried; an unlucky one costs a retry, never a wrong answer."""

@@ -40,9 +40,7 @@ def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
         If the optimum is absurdly long.
     """
     if not cone(step.cone).polyhedral:
-        raise InputError(
-            "has no rational optimum; see certify.enclosure", field="cone", value=step.cone
-        )
+        raise InputError("has no rational optimum", field="cone", value=step.cone)
     form = exact_form(step)
     optimum = exact_optimum(form, warm)
     if isinstance(optimum, Farkas):
@@ -72,10 +70,15 @@ def well_posed(
     # Of three loads' steps the longest is at least a third of the step that they cause together.
     if norm.displacement(optimum.delta_q) <= ILL_POSED / 4 * free:
         return optimum
-    length = relative_length(step, optimum.delta_q, norm)
-    if not length <= ILL_POSED:
-        raise StepIllPosed(step, optimum.delta_q, length)
+    check_length(step, optimum.delta_q, norm)
     return optimum
+
+
+def check_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = None) -> None:
+    """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long: StepIllPosed."""
+    length = relative_length(step, delta_q, norm)
+    if not length <= ILL_POSED:
+        raise StepIllPosed(step, delta_q, length)
 
 
 def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = None) -> float:

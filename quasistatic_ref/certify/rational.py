@@ -25,9 +25,9 @@ from quasistatic_ref.certify.dyadic import Dyadic, Integers, dyadic, joined
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.arrays import positive_definite
-from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Contacts, StepData
-from quasistatic_ref.step.friction import cone_function, row_gaps
+from quasistatic_ref.step.friction import row_gaps
 
 Which: TypeAlias = "slice | NDArray[np.int64]"
 ALL = slice(None)
@@ -42,8 +42,7 @@ class ExactForm:
     ----------
     H, g, A, b : fmpz_mat
         Shapes (n_v, n_v), (n_v, 1), (m, n_v), (m, 1); H symmetric. The rows of A are contact-major,
-        in the order of their cone's table (the ellipsoid: n, d1, d2, spin); the user's own rows
-        come last.
+        in the order of their cone's rows; the user's own rows come last.
     x_unit : fmpq
         delta_q = x_unit * x [m, rad].
     slack_unit : fmpq
@@ -196,13 +195,11 @@ def contact_motion(contacts: Contacts, of: Which = ALL) -> Dyadic:
 
 def _friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
     """Return the rows n~' J + d~_i' J of Eq. (4), all of each contact, shape (n_c, R, n_v)."""
-    motion = contact_motion(contacts, of)
-    if name == ELLIPSOID:
-        return motion
-    mu = dyadic(contacts.mu[of])
+    motion, kind = contact_motion(contacts, of), cone(name)
+    mu = dyadic(kind.in_rows(contacts.mu[of]))
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
     mu_v, mu_omega = mu[:, :1, None], mu[:, 2:, None]
-    rows = cone_function(name)(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
+    rows = kind.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
     return joined(rows, axis=1)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import DEFAULT, QPSOLVERS, Options, backend
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem, cvxpy_problem
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import KIND, Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
@@ -49,7 +49,7 @@ class CvxpySolver(Solver):
             problem = f"is not reached through CVXPY; leave out {QPSOLVERS!r}"
             raise BackendError(problem, field="backend", value=name)
         super().__init__(like, name)
-        self.problem = cvxpy_problem(like)
+        self.problem = CvxpyProblem(like)
 
     def write(self, scaled: DenseStep) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""

@@ -22,10 +22,7 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.verdict import Verdict
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-
-WORTHLESS = 1.0
-"""The largest error bound that says anything: where no contact penetrates, x = 0 and lam = 0 have
-an error bound of 1."""
+from quasistatic_ref.tolerances import WORTHLESS
 
 
 def bound_verdict(

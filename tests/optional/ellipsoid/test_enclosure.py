@@ -10,7 +10,6 @@ from flint import arb, arb_mat
 from quasistatic_ref.certify.certificate import in_words, verify
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.optimality import ellipsoid_residuals
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
@@ -18,12 +17,13 @@ from quasistatic_ref.optional.ellipsoid.enclosure import _of_interior, enclosure
 from quasistatic_ref.optional.ellipsoid.interior import Pair
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.friction import cone_matrix
 from quasistatic_ref.step.solution_files import solution_read, solution_text
 from quasistatic_ref.tolerances import ENCLOSED
 from tests.helpers import (
     error,
+    judged,
     pinch,
     planted_step,
     point_on_floor,
@@ -202,15 +202,15 @@ def test_residuals_see_what_is_wrong(rng):
     step = round_step(sphere_on_floor(wrench=(0, 0, -3, 0, 0, 0.5)))
     answer = solve_step(step)
     lam = answer.lam
-    right = ellipsoid_residuals(step, answer.delta_q, lam)
+    right = judged(step, answer.delta_q, lam)
     assert right.worst < ROUNDING
-    assert ellipsoid_residuals(step, answer.delta_q - 1e-3 * np.eye(6)[2], lam).primal > 5e-4
+    assert judged(step, answer.delta_q - 1e-3 * np.eye(6)[2], lam).primal > 5e-4
     pulled = lam * np.array([-1.0, 1.0, 1.0, 1.0])
-    assert ellipsoid_residuals(step, answer.delta_q, pulled).dual >= lam[0]
-    lifted = ellipsoid_residuals(step, answer.delta_q + 1e-3 * np.eye(6)[2], lam)
+    assert judged(step, answer.delta_q, pulled).dual >= lam[0]
+    lifted = judged(step, answer.delta_q + 1e-3 * np.eye(6)[2], lam)
     np.testing.assert_allclose(lifted.complementarity, 1e-3 * lam[0], rtol=1e-6, atol=0.0)
     without = step.replace(contacts=replace(step.contacts, mu_omega=np.zeros(1)))
-    assert ellipsoid_residuals(without, answer.delta_q, lam).dual >= abs(lam[3])
+    assert judged(without, answer.delta_q, lam).dual >= abs(lam[3])
 
 
 def test_residual_mode_is_judged_by_the_cone(rng):

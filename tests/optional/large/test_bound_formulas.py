@@ -5,7 +5,6 @@ be off by a millionth or so, so that no term of a formula is too small to be see
 """
 
 from dataclasses import dataclass
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -77,8 +76,8 @@ def test_dense_bound_is_that_of_its_formula(monkeypatch, seed):
 
 def dense_of(coordinate, radius=0.0):
     """The bound of H = h = 1 in one coordinate, from an inverse that is known to a radius."""
-    hessian = SimpleNamespace(inverse=arb_mat([[arb(1, radius)]]), h=arb(1))
-    return FloatBound(hessian, np.eye(1), np.array([coordinate])), hessian
+    inverse = arb_mat([[arb(1, radius)]])
+    return FloatBound(inverse, arb(1), np.eye(1), np.array([coordinate])), inverse
 
 
 def test_an_inverse_is_within_two_roundings_of_what_stands_for_its_size():
@@ -100,10 +99,10 @@ def test_units_at_the_ends_of_their_range_are_outside_of_it(end, inside):
 
 
 def test_a_bound_is_of_one_hessian_in_one_set_of_units():
-    bound, hessian = dense_of(1.0)
-    assert bound.fits(hessian, bound.coordinate)
-    assert not bound.fits(hessian, bound.coordinate.copy())
-    assert not bound.fits(dense_of(1.0)[1], bound.coordinate)
+    bound, inverse = dense_of(1.0)
+    assert bound.serves(inverse, bound.coordinate)
+    assert not bound.serves(inverse, bound.coordinate.copy())
+    assert not bound.serves(dense_of(1.0)[1], bound.coordinate)
 
 
 def test_an_energy_that_rounding_uses_up_decides_nothing(monkeypatch):

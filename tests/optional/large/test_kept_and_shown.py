@@ -18,7 +18,7 @@ from quasistatic_ref.optional.show.show import (
 )
 from quasistatic_ref.optional.show.step_words import certificate_facts, force_rows
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.rounded_wrench import _nearest, rounded_wrenches
+from quasistatic_ref.step.friction import _nearest, rounded_wrenches
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, step_solution
 from quasistatic_ref.step.solution_files import solution_text
 from tests.helpers import point_on_floor, random_step

@@ -18,7 +18,7 @@ from quasistatic_ref.optional.large.rounded_bound import FloatBound
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import Units, from_natural, in_natural, to_natural
-from quasistatic_ref.step.friction import cone_matrix
+from quasistatic_ref.step.cones import cone_matrix
 from tests.helpers import point_on_floor
 from tests.tolerances import ROUNDING
 from validation.confirmed_bits import CONES
@@ -47,7 +47,8 @@ class Judged:
         self.form, self.units = scaled.natural_form, scaled.units
         S, ell, rho = self.units
         self.x, self.y = x, np.maximum(lam, 0.0)
-        self.bound = FloatBound(BallHessian(step), self.form.H, S)
+        hessian = BallHessian(step)
+        self.bound = FloatBound(hessian.inverse, hessian.h, self.form.H, S)
         self.given = step, self.form, (ell, rho), x
         self.at = self.bound.rounded(*self.given, self.y)
         self.error = self.bound.error(*self.given, lam)
@@ -232,11 +233,10 @@ def test_units_out_of_range_are_left_to_balls():
 
 def test_an_opening_direction_is_kept_and_found_again():
     """Two walls: what opens the one closes the other; both at once leave nothing to decide."""
-    hessian, kept = None, None
+    kept = None
     for direction in (1.0, 1.0, -1.0):
         step = wall(direction)
         judged = Judged(step, np.zeros(1), np.array([1.0]))
-        hessian = judged.bound.hessian if hessian is None else hessian
         kept = judged.bound if kept is None else kept
         before = kept._opening
         assert kept.error(*judged.given, judged.y) == judged.error

@@ -14,9 +14,9 @@ from quasistatic_ref.lab.vectors.exact.rational import (
     tolerance,
 )
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Contacts
-from quasistatic_ref.step.friction import cone_matrix, friction_rows, row_gaps
+from quasistatic_ref.step.friction import friction_rows, row_gaps
 
 ROUNDINGS = 16
 """Of an entry of A: a dot product of three terms, its product with mu, and the sum of four such,

@@ -19,8 +19,7 @@ from quasistatic_ref.lab.vectors.exact.rational import (
 )
 from quasistatic_ref.lab.vectors.expected import Expected, Json
 from quasistatic_ref.lab.vectors.layers.rows import row_coefficients
-from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.friction import cone_matrix
+from quasistatic_ref.step.cones import ELLIPSOID, cone_matrix
 
 ROUNDINGS = 16
 """Of a force: a product, a sum over up to eight rows and a quotient, each counted twice."""

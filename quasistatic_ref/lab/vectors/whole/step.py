@@ -29,7 +29,7 @@ from quasistatic_ref.lab.vectors.whole.grid import (
 )
 from quasistatic_ref.lab.vectors.whole.nearby import Near
 from quasistatic_ref.lab.vectors.whole.world import World
-from quasistatic_ref.step.friction import cone_matrix
+from quasistatic_ref.step.cones import cone_matrix
 
 WIDE: Final = 1024
 """Bits of a ball on the way to delta_q: data of the grid have 400 and more."""

@@ -28,8 +28,9 @@ from quasistatic_ref.certify.rounding import all_nearest
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Violated
 from quasistatic_ref.optional.fast.guess.zeros import zeros_hold
+from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
-from quasistatic_ref.step.friction import cone_function, cone_matrix, row_gaps
+from quasistatic_ref.step.friction import row_gaps
 
 
 class BallHessian:
