@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.dependence import idle_rows
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.kkt import Rational, rational_solution, rounded_solution
+from quasistatic_ref.certify.point import RationalSolution, rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
@@ -157,7 +157,7 @@ def verify(
     return Verdict(not reason, reason)
 
 
-def _wrong_sign(step: StepData, working: Sequence[int], solution: Rational) -> str:
+def _wrong_sign(step: StepData, working: Sequence[int], solution: RationalSolution) -> str:
     for i, lam_i in zip(working, solution.lam, strict=True):
         if lam_i <= 0:
             sign = "negative" if lam_i < 0 else "zero"
@@ -171,7 +171,7 @@ def _wrong_sign(step: StepData, working: Sequence[int], solution: Rational) -> s
 def _wrong_claim(
     form: ExactForm,
     working: Sequence[int],
-    solution: Rational,
+    solution: RationalSolution,
     claims: Certificate,
     lam_w: Array,
     slack: Array,

@@ -8,7 +8,7 @@ import numpy as np
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.digits import relative_digits
-from quasistatic_ref.certify.exact_step import check_length
+from quasistatic_ref.certify.exact import check_length
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import NONE, check_certify
@@ -80,7 +80,7 @@ def solve_step(
     StepIllPosed
         With ``"full"``, if the exact optimum is more than 1e6 times longer than any step that its
         loads or its penetration ask for alone; see
-        :func:`~quasistatic_ref.certify.exact_step.relative_length`.
+        :func:`~quasistatic_ref.certify.exact.relative_length`.
     StepNotSolved
         With ``"residual"`` and ``"off"``, if the backend claims anything but a full solution; with
         ``"residual"`` also if the judge of residuals refuses its answer. With ``"full"`` only in

@@ -14,8 +14,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import ExactOptimum, exact_step
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError, StepNotSolved

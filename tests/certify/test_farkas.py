@@ -6,7 +6,7 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact_step import exact_step, relative_length, well_posed
+from quasistatic_ref.certify.exact import exact_step, relative_length, well_posed
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved

@@ -21,8 +21,7 @@ from validation.tools.mutations import PACKAGE, all_mutants
 PAGE, FORM = "step/problem.py", "step/standard_form.py"
 CONES, FRICTION, ELLIPSOID = "step/cones.py", "step/friction.py", "optional/ellipsoid/cone.py"
 JUDGE = "certify/optimality.py"
-RATIONAL, KKT = "certify/rational.py", "certify/kkt.py"
-DEPENDENCE, BALLS = "certify/dependence.py", "certify/balls.py"
+RATIONAL, DEPENDENCE = "certify/rational.py", "certify/dependence.py"
 POINT, ROUNDING, EXACT = "certify/point.py", "certify/rounding.py", "certify/exact.py"
 FARKAS, CLAIMS = "certify/farkas.py", "certify/certificate.py"
 
@@ -47,13 +46,13 @@ SAMPLE = (
     f"{ELLIPSOID} cone_violations: -own_lam -> own_lam",
     f"{CONES} row_violations: -lam -> lam",
     f"{JUDGE} optimality_residuals: A @ delta_q - b -> A @ delta_q + b",
-    f"{RATIONAL} _friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
+    f"{RATIONAL} friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
     f"{RATIONAL} contact_motion: [contacts.n[of], contacts.d1[of], contacts.d2[of]] -> "
     "[contacts.n[of], contacts.d2[of], contacts.d1[of]]",
     f"{RATIONAL} _in_integers: two_to(H.e + e_x) / h -> two_to(H.e + e_x) * h",
-    f"{KKT} rational_solution: -form.A[i, j] -> form.A[i, j]",
+    f"{POINT} rational_solution: -form.A[i, j] -> form.A[i, j]",
     f"{DEPENDENCE} combination: solution[j, 0] -> solution[0, j]",
-    f"{BALLS} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
+    f"{POINT} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
     f"{POINT} Point.zero_coordinates: i == v -> i != v",
     f"{ROUNDING} decimal_string: exponent - digits + 1 -> exponent - digits - 1",
     f"{ROUNDING} nearest_in: low == high -> low != high",

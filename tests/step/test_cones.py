@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from flint import arb, ctx, fmpq
 
-from quasistatic_ref.certify.dyadic import dyadic
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.rational import dyadic, exact_form
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone, cone_function, cone_matrix, direction

@@ -20,8 +20,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.certify.certificate import exact_certificate, verify
-from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import ExactOptimum, exact_step
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.grasp import CASES

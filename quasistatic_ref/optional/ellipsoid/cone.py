@@ -12,7 +12,7 @@ import numpy as np
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
-from quasistatic_ref.certify.kkt import rational_solution, rounded_solution
+from quasistatic_ref.certify.point import rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim

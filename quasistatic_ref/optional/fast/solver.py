@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.exact_step import exact_step, well_posed
+from quasistatic_ref.certify.exact import ExactOptimum, exact_step, well_posed
 from quasistatic_ref.certify.norm import EnergyNorm
 from quasistatic_ref.optional.fast.backends import fast_backend
 from quasistatic_ref.optional.fast.compiled import compiled

@@ -8,7 +8,7 @@ import pytest
 from flint import arb, arb_mat
 
 from quasistatic_ref.certify.certificate import in_words, verify
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import contacts_of

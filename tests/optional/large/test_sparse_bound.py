@@ -7,8 +7,8 @@ import pytest
 from flint import fmpz_mat
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.certify.balls import positive_definite
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.point import positive_definite
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.large import sparse_bound
