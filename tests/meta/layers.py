@@ -66,7 +66,13 @@ FACE = "__init__.py"
 
 # Where each third-party package may be imported: a folder, or one file.
 WALLS = {
-    "cvxpy": ("step/problem.py", "solve", "optional/ellipsoid", "optional/extensions"),
+    "cvxpy": (
+        "step/problem.py",
+        "solve",
+        "optional/ellipsoid",
+        "optional/extensions",
+        "lab/study/calling",
+    ),
     # A QP assembled by hand, to check ours: it must not go through our own way to a solver.
     # And the loop that people write first, to compare its time.
     "qpsolvers": ("solve", "lab/claims/engines/by_hand.py", "lab/study/bench/by_hand.py"),

@@ -120,8 +120,6 @@ def test_a_problem_is_no_solver(step):
 @pytest.mark.parametrize(
     ("kind", "name", "says"),
     [
-        (CvxpySolver, "qpsolvers:osqp", "leave out 'qpsolvers:'"),
-        (QpsolversSolver, "osqp", "as 'qpsolvers:osqp'"),
         (NativeSolver, "qpsolvers:daqp", "has no interface of its own"),
         (SparseSolver, "daqp", "takes no sparse matrices"),
     ],

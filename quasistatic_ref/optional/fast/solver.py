@@ -121,7 +121,7 @@ class FastSolver(NativeSolver):
             warm = warm_start(scaled, answer)
             prove = BallStep(step, hessian).confirmed
             guess = np.array(warm, dtype=np.int64)
-            found = proved_nearby(prove, guess, scaled.form, hessian.rough)
+            found = proved_nearby(prove, guess, scaled.form, scaled.metric.inverse)
             if found is None:
                 return exact_step(step, warm)
         return well_posed(step, found, hessian.norm, hessian.norm.impulse(scaled.form.g))
@@ -142,7 +142,7 @@ class FastSolver(NativeSolver):
             prove = BallStep(step, hessian).confirmed
         else:
             prove = partial(self.prover.optimum, step, units=scaled.units)
-        return proved_nearby(prove, guess, scaled.form, hessian.rough)
+        return proved_nearby(prove, guess, scaled.form, scaled.metric.inverse)
 
     def error_bound(self, scaled: NaturalStep, delta_q: Array, lam: Array) -> float:
         """A bound of the relative error [-]: in float64, and in balls where that is open."""

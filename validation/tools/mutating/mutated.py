@@ -86,7 +86,7 @@ SOLVERS = units(
 )
 SOLVED = (
     "solve/test_kept_between_steps.py",
-    "solve/test_plain_programs.py",
+    "lab/study/test_plain_programs.py",
     "solve/test_solver.py",
     "solve/test_backends.py",
     "step/test_problem.py",

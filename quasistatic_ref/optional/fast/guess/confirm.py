@@ -22,7 +22,7 @@ from flint import arb, arb_mat, ctx
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.norm import energy_norm, rough_inverse
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.point import PRECISION, inverse
 from quasistatic_ref.certify.rational import h_times_hessian, matrix
 from quasistatic_ref.certify.rounding import nearest_in
@@ -45,8 +45,6 @@ class BallHessian:
     ----------
     norm : EnergyNorm
         Of H in float64.
-    rough : ndarray, shape (n_v, n_v)
-        The inverse of H in float64.
 
     Raises
     ------
@@ -63,7 +61,6 @@ class BallHessian:
             self.K_q = arb_mat(step.n_a, step.n_a, step.K_q.ravel().tolist())
             self.M_u = arb_mat(step.n_u, step.n_u, step.M_u.ravel().tolist())
         self.norm = energy_norm(step.H)
-        self.rough: Array = rough_inverse(step.H)
 
     def fits(self, step: StepData) -> bool:
         """Whether a step has the same h, and the same arrays K_q and M_u."""
