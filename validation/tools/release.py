@@ -88,9 +88,7 @@ RESULTS = (
     written("verifier_faults", "validation/results/verifier_faults.md"),
     written("confirmed_bits", "validation/results/confirmed_bits.txt"),
     written("same_bits", "validation/results/same_bits.json"),
-    written("derivatives", "validation/results/derivatives.md"),
     written("derivative_states", "validation/results/derivative_states.md"),
-    written("derivative_kinks", "validation/results/derivative_kinks.md"),
     Result(
         "bench_exact",
         ("validation.make.bench_exact", "200"),

@@ -15,8 +15,8 @@ from quasistatic_ref.optional.derivatives.contact.contact_rates import ContactRa
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.extension import Extension
+from tests.oracles.differences import COUPLES, after, rate, unit, wrong_by
 from tests.tolerances import DIFFERENCE_OF_STEPS, SEEN
-from validation.make.derivatives import COUPLES, after, rate, unit, wrong_by
 
 
 @pytest.mark.parametrize("couple", COUPLES, ids="-".join)
