@@ -1,9 +1,7 @@
 """The fuzzing program notices what it is made to notice; a sample of it finds nothing."""
 
-import json
-
-from validation.fuzz import outcomes, table
-from validation.fuzzing.readers import names, readers
+from validation.fuzz import outcomes
+from validation.fuzzing.readers import names
 
 PLANTED = "tests.meta.planted_readers"
 SAMPLE = 12
@@ -30,21 +28,3 @@ def test_a_sample_of_every_reader_is_accepted_or_refused_in_a_sentence():
     assert [one for one in found if one[2] not in ("accepted", "refused")] == []
     assert len(found) == SAMPLE * len(names())
     assert {name for name, _, outcome, *_ in found if outcome == "refused"} == set(names())
-
-
-def test_an_input_is_the_same_in_every_process(tmp_path):
-    (tmp_path / "a").mkdir()
-    (tmp_path / "b").mkdir()
-    one, other = readers(tmp_path / "a"), readers(tmp_path / "b")
-    assert {name: reader.good for name, reader in one.items()} == {
-        name: reader.good for name, reader in other.items()
-    }
-
-
-def test_the_table_adds_batches_up():
-    record = {"reader": "step", "count": 3, "accepted": 1, "refused": 1, "seconds": 0.5}
-    record |= {"mebibytes": 300, "failures": [{"input": 1, "outcome": "hang", "words": ""}]}
-    other = {**record, "failures": [], "refused": 2, "seconds": 0.25, "mebibytes": 400}
-    lines = table([record, json.loads(json.dumps(other))])
-    assert lines[2] == "| step | 6 | 2 | 3 | 1 | 0.50 | 400 |"
-    assert lines[3] == "| all | 6 | 2 | 3 | 1 | 0.50 | 400 |"
