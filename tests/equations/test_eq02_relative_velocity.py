@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.jacobian import contact_jacobian
 from tests.scenes import chain_scene
-from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP
+from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
 
 LINKS = {
     "a free body on the world": ("world", "box/box"),

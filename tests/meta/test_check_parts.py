@@ -1,7 +1,7 @@
 """The check that takes optional parts away has every part that can go."""
 
 from tests.meta.layers import OPTIONAL, REMAINING
-from validation import check_parts
+from validation.tools import check_parts
 
 
 def test_every_part_that_the_core_does_not_import_is_in_the_table():

@@ -1,7 +1,7 @@
 """The fuzzing program notices what it is made to notice; a sample of it finds nothing."""
 
-from validation.fuzz import outcomes
-from validation.fuzzing.readers import names
+from validation.tools.fuzz import outcomes
+from validation.tools.fuzzing.readers import names
 
 PLANTED = "tests.meta.planted_readers"
 SAMPLE = 12

@@ -4,7 +4,7 @@ import re
 import tomllib
 from pathlib import Path
 
-from validation.installs import COMMANDS, REFUSED
+from validation.tools.installs import COMMANDS, REFUSED
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]

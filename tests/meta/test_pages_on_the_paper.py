@@ -81,7 +81,7 @@ EQ11 = "`equations/test_eq11_dual_feasibility.py`"
 @pytest.mark.parametrize(
     ("text", "missing"),
     [
-        (f"{EQ11}: `test_positive_multipliers_leave_no_residual`", []),
+        (f"{EQ11}: `test_the_residual_is_the_most_negative_multiplier`", []),
         (
             f"`certify/test_exact.py`, {EQ11}: `test_half_way_values_round_to_even`",
             ["test_half_way_values_round_to_even"],

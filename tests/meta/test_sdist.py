@@ -4,7 +4,7 @@ import re
 import tomllib
 from pathlib import Path
 
-from validation.check_sdist import TESTS
+from validation.tools.check_sdist import TESTS
 
 ROOT = Path(__file__).parents[2]
 TARGETS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]
