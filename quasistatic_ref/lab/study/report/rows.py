@@ -99,8 +99,8 @@ def rows_of(rows: Sequence[Row], limit: float) -> Rows:
         were merged), ``label`` (interface:who); ``unit``, the problem with its repetition;
         ``called``, whether the call was made; ``digits``: those of delta_q that were delivered,
         0 where the solver does not say that it solved the problem; ``net`` likewise; ``seconds``:
-        of the call, the time limit where the solver does not say so; ``call``: of any call; ``own_setup`` and
-        ``own_solver``: of set-up and of solving by its own account.
+        of the call, the time limit where the solver does not say so; ``call``: of any call;
+        ``own_setup`` and ``own_solver``: of set-up and solving by its own account.
     """
     return Rows([row | _more(row, limit) for row in rows])
 
