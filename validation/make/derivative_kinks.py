@@ -12,6 +12,7 @@ import argparse
 import sys
 from collections import defaultdict
 from collections.abc import Callable
+from operator import itemgetter
 from pathlib import Path
 from typing import Final
 
@@ -19,10 +20,10 @@ import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.step.data import Array
-from tests.oracles.gradients.log import Record, logged
 from tests.oracles.gradients.placing import Kink, Rng, unit_vector
 from tests.oracles.gradients.reference import reference, slope, tied_pairs
 from tests.oracles.gradients.row_kinks import ROWS
@@ -168,7 +169,8 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--log", type=Path)
     parser.add_argument("--out", type=Path)
     options = parser.parse_args(arguments)
-    found = list(map(logged(record, options.log), range(options.kinks)))
+    log = Log(options.log, itemgetter("i"))
+    found = list(log.records(range(options.kinks), record))
     bad = [(one, said) for one in found if (said := faults(one))]
     for one, said in bad:
         print(f"kink {one['i']}, {one['what']} ({one['kind']}): {said}", file=sys.stderr)
