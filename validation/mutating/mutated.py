@@ -97,9 +97,11 @@ DRAWN = "shapes/test_shapes.py"
 
 DIFFERENTIATED = (
     "optional/derivatives/step/test_touching.py",
+    "optional/derivatives/step/test_optimum_rates.py",
     "optional/derivatives/test_derivatives.py",
-    "optional/derivatives/test_derivative_verdicts.py",
-    "optional/derivatives/test_one_sided.py",
+    "optional/derivatives/test_kink_reasons.py",
+    "optional/derivatives/test_gradient.py",
+    "optional/derivatives/test_derivatives_without_rounding.py",
     "lab/vectors/test_derivative_layer.py",
 )
 
@@ -329,7 +331,10 @@ TESTS: dict[str, tuple[str, ...]] = {
         "optional/derivatives/contact/test_spare_pairs.py",
         *DIFFERENTIATED,
     ),
-    "optional/derivatives/contact/witness_rates.py": ("contact/test_sliding.py", *DIFFERENTIATED),
+    "optional/derivatives/contact/witness_rates.py": (
+        "optional/derivatives/contact/test_witness_rates.py",
+        *DIFFERENTIATED,
+    ),
     "model/mass.py": MASSES,
     "optional/derivatives/model/mass_rates.py": DIFFERENTIATED,
     "optional/derivatives/model/motion_rates.py": (

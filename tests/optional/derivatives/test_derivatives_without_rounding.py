@@ -3,8 +3,6 @@
 ``validation.derivative_states`` and ``validation.derivative_kinks`` have thousands, and tables.
 """
 
-import json
-
 import numpy as np
 import pytest
 from flint import fmpq
@@ -16,23 +14,20 @@ from quasistatic_ref.lab.vectors.exact.precision import rational_near
 from quasistatic_ref.lab.vectors.families.derivative_pairs import shape_of
 from quasistatic_ref.lab.vectors.families.mechanisms import random_quaternion
 from quasistatic_ref.lab.vectors.whole.grid import working
-from quasistatic_ref.optional.derivatives import step_rates as module
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step.reason import TANGENTS
 from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
-from tests.tolerances import SEEN
 from validation.derivative_kinks import FAMILIES, NEAR, faults
 from validation.derivative_kinks import record as kink_record
-from validation.derivative_states import WITHIN, error, page, record, records
+from validation.derivative_states import WITHIN, error, record
 from validation.gradients.closest import closest_pair
 from validation.gradients.placing import HERE, UP, WEIGHT, Scene
 from validation.gradients.placing import placed as place
 from validation.gradients.reference import reference, slope
 from validation.gradients.states import table_of, whole_state
 
-STATES = (3, 5, 9, 14, 16, 24, 46, 53, 88, 112, 675)
-"""Pushes, pairs, crowds, mechanisms and two scenarios; cones and ellipsoids among themselves; rims
-of two cylinders near contact."""
+STATES = (3, 5, 16, 46, 53, 112)
+"""Pushes, pairs, crowds and mechanisms."""
 GRID = fmpq(1, 1 << 300)
 """Of numbers that two methods have on multiples of 2^-320."""
 
@@ -53,7 +48,7 @@ def test_a_constructed_kink_has_its_name_turned_anyhow(i):
 
 @pytest.mark.parametrize(
     "name",
-    ["landing", "on_three_balls", "over_a_rim", "at_an_edge", "switching_axis", "deep_in_a_box"],
+    ["landing", "at_an_edge", "deep_in_a_box"],
 )
 def test_slopes_differ_at_a_kink_and_numbers_beside_it_are_right(name):
     found = kink_record([f.__name__ for f in FAMILIES].index(name))
@@ -62,7 +57,7 @@ def test_slopes_differ_at_a_kink_and_numbers_beside_it_are_right(name):
     assert len(found["near"]) == len(NEAR)
 
 
-@pytest.mark.parametrize("side", [0.0, 1.0, 2.6, 2.75, 3.0, 6.0])
+@pytest.mark.parametrize("side", [0.0, 2.6, 2.75, 6.0])
 def test_tangents_that_switch_are_named_only_where_the_step_feels_it(side):
     # A point on a ball where the axes x and y are as far from the normal, (1, 1, 2) / sqrt(6). The
     # cosine between both d1 is -1/5, so that a force along the one is inside of the other's pyramid
@@ -85,17 +80,6 @@ def test_tangents_that_switch_are_named_only_where_the_step_feels_it(side):
     if smooth:
         there = np.column_stack([column for column, _ in slopes])
         assert np.abs(found.dq_dq - there).max() <= WITHIN
-
-
-def test_a_frozen_normal_is_seen(monkeypatch):
-    rates_of = module.contact_rates
-
-    def frozen(couples, tangents, J):
-        found = rates_of(couples, tangents, J)
-        return found._replace(n=0 * found.n)
-
-    monkeypatch.setattr(module, "contact_rates", frozen)
-    assert error(record(112)) > SEEN
 
 
 def test_a_verdict_with_another_name_is_a_fault():
@@ -134,19 +118,3 @@ def test_closest_points_by_newton_are_those_of_the_closed_forms(kinds):
 
 def _float64(values):
     return [fmpq(*float(x).as_integer_ratio()) for x in map(rational_near, values)]
-
-
-def test_a_run_goes_on_from_its_log(tmp_path):
-    log = tmp_path / "states.log"
-    first = list(records(2, log))
-    lines = log.read_text().splitlines()
-    assert [json.loads(line) for line in lines] == json.loads(json.dumps(first))
-    wrong = {**first[1], "fields": {"dq_dh": [1.0, 1.0, 1.0, 1]}}
-    log.write_text(f"{lines[0]}\n{json.dumps(wrong)}\n")
-    again = list(records(2, log))
-    assert error(again[1]) == 1.0
-    fields = {name: [0.0, 1.0, 1.0, 2] for name in first[0]["fields"]}
-    text = page([{**first[0], "fields": fields}, again[1]], {"no step": 3})
-    assert "1 with an error above 1e-09; 0 in which" in text
-    assert text.count(": an error of 1.0e+00.") == 1
-    assert "3 with no step" in text
