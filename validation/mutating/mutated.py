@@ -58,8 +58,8 @@ ENCLOSED = (
     "optional/ellipsoid/test_enclosure.py",
     "solve/test_native.py",
 )
-PAIRS = units("corners", "distance", "pairs", "jacobian")
-SOLIDS = units("corners", "polytopes", "solid_pairs", "distance", "curved_pairs")
+PAIRS = units("patch", "distance", "pairs", "jacobian")
+SOLIDS = units("corners", "patch", "polytope_pair", "solid_pair", "distance", "curved_pair")
 LARGE = ("optional/large/test_sparse_bound.py", "optional/large/test_bound_formulas.py")
 SPARSE = (*units("kept_and_shown", "mass_in_blocks", "sparse"), *units("solver"))
 CLOUDS = units("clouds", "cloud_headers", "meshes")
@@ -92,7 +92,7 @@ SOLVED = (
     "step/test_problem.py",
     "step/test_cones.py",
 )
-CURVED = units("curved_witness", "curved_pairs", "faces", "distance_guard", "distance")
+CURVED = units("curved_pair", "settle", "faces", "by_coal", "distance")
 DRAWN = "shapes/test_shapes.py"
 
 DIFFERENTIATED = (
@@ -196,7 +196,7 @@ TESTS: dict[str, tuple[str, ...]] = {
         "analytic/test_flat_on_flat.py",
         "optional/derivatives/contact/test_depth_ties.py",
     ),
-    "contact/solids/solid_pair.py": ("contact/solids/test_polytopes.py", *CURVED),
+    "contact/solids/solid_pair.py": ("contact/solids/test_polytope_pair.py", *CURVED),
     "optional/fast/tracker/solid_rows.py": ("lab/test_step_time.py", *FOLLOWED, *PAIRS),
     "optional/large/sparse_jacobian.py": SPARSE,
     "contact/solids/ways_out.py": ("contact/solids/test_ways_out.py", *SOLIDS),
@@ -217,9 +217,9 @@ TESTS: dict[str, tuple[str, ...]] = {
     "shapes/point_cloud.py": (DRAWN, *CLOUDS),
     "shapes/box.py": (DRAWN, *SOLIDS),
     "shapes/capsule.py": (DRAWN, *SOLIDS),
-    "shapes/cone.py": ("contact/solids/test_curved_points.py", DRAWN, *CURVED),
+    "shapes/cone.py": ("contact/test_cloud.py", DRAWN, *CURVED),
     "shapes/cylinder.py": (DRAWN, *CURVED),
-    "shapes/ellipsoid.py": ("contact/solids/test_curved_points.py", DRAWN, *CURVED),
+    "shapes/ellipsoid.py": ("contact/test_cloud.py", DRAWN, *CURVED),
     "shapes/half_space.py": ("contact/test_cloud.py", DRAWN, *SOLIDS),
     "shapes/hull.py": SOLIDS,
     "shapes/round.py": SOLIDS,
