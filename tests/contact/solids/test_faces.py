@@ -8,7 +8,7 @@ from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.solids.faces import Face, curvature, face, kinks
 from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder
-from tests import closest
+from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT, ROUNDING
 
 SOLIDS = closest.solids()

@@ -10,8 +10,8 @@ from quasistatic_ref.contact.solids.settle import settled
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.placed_shape import Cylinder, Ellipsoid
-from tests import closest
 from tests.contact.solids.test_curved_pair import HERE, PAIRS, SOLIDS
+from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR
 
 

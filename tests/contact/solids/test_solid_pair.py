@@ -14,7 +14,7 @@ from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
 )
-from tests import closest
+from tests.oracles import closest
 from tests.tolerances import CLOSED_FORM, CONE_PROGRAM, CURVED_PAIR, EXACT, WAY_OUT
 
 CURVED = {"cylinder", "cone", "ellipsoid"}

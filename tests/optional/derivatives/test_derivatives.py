@@ -16,11 +16,11 @@ from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.extension import Extension
 from tests.tolerances import DIFFERENCE_OF_STEPS, SEEN
-from validation.derivatives import after, rate, unit, wrong_by
+from validation.make.derivatives import after, rate, unit, wrong_by
 
 KINDS = tuple(SHAPES)
 RING = [(a, KINDS[(i + step) % len(KINDS)]) for i, a in enumerate(KINDS) for step in (1, 3)]
-"""Each kind of shape first and second, twice; ``validation.derivatives`` has all couples."""
+"""Each kind of shape first and second, twice; ``validation.make.derivatives`` has all couples."""
 
 
 @pytest.mark.parametrize("couple", RING, ids="-".join)

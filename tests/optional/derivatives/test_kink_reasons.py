@@ -18,7 +18,7 @@ from quasistatic_ref.shapes.placed_shape import (
 from quasistatic_ref.simulate.simulator import Simulator
 from tests.optional.derivatives.free_bodies import BOX, FLOOR, NONE, H, free, verdict
 from tests.tolerances import DIFFERENCE_OF_STEPS
-from validation.derivatives import after, rate
+from validation.make.derivatives import after, rate
 
 
 def test_a_box_that_lies_flat_and_sticks_on_four_corners_has_a_derivative():
