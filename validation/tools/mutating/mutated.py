@@ -62,14 +62,14 @@ PAIRS = units("patch", "distance", "pairs", "jacobian")
 SOLIDS = units("corners", "patch", "polytope_pair", "solid_pair", "distance", "curved_pair")
 LARGE = ("optional/large/test_sparse_bound.py", "optional/large/test_bound_formulas.py")
 SPARSE = (*units("kept_and_shown", "mass_in_blocks", "sparse"), *units("solver"))
-CLOUDS = units("clouds", "cloud_headers", "meshes")
+CLOUDS = units("clouds", "cloud_headers", "mesh_files")
 SCENES = (
     "scenario/test_scenario.py",
     "simulate/test_simulator.py",
     "optional/show/test_words.py",
 )
 URDF = (
-    *units("urdf", "urdf_refusals", "urdf_limits", "meshes"),
+    *units("urdf", "urdf_refusals", "urdf_file", "mesh_files"),
     "errors/test_bad_urdfs.py",
 )
 DATA = units("arrays", "kept_and_shown", "data", "plain_data", "step_files")
@@ -203,11 +203,11 @@ TESTS: dict[str, tuple[str, ...]] = {
     "model/body.py": ("model/urdf/test_solid.py", "model/test_planar.py", *SCENES),
     "model/readers/clouds.py": CLOUDS,
     "model/configuration.py": (*units("configuration", "system_refusals"), *SCENES),
-    "shapes/convex_mesh.py": (*units("meshes", "shapes"), *SOLIDS),
-    "model/readers/dae.py": ("model/readers/test_meshes.py",),
+    "shapes/convex_mesh.py": (*units("convex_mesh", "mesh_files", "shapes"), *SOLIDS),
+    "model/readers/dae.py": ("model/readers/test_mesh_files.py",),
     "shapes/frozen.py": ("shapes/test_shapes.py", "step/test_plain_data.py", *SYSTEM),
     "model/kinematics.py": ("model/test_system.py", *CONTACT),
-    "model/readers/mesh_files.py": ("model/readers/test_meshes.py",),
+    "model/readers/mesh_files.py": ("model/readers/test_mesh_files.py",),
     "model/motion.py": ("model/test_system.py", "simulate/test_simulator.py", *CONTACT),
     "model/readers/pcd.py": CLOUDS,
     "model/readers/ply.py": CLOUDS,
@@ -268,7 +268,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optional/large/blocks.py": SPARSE,
     "optional/large/sparse_contacts.py": SPARSE,
     "step/cones.py": ("step/test_cones.py", "cli/test_completion.py"),
-    "step/contacts.py": ("step/test_artifacts.py", *DATA),
+    "step/contacts.py": ("optional/doctor/test_artifacts.py", *DATA),
     "step/data.py": DATA,
     "step/extension.py": ("solve/test_native.py", "lab/examples/test_extensions.py"),
     "step/files.py": (
