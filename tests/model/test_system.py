@@ -8,6 +8,7 @@ from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.model.system import Body, System
 from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, mimic, robot, written
 from tests.tolerances import ROUNDING
