@@ -6,7 +6,6 @@ of 128 bits decide nearly always; a larger precision decides the rest.
 """
 
 import math
-from collections.abc import Callable
 
 from flint import arb, ctx
 
@@ -19,24 +18,25 @@ MOST = 1 << 13
 
 def cos_sin(angle: float) -> tuple[float, float]:
     """Cosine and sine [-] of an angle [rad]; NaN of an infinite one."""
-    sine, cosine = _rounded(lambda: arb(angle).sin_cos())
-    return cosine, sine
+    precision = PRECISION
+    while precision <= MOST:
+        with ctx.workprec(precision):
+            sine, cosine = arb(angle).sin_cos()
+            s, c = float(sine.lower()), float(cosine.lower())
+            if s == float(sine.upper()) and c == float(cosine.upper()):
+                return c, s
+        precision *= 4
+    return math.nan, math.nan
 
 
 def angle_of(y: float, x: float) -> float:
     """The angle of the vector (x, y), in [-pi, pi] [rad]; 0 of the zero vector."""
-    (angle,) = _rounded(lambda: (arb.atan2(arb(y), arb(x)),))
-    return angle
-
-
-def _rounded(balls: Callable[[], tuple[arb, ...]]) -> tuple[float, ...]:
-    """The float64 numbers nearest to the numbers in balls; NaN where these are not finite."""
     precision = PRECISION
     while precision <= MOST:
         with ctx.workprec(precision):
-            found = balls()
-            low = tuple([float(ball.lower()) for ball in found])
-            if low == tuple([float(ball.upper()) for ball in found]):
-                return low
+            ball = arb.atan2(arb(y), arb(x))
+            angle = float(ball.lower())
+            if angle == float(ball.upper()):
+                return angle
         precision *= 4
-    return (math.nan,) * len(found)
+    return math.nan

@@ -29,7 +29,7 @@ class Part(NamedTuple):
     model, data : pinocchio.Model, pinocchio.Data
     R, t : list of ndarray, shapes (3, 3) and (3,)
         Poses of the links of these bodies: views of the workspace, which pinocchio overwrites.
-    of : ndarray of int
+    of : slice or ndarray of int
         For each entry of the part's own q, the entry of the whole q that it is, or is made of.
     turns : list of int
         Where in the part's own q the cosines of revolute joints are; their sines follow.
@@ -39,7 +39,7 @@ class Part(NamedTuple):
     data: Any
     R: list[Array]
     t: list[Array]
-    of: Indices
+    of: slice | Indices
     turns: list[int]
 
     def own(self, q: Array) -> Array:
@@ -74,6 +74,7 @@ class Workspace:
             R, t = [p.rotation for p in placements], [p.translation for p in placements]
             self.parts.append(Part(model, data, R, t, *_entries(whole, model, before)))
             before += model.njoints - 1
+        self._turns = any(part.turns for part in self.parts)
         self._at: tuple[bytes, list[Array]] | None = None
         self._none = np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
@@ -86,6 +87,8 @@ class Workspace:
 
     def _own(self, q: Array) -> list[Array]:
         """Each part's own q, kept for the next call at the same q."""
+        if not self._turns:
+            return [q[part.of] for part in self.parts]
         at = q.tobytes()
         if self._at is None or self._at[0] != at:
             self._at = at, [part.own(q) for part in self.parts]
@@ -124,7 +127,7 @@ class Workspace:
         return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
 
 
-def _entries(whole: Any, model: Any, before: int) -> tuple[Indices, list[int]]:
+def _entries(whole: Any, model: Any, before: int) -> tuple[slice | Indices, list[int]]:
     """Fields `of` and `turns` of a part, whose joints are in the whole after `before` others."""
     of, turns = np.zeros(model.nq, dtype=np.int64), []
     for joint in range(1, model.njoints):
@@ -134,4 +137,5 @@ def _entries(whole: Any, model: Any, before: int) -> tuple[Indices, list[int]]:
             turns.append(start)
             there[1] = there[0]
         of[start : start + size] = there
-    return of, turns
+    first = int(of.min(initial=whole.nq))
+    return of if turns else slice(first, first + model.nq), turns

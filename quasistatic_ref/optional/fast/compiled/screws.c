@@ -1,6 +1,7 @@
 /* model/screw: sums q (+) delta_q and differences q_next (-) q of all joints.
 
-   Sines and angles come from Python, which rounds them correctly. */
+   Sines and angles are correctly rounded: those of long double, where their error leaves no doubt
+   about that, or else those of Python. */
 
 #include <math.h>
 #include <stdint.h>
@@ -14,10 +15,10 @@ typedef struct {
     const int64_t *kind, *q_start, *v_start;
     /* How far each joint turns [rad]; cosine and sine of half of that. Of a difference of floating
        bases: half of how far. */
-    const double *angle, *cosine, *sine;
+    double *angle, *cosine, *sine;
     const double *q;
     double *q_next, *delta_q;
-    /* Of each joint, the vector (x, y) whose angle is asked for. */
+    /* Of each joint, the vector (x, y) whose angle is asked for in a difference. */
     double *x, *y;
 } Screws;
 
@@ -91,6 +92,38 @@ static void heading(const double *here, double angle, double C, double S, double
     out[1] = angle == 0.0 ? s : shorter * y;
 }
 
+/* The float64 nearest to a number whose long double is wrong by less than 2^-60 of itself (the sines
+   and angles of C libraries, by 2^-62); 0 if that leaves two. */
+static int nearest(long double found, double *out)
+{
+    volatile long double one = 1.0L;
+    long double room = found * 0x1p-60L;
+    *out = (double)(found - room);
+    return one + 0x1p-62L != one && *out == (double)(found + room);
+}
+
+/* Cosine and sine of half of a joint's angle; 0 if they are in doubt. */
+static int half_turn(Screws *s, int64_t joint)
+{
+    long double b = s->angle[joint] / 2;
+    return nearest(cosl(b), s->cosine + joint) & nearest(sinl(b), s->sine + joint);
+}
+
+/* How far each joint turns in a sum, with cosine and sine of half of that; 0 if one is in doubt. */
+int half_turns(Screws *s)
+{
+    int sure = 1;
+    for (int64_t joint = 0; joint < s->joints; joint++) {
+        const double *delta_q = s->delta_q + s->v_start[joint], *w = delta_q + 3;
+        if (s->kind[joint] == SCALAR)
+            continue;
+        s->angle[joint] = s->kind[joint] == FLOATING ? sqrt(dot(w, w))
+                                                     : delta_q[s->kind[joint] == PLANAR ? 2 : 0];
+        sure &= half_turn(s, joint);
+    }
+    return sure;
+}
+
 /* q (+) delta_q, written into q_next. */
 void sums(Screws *s)
 {
@@ -120,10 +153,11 @@ void sums(Screws *s)
     }
 }
 
-/* What of q_next (-) q needs no angle: of each joint that turns, the vector whose angle is asked
-   for; of a floating base, a vector along its rotation vector. */
-void turns(Screws *s)
+/* What q_next (-) q starts from: of each joint that turns, the vector (x, y) and its angle; of a
+   floating base, a vector along its rotation vector. 0 if an angle is in doubt. */
+int turns(Screws *s)
 {
+    int sure = 1;
     for (int64_t joint = 0; joint < s->joints; joint++) {
         int64_t kind = s->kind[joint];
         const double *here = s->q + s->q_start[joint], *there = s->q_next + s->q_start[joint];
@@ -135,6 +169,8 @@ void turns(Screws *s)
         if (kind == PLANAR || kind == CONTINUOUS) {
             s->y[joint] = here[0] * there[1] - here[1] * there[0];
             s->x[joint] = here[0] * there[0] + here[1] * there[1];
+            sure &= nearest(atan2l(s->y[joint], s->x[joint]), s->angle + joint);
+            sure &= half_turn(s, joint);
         }
         if (kind != FLOATING)
             continue;
@@ -148,7 +184,9 @@ void turns(Screws *s)
         s->x[joint] = fabs(w);
         for (int i = 0; i < 3 && !(w >= 0); i++)
             v[i] = -v[i];
+        sure &= nearest(atan2l(s->y[joint], s->x[joint]), s->angle + joint);
     }
+    return sure;
 }
 
 /* Entries of q_next (-) q, after `turns` and with the angles. */

@@ -1,4 +1,4 @@
-"""Sums q (+) delta_q and differences of configurations, with sines and angles from Python."""
+"""Sums q (+) delta_q and differences of configurations, whose sines Python decides if C cannot."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -7,7 +7,7 @@ import numpy as np
 
 from quasistatic_ref.model.angles import angle_of, cos_sin
 from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.model.screw import TURNING, length
+from quasistatic_ref.model.screw import TURNING
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.poses import Poses
@@ -34,7 +34,8 @@ class Screws:
     def __init__(self, system: System, poses: Poses) -> None:
         found = library()
         self.system, self.q = system, poses.q
-        self._add, self._turn, self._subtract = found.sums, found.turns, found.changes
+        self._half_turns, self._turns = found.half_turns, found.turns
+        self._add, self._subtract = found.sums, found.changes
         joints, n_a = system.joints, system.n_a
         self._sums = _structure(found, poses.q, joints, system.n_v)
         self._differences = _structure(found, poses.q, [j for j in joints if j.actuated], n_a)
@@ -43,17 +44,15 @@ class Screws:
             for s in (self._sums, self._differences)
         )
         self._target = self._of_differences[0][: system.n_q_a]
-        self._turning = [(i, j) for i, j in enumerate(joints) if j.kind in TURNING]
+        self._turning = [(i, j.actuated) for i, j in enumerate(joints) if j.kind in TURNING]
 
     def integrate(self, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
         there, change, angle, cosine, sine, _, _ = self._of_sums
         change[:] = delta_q
-        own = delta_q.tolist()
-        for i, joint in self._turning:
-            a = length(own[joint.v][3:]) if joint.kind == "floating" else own[joint.v.stop - 1]
-            angle[i] = a
-            cosine[i], sine[i] = cos_sin(a / 2)
+        if not self._half_turns(self._sums.address):
+            for i, _ in self._turning:
+                cosine[i], sine[i] = cos_sin(float(angle[i]) / 2)
         self._add(self._sums.address)
         return there.copy()
 
@@ -63,11 +62,10 @@ class Screws:
         if np.shape(q_a) != self._target.shape:
             self.system.with_actuated(self.q, q_a)  # which says so
         self._target[:] = q_a
-        self._turn(self._differences.address)
-        for i, joint in self._turning:
-            if joint.actuated:
-                angle[i] = turn = angle_of(float(y[i]), float(x[i]))
-                if joint.kind == "planar":
+        if not self._turns(self._differences.address):
+            for i, actuated in self._turning:
+                if actuated:
+                    angle[i] = turn = angle_of(float(y[i]), float(x[i]))
                     cosine[i], sine[i] = cos_sin(turn / 2)
         self._subtract(self._differences.address)
         return change.copy()
