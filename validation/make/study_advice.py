@@ -1,6 +1,6 @@
 """What the committed study of solvers says to a user who chooses one, sentence by sentence.
 
-``advice(folder)`` is the text that docs/solver_study.md shows: every number in it, and every
+``advice(found)`` is the text that docs/solver_study.md shows: every number in it, and every
 solver, setting and family that it names, comes from the rows.
 ``python -m validation.make.study_reports`` writes it next to the report.
 """
@@ -8,7 +8,6 @@ solver, setting and family that it names, comes from the rows.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 
@@ -22,7 +21,7 @@ from quasistatic_ref.lab.study.report.rows import Rows, rows_of
 from quasistatic_ref.lab.study.report.statistics import success
 from quasistatic_ref.lab.study.report.tables import LIMITS, soonest_table
 from quasistatic_ref.lab.study.report.words import milliseconds, options_words, tenths
-from quasistatic_ref.lab.study.store.store import contents
+from quasistatic_ref.lab.study.store.store import Contents
 
 NAME = "advice.md"
 HARDEST = 2
@@ -31,9 +30,8 @@ FALSE = 1.0
 """Share of false claims from which a solver's own setting is advised against [%]."""
 
 
-def advice(folder: Path) -> str:
-    """The text, in Markdown, of a store that is packed or not."""
-    found = contents(folder)
+def advice(found: Contents) -> str:
+    """The text, in Markdown, of what a store holds."""
     study, rows = found.study, found.rows
     every = rows_of(rows, study["time_limit"])
     comparison = comparison_of(study, every)

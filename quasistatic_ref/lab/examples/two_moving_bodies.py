@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
