@@ -124,7 +124,7 @@ def modes(found: Derivatives) -> list[str]:
     contacts = step.contacts
     if not contacts.n_c:
         return ["separated"]
-    _, J_1, J_2, J_w = frame_jacobian(contacts, contacts.dense().J)
+    _, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
     x = solution.delta_q
     size = float(np.abs(x).max()) or 1.0
     load = np.bincount(np.argwhere(step.mask)[:, 0], weights=solution.lam, minlength=contacts.n_c)
