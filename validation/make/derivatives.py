@@ -19,8 +19,8 @@ import numpy as np
 from quasistatic_ref import load_scenario
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.scenes.pushes import SHAPES, pushed
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from tests.oracles.pushes import SHAPES, pushed
 
 COUPLES = [(a, b) for a in SHAPES for b in SHAPES if not a == b == "cloud"]
 STEPS = (1e-5, 1e-6, 1e-7, 3e-8)

@@ -5,6 +5,7 @@ Then docs/studies.md, which lists them, is out of date, and the workaround may g
 
 import json
 import runpy
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from tests.helpers import changed, planted_step
 from tests.lab.study.planted import slab
 from validation.programs.engines.reproduce import FOLDER
 
+RESULT = Path(__file__).parents[3] / "validation" / "results" / "engines" / "pinocchio.json"
 PAPERS = (7, 6, (6,) * 10 + (4,) * 5)
 """13 coordinates and 80 rows."""
 
@@ -71,6 +73,8 @@ def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
 def test_crba_still_differs_from_call_to_call_where_joints_mimic(capsys):
     file = "pinocchio_mimic.py"
     runpy.run_path(str(FOLDER / file))
-    record = json.loads((FOLDER.parent / "results" / "pinocchio.json").read_text("utf-8"))
+    record = json.loads(
+        (FOLDER.parents[2] / "results" / "engines" / "pinocchio.json").read_text("utf-8")
+    )
     _, _, rows = capsys.readouterr().out.rstrip().partition(": ")
     assert rows == record["printed"][file].partition(": ")[2]

@@ -142,28 +142,36 @@ BODIES = {
 }
 
 
+@pytest.fixture(scope="module")
+def executable(tmp_path_factory, problem):
+    """A function: the row of an executable with a body, and its folder; one process calls all."""
+    folder = tmp_path_factory.mktemp("executable")
+    path = folder / "solver"
+    path.touch(stat.S_IRWXU)
+    with Keeper(Solver("mine", "executable", ("./solver",)), folder) as keeper:
+
+        def row_of_body(body, limit=30.0, units="natural"):
+            path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
+            keeper.seen.clear()
+            return measured(keeper, problem, DEFAULT, units, False, Limits(limit, limit, 1)), folder
+
+        yield row_of_body
+
+
 @pytest.mark.parametrize("name", BODIES)
-def test_an_executable_reads_and_writes_json(name, tmp_path, problem):
+def test_an_executable_reads_and_writes_json(name, executable):
     body, (outcome, claimed, said_optimal, wrong) = BODIES[name]
-    path = tmp_path / "solver"
-    path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
-    path.chmod(path.stat().st_mode | stat.S_IXUSR)
-    solver, limit = Solver("mine", "executable", ("./solver",)), 1.0 if name == "hangs" else 30.0
-    row = row_of(solver, problem, tmp_path, Limits(limit, limit))
+    row, _ = executable(body, 1.0 if name == "hangs" else 30.0)
     assert (row["outcome"], row["said_optimal"], row["wrong"]) == (outcome, said_optimal, wrong)
     assert claimed in row["claimed"]
     if name == "writes":
         assert (row["iterations"], row["seconds"]["solver"]) == (4, 0.25)
 
 
-def test_an_executable_gets_the_numbers_of_the_problem_to_the_last_bit(tmp_path, problem):
-    path = tmp_path / "solver"
+def test_an_executable_gets_the_numbers_of_the_problem_to_the_last_bit(executable, problem):
     body = 'open("seen.json", "w").write(json.dumps(qp)); print("{}")'
-    path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
-    path.chmod(path.stat().st_mode | stat.S_IXUSR)
-    with Keeper(Solver("mine", "executable", ("./solver",)), tmp_path) as keeper:
-        measured(keeper, problem, DEFAULT, "raw", False, Limits(30.0))
-    seen = json.loads((tmp_path / "seen.json").read_text())
+    _, folder = executable(body, units="raw")
+    seen = json.loads((folder / "seen.json").read_text())
     for name in ("H", "g", "A", "b"):
         assert seen[name] == (getattr(problem.form, name) + 0.0).tolist()
 

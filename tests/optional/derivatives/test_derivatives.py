@@ -9,12 +9,12 @@ import pytest
 
 from quasistatic_ref import load_scenario
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.scenes.pushes import pushed
 from quasistatic_ref.optional.derivatives import step_rates as module
 from quasistatic_ref.optional.derivatives.contact.contact_rates import ContactRates
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.extension import Extension
+from tests.oracles.pushes import pushed
 from tests.tolerances import DIFFERENCE_OF_STEPS, SEEN
 from validation.make.derivatives import COUPLES, after, rate, unit, wrong_by
 

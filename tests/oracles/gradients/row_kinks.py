@@ -6,7 +6,6 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.contact.placed import Placed
-from quasistatic_ref.lab.scenes.pushes import SHAPES
 from quasistatic_ref.lab.scenes.systems import link_text, robot_text
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
@@ -29,6 +28,7 @@ from tests.oracles.gradients.placing import (
     anywhere,
     spot,
 )
+from tests.oracles.pushes import SHAPES
 
 WHEEL: Final = robot_text(
     link_text("rail", 1.0, (0.01, 0.01, 0.01)),
