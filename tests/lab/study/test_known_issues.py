@@ -5,7 +5,6 @@ Then docs/studies.md, which lists them, is out of date, and the workaround may g
 
 import json
 import runpy
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,9 +17,9 @@ from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, planted_step
 from tests.lab.study.planted import slab
+from validation.programs.engines.judge import RESULTS
 from validation.programs.engines.reproduce import FOLDER
 
-RESULT = Path(__file__).parents[3] / "validation" / "results" / "engines" / "pinocchio.json"
 PAPERS = (7, 6, (6,) * 10 + (4,) * 5)
 """13 coordinates and 80 rows."""
 
@@ -73,8 +72,6 @@ def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
 def test_crba_still_differs_from_call_to_call_where_joints_mimic(capsys):
     file = "pinocchio_mimic.py"
     runpy.run_path(str(FOLDER / file))
-    record = json.loads(
-        (FOLDER.parents[2] / "results" / "engines" / "pinocchio.json").read_text("utf-8")
-    )
+    record = json.loads((RESULTS / "pinocchio.json").read_text("utf-8"))
     _, _, rows = capsys.readouterr().out.rstrip().partition(": ")
     assert rows == record["printed"][file].partition(": ")[2]

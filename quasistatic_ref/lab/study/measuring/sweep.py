@@ -118,7 +118,13 @@ def sweep_row(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, None]:
 
 
 def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory]:
-    """One run, and what it came to; a run that ends early is a result too."""
+    """One run, and what it came to; a run that ends early is a result too.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        If the user ended it.
+    """
     begin = time.perf_counter()
     scenario = sweep_scenario(sweep, point)
     outcome, reason = DONE, None

@@ -79,7 +79,7 @@ class Rows:
         return self.kept(lambda row: id(row) in kept)
 
     def sorted_by_unit(self, name: str) -> np.ndarray:
-        """One field in the order of the problems: the same order for all that share them."""
+        """One field in the order of the problems, shape (rows,), so that rows compare."""
         return self[name][np.argsort(self["unit"])]
 
 

@@ -197,7 +197,7 @@ def worst_claims(rows: Rows, promised: Mapping[str, float]) -> Table:
     ----------
     rows : Rows
     promised : mapping of str to float
-        Digits, by setting.
+        Digits [-], by setting.
     """
     kinds = rows.at(wrong=True).groups("label", "setting", "units", "warm").values()
     worst = [min(part, key=lambda row: float(row["digits"])) for part in kinds]
@@ -276,7 +276,7 @@ def contrast(
 
 
 def family_digits(rows: Rows, families: Sequence[str]) -> tuple[list[str], np.ndarray]:
-    """Median digits delivered, of every solver on every family; NaN where there is no row."""
+    """Median digits, shape (solvers, families) [-]; NaN where there is no row."""
     labels = [label for (label,) in rows.groups("label")]
     found = np.full((len(labels), len(families)), np.nan)
     for (label, family), part in rows.groups("label", "family").items():
@@ -287,7 +287,16 @@ def family_digits(rows: Rows, families: Sequence[str]) -> tuple[list[str], np.nd
 def family_table(
     labels: Sequence[str], found: np.ndarray, families: Sequence[str], where: Where, more: str
 ) -> Table:
-    """The numbers of the heat map, shape (solvers, families) [-]."""
+    """The numbers of the heat map.
+
+    Parameters
+    ----------
+    labels, families : sequence of str
+    found : ndarray, shape (solvers, families)
+        Median digits [-].
+    where : mapping of str to object
+    more : str
+    """
     lines = tuple(
         (family, *("-" if np.isnan(value) else tenths(float(value)) for value in column))
         for family, column in zip(families, found.T, strict=True)

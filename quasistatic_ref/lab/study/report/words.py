@@ -13,7 +13,14 @@ def _every_sentence() -> dict[str, list[str]]:
 
 
 def sentences(about: str, **numbers: float) -> list[str]:
-    """Those about the ``"method"``, the ``"limitations"`` or a ``"sweep"``, with their numbers."""
+    """Those about the ``"method"``, the ``"limitations"`` or a ``"sweep"``, with their numbers.
+
+    Parameters
+    ----------
+    about : str
+    **numbers : float
+        In the units that the sentences name [-].
+    """
     return [words.format(**numbers) for words in _every_sentence()[about]]
 
 
@@ -27,12 +34,24 @@ def filter_words(where: Mapping[str, object], more: str = "") -> str:
 
 
 def tenths(value: float) -> str:
-    """A share [%] or correct digits [-], to a tenth."""
+    """A number to a tenth.
+
+    Parameters
+    ----------
+    value : float
+        A share [%] or correct digits [-].
+    """
     return f"{value:.1f}"
 
 
 def milliseconds(seconds: float) -> str:
-    """A time [s] in milliseconds, to three figures."""
+    """A time in milliseconds, to three figures.
+
+    Parameters
+    ----------
+    seconds : float
+        [s].
+    """
     return f"{1e3 * seconds:.3g}"
 
 

@@ -10,7 +10,7 @@ from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
-from tests.optional.derivatives.test_derivative_verdicts import (
+from tests.optional.derivatives.free_bodies import (
     FLOOR,
     NONE,
     G,
@@ -19,8 +19,8 @@ from tests.optional.derivatives.test_derivative_verdicts import (
     sided,
     verdict,
 )
+from tests.oracles.differences import after
 from tests.tolerances import DIFFERENCE_OF_STEPS
-from validation.make.derivatives import after
 
 
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (0, 0, -1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
