@@ -11,7 +11,6 @@ import numpy as np
 from quasistatic_ref import load_scenario
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.scenes.pushes import SHAPES, pushed
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.precision import numbers
 from quasistatic_ref.lab.vectors.expected import Json
@@ -27,6 +26,7 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 from tests.oracles.differences import unit
 from tests.oracles.gradients.contacts import starts
+from tests.oracles.pushes import SHAPES, pushed
 
 COUPLES: Final = [(a, b) for a in SHAPES for b in SHAPES if not a == b == "cloud"]
 TURN: Final = ("pushes", "scenario", "pushes", "pair", "scenario",
