@@ -225,6 +225,6 @@ def test_scenarios_that_come_along_are_found_by_name():
         load_scenario("sphere_spn")
 
 
-def test_every_scenario_that_comes_along_loads():
-    for name in scenario_names():
-        assert load_scenario(name).steps > 0
+@pytest.mark.parametrize("name", scenario_names())
+def test_every_scenario_that_comes_along_loads(name):
+    assert load_scenario(name).steps > 0
