@@ -85,16 +85,9 @@ RESULTS = (
         ("validation.tools.check_verifier", "--all", "--out", "validation/results/verifier.md"),
         ("validation/results/verifier.md",),
     ),
-    written("verifier_faults", "validation/results/verifier_faults.md"),
     written("confirmed_bits", "validation/results/confirmed_bits.txt"),
     written("same_bits", "validation/results/same_bits.json"),
-    written("derivative_states", "validation/results/derivative_states.md"),
-    Result(
-        "bench_exact",
-        ("validation.make.bench_exact", "200"),
-        ("validation/results/bench_exact.txt",),
-        output="validation/results/bench_exact.txt",
-    ),
+    written("derivatives", "validation/results/derivatives.md"),
     Result(
         "fuzzing",
         ("validation.tools.fuzz", "--out", "{temporary}",
@@ -129,11 +122,6 @@ RESULTS = (
         (CLI, "validate", "reality", "--out", "{temporary}"),
         ("validation/results/reality.json", "validation/results/reality.csv"),
         copied=(("reality.json", "validation/results"), ("reality.csv", "validation/results")),
-    ),
-    Result(
-        "reality_residuals",
-        ("validation.make.reality_residuals",),
-        ("validation/results/reality_residuals.json",),
     ),
     Result(
         "reality_ablations",
