@@ -78,7 +78,6 @@ RESULTS = (
     printed("step_profile", "validation/results/step_profile.md"),
     printed("random_mechanisms", "validation/results/random_mechanisms.md"),
     written("exact_everywhere", "validation/results/exact_everywhere.txt"),
-    written("forgeries", "validation/results/forgeries.md"),
     written("attacks", "validation/results/attacks.md"),
     Result(
         "verifier",
