@@ -16,12 +16,9 @@ MOST_LINES = 400
     [
         (None, (), "verified", (), False),
         (None, (), "not checked", ("gap",), False),
-        (None, (), "refused", (), True),
         ("lam[0] is wrong", ("lam",), "refused", (), False),
         ("lam[0] is wrong", ("lam",), "verified", (), True),
-        ("lam[0] is wrong", ("lam",), "not checked", ("lam", "gap"), False),
         ("lam[0] is wrong", ("lam",), "not checked", ("gap",), True),
-        ("lam[0] is wrong", ("lam",), "not checked", ("all",), True),
     ],
 )
 def test_what_one_proves_and_the_other_refuses_is_a_disagreement(

@@ -10,7 +10,7 @@ from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
-from tests.optional.derivatives.test_derivative_verdicts import (
+from tests.optional.derivatives.free_bodies import (
     FLOOR,
     NONE,
     G,

@@ -7,13 +7,10 @@ import coal
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import ModelError, ScenarioError
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.readers.mesh_files import mesh_hull, mesh_path
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes import convex_mesh
-from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull, hull_of_mesh
-from quasistatic_ref.tolerances import CONVEX
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from tests.model.urdf.urdf_texts import collision, link, robot, written
 from tests.tolerances import CLOSED_FORM, EXACT
 
@@ -34,57 +31,6 @@ def test_a_dented_mesh_knows_by_how_much(tmp_path: Path) -> None:
     # x + y + z = 0.6 there instead of 1, it holds 0.4 of the volume.
     np.testing.assert_allclose(hull.excess, 0.4, rtol=EXACT, atol=1e-6)
     assert not hull.is_convex
-
-
-CORNERS = np.array([[x, y, z] for x in (5, 8) for y in (-2, -1) for z in (7, 9)], dtype=float)
-"""Of a box of 3 m, 1 m and 2 m, away from the origin."""
-
-
-def test_triangles_of_a_hull_are_counter_clockwise_from_outside() -> None:
-    # (b - a) x (c - a) is twice the area times the outward normal; all areas are the box's.
-    hull = convex_hull(CORNERS)
-    a, b, c = hull.vertices[hull.triangles].transpose(1, 0, 2)
-    areas = np.cross(b - a, c - a) / 2
-    np.testing.assert_allclose(np.sum(areas * hull.normals), 2 * (3 + 6 + 2), rtol=CLOSED_FORM)
-    np.testing.assert_allclose(np.sum(a * areas) / 3, 3 * 1 * 2, rtol=CLOSED_FORM)
-
-
-def test_the_hull_of_a_mesh_has_its_corners() -> None:
-    box = convex_hull(CORNERS)
-    spare = np.vstack([box.vertices, [[100, 100, 100]]])  # of no triangle
-    hull = hull_of_mesh(spare, box.triangles)
-    assert {tuple(corner) for corner in hull.vertices} == {tuple(corner) for corner in CORNERS}
-    assert hull.is_convex
-
-
-@pytest.mark.parametrize("block", [convex_mesh.BLOCK, 24])
-def test_a_fin_inside_a_mesh_counts_by_its_depth(
-    block: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    # A fin holds no volume: its tip is 0.25 below the nearest face, of a box of 3 m at most.
-    monkeypatch.setattr(convex_mesh, "BLOCK", block)
-    box = convex_hull(CORNERS)
-    vertices = np.vstack([box.vertices, [[6.5, -1.25, 8.0]]])
-    hull = hull_of_mesh(vertices, np.vstack([box.triangles, [[0, 1, 8], [0, 8, 1]]]))
-    np.testing.assert_allclose(hull.excess, 0.25 / 3, rtol=CLOSED_FORM)
-    assert not hull.is_convex
-
-
-def test_an_open_mesh_encloses_what_its_triangles_and_its_centre_do() -> None:
-    # Of a tetrahedron's four faces three are there, each with a quarter of the volume.
-    corners = np.array([3.0, -1.0, 2.0]) + np.vstack([np.zeros(3), np.eye(3)])
-    faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2]])
-    np.testing.assert_allclose(hull_of_mesh(corners, faces).excess, 1 / 4, rtol=CLOSED_FORM)
-
-
-def test_an_excess_counts_as_convex_up_to_its_limit() -> None:
-    assert convex_hull(CORNERS, CONVEX).is_convex
-    assert not convex_hull(CORNERS, 1.01 * CONVEX).is_convex
-
-
-def test_a_flat_mesh_is_refused() -> None:
-    with pytest.raises(ModelError, match="vertices: must not lie in one plane"):
-        convex_hull([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
 
 
 def test_a_mesh_of_a_urdf_is_loaded_scaled_and_noted(tmp_path: Path) -> None:
@@ -164,11 +110,6 @@ def test_a_collada_mesh_is_loaded(tmp_path: Path) -> None:
     np.testing.assert_allclose(hull.volume, 1 / 6, rtol=EXACT, atol=CLOSED_FORM)
 
 
-def test_the_largest_index_of_31_bits_is_left_to_the_loader(tmp_path: Path) -> None:
-    path = written(tmp_path, COLLADA.replace("0 3 2 1", f"0 3 {2**31 - 1} 1"), "a.dae")
-    assert mesh_path("a.dae", tmp_path, ()) == path.resolve()
-
-
 @pytest.mark.parametrize(("right", "wrong", "words"), HOSTILE.values(), ids=HOSTILE)
 def test_a_hostile_collada_mesh_is_refused_before_it_is_loaded(
     tmp_path: Path, right: str, wrong: str, words: str
@@ -208,9 +149,3 @@ def test_the_reason_of_a_mesh_library_is_the_line_before_its_hint(
     monkeypatch.setattr(coal, "MeshLoader", lambda: SimpleNamespace(load=load))
     with pytest.raises(ModelError, match=r"a\.stl: cannot be read as a mesh: File is empty$"):
         mesh_hull(tmp_path / "a.stl", np.ones(3))
-
-
-def test_another_file_in_a_scenario_s_place_is_said_to_be_none(tmp_path: Path) -> None:
-    body = written(tmp_path, robot(link("a")))
-    with pytest.raises(ScenarioError, match=r"r\.urdf: is not a scenario, which is TOML: "):
-        load_scenario(body)

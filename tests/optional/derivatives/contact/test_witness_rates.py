@@ -3,13 +3,11 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.optional.derivatives.contact.features import Feature, ball
+from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.contact.witness_rates import (
     Sides,
-    _sliding,
     witness_rates,
 )
-from quasistatic_ref.tolerances import CONSISTENT, SPLIT, UNIQUE
 from tests.tolerances import ROUNDING
 
 X, Y, N = np.eye(3)
@@ -61,28 +59,3 @@ def test_that_points_slide_does_not_depend_on_the_unit_of_a_displacement():
         rates = found((EDGE, FACE), (0 * X, v), (0 * X, 0 * X), R)
         assert rates.unique[0]
         np.testing.assert_allclose(rates.phi[0, 0], v @ N, rtol=ROUNDING)
-
-
-def test_two_points_have_a_normal_beyond_a_share_of_the_size():
-    # The matrix of two points is phi over the size, which is one here.
-    x, still = ACROSS[None], np.zeros((1, 3, 1))
-    side = Sides([ball(0.0, N)], still, still)
-    for phi, unique, blurred in (
-        (SPLIT, False, False),
-        (2 * SPLIT, False, True),
-        (UNIQUE, False, True),
-        (2 * UNIQUE, True, False),
-    ):
-        rates = witness_rates(np.array([phi]), N[None], x, side, side, np.array([1.0]))
-        assert (rates.unique[0], rates.blurred[0]) == (unique, blurred)
-
-
-def test_equations_are_consistent_up_to_the_rate_that_counts():
-    # A singular row asks for nothing, or points slide along x as a body turns about z.
-    zero = np.zeros((2, 3)), np.zeros((3, 1))
-    for share, solved in ((1.0, True), (2.0, False)):
-        right = share * CONSISTENT * np.eye(6)[:, 5:]
-        assert (_sliding(np.diag([1.0, 1, 1, 1, 1, 0]), right, *zero) is not None) == solved
-        along = np.diag([1.0, 1, 0, 1, 1, 1]), np.zeros((6, 1)), np.stack([X, 0 * X])
-        turns = share * CONSISTENT * N[:, None]
-        assert (_sliding(*along, turns) is not None) == solved

@@ -80,11 +80,3 @@ def test_a_pose_is_as_written_but_for_the_rounding_of_its_size(far: float) -> No
     off = np.array([LOADED * (1 + far), 0.0, 0.0])
     assert same_pose(pin.SE3(R, t + off), R, t)
     assert not same_pose(pin.SE3(R, t + 1.1 * off), R, t)
-
-
-def test_a_rotation_is_as_written_but_for_rounding() -> None:
-    t = np.zeros(3)
-    for off, same in ((LOADED, True), (1.1 * LOADED, False)):
-        R = np.eye(3)
-        R[0, 1] = off
-        assert same_pose(pin.SE3(R, t), np.eye(3), t) == same

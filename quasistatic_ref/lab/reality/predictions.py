@@ -4,19 +4,14 @@ The file has a first line with the settings, and one line a push. A run that was
 on from there; a last line that was cut off is dropped.
 """
 
-import json
-from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from os import cpu_count
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import bytes_read, json_text, text_of, text_written
-from quasistatic_ref.lab.parallel import results
+from quasistatic_ref.lab.parallel import Log, results, workers
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted
 from quasistatic_ref.lab.reality.push import Pushed
@@ -79,22 +74,22 @@ def predicted_pushes(
         "certify": certify,
         "mu_omega_over_mu_v": {pair.name: float(ratios[pair.name]) for pair in pairs},
     }
-    done = _begun(path, header)
-    chunks = list(_chunks(pairs, pushes, done))
+    log = Log(path, lambda row: (row["pair"], row["push"]), header)
+    chunks = list(_chunks(pairs, pushes, log.found))
+    calls = [(name, scenes[name], tasks, certify) for name, tasks in chunks]
     total = sum(pushes[pair.name].number.size for pair in pairs)
-    left = sum(len(chunk[1]) for chunk in chunks)
+    left = sum(len(tasks) for _, tasks in chunks)
+    jobs = min(jobs or cpu_count() or 1, max(1, len(chunks)))
     with (
-        path.open("a", encoding="utf-8") as file,
+        workers(jobs) as executor,
         progress_bar(total=total, done=total - left, unit="push", shown=progress) as bar,
     ):
-        for rows in _worked(chunks, scenes, certify, jobs):
-            for row in rows:
-                done[row["pair"], row["push"]] = row
-            file.write("".join(json_text(row) + "\n" for row in rows))
-            file.flush()
+        for rows in results(executor, 2 * jobs - 1, rows_of, calls):
+            log.add(*rows)
             bar.update(len(rows))
     return {
-        pair.name: [done[pair.name, int(k)] for k in pushes[pair.name].number] for pair in pairs
+        pair.name: [log.found[pair.name, int(k)] for k in pushes[pair.name].number]
+        for pair in pairs
     }
 
 
@@ -102,7 +97,7 @@ Chunk = tuple[str, list[tuple[int, Array, Array]]]
 
 
 def _chunks(
-    pairs: Sequence[Pair], pushes: Mapping[str, Pushes], done: Mapping[Any, Row]
+    pairs: Sequence[Pair], pushes: Mapping[str, Pushes], done: Mapping[Hashable, Row]
 ) -> Iterator[Chunk]:
     for pair in pairs:
         own = pushes[pair.name]
@@ -110,19 +105,6 @@ def _chunks(
         left = [task for task in every if (pair.name, task[0]) not in done]
         for k in range(0, len(left), CHUNK):
             yield pair.name, left[k : k + CHUNK]
-
-
-def _worked(
-    chunks: Sequence[Chunk], scenes: Mapping[str, Pushed], certify: str, jobs: int | None
-) -> Iterator[list[Row]]:
-    jobs = min(jobs or cpu_count() or 1, max(1, len(chunks)))
-    if jobs == 1:
-        for name, tasks in chunks:
-            yield rows_of(name, scenes[name], tasks, certify)
-        return
-    calls = [(name, scenes[name], tasks, certify) for name, tasks in chunks]
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        yield from results(pool, 2 * jobs, rows_of, calls)
 
 
 def rows_of(
@@ -147,40 +129,6 @@ def rows_of(
             "error_bound": found.error_bound, "sticks": found.sticks, "slides": found.slides,
         })  # fmt: skip
     return rows
-
-
-def rows_read(path: Path) -> tuple[Row, dict[tuple[str, int], Row]]:
-    """The first line of a file of rows, and its rows by pair and number.
-
-    Raises
-    ------
-    InputError
-        If it is no such file.
-    """
-    lines = text_of(bytes_read(path), path).split("\n")[:-1]  # what follows was cut off
-    try:
-        header, *rows = [json.loads(line) for line in lines]
-        if not FORMAT.items() <= header.items():
-            raise InputError("is no file of predicted pushes", file=path)
-        found = {(row["pair"], row["push"]): row for row in rows}
-    except (ValueError, KeyError, TypeError, AttributeError):
-        problem = "is no file of predicted pushes; remove it, or choose another with --out"
-        raise InputError(problem, file=path) from None
-    return header, found
-
-
-def _begun(path: Path, header: Row) -> dict[tuple[str, int], Row]:
-    """Rows that are there; the file, without a torn last line, is there after this."""
-    settings = json.loads(json_text(header))
-    if not path.exists():
-        text_written(path, json_text(header) + "\n")
-        return {}
-    there, found = rows_read(path)
-    if there != settings:
-        problem = "holds predictions that were made with other settings; choose another folder "
-        raise InputError(f"{problem}with --out, or remove it", file=path)
-    text_written(path, "".join(json_text(row) + "\n" for row in (header, *found.values())))
-    return found
 
 
 def poses(rows: Sequence[Row]) -> Array:
