@@ -1,9 +1,9 @@
 """The package's derivatives challenged: ``python -m validation.make.derivatives [--out FILE]``.
 
 `quasistatic-ref vectors challenge` makes new cases of the layer ``derivative``, whose answers are
-differences of steps without rounding, or the reasons why there are none. Exit status 1 if
-``derivatives`` answers one of them by a wrong number or a wrong reason; where the package refuses a
-step, or gives a reason in the place of numbers that float64 does not have, it claims nothing.
+differences of steps without rounding, or that there are none. Exit status 1 if ``derivatives`` has
+a wrong number, or one at a kink; where the package refuses a step, or says that there are none, it
+claims no number.
 """
 
 import argparse
@@ -17,13 +17,13 @@ from quasistatic_ref.lab.vectors.layers import layer
 
 LAYERS = ("derivative",)
 NO_CLAIM = ("LimitExceeded", "the answer says it has none")
-"""In the words of a finding: a body is too deep, or there is a reason in the place of numbers."""
+"""In the words of a finding: a body is too deep, or there is a verdict in the place of numbers."""
 PAGE = """# The package's derivatives challenged
 
 Made by `python -m validation.make.derivatives`: {count:,} cases that `vectors challenge` makes of
 the layer `derivative`, seed 1. Each answer is compared with differences of steps without rounding,
 within four times the tolerance of the reference vectors: 4e-9 of the largest entry of its field,
-or of a thousandth of what the field would be without contacts; or with the reasons of a kink.
+or of a thousandth of what the field would be without contacts. At a kink there may be none.
 
 {verdicts}.
 
