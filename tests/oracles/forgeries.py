@@ -1,44 +1,36 @@
-"""Every field of every kind of solution file, forged: ``python -m validation.make.forgeries``.
+"""Every field of every kind of solution file, forged.
 
-Good files of each kind in ``step.solution_files.CLAIMS`` and ``ELLIPSOID_CLAIMS``, and of an
-infeasible step, are spoilt one field at a time. The fields are those that stand in the file: one
-that is added to the format is attacked without a line here. Each number is moved by one unit in
-the last place, in both directions, and replaced by nonsense; each word, truth, fraction, row and
-list is replaced, left out, lengthened; fields are added. Multipliers are forged with the wrenches
-that go with them, too.
+Files of each kind in ``step.solution_files.CLAIMS`` and ``ELLIPSOID_CLAIMS``, and of an infeasible
+step, are spoilt one field at a time. The fields are those that stand in the file: one that is added
+to the format is attacked without a line here. Each number is moved by one unit in the last place,
+in both directions, and replaced by nonsense; each word, truth, fraction, row and list is replaced,
+left out, lengthened; fields are added. Multipliers are forged with the wrenches that go with them.
 
 A forged file must be refused, or still be true: a bound may be larger than it need be, and where a
-bound is all that is claimed of numbers they may move within it. What is true is decided here by
-fractions, from the equations: nothing is asked of ``verify`` or of the rooms that it uses but the
-optimum itself. Writes a table, and exits with status 1 if a false file passes.
+bound is all that is claimed of numbers they may move within it. What is true is decided by
+fractions, from the equations (``solution_truth.py``): nothing is asked of ``verify`` or of what it
+uses but the optimum itself.
 """
 
 from __future__ import annotations
 
-import argparse
 import copy
 import json
 import math
-import sys
-from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
-from tqdm import tqdm
 
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError, StepInfeasible
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read
 from quasistatic_ref.step.solution_files import solution_text as text_of
-from tests.oracles.forged_scenes import scenes
+from tests.oracles.records import Place, places, value_at
 from tests.oracles.solution_truth import least_bound, truth_of, wrenches
-from validation.tools.fuzzing.records import Place, places, value_at
 
 Json = Any
 MISSING: Json = object()
@@ -161,57 +153,3 @@ def at_random(rng: np.random.Generator, step: StepData, record: Json) -> Json:
             )
         forged = put(forged, where, value)
     return with_its_wrenches(step, forged) if rng.random() < 0.5 else forged
-
-
-def main() -> int:
-    """Print the table; exit status 1 if a false file passes."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--random", type=int, default=300, help="random forgeries of each file")
-    parser.add_argument("--out", type=Path, help="write the table here too")
-    options = parser.parse_args()
-    counts: dict[str, Counter[str]] = {}
-    passed = []
-    with TemporaryDirectory() as folder:
-        path = Path(folder) / "solution.json"
-        for (kind, name), step in tqdm(scenes(every=True).items()):
-            good = good_file(step, kind)
-            proved = not refused(step, good, path)
-            assert proved == (kind not in ("none", "residual in the ellipsoid")), name
-            found = list(outcomes(step, good, path))
-            rng, truth = np.random.default_rng(0), truth_of(step, good)
-            for forged in (at_random(rng, step, good) for _ in range(options.random)):
-                if forged == good:
-                    continue
-                said = "refused" if refused(step, forged, path) else "PASSED"
-                said = "still true" if said == "PASSED" and truth(forged) else said
-                found.append(("up to three at random", said, forged))
-            for field, said, forged in found:
-                counts.setdefault(f"{kind} | {field}", Counter())[said] += 1
-                if said == "PASSED":
-                    passed.append(f"{name}, {field}: {json.dumps(forged)[:300]}")
-    lines = ["| kind | field | tried | refused | still true | false, and passed |", "|-" * 6 + "|"]
-    for row, said in counts.items():
-        numbers = said.total(), said["refused"], said["still true"], said["PASSED"]
-        lines.append(f"| {row} | {' | '.join(map(str, numbers))} |")
-    total = sum(counts.values(), Counter())
-    lines.append(
-        f"\n{total.total()} forged files: {total['refused']} refused, {total['still true']} still "
-        f"true, {total['PASSED']} false and passed"
-    )
-    text = "\n".join(lines)
-    print(text, *passed[:10], sep="\n")
-    if options.out:
-        text_written(options.out, HEAD + text + "\n")
-    return int(bool(passed))
-
-
-HEAD = """# Forged solution files
-
-Made by `python -m validation.make.forgeries`, whose first lines say what is done. Files of kind
-`none`, and of kind `residual` in the ellipsoid or without a bound, prove nothing: they are refused
-as they are.
-
-"""
-
-if __name__ == "__main__":
-    sys.exit(main())
