@@ -7,7 +7,7 @@ import pytest
 from flint import arb, ctx, fmpz_mat
 
 from quasistatic_ref.certify.dependence import follow, spanned_in_contacts
-from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.certify.rational import exact_form, exact_rows
 from quasistatic_ref.certify.rounding import all_nearest, nearest_in
@@ -22,9 +22,9 @@ from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_exact import resting_point
 from tests.helpers import changed, pinch, planted_step, random_step, sphere_on_floor
-from tests.tolerances import ACTIVE_SET, ROUNDING
+from tests.tolerances import ACTIVE_SET
 from validation.make import confirmed_bits
-from validation.make.confirmed_bits import CONES, checked, differing, random_case
+from validation.make.confirmed_bits import CONES, checked, differing
 
 FLOOR_OWN = Extra(("stop", "far"), [[1.0, 0, 0, 0, 0, 0, 0], [0, 1.0, 0, 0, 0, 0, 0]], [1e-4, -1.0])
 
@@ -45,6 +45,9 @@ def some_steps():
     yield "body held", resting_point(h=0.01).replace(tau_u=[0.1, 0.07, -3.0, 0.01])
     yield "planted", planted_step(rng)[0]
     yield "rows of a user's own", random_step(rng).replace(extra=FLOOR_OWN)
+    # Here x is zero by symmetry, or because nothing pushes.
+    yield "pinch", pinch()
+    yield "sphere", sphere_on_floor(wrench=(0.5, 0.0, -3.0, 0.0, 0.0, 0.01))
     yield "no contact", random_step(rng).replace(contacts=no_contacts(7))
 
 
@@ -58,33 +61,14 @@ def test_the_right_working_set_is_confirmed_with_the_same_bits(step):
     assert differing(answer, truth) == []
 
 
-@pytest.mark.parametrize("block", range(4))
-def test_random_steps_have_the_same_bits_and_wrong_sets_are_refused(block):
+def test_random_steps_have_the_same_bits_and_wrong_sets_are_refused():
     """A sample of validation/make/confirmed_bits.py."""
-    outcomes = [checked(seed) for seed in range(block, 120, 4)]
+    outcomes = [checked(seed) for seed in range(6 * len(CONES))]
     assert [faults for _, _, faults in outcomes if faults] == []
     total = {key: sum(found[key] for _, found, _ in outcomes) for key in confirmed_bits.COLUMNS}
     assert total["optima"] >= 24
     assert total["confirmed"] >= 0.95 * total["optima"]
     assert total["refused"] >= 50
-
-
-def test_the_sample_has_every_cone_in_both_units():
-    kinds = {random_case(seed)[0] for seed in range(2 * len(CONES))}
-    assert kinds == {cone + scaled for cone in CONES for scaled in ("", ", badly scaled")}
-
-
-@pytest.mark.parametrize(
-    "step",
-    [pinch(), sphere_on_floor(wrench=(0.5, 0.0, -3.0, 0.0, 0.0, 0.01))],
-    ids=["pinch", "sphere"],
-)
-def test_zeros_that_the_rows_do_not_imply_are_confirmed_with_the_same_bits(step):
-    """Here x is zero by symmetry, or because nothing pushes."""
-    truth, answer = optimum_and_answer(step)
-    assert answer is not None
-    assert differing(answer, truth) == []
-    assert (truth.delta_q == 0).any()
 
 
 def test_a_row_that_touches_and_bears_nothing_is_left_to_the_exact_method():
@@ -138,55 +122,10 @@ def test_a_refused_guess_has_its_point_in_float64_and_is_not_rounded(monkeypatch
     assert form.A[found.row] @ found.delta_q < form.b[found.row]
 
 
-def test_the_net_impulse_is_what_the_balance_says():
-    """H delta_q - g of Eq. (9), in float64."""
-    step = random_step(np.random.default_rng(4))
-    form, delta_q = standard_form(step), np.random.default_rng(5).standard_normal(7)
-    with ctx.workprec(200):
-        found = [float(v) for v in BallHessian(step).net(step, [arb(v) for v in delta_q.tolist()])]
-    expected = form.H @ delta_q - form.g
-    np.testing.assert_allclose(found, expected, rtol=0, atol=ROUNDING * np.abs(expected).max())
-
-
-def test_without_any_of_its_rows_a_unique_working_set_is_refused():
-    tried = 0
-    for seed in range(5, 40, 5):
-        step = grasp_step(np.random.default_rng(seed))
-        truth, _ = optimum_and_answer(step)
-        if not truth.multipliers_unique:
-            continue
-        hessian, working = BallHessian(step), truth.working_set
-        for rest in itertools.combinations(working, len(working) - 1):
-            tried += 1
-            assert isinstance(BallStep(step, hessian).confirmed(rest), Violated)
-    step = planted_step(np.random.default_rng(0), rows=(4, 4))[0]
-    truth, _ = optimum_and_answer(step)
-    assert isinstance(BallStep(step, BallHessian(step)).confirmed([]), Violated)
-    assert truth.working_set
-    tried += 1
-    assert tried >= 1
-
-
 def test_rows_that_depend_on_each_other_are_refused():
     """All six of a contact that sticks have rank four."""
     step = sphere_on_floor(wrench=(0.0, 0.0, -3.0, 0.0, 0.0, 0.0))
     assert BallStep(step, BallHessian(step)).confirmed(range(6)) is None
-
-
-@pytest.mark.parametrize("field", ["delta_q", "lam", "net", "slack"])
-def test_another_bit_is_noticed_by_the_script(monkeypatch, field):
-    class Spoilt(BallStep):
-        def confirmed(self, guess):
-            answer = super().confirmed(guess)
-            if isinstance(answer, ExactOptimum):
-                numbers = getattr(answer, field)
-                numbers[:] = np.nextafter(numbers, np.inf)
-            return answer
-
-    monkeypatch.setattr(confirmed_bits, "BallStep", Spoilt)
-    kind, _, faults = checked(0)
-    assert len(faults) >= 1
-    assert all(fault.startswith(f"{kind}, step 0") and field in fault for fault in faults)
 
 
 def test_a_mass_matrix_that_a_simulator_poses_is_checked():
