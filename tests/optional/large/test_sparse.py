@@ -8,11 +8,8 @@ import pytest
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.errors import BackendError, ContactError, StepDataError, StepNotSolved
-from quasistatic_ref.lab.scenes import piles
+from quasistatic_ref.errors import BackendError, StepDataError, StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.study.bench.large import large_step, table
-from quasistatic_ref.model import world
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse import MOST_ITERATIONS, SparseSolver, reachable
@@ -25,7 +22,6 @@ from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
-from quasistatic_ref.tolerances import FAR
 from tests.helpers import always_in_blocks
 from tests.model.urdf.urdf_texts import written
 from tests.scenes import CLUB
@@ -178,27 +174,6 @@ def test_a_large_step_without_solution_is_no_answer(always_sparse):
         solve_step(stuck, solver, certify="off")
 
 
-@pytest.mark.parametrize(("within", "solvable"), [(1.0, False), (0.9, True)])
-def test_edges_of_aligned_boxes_have_no_normal_and_inner_points_do(monkeypatch, within, solvable):
-    monkeypatch.setattr(piles, "WITHIN", within)
-    some = pile((2, 1, 1), 16, certify="full")
-    q = some.q.copy()
-    q[7] -= piles.GAP + 1e-12  # x of the second box: it touches the first
-    if solvable:
-        result = some.simulator.step(q, NO_TARGET, some.force)
-        assert result.solution.certificate.kind == "exact"
-    else:
-        with pytest.raises(ContactError, match="no normal is right"):
-            some.simulator.step(q, NO_TARGET, some.force)
-
-
-def test_piqp_solves_a_step_whose_duality_gap_is_lost_in_rounding():
-    # 512 contacts: a gap of 1e-14 is never reached, the answer is right all the same.
-    some = pile((16, 1, 1), 32, backend="piqp", certify="residual")
-    residuals = step_after(some, 1).solution.certificate.residuals
-    assert max(residuals.values()) <= OPTIMUM
-
-
 def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():
     tight = BACKENDS["clarabel"].attempts(1e-12)[0]
     assert tight["tol_gap_abs"] == 1e-14
@@ -209,47 +184,3 @@ def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():
     assert reachable(tight, 10) == tight | {"max_iter": MOST_ITERATIONS}
     split = BACKENDS["osqp"].attempts(1e-12)[0]
     assert reachable(split, 1000) == split  # it has no gap, and needs its many iterations
-
-
-def test_bodies_in_parts_are_the_bodies_at_once(monkeypatch):
-    def found(part):
-        monkeypatch.setattr(world, "PART", part)
-        system = load_scenario("bunny_grasp", fast=True).system
-        q = system.integrate(system.q_start, 0.1 * np.cos(np.arange(system.n_v)))
-        kinematics = system.kinematics(q)
-        M_u, force = system.M_u(q), system.gravity_force(q, (1.0, 2.0, -9.81))
-        return len(system._workspace.parts), (kinematics.R, kinematics.t, kinematics.J, M_u, force)
-
-    (one, at_once), (two, in_parts) = found(100), found(1)
-    assert (one, two) == (1, 2)
-    for a, b in zip(at_once, in_parts, strict=True):
-        np.testing.assert_allclose(b, a, rtol=EXACT, atol=ROUNDING)
-
-
-def test_what_a_large_step_costs_is_told_by_part_with_its_memory(always_sparse):
-    cost = large_step((3, 1, 1), steps=2)
-    # 3 on the floor and 2 between neighbours, 4 contacts of 6 rows each
-    assert (cost.bodies, cost.contacts, cost.coordinates, cost.rows) == (3, 20, 18, 120)
-    assert cost.sparse
-    assert 0 < cost.seconds <= cost.tail
-    assert sum(cost.parts.values()) <= cost.tail * (1 + ROUNDING)
-    # A has 12 contacts of 6 rows and 6 columns, 8 of 6 rows and 12 columns, and data and indices
-    assert 12 * (12 * 6 * 6 + 8 * 6 * 12) / 2**20 < cost.megabytes < 1
-    assert "| 3 | 20 | 18 | 120 | yes |" in table("bodies", [cost])[-1]
-
-
-@pytest.mark.usefixtures("always_sparse")
-def test_rows_beyond_their_reach_are_handed_over_at_it():
-    """FAR times a row's length, or FAR where that is more."""
-    step = step_after(pile(BOXES), 1).step
-    solver = SparseSolver(step, "piqp")
-    scaled = solver.scaled(step)
-    scaled.A.data *= np.where(scaled.A.indices % 2, 8.0, 0.125)
-    lengths = np.linalg.norm(scaled.A.toarray(), axis=1)
-    reach = FAR * np.maximum(1.0, lengths)
-    assert lengths.min() < 1 < lengths.max()
-    for share, beyond in ((0.99, False), (1.01, True)):
-        scaled.b = -share * reach
-        assert (solver.write(scaled) == beyond).all()
-        expected = -min(share, 1.0) * reach
-        np.testing.assert_allclose(solver.program.b, expected, rtol=ROUNDING, atol=0.0)
