@@ -35,17 +35,6 @@ def test_sticking_contact_keeps_independent_rows_of_the_same_impulse():
     assert np.abs(A[rows].T @ lam - A.T @ pressed).max() < 1e-12
 
 
-@pytest.mark.parametrize("copies", [2, 3, 4])
-def test_coincident_contacts_that_press_alike_keep_independent_rows(copies):
-    """Several multipliers reach zero at once; what rounding leaves of a dependence is no pivot."""
-    A = np.vstack([standard_form(resting_point()).A] * copies)
-    pressed = np.ones(len(A))
-    rows = warm_rows(A, pressed, np.zeros(len(A)))
-    assert np.linalg.matrix_rank(A[rows]) == len(rows) <= 4
-    lam = np.linalg.lstsq(A[rows].T, A.T @ pressed)[0]
-    np.testing.assert_allclose(A[rows].T @ lam, A.T @ pressed, rtol=0, atol=1e-12)
-
-
 def test_optimal_multipliers_that_are_not_basic_need_no_walk():
     """The mean of several optimal multipliers is one, and presses on more rows than it needs."""
     rng = np.random.default_rng(5)

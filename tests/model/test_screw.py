@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.model.screw import change, changes, dot, linear_part, position, translation
+from quasistatic_ref.model.screw import change, dot, linear_part, position, translation
 from tests.tolerances import ROUNDING
 
 ANGLES = (0.0, 1e-9, 0.3, 3.0)
@@ -84,14 +84,6 @@ def test_a_continuous_joint_turns_by_the_angle_between_both_configurations(angle
     q = [9.0, np.cos(0.7), np.sin(0.7)]
     q_next = [9.0, np.cos(0.7 + angle), np.sin(0.7 + angle)]
     np.testing.assert_allclose(change(CONTINUOUS, q, q_next, [0.0, 0.0]), [angle], atol=ROUNDING)
-
-
-def test_changes_are_made_anew_for_the_joints_that_are_named_and_are_there():
-    # The wheel's change is an angle of 0.2; the entry of the other joint is left as it is.
-    q, q_next = np.array([9.0, 1.0, 0.0]), np.array([9.0, np.cos(0.2), np.sin(0.2)])
-    found = changes([CONTINUOUS], q, q_next, np.array([5.0, 0.0]))
-    np.testing.assert_allclose(found, [5.0, 0.2], rtol=ROUNDING)
-    assert changes([CONTINUOUS], q, q_next, np.array([5.0])).tolist() == [5.0]
 
 
 def test_a_product_of_three_numbers_is_their_sum_of_products():

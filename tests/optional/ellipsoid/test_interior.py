@@ -12,7 +12,6 @@ from quasistatic_ref.optional.ellipsoid.interior import (
     interior_point,
 )
 from quasistatic_ref.optional.ellipsoid.newton import (
-    INWARDS,
     OPEN,
     SLIDES,
     STICKS,
@@ -119,16 +118,6 @@ def test_both_methods_project_on_a_cone(push, x, y, state):
         np.testing.assert_allclose(floats(pair.x.entries()), x, rtol=0, atol=tolerance)
         np.testing.assert_allclose(floats(pair.y[0]), y, rtol=0, atol=4 * tolerance)
         np.testing.assert_allclose(floats(pair.s[0]), x, rtol=0, atol=tolerance)
-
-
-def test_newton_ends_at_the_free_motion_where_nothing_touches():
-    """4 x = 2, and the row x >= -8 is open by 8.5."""
-    problem = Blocks(arb_mat([[arb(4)]]), column([2.0]), [arb_mat([[arb(1)]])], [column([-8.0])])
-    with ctx.workprec(640):
-        pair = newton_pair(problem, column([3.0]), [balls([1.0])], [OPEN])
-    assert floats(pair.x.entries()) == [0.5]
-    assert floats(pair.s[0]) == [8.5]
-    assert float(pair.y[0][0]) == float(INWARDS)
 
 
 def test_without_contacts_the_free_motion_is_the_answer():

@@ -17,7 +17,7 @@ from quasistatic_ref.step.data import StepData
 from tests.scenes import chain_scene
 from tests.step.public_data import public_data
 
-NAN, INF = np.nan, np.inf
+NAN = np.nan
 
 
 @pytest.fixture(scope="module")

@@ -7,24 +7,19 @@ import pytest
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.errors import BackendError, StepDataError, StepNotSolved
+from quasistatic_ref.errors import BackendError, StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse import MOST_ITERATIONS, SparseSolver, reachable
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, Sphere
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import always_in_blocks
-from tests.model.urdf.urdf_texts import written
-from tests.scenes import CLUB
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
 
 BOXES = (2, 1, 2)
@@ -65,20 +60,6 @@ def test_blocks_are_the_columns_of_J_that_are_not_zero(scene):
         sparse.motion(delta_q), dense.motion(delta_q), rtol=EXACT, atol=ROUNDING
     )
     assert sparse.name == dense.name
-
-
-def test_the_block_of_a_club_that_swings_over_a_floor_is_one_column(tmp_path):
-    # It turns about y, 0.1 m above the floor, with a ball of 0.01 m at x = 0.2: the ball's lowest
-    # point moves by y x (0.2, 0, -0.01) = (-0.01, 0, -0.2), and there is no spin about z.
-    system = System([Body("a", written(tmp_path, CLUB, "club.urdf"), "fixed", ("swing",))])
-    floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(np.eye(3)[2], 0.0))
-    on_club = system.link("a/club"), np.eye(3), np.array([0.2, 0.0, 0.0])
-    pairs = [ContactPair("p", floor, PlacedShape("ball", *on_club, Sphere(0.01)), 0.5, 0.0, 4, 1)]
-    kinematics = system.kinematics(system.q_start)
-    geometry = BlockGeometry(contact_layout(pairs), system.motion)
-    found = geometry.contacts(closest_points(pairs, kinematics), kinematics).blocks
-    assert found.column.tolist() == [[0]]
-    np.testing.assert_allclose(found.J, [[[-0.01], [0], [-0.2], [0]]], rtol=EXACT, atol=ROUNDING)
 
 
 def test_the_sparse_form_is_the_standard_form(always_sparse):
@@ -150,13 +131,6 @@ def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always
     step = step_after(pile(BOXES), 1).step
     with pytest.raises(BackendError, match=r"takes no sparse matrices; .* clarabel, osqp, piqp"):
         SparseSolver(step, "daqp")
-
-
-def test_a_step_that_is_not_in_blocks_has_no_pattern():
-    step = step_after(pile(BOXES, certify="full"), 1).step
-    assert type(step.contacts) is not SparseContacts
-    with pytest.raises(StepDataError, match="must be in blocks"):
-        Pattern(step)
 
 
 def test_a_large_step_without_solution_is_no_answer(always_sparse):

@@ -106,12 +106,6 @@ def test_a_walk_drops_one_row_after_the_other(short, left):
     assert walked(form, np.eye(3), held).tolist() == left
 
 
-def test_a_row_without_coefficients_that_is_violated_has_no_end():
-    form = StandardForm(np.eye(1), np.zeros(1), np.array([[1.0], [0.0]]), np.ones(2))
-    none = np.zeros(0, np.int64)
-    assert walked(form, np.eye(1), Violated(1, none, np.zeros(0), np.zeros(1))) is None
-
-
 def test_a_guess_is_given_up_after_some_walks():
     guesses = []
 
