@@ -156,11 +156,11 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/warm.py": ("certify/test_warm.py", *EXACT),
     "optional/derivatives/step/sensitivity.py": (
         "optional/derivatives/step/test_sensitivity.py",
-        "optional/fast/guess/test_obstacles.py",
+        "optional/derivatives/step/test_parameters.py",
     ),
     "optional/derivatives/step/parameters.py": (
         "optional/derivatives/step/test_sensitivity.py",
-        "optional/fast/guess/test_obstacles.py",
+        "optional/derivatives/step/test_parameters.py",
     ),
     "certify/rows.py": ("certify/test_certificate.py", "certify/test_farkas.py"),
     "certify/farkas.py": ("certify/test_farkas.py",),
