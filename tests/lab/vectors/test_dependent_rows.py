@@ -35,7 +35,7 @@ def along(one, way, force):
     """The quotient of q+ as q moves along one vector and the force along another."""
 
     def inputs(by):
-        case = with_q(one.at.tree, way, one.at.case, by)
+        case = with_q(way, one.at.case, by)
         return with_force(force, case, by)
 
     return quotient(one, inputs, moved=True)

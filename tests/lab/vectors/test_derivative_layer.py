@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref.lab.program import step
+from quasistatic_ref.lab.program.candidates import tangents
+from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.check.mistakes import MISTAKES
 from quasistatic_ref.lab.vectors.converters import tangent_map
 from quasistatic_ref.lab.vectors.families.derivative_kinks import kink_cases
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.lab.vectors.program import step
-from quasistatic_ref.lab.vectors.program.candidates import tangents
-from quasistatic_ref.lab.vectors.program.mechanism import kinematics
 from tests.lab.vectors.material import cases, expected, report_on
 from tests.lab.vectors.slopes import EPS, MOVES, held, minus, parts, q_next, rate, slopes
 

@@ -9,11 +9,11 @@ import pytest
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.program.rotation import turn
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
 from quasistatic_ref.lab.vectors.exact.algebra import scaled, times
-from quasistatic_ref.lab.vectors.exact.precision import number
-from quasistatic_ref.lab.vectors.exact.rotation import axis_rotation, cos_sin
+from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number
 from quasistatic_ref.lab.vectors.families.distance import SHAPES, distance_cases
 from quasistatic_ref.lab.vectors.layers import distance
 from quasistatic_ref.lab.vectors.whole.grid import matrix_on_grid, working
@@ -96,7 +96,7 @@ def test_a_pose_rounded_in_its_hundredth_digit_still_has_flat_faces(axis):
     # rounded, and the matrix no rotation beyond the 96th digit.
     axis = [fmpq(x, isqrt(sum(y * y for y in axis))) for x in axis]
     with working():
-        R = matrix_on_grid(axis_rotation(axis, *cos_sin(fmpq(1))))
+        R = matrix_on_grid(turn(axis, *cos_sin(fmpq(1))))
         tips = [[0.0, 0.0, -0.25], [0.2, 0.1, 0.2], [-0.1, 0.2, 0.25], [-0.15, -0.2, 0.3]]
         solids = [
             replace(placed(shape, ORIGIN), R=R, t=times(R, [fmpq(0), fmpq(0), z]))

@@ -7,52 +7,55 @@ term of eps^3. A central difference on it has the same limit as on q (+) eps e_j
 
 import copy
 from collections.abc import Sequence
+from typing import Any
 
+import numpy as np
 from flint import fmpq
 
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, add, moved, scaled
-from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism
+from quasistatic_ref.lab.program.mechanism import slices
+from quasistatic_ref.lab.program.rotation import quaternion_product, rotation
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, add, scaled
 from quasistatic_ref.lab.vectors.exact.precision import Real, number, numbers, root
-from quasistatic_ref.lab.vectors.exact.rotation import quaternion_product, rotation
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.layers.step import wrench_force
 from quasistatic_ref.lab.vectors.whole.grid import on_grid, vector_on_grid, working
 from quasistatic_ref.lab.vectors.whole.world import world
 
+Array = Any
+"""An array of rational numbers."""
 
-def curved(tree: Mechanism, q: Sequence[Real], way: Vector) -> Vector:
+
+def curved(mechanism: Json, q: Sequence[Real], way: Vector) -> Vector:
     """Configuration near q (+) way: the difference is of third order in the way.
 
     Parameters
     ----------
-    tree : Mechanism
+    mechanism : dict
     q : sequence of number
         All of it, or its actuated part.
     way : vector
         Small numbers, one for each entry of delta_q of that part [m, rad].
     """
-    after = numbers(q)
-    for body in tree.bodies:
-        if body.mimic is None and body.q.stop <= len(after):
-            after[body.q] = _curved(body.kind, after[body.q], way[body.v])
-    return after
+    after: Array = np.array(q)
+    kinds = {body["name"]: body["joint"] for body in mechanism["bodies"]}
+    for name, (i, k) in slices(mechanism)[0].items():
+        if i.stop <= len(after):
+            after[i] = _curved(kinds[name], after[i], np.array(way[k]))
+    return list(after)
 
 
-def _curved(kind: str, q: Vector, way: Vector) -> Vector:
+def _curved(kind: str, q: Array, way: Array) -> Array:
     match kind:
         case "floating":
-            turn = [*scaled(way[3:], fmpq(1, 2)), fmpq(1)]
-            return [*moved(rotation(q[3:]), q[:3], way[:3]), *quaternion_product(q[3:], turn)]
+            turned = quaternion_product(q[3:], np.append(way[3:] / 2, 1))
+            return np.append(q[:3] + rotation(q[3:]) @ way[:3], turned)
         case "planar":
-            c, s = q[2:]
-            unit = 1 / length_of(c, s)
-            forward, sideways = (scaled([c, s], unit), scaled([-s, c], unit))
-            t = add(scaled(forward, way[0]), scaled(sideways, way[1]))
-            return [*add(q[:2], t), *_turned(q[2:], way[2])]
+            c, s = q[2:] / length_of(*q[2:])
+            t = np.array([[c, -s], [s, c]]) @ way[:2]
+            return np.append(q[:2] + t, _turned(q[2:], way[2]))
         case "continuous":
             return _turned(q, way[0])
         case _:
-            return add(q, way)
+            return q + way
 
 
 def length_of(c: Real, s: Real) -> Real:
@@ -61,20 +64,19 @@ def length_of(c: Real, s: Real) -> Real:
         return on_grid(root(c * c + s * s))
 
 
-def _turned(unit: Vector, angle: Real) -> Vector:
-    c, s = unit
-    cosine, sine = 4 - angle * angle, 4 * angle
-    return [c * cosine - s * sine, s * cosine + c * sine]
+def _turned(unit: Array, angle: Real) -> Array:
+    (c, s), square = unit, angle * angle
+    return np.array([[c, -s], [s, c]]) @ np.array([4 - square, 4 * angle])
 
 
-def with_q(tree: Mechanism, way: Vector, case: Json, by: fmpq) -> Json:
+def with_q(way: Vector, case: Json, by: fmpq) -> Json:
     """The case at q (+) by times way, but for terms of third order."""
-    return {**case, "q": curved(tree, case["q"], scaled(way, by))}
+    return {**case, "q": curved(case["mechanism"], case["q"], scaled(way, by))}
 
 
-def with_target(tree: Mechanism, way: Vector, case: Json, by: fmpq) -> Json:
+def with_target(way: Vector, case: Json, by: fmpq) -> Json:
     """The same of q_bar_a, with one number for each actuated coordinate."""
-    return {**case, "q_bar_a": curved(tree, case["q_bar_a"], scaled(way, by))}
+    return {**case, "q_bar_a": curved(case["mechanism"], case["q_bar_a"], scaled(way, by))}
 
 
 def with_force(way: Vector, case: Json, by: fmpq) -> Json:
@@ -85,10 +87,9 @@ def with_force(way: Vector, case: Json, by: fmpq) -> Json:
 
 def with_held_wrenches(case: Json) -> Json:
     """The case with its wrenches as the generalised force ``tau`` that they are at its q."""
-    at = world(case)
-    with working():
-        tau = vector_on_grid(wrench_force(at.tree, at.at, case))
-    return {**case, "wrenches": [], "tau": tau}
+    at = world({**case, "gravity": [0.0, 0.0, 0.0]})
+    tau = vector_on_grid(at.loads[1])
+    return {**at.case, "gravity": numbers(case["gravity"]), "wrenches": [], "tau": tau}
 
 
 def with_friction(name: str, pair: int, case: Json, by: Real) -> Json:

@@ -14,6 +14,7 @@ from typing import Final
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.whole import along
@@ -60,12 +61,12 @@ def moves(one: Base) -> dict[str, list[Move]]:
 
     A coefficient of friction that is 0 cannot fall: where a pair has one, its name is missing.
     """
-    tree, case = one.at.tree, one.at.case
-    n, n_a, pairs = tree.n_v, tree.n_a, range(len(case["pairs"]))
+    case, pairs = one.at.case, range(len(one.at.case["pairs"]))
+    _, n_a, n = slices(case["mechanism"])
     masses = [k for k, body in enumerate(case["mechanism"]["bodies"]) if "mass" in body]
     found: dict[str, list[Move]] = {
-        "q": [partial(along.with_q, tree, _way(n, j)) for j in range(n)],
-        "q_bar_a": [partial(along.with_target, tree, _way(n_a, j)) for j in range(n_a)],
+        "q": [partial(along.with_q, _way(n, j)) for j in range(n)],
+        "q_bar_a": [partial(along.with_target, _way(n_a, j)) for j in range(n_a)],
         "tau": [partial(along.with_force, _way(n, j)) for j in range(n)],
         "mu_v": [partial(along.with_friction, "mu_v", p) for p in pairs],
         "mu_omega": [partial(along.with_friction, "mu_omega", p) for p in pairs],

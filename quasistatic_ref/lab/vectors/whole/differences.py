@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 
 from flint import fmpq
 
+from quasistatic_ref.lab.program.integration import way
 from quasistatic_ref.lab.vectors.exact.algebra import Vector, scaled
-from quasistatic_ref.lab.vectors.exact.integration import difference
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.whole.grid import STEP, vector_on_grid, working
 from quasistatic_ref.lab.vectors.whole.nearby import Near, candidates, kept, pool
@@ -81,13 +81,8 @@ def are_solids(case: Json, pair: int) -> bool:
 
 def away(at: World, q_next: Vector, other: Vector) -> Vector:
     """Difference other (-) q_next, on the grid [m, rad]."""
-    n_q_a = max((b.q.stop for b in at.tree.bodies if b.actuated and b.kind != "fixed"), default=0)
     with working():
-        parts = (
-            difference(at.tree, q_next[:n_q_a], other[:n_q_a], actuated=True),
-            difference(at.tree, q_next[n_q_a:], other[n_q_a:], actuated=False),
-        )
-        return vector_on_grid([*parts[0], *parts[1]])
+        return vector_on_grid(way(at.case["mechanism"], q_next, other))
 
 
 def base(case: Json, change: Change | None = None) -> Base:

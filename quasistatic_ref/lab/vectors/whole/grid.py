@@ -6,14 +6,14 @@ that every comparison has an answer; what float64 writes is a multiple already. 
 quotient over 2 * 2^-100 thus keeps more than 60 decimal places.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from contextlib import AbstractContextManager
 from typing import Final
 
 from flint import ctx, fmpq
 
 from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
-from quasistatic_ref.lab.vectors.exact.precision import Real, rational_near
+from quasistatic_ref.lab.vectors.exact.precision import Real, number, rational_near
 
 BITS: Final = 320
 """Places behind the binary point."""
@@ -29,24 +29,24 @@ OTHER_STEP: Final = fmpq(3, 1 << 98)
 
 def on_grid(x: Real) -> fmpq:
     """The nearest multiple of 2^-320; of a ball, that of its middle."""
-    exact = rational_near(x)
+    exact = rational_near(number(x))
     p, q = int(exact.p), int(exact.q)
     return fmpq(((p << (BITS + 1)) + q) // (2 * q), 1 << BITS)
 
 
-def vector_on_grid(x: Sequence[Real]) -> Vector:
+def vector_on_grid(x: Iterable[Real]) -> Vector:
     """The same of every number of a vector."""
     return [on_grid(v) for v in x]
 
 
-def matrix_on_grid(A: Sequence[Sequence[Real]]) -> Matrix:
+def matrix_on_grid(A: Iterable[Iterable[Real]]) -> Matrix:
     """The same of every number of a matrix."""
     return [vector_on_grid(row) for row in A]
 
 
-def exact_or_on_grid(x: Real) -> fmpq:
+def exact_or_on_grid(x: Real) -> Real:
     """A rational number as it is: poses of floating bases are; a ball on the grid."""
-    return x if isinstance(x, fmpq) else on_grid(x)
+    return x if isinstance(x, fmpq | int) else on_grid(x)
 
 
 def is_small(x: fmpq) -> bool:

@@ -6,21 +6,24 @@ program is solved by the exact method in integers, from the working set of a ste
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
 from math import lcm
 from typing import Final, TypeAlias
 
+import numpy as np
 from flint import arb, arb_mat, ctx, fmpq, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector, cross, dot, subtract, unit
-from quasistatic_ref.lab.vectors.exact.integration import integrated
-from quasistatic_ref.lab.vectors.exact.precision import Real, number, numbers
+from quasistatic_ref.lab.program import candidates
+from quasistatic_ref.lab.program.integration import integrate
+from quasistatic_ref.lab.program.mechanism import contact_jacobian
+from quasistatic_ref.lab.program.rotation import AXES
+from quasistatic_ref.lab.program.rows import contact_rows
+from quasistatic_ref.lab.program.step import objective
+from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
+from quasistatic_ref.lab.vectors.exact.precision import Real
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.layers.rows import row_count
-from quasistatic_ref.lab.vectors.layers.step import objective_of
 from quasistatic_ref.lab.vectors.whole.grid import (
     matrix_on_grid,
     on_grid,
@@ -29,7 +32,6 @@ from quasistatic_ref.lab.vectors.whole.grid import (
 )
 from quasistatic_ref.lab.vectors.whole.nearby import Near
 from quasistatic_ref.lab.vectors.whole.world import World
-from quasistatic_ref.step.friction import cone_matrix
 
 WIDE: Final = 1024
 """Bits of a ball on the way to delta_q: data of the grid have 400 and more."""
@@ -96,26 +98,15 @@ Change: TypeAlias = Callable[[World, Near], Near]
 """A mistake: from a contact to what it is taken for."""
 
 
-def tangents(n: Vector) -> tuple[Vector, Vector]:
-    """Tangents d1 and d2 = n x d1, of the world's axis of the least |n_i|, the first of equals."""
-    axis = min(range(3), key=lambda i: (abs(n[i]), i))
-    e = [fmpq(int(i == axis)) for i in range(3)]
-    with working():
-        d1 = vector_on_grid(unit(subtract(e, [n[axis] * x for x in n])))
-    return d1, vector_on_grid(cross(n, d1))
-
-
 def contact(at: World, near: Near) -> Contact:
     """A contact in its frame."""
-    d1, d2 = tangents(near.n)
-    pair, n_v = at.case["pairs"][near.pair], at.tree.n_v
-    motion = [[fmpq(0)] * n_v for _ in range(4)]
-    for side, factor in (("beta", 1), ("alpha", -1)):
-        body = at.tree.number(at.case["shapes"][pair[side]]["body"])
-        for v, (nu, w) in at.at.point_columns(body, getattr(near, side)).items():
-            moves = dot(near.n, nu), dot(d1, nu), dot(d2, nu), dot(near.n, w)
-            for row, x in zip(motion, moves, strict=True):
-                row[v] += factor * x
+    with working():
+        d1 = vector_on_grid(candidates.tangents(np.array(near.n))[0])
+    d2 = vector_on_grid(np.cross(near.n, d1))
+    pair = at.case["pairs"][near.pair]
+    bodies = {f"{s}_body": at.case["shapes"][pair[s]]["body"] for s in ("alpha", "beta")}
+    J = contact_jacobian(at.at, {**vars(near), **bodies})
+    motion = np.vstack([np.array([near.n, d1, d2]) @ J[:3], J[3:]])
     return Contact(near, d1, d2, matrix_on_grid(motion))
 
 
@@ -123,21 +114,11 @@ def rows(case: Json, contacts: Sequence[Contact]) -> tuple[Matrix, Vector]:
     """A and b of the program; each entry is exact in the contacts' motion and phi."""
     A, b = [], []
     for one in contacts:
-        pair, n_v = case["pairs"][one.near.pair], len(one.motion[0])
-        mu_v, mu_omega = number(pair["mu_v"]), number(pair["mu_omega"])
-        mu = (mu_v, mu_v, mu_omega if pair["rows"] == 6 else fmpq(0))
-        for t in _table(case["cone"])[: row_count(case["cone"], pair["rows"])]:
-            factors = [fmpq(1), *(m * x for m, x in zip(mu, t, strict=True))]
-            used = [(x, row) for x, row in zip(factors, one.motion, strict=True) if x]
-            A.append([sum((x * row[v] for x, row in used), fmpq(0)) for v in range(n_v)])
-            b.append(-one.near.phi)
+        own = dict(zip(("n", "d1", "d2"), AXES, strict=True)) | {"J": one.motion}
+        block = contact_rows({**case["pairs"][one.near.pair], **own}, case["cone"])
+        A += block.tolist()
+        b += [-one.near.phi] * len(block)
     return A, b
-
-
-@cache
-def _table(name: str) -> list[Vector]:
-    """The rows t of a cone, as float64 writes them."""
-    return [numbers(row) for row in cone_matrix(name)[:, 1:].tolist()]
 
 
 def solved(
@@ -163,12 +144,10 @@ def solved(
         If the step has no solution.
     """
     with working():
-        terms = objective_of(at.tree, at.at, at.case, at.loads)
-        H, g = matrix_on_grid(terms["H"]), list(terms["g"])
-        h = number(at.case["h"])
-        for v, force in enumerate(at.case.get("tau", [])):
-            g[v] += h * force
-        g = vector_on_grid(g)
+        H, g = objective(at.case, *at.loads)
+        if "tau" in at.case:
+            g = g + at.case["h"] * np.array(at.case["tau"])
+        H, g = matrix_on_grid(H), vector_on_grid(g)
     own = known or integer_rows(len(g), *rows(at.case, contacts))
     form = form_of(H, g, own)
     optimum = dual_active_set(form, warm)
@@ -237,4 +216,6 @@ def _integers(A: Matrix, columns: int, factor: int) -> fmpz_mat:
 def after(at: World, step: Sequence[Real]) -> Vector:
     """Configuration q (+) delta_q; balls where it is not rational."""
     with working():
-        return integrated(at.tree, at.case["q"], step)
+        case = {"mechanism": at.case["mechanism"], "q": at.case["q"], "delta_q": step}
+        found: Vector = integrate(case)["q"].tolist()
+        return found

@@ -2,15 +2,18 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
+import numpy as np
+
+from quasistatic_ref.lab.program import step as program
+from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.vectors.distances.shapes import Placed, placed
-from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector, moved, product
-from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism, Poses, mechanism, poses
-from quasistatic_ref.lab.vectors.exact.precision import numbers
-from quasistatic_ref.lab.vectors.exact.rotation import rotation
+from quasistatic_ref.lab.vectors.exact.entered import entered
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.layers.step import loads_of
 from quasistatic_ref.lab.vectors.whole.grid import exact_or_on_grid, working
+
+_settled = np.frompyfunc(exact_or_on_grid, 1, 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,43 +23,39 @@ class World:
     Parameters
     ----------
     case : dict
-        Input of the layer ``step``; its numbers are float64 or exact.
-    tree : Mechanism
-    at : Poses
-        Of every body, in rational numbers.
+        Input of the layer ``step`` in exact numbers.
+    at : dict
+        By the name of each body R, t and J as the program has them, in rational numbers.
     known : (matrix, vector), optional
         Its loads, where they are those of another case.
     """
 
     case: Json
-    tree: Mechanism
-    at: Poses
-    known: tuple[Matrix, Vector] | None = None
+    at: dict[str | None, Any]
+    known: tuple[Any, Any] | None = None
 
     @cached_property
-    def loads(self) -> tuple[Matrix, Vector]:
-        """M_u, and the generalised forces in addition to the stiffness."""
+    def loads(self) -> tuple[Any, Any]:
+        """M, and the generalised forces in addition to the stiffness."""
         if self.known:
             return self.known
         with working():
-            return loads_of(self.tree, self.at, self.case)
+            found: tuple[Any, Any] = program.loads(self.case, self.at)
+            return found
 
     def with_case(self, case: Json) -> "World":
         """Another case at the same configuration, with what it has in common with this one."""
         if case["mechanism"] is self.case["mechanism"]:
-            return World(case, self.tree, self.at, self.loads)
-        return World(case, mechanism(case["mechanism"]), self.at)
+            return World(case, self.at, self.loads)
+        return World(case, self.at)
 
     def shape(self, name: str) -> Placed:
         """A shape of the case where it is."""
         entry = self.case["shapes"][name]
         with working():
-            R, t = rotation(numbers(entry["pose"]["quaternion"])), numbers(entry["pose"]["xyz"])
-            body = self.tree.number(entry["body"])
-            if body is not None:
-                R, t = product(self.at.R[body], R), moved(self.at.R[body], self.at.t[body], t)
+            R, t = (_settled(part).tolist() for part in program.placed(entry, self.at))
             here = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
-            return replace(placed(entry["shape"], here), R=_matrix(R), t=_vector(t))
+            return replace(placed(entry["shape"], here), R=R, t=t)
 
 
 def world(case: Json) -> World:
@@ -67,19 +66,8 @@ def world(case: Json) -> World:
     case : dict
         Input of the layer ``step``; numbers that are no float64 are rational.
     """
-    tree = mechanism(case["mechanism"])
+    case = entered(case)
     with working():
-        at = poses(tree, case["q"])
-        columns = [
-            {v: (_vector(nu), _vector(w)) for v, (nu, w) in body.items()} for body in at.columns
-        ]
-        found = Poses([_matrix(R) for R in at.R], [_vector(t) for t in at.t], columns)
-    return World(case, tree, found)
-
-
-def _vector(x: Vector) -> Vector:
-    return [exact_or_on_grid(v) for v in x]
-
-
-def _matrix(A: Matrix) -> Matrix:
-    return [_vector(row) for row in A]
+        at = kinematics(case["mechanism"], np.array(case["q"]))
+        settled = {name: tuple(map(_settled, parts)) for name, parts in at.items()}
+    return World(case, settled)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from .distance import closest_points
+from .rotation import AXES, unit
 
 
 def selection(case):
@@ -59,6 +60,5 @@ def chosen(phi, late, k):
 def tangents(n):
     """d1, d2 of a normal."""
     i = int(np.argmin(np.abs(n)))
-    d1 = np.eye(3)[i] - n[i] * n
-    d1 /= np.linalg.norm(d1)
+    d1 = unit(AXES[i] - n[i] * n)
     return d1, np.cross(n, d1)

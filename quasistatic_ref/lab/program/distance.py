@@ -9,9 +9,8 @@ signed distance of a point (curved.py); other pairs of them are projected to and
 import numpy as np
 
 from .curved import farthest, point_on
-from .rotation import frame
+from .rotation import AXES, frame
 
-AXES = np.eye(3)
 NEAR = 1e-3
 """Distance [m] below which the direction between two points has lost digits."""
 

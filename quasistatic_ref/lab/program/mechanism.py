@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from .rotation import frame, rotation, skew, turn
+from .number import cos_sin
+from .rotation import AXES, NONE, frame, rotation, skew, turn, unit
 
 ENTRIES = {  # of q, of delta_q
     "fixed": (0, 0),
@@ -16,20 +17,19 @@ ENTRIES = {  # of q, of delta_q
 
 def joint_pose(body, q):
     """(R, t) of a joint at its entries of q."""
-    kind, none = body["joint"], np.zeros(3)
+    kind = body["joint"]
     if kind == "floating":
-        return rotation(q[3:]), np.array(q[:3])
+        return rotation(q[3:]), q[:3]
     if kind == "planar":
-        c, s = np.array(q[2:]) / np.hypot(*q[2:])
-        return turn([0, 0, 1], c, s), np.array([*q[:2], 0])
+        c, s = unit(q[2:])
+        return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), np.append(q[:2], 0)
     if kind == "revolute":
-        return turn(body["axis"], np.cos(q[0]), np.sin(q[0])), none
+        return turn(body["axis"], *cos_sin(q[0])), NONE
     if kind == "continuous":
-        c, s = np.array(q) / np.hypot(*q)
-        return turn(body["axis"], c, s), none
+        return turn(body["axis"], *unit(q)), NONE
     if kind == "prismatic":
-        return np.eye(3), q[0] * np.array(body["axis"]) / np.linalg.norm(body["axis"])
-    return np.eye(3), none
+        return AXES, q[0] * unit(body["axis"])
+    return AXES, NONE
 
 
 def slices(mechanism):
@@ -48,27 +48,29 @@ def slices(mechanism):
 def kinematics(mechanism, q):
     """{body: (R, t, J)}: J (6 x n_v) of the velocity of its origin and its angular velocity."""
     at, _, n_v = slices(mechanism)
-    found = {None: (np.eye(3), np.zeros(3), np.zeros((6, n_v)))}
+    found = {None: (AXES, NONE, np.zeros((6, n_v), dtype=int))}
     for body in mechanism["bodies"]:
         R0, t0, J0 = found[body["parent"]]
         R_placed, t_placed = frame(body["placement"])
         Rp, tp = R0 @ R_placed, R0 @ t_placed + t0
-        mimic = body.get("mimic", {"of": body["name"], "multiplier": 1.0, "offset": 0.0})
+        mimic = body.get("mimic", {"of": body["name"], "multiplier": 1, "offset": 0})
         entries, columns = at[mimic["of"]]
-        pace, position = mimic["multiplier"], q[entries]
+        pace, position = mimic["multiplier"], np.array(q[entries])
         R_q, t_q = joint_pose(body, pace * position + mimic["offset"])
         R, t = Rp @ R_q, Rp @ t_q + tp
-        J, k = J0.copy(), columns.start
-        J[:3] -= skew(t - t0) @ J0[3:]
+        J = np.vstack([J0[:3] - skew(t - t0) @ J0[3:], J0[3:]])
+        own = np.zeros((6, columns.stop - columns.start), dtype=R.dtype)
         if body["joint"] == "floating":
-            J[:3, k : k + 3] = R
-            J[3:, k + 3 : k + 6] = R
+            own[:3, :3] = R
+            own[3:, 3:] = R
         elif body["joint"] == "planar":
-            J[:3, k : k + 2], J[3:, k + 2] = R[:, :2], R[:, 2]
+            own[:3, :2] = R[:, :2]
+            own[3:, 2] = R[:, 2]
         elif body["joint"] != "fixed":
-            along = Rp @ body["axis"] / np.linalg.norm(body["axis"])
+            along = Rp @ unit(body["axis"])
             moving = slice(0, 3) if body["joint"] == "prismatic" else slice(3, 6)
-            J[moving, k] += pace * along
+            own[moving, 0] = pace * along
+        J = np.hstack([J[:, : columns.start], J[:, columns] + own, J[:, columns.stop :]])
         found[body["name"]] = R, t, J
     return found
 
@@ -79,16 +81,22 @@ def point_jacobian(at, point):
     return J[:3] - skew(np.array(point) - t) @ J[3:], J[3:]
 
 
+def contact_jacobian(at, contact):
+    """Velocity of beta relative to alpha, and the relative spin about n: 4 rows."""
+    alpha = np.array(contact["alpha"])
+    beta = np.array(contact["beta"])
+    v_alpha, w_alpha = point_jacobian(at[contact["alpha_body"]], alpha)
+    v_beta, w_beta = point_jacobian(at[contact["beta_body"]], beta)
+    slip = v_beta - v_alpha
+    spin = np.array(contact["n"]) @ (w_beta - w_alpha)
+    return np.vstack([slip, spin])
+
+
 def jacobian(case):
     """Layer 3."""
     at = kinematics(case["mechanism"], np.array(case["q"]))
     found = []
     for contact in case["contacts"]:
-        alpha = np.array(contact["alpha"])
-        beta = np.array(contact["beta"])
-        v_alpha, w_alpha = point_jacobian(at[contact["alpha_body"]], alpha)
-        v_beta, w_beta = point_jacobian(at[contact["beta_body"]], beta)
-        slip = v_beta - v_alpha
-        spin = np.array(contact["n"]) @ (w_beta - w_alpha)
-        found.append(np.vstack([slip, spin]))
+        J = contact_jacobian(at, contact)
+        found.append(J)
     return {"J": found}

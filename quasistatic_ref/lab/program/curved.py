@@ -2,7 +2,7 @@
 
 import numpy as np
 
-AXES = np.eye(3)
+from .rotation import AXES
 
 
 def point_on(shape, p):

@@ -3,10 +3,10 @@
 import numpy as np
 
 from .candidates import candidates, chosen, tangents
-from .integration import difference, integrate
+from .integration import integrate, way
 from .mechanism import jacobian, kinematics, point_jacobian, slices
 from .optimum import qp_answer
-from .rotation import frame
+from .rotation import AXES, NONE, frame
 from .rows import cone_table, rows
 from .wrench import wrench
 
@@ -40,50 +40,38 @@ def contacts_of(case, at):
     return found
 
 
-def masses(case, at, n_a, n_v):
+def loads(case, at):
     """M, and tau of gravity (un-actuated only) and of the wrenches."""
-    M, tau = np.zeros((n_v, n_v)), np.zeros(n_v)
+    _, n_a, n_v = slices(case["mechanism"])
+    M, weight = np.zeros((n_v, n_v), dtype=int), np.zeros(n_v, dtype=int)
     centre = {}
     for body in case["mechanism"]["bodies"]:
         R, t, _ = at[body["name"]]
-        mass = body.get("mass", 0.0)
-        centre[body["name"]] = R @ body.get("com", np.zeros(3)) + t
-        inertia = R @ body.get("inertia", np.zeros((3, 3))) @ R.T
+        mass = body.get("mass", 0)
+        centre[body["name"]] = R @ np.array(body.get("com", NONE)) + t
+        inertia = R @ np.array(body.get("inertia", 0 * AXES)) @ R.T
         v, w = point_jacobian(at[body["name"]], centre[body["name"]])
-        M += mass * v.T @ v + w.T @ inertia @ w
-        tau += mass * v.T @ case["gravity"]
-    tau[:n_a] = 0
+        M = M + mass * v.T @ v + w.T @ inertia @ w
+        weight = weight + mass * v.T @ np.array(case["gravity"])
+    tau = np.append(np.zeros(n_a, dtype=int), weight[n_a:])
     for given in case.get("wrenches", []):
         point = centre[given["body"]]
         v, w = point_jacobian(at[given["body"]], point)
-        tau += v.T @ given["force"] + w.T @ given["torque"]
+        tau = tau + v.T @ np.array(given["force"]) + w.T @ np.array(given["torque"])
     return M, tau
 
 
-def way_to_target(case, n_a):
-    """delta_q_bar_a = q_bar_a (-) q_a."""
-    q, q_bar_a = np.array(case["q"]), np.array(case["q_bar_a"])
-    places, _, _ = slices(case["mechanism"])
-    delta_q_bar_a = np.zeros(n_a)
-    for body in case["mechanism"]["bodies"]:
-        i, k = places.get(body["name"], (slice(0, 0), slice(0, 0)))
-        if body.get("actuated") and k.stop > k.start:
-            delta_q_bar_a[k] = difference(body, q_bar_a[i], q[i])
-    return delta_q_bar_a
-
-
-def objective(case, at):
+def objective(case, M, tau):
     """H and g."""
-    h = case["h"]
-    _, n_a, n_v = slices(case["mechanism"])
-    M, tau = masses(case, at, n_a, n_v)
+    h, n_a = case["h"], len(case["K_q"])
     K_q = np.array(case["K_q"]).reshape(n_a, n_a)
-    tau_k = K_q @ way_to_target(case, n_a)
-    H = np.zeros((n_v, n_v))
-    H[:n_a, :n_a] = h * K_q
-    H[n_a:, n_a:] = M[n_a:, n_a:] / h
+    delta_q_bar_a = way(case["mechanism"], case["q"], case["q_bar_a"])
+    tau_k = K_q @ delta_q_bar_a
     g = h * tau
     g[:n_a] += h * tau_k
+    H = np.zeros(M.shape, dtype=g.dtype)
+    H[:n_a, :n_a] = h * K_q
+    H[n_a:, n_a:] = M[n_a:, n_a:] / h
     return H, g
 
 
@@ -95,7 +83,7 @@ def step(case):
     blocks = jacobian({"mechanism": mechanism, "q": case["q"], "contacts": contacts})["J"]
     for contact, J in zip(contacts, blocks, strict=True):
         contact["J"] = J
-    H, g = objective(case, at)
+    H, g = objective(case, *loads(case, at))
     A_b = rows({"cone": cone, "contacts": contacts})
     A, b = np.array(A_b["A"]).reshape(-1, len(g)), np.array(A_b["b"])
     shown = [{key: contact[key] for key in SHOWN} for contact in contacts]
@@ -104,7 +92,7 @@ def step(case):
     if "farkas" in found:
         return {**output, **found}
     delta_q, lam, A_lam = found["delta_q"], found["lam"], found["A_lam"]
-    counts = [len(cone_table(cone, contact["rows"])) for contact in contacts]
+    counts = [len(cone_table(cone, c["rows"], c["mu_v"])) for c in contacts]
     shares = np.split(lam, np.cumsum(counts)[:-1]) if counts else []
     loaded = [{**contact, "lam": part} for contact, part in zip(contacts, shares, strict=True)]
     wrenches = wrench({"h": h, "cone": cone, "contacts": loaded, "bodies": {}})["wrench"]
