@@ -20,8 +20,8 @@ from pathlib import Path
 
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.challenge.findings import Finding
-from quasistatic_ref.lab.vectors.challenge.live import challenge
 from quasistatic_ref.lab.vectors.challenge.program import Program
+from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.expected import Json
 
 ROOT = Path(__file__).parents[2]

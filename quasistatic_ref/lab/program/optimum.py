@@ -178,6 +178,15 @@ def newton(H, g, F, f, x, impulse):
     return x, new
 
 
+def is_optimum(case, x, lam):
+    """Whether exact numbers satisfy H x - g = A'lam, A x >= b, lam >= 0 and lam (A x - b) = 0."""
+    H, g, x, lam = np.array(case["H"]), np.array(case["g"]), np.array(x), np.array(lam)
+    A = np.array(case["A"]).reshape(-1, len(g))
+    slack = A @ x - np.array(case["b"])
+    balance = H @ x - g - (A.T @ lam if len(lam) else 0)
+    return not any(balance) and all(slack >= 0) and all(lam >= 0) and not any(lam * slack)
+
+
 def qp(case):
     """Layer 5."""
     H, g = np.array(case["H"]), np.array(case["g"])

@@ -20,12 +20,16 @@ from quasistatic_ref.lab.vectors.families import derivative_kinks as kinks
 from quasistatic_ref.lab.vectors.families.derivative_kinks import squeezed
 from quasistatic_ref.lab.vectors.families.step_scenes import FLOOR
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.lab.vectors.whole.along import with_force, with_held_wrenches, with_q
-from quasistatic_ref.lab.vectors.whole.dependent import CLOSE, dependence_breaks, turned
-from quasistatic_ref.lab.vectors.whole.derivatives import PROVED, derivatives
-from quasistatic_ref.lab.vectors.whole.differences import base, quotient
-from quasistatic_ref.lab.vectors.whole.grid import STEP
-from quasistatic_ref.lab.vectors.whole.reasons import BEND
+from quasistatic_ref.lab.vectors.unrounded.dependent import CLOSE, dependence_breaks, turned
+from quasistatic_ref.lab.vectors.unrounded.derivatives import PROVED, derivatives
+from quasistatic_ref.lab.vectors.unrounded.differences import base, quotient
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP
+from quasistatic_ref.lab.vectors.unrounded.moved_inputs import (
+    with_force,
+    with_held_wrenches,
+    with_q,
+)
+from quasistatic_ref.lab.vectors.unrounded.reasons import BEND
 
 Y = 1
 """Of delta_q of the ball."""

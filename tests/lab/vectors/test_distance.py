@@ -15,7 +15,7 @@ from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
 from quasistatic_ref.lab.vectors.exact.algebra import scaled, times
 from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number
 from quasistatic_ref.lab.vectors.layers import distance
-from quasistatic_ref.lab.vectors.whole.grid import matrix_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import matrix_on_grid, working
 from tests.lab.vectors.material import cases
 from tests.lab.vectors.solids import (
     FLOOR,

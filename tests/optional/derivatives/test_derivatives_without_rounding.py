@@ -16,7 +16,7 @@ from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.precision import rational_near
 from quasistatic_ref.lab.vectors.families.derivative_pairs import shape_of
 from quasistatic_ref.lab.vectors.families.mechanisms import random_quaternion
-from quasistatic_ref.lab.vectors.whole.grid import working
+from quasistatic_ref.lab.vectors.unrounded.grid import working
 from quasistatic_ref.optional.derivatives import step_rates as module
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step.reason import TANGENTS

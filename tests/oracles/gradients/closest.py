@@ -15,7 +15,7 @@ from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.algebra import Vector, dot, scaled, squared, subtract
 from quasistatic_ref.lab.vectors.exact.precision import rational_near
-from quasistatic_ref.lab.vectors.whole.grid import SMALL, working
+from quasistatic_ref.lab.vectors.unrounded.grid import SMALL, working
 from tests.oracles.gradients.patches import Patch, patch
 
 QUOTIENT: Final = fmpq(1, 1 << 160)

@@ -19,9 +19,9 @@ from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness, point
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, Vector, scaled, squared
 from quasistatic_ref.lab.vectors.exact.precision import numbers
-from quasistatic_ref.lab.vectors.whole.grid import on_grid, vector_on_grid, working
-from quasistatic_ref.lab.vectors.whole.nearby import Near, candidates
-from quasistatic_ref.lab.vectors.whole.world import World
+from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates
+from quasistatic_ref.lab.vectors.unrounded.world import World
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.tolerances import UPRIGHT

@@ -14,12 +14,12 @@ from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.algebra import Vector, scaled
 from quasistatic_ref.lab.vectors.exact.precision import numbers
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole import along
-from quasistatic_ref.lab.vectors.whole.differences import Base, Quotient, are_solids, quotient
-from quasistatic_ref.lab.vectors.whole.nearby import Near, kept, pool, tied
-from quasistatic_ref.lab.vectors.whole.reasons import BEND
-from quasistatic_ref.lab.vectors.whole.step import after, contact, solved
-from quasistatic_ref.lab.vectors.whole.world import World, world
+from quasistatic_ref.lab.vectors.unrounded import moved_inputs
+from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, are_solids, quotient
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near, kept, pool, tied
+from quasistatic_ref.lab.vectors.unrounded.reasons import BEND
+from quasistatic_ref.lab.vectors.unrounded.step import after, contact, solved
+from quasistatic_ref.lab.vectors.unrounded.world import World, world
 from quasistatic_ref.step.data import Array
 from tests.oracles.gradients.contacts import nearby
 from tests.oracles.gradients.states import State
@@ -86,23 +86,23 @@ def moved(one: Reference, name: str, way: Vector) -> Inputs:
     def inputs(by: fmpq) -> Json:
         match name:
             case "q":
-                return along.with_q(way, case, by)
+                return moved_inputs.with_q(way, case, by)
             case "q_bar_a":
-                return along.with_target(way, case, by)
+                return moved_inputs.with_target(way, case, by)
             case "tau":
-                return along.with_force(way, case, by)
+                return moved_inputs.with_force(way, case, by)
             case "h":
-                return along.with_time(case, way[0] * by)
+                return moved_inputs.with_time(case, way[0] * by)
         found = case
         for k, change in enumerate(scaled(way, by)):
             if not change:
                 continue
             if name == "K_q":
-                found = along.with_stiffness(k, found, change)
+                found = moved_inputs.with_stiffness(k, found, change)
             elif name == "m":
-                found = along.with_mass(massive[k], found, change)
+                found = moved_inputs.with_mass(massive[k], found, change)
             else:
-                found = along.with_friction(name, k, found, change)
+                found = moved_inputs.with_friction(name, k, found, change)
         return found
 
     return inputs

@@ -23,13 +23,13 @@ from quasistatic_ref.lab.vectors.exact.algebra import (
     subtract,
 )
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole.along import with_held_wrenches
-from quasistatic_ref.lab.vectors.whole.derivatives import moves
-from quasistatic_ref.lab.vectors.whole.differences import Base, away, base, quotient
-from quasistatic_ref.lab.vectors.whole.grid import STEP, vector_on_grid, working
-from quasistatic_ref.lab.vectors.whole.nearby import Near
-from quasistatic_ref.lab.vectors.whole.step import Change, after
-from quasistatic_ref.lab.vectors.whole.world import World, world
+from quasistatic_ref.lab.vectors.unrounded.derivatives import moves
+from quasistatic_ref.lab.vectors.unrounded.differences import Base, away, base, quotient
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.moved_inputs import with_held_wrenches
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near
+from quasistatic_ref.lab.vectors.unrounded.step import Change, after
+from quasistatic_ref.lab.vectors.unrounded.world import World, world
 
 SIDES: Final = ("alpha", "beta")
 

@@ -116,15 +116,6 @@ for _kind in (fmpq, arb):
     kinds.part_of_turn.register(_kind, _part_of_turn)
 
 
-def least(values: Sequence[Real]) -> int:
-    """Index of the smallest number, the first of equal ones."""
-    best = 0
-    for k in range(1, len(values)):
-        if sign(values[k] - values[best]) < 0:
-            best = k
-    return best
-
-
 def rounded(function: Callable[[], Any]) -> tuple[Any, Any]:
     """What a function returns, in float64 and in 30 digits, each rounded correctly.
 

@@ -14,6 +14,7 @@ from flint import fmpq
 
 from quasistatic_ref.lab.program import number as kinds
 from quasistatic_ref.lab.vectors.exact.precision import number
+from quasistatic_ref.lab.vectors.exact.rational import fraction
 
 
 def _operator(of_fractions: Callable[[fmpq, fmpq], fmpq]) -> Callable[[Any, Any], Any]:
@@ -63,5 +64,4 @@ def sizes(case: Any) -> Any:
 def largest(values: Any) -> Fraction:
     """The largest of the sizes in an array, or of anything that becomes one; 0 of none."""
     found = [Size(x).value for x in np.ravel(np.array(values, dtype=object))]
-    most = max(found, default=fmpq(0))
-    return Fraction(int(most.p), int(most.q))
+    return fraction(max(found, default=fmpq(0)))

@@ -16,11 +16,11 @@ from quasistatic_ref.lab.program import step as program
 from quasistatic_ref.lab.program.candidates import tangents
 from quasistatic_ref.lab.program.integration import way
 from quasistatic_ref.lab.program.mechanism import kinematics
-from quasistatic_ref.lab.program.rotation import unit
+from quasistatic_ref.lab.program.rotation import quaternion_of
 from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Chosen, chosen
 from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
 from quasistatic_ref.lab.vectors.exact.entered import entered, exact
-from quasistatic_ref.lab.vectors.exact.precision import Real, least, rounded
+from quasistatic_ref.lab.vectors.exact.precision import Real, rounded
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.layers import layer
@@ -132,19 +132,6 @@ def shape_pose(case: Json, entry: Json) -> Json:
         return {"xyz": t, "quaternion": quaternion_of(R)}
 
     return rounded(world)[0]
-
-
-def quaternion_of(R: Any) -> Any:
-    """Unit quaternion [x y z w] of a rotation, its largest entry positive, the first of equals."""
-    (a, b, c), (d, e, f), (g, h, i) = R
-    # Four times the square of each entry, and its products with the others.
-    table = [
-        [1 + a - e - i, b + d, c + g, h - f],
-        [b + d, 1 - a + e - i, f + h, c - g],
-        [c + g, f + h, 1 - a - e + i, d - b],
-        [h - f, c - g, d - b, 1 + a + e + i],
-    ]
-    return unit(table[least([-table[k][k] for k in range(4)])])
 
 
 def contacts_of(case: Json) -> tuple[list[Json], list[Json], list[Chosen]]:

@@ -17,11 +17,11 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole import along
-from quasistatic_ref.lab.vectors.whole.dependent import dependence_breaks
-from quasistatic_ref.lab.vectors.whole.differences import Base, Quotient, quotient
-from quasistatic_ref.lab.vectors.whole.grid import OTHER_STEP
-from quasistatic_ref.lab.vectors.whole.reasons import BEND, reasons, switches
+from quasistatic_ref.lab.vectors.unrounded import moved_inputs
+from quasistatic_ref.lab.vectors.unrounded.dependent import dependence_breaks
+from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, quotient
+from quasistatic_ref.lab.vectors.unrounded.grid import OTHER_STEP
+from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, reasons, switches
 
 PROVED: Final = fmpq(1, 10**16)
 """Difference, relative to the largest number of the sum, at which 15 digits are proved."""
@@ -65,14 +65,14 @@ def moves(one: Base) -> dict[str, list[Move]]:
     _, n_a, n = slices(case["mechanism"])
     masses = [k for k, body in enumerate(case["mechanism"]["bodies"]) if "mass" in body]
     found: dict[str, list[Move]] = {
-        "q": [partial(along.with_q, _way(n, j)) for j in range(n)],
-        "q_bar_a": [partial(along.with_target, _way(n_a, j)) for j in range(n_a)],
-        "tau": [partial(along.with_force, _way(n, j)) for j in range(n)],
-        "mu_v": [partial(along.with_friction, "mu_v", p) for p in pairs],
-        "mu_omega": [partial(along.with_friction, "mu_omega", p) for p in pairs],
-        "K_q": [partial(along.with_stiffness, j) for j in range(n_a)],
-        "h": [along.with_time],
-        "m": [partial(along.with_mass, k) for k in masses],
+        "q": [partial(moved_inputs.with_q, _way(n, j)) for j in range(n)],
+        "q_bar_a": [partial(moved_inputs.with_target, _way(n_a, j)) for j in range(n_a)],
+        "tau": [partial(moved_inputs.with_force, _way(n, j)) for j in range(n)],
+        "mu_v": [partial(moved_inputs.with_friction, "mu_v", p) for p in pairs],
+        "mu_omega": [partial(moved_inputs.with_friction, "mu_omega", p) for p in pairs],
+        "K_q": [partial(moved_inputs.with_stiffness, j) for j in range(n_a)],
+        "h": [moved_inputs.with_time],
+        "m": [partial(moved_inputs.with_mass, k) for k in masses],
     }
     for name in ("mu_v", "mu_omega"):
         if not all(pair[name] > 0 for pair in case["pairs"]):

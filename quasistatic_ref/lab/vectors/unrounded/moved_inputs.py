@@ -17,8 +17,8 @@ from quasistatic_ref.lab.program.rotation import quaternion_product, rotation
 from quasistatic_ref.lab.vectors.exact.algebra import Vector, add, scaled
 from quasistatic_ref.lab.vectors.exact.precision import Real, number, numbers, root
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole.grid import on_grid, vector_on_grid, working
-from quasistatic_ref.lab.vectors.whole.world import world
+from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.world import world
 
 Array = Any
 """An array of rational numbers."""

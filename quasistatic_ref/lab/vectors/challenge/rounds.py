@@ -13,9 +13,9 @@ from multiprocessing import get_context
 from typing import Final
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.challenge.diagnosis import Diagnosis, Task
 from quasistatic_ref.lab.vectors.challenge.fresh import EASY, HARD, PLAIN, fresh_case, record_of
 from quasistatic_ref.lab.vectors.challenge.function import Function, Simulator
-from quasistatic_ref.lab.vectors.challenge.hunt import Hunt, Task
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.expected import Json
@@ -77,25 +77,25 @@ def challenge(
             pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))
             stack.callback(pool.shutdown, cancel_futures=True)
             makers = partial(pool.map, _made)
-        hunt = Hunt(player, digits, makers)
+        found = Diagnosis(player, digits, makers)
         began = time.monotonic()
         limit = 1000 if cases is None and seconds is None else cases
         number = 0
-        while names and not hunt.full:
-            left = None if limit is None else limit - hunt.outcome.sent.total()
+        while names and not found.full:
+            left = None if limit is None else limit - found.outcome.sent.total()
             late = seconds is not None and time.monotonic() - began >= seconds
             if late or (left is not None and left <= 0):
                 break
             tasks = _round(names, seed, number)
-            hunt.play(tasks if left is None else tasks[:left])
-            say(f"round {number}: {hunt.outcome.sent.total()} cases, "
-                f"{len(hunt.outcome.findings)} findings")  # fmt: skip
-            names = [name for name in names if hunt.goes_on(name)]
+            found.play(tasks if left is None else tasks[:left])
+            say(f"round {number}: {found.outcome.sent.total()} cases, "
+                f"{len(found.outcome.findings)} findings")  # fmt: skip
+            names = [name for name in names if found.goes_on(name)]
             number += 1
-            if first and hunt.outcome.findings:
+            if first and found.outcome.findings:
                 break
-        hunt.outcome.seconds = time.monotonic() - began
-    return hunt.ended()
+        found.outcome.seconds = time.monotonic() - began
+    return found.ended()
 
 
 def _round(names: Sequence[str], seed: int, number: int) -> list[Task]:
@@ -129,12 +129,12 @@ def sent_again(program: Program, finding: Json, digits: float | None = None) -> 
         If its case has no answer, or several.
     """
     layer, case = finding["layer"], finding["case"]
-    hunt = Hunt(program, digits, _made_here)
+    found = Diagnosis(program, digits, _made_here)
     record = record_of(check_layer(layer), case)
     if record is None:
         raise InputError("is no input of the layer that has one answer", field="case")
     with program:
-        hunt.outcome.sent[layer] += 1
-        hunt.ask("again", layer, case, record)
-    hunt.as_before(layer, tuple(finding["mistakes"]), tuple(finding["sentences"]))
-    return hunt.ended()
+        found.outcome.sent[layer] += 1
+        found.ask("again", layer, case, record)
+    found.as_before(layer, tuple(finding["mistakes"]), tuple(finding["sentences"]))
+    return found.ended()

@@ -11,7 +11,7 @@ from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.vectors.distances.shapes import Placed, placed
 from quasistatic_ref.lab.vectors.exact.entered import entered
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole.grid import exact_or_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import exact_or_on_grid, working
 
 _settled = np.frompyfunc(exact_or_on_grid, 1, 1)
 

@@ -36,7 +36,7 @@ Task = tuple[str, tuple[int, ...], int]
 """Layer, seed, level."""
 
 
-class Hunt:
+class Diagnosis:
     """What is known of a program while it is challenged.
 
     Parameters

@@ -12,9 +12,9 @@ from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
 from quasistatic_ref.lab.vectors.exact.algebra import Vector, along
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole.grid import vector_on_grid, working
-from quasistatic_ref.lab.vectors.whole.nearby import Touching, candidates
-from quasistatic_ref.lab.vectors.whole.world import world
+from quasistatic_ref.lab.vectors.unrounded.grid import vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.nearby import Touching, candidates
+from quasistatic_ref.lab.vectors.unrounded.world import world
 
 APART: Final = fmpq(1, 1 << 60)
 """Solids that are parted by a translation of 9e-19 m touch; deeper ones are in penetration."""

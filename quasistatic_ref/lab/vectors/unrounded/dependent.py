@@ -13,10 +13,10 @@ from typing import Final
 from flint import fmpq, fmpz_mat
 
 from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector, along, dot, scaled, subtract
-from quasistatic_ref.lab.vectors.whole.differences import Base, Quotient
-from quasistatic_ref.lab.vectors.whole.grid import STEP
-from quasistatic_ref.lab.vectors.whole.reasons import BEND, nearest, row_counts
-from quasistatic_ref.lab.vectors.whole.step import Contact, Rows, rows
+from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP
+from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, nearest, row_counts
+from quasistatic_ref.lab.vectors.unrounded.step import Contact, Rows, rows
 
 CLOSE: Final = fmpq(1, 1 << 50)
 """A row that moves by more along a change of 8e-31 has jumped with the tangents [m per unit]."""

@@ -16,10 +16,10 @@ from quasistatic_ref.certify.degeneracy import strictly_active
 from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import row_count
-from quasistatic_ref.lab.vectors.whole.differences import Base, Quotient, are_solids
-from quasistatic_ref.lab.vectors.whole.grid import STEP
-from quasistatic_ref.lab.vectors.whole.nearby import Near, candidates, tied
-from quasistatic_ref.lab.vectors.whole.step import Contact, rows
+from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, are_solids
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, tied
+from quasistatic_ref.lab.vectors.unrounded.step import Contact, rows
 
 KINDS: Final = ("row", "selection", "feature", "tangents", "touching", "multipliers")
 BEND: Final = fmpq(1, 10**12)

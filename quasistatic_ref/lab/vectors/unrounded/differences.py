@@ -13,10 +13,17 @@ from flint import fmpq
 from quasistatic_ref.lab.program.integration import way
 from quasistatic_ref.lab.vectors.exact.algebra import Vector, scaled
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole.grid import STEP, vector_on_grid, working
-from quasistatic_ref.lab.vectors.whole.nearby import Near, candidates, kept, pool
-from quasistatic_ref.lab.vectors.whole.step import Change, Contact, Solved, after, contact, solved
-from quasistatic_ref.lab.vectors.whole.world import World, world
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, kept, pool
+from quasistatic_ref.lab.vectors.unrounded.step import (
+    Change,
+    Contact,
+    Solved,
+    after,
+    contact,
+    solved,
+)
+from quasistatic_ref.lab.vectors.unrounded.world import World, world
 
 Inputs = Callable[[Vector | fmpq], Json]
 """A case moved along a coordinate or a parameter."""

@@ -24,14 +24,14 @@ from quasistatic_ref.lab.program.step import objective
 from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
 from quasistatic_ref.lab.vectors.exact.precision import Real
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole.grid import (
+from quasistatic_ref.lab.vectors.unrounded.grid import (
     matrix_on_grid,
     on_grid,
     vector_on_grid,
     working,
 )
-from quasistatic_ref.lab.vectors.whole.nearby import Near
-from quasistatic_ref.lab.vectors.whole.world import World
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near
+from quasistatic_ref.lab.vectors.unrounded.world import World
 
 WIDE: Final = 1024
 """Bits of a ball on the way to delta_q: data of the grid have 400 and more."""

@@ -19,8 +19,8 @@ from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.exact.precision import number
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole.grid import is_small, on_grid, vector_on_grid, working
-from quasistatic_ref.lab.vectors.whole.world import World
+from quasistatic_ref.lab.vectors.unrounded.grid import is_small, on_grid, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.world import World
 from quasistatic_ref.tolerances import REPEATED
 
 POOL: Final = fmpq(1, 10**6)
