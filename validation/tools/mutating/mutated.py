@@ -101,7 +101,6 @@ DIFFERENTIATED = (
     "optional/derivatives/test_derivatives.py",
     "optional/derivatives/test_derivative_verdicts.py",
     "optional/derivatives/test_gradient.py",
-    "optional/derivatives/test_derivatives_without_rounding.py",
     "lab/vectors/test_derivative_layer.py",
 )
 
