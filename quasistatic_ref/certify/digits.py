@@ -86,22 +86,22 @@ def correct_digits(
     norm = energy_norm(form.H)
     with np.errstate(over="ignore", invalid="ignore"):
         off = delta_q - exact_delta_q
-        free = norm.impulse(form.g)
+        unconstrained = norm.impulse(form.g)
         net_impulse = None
         if lam is not None and exact_net is not None:
             net_off = form.A.T @ lam - exact_net
-            net_impulse = relative_digits(norm.impulse(net_off), free)
+            net_impulse = relative_digits(norm.impulse(net_off), unconstrained)
         reach = norm.impulses(form.A)
         slack_off = np.abs(form.A @ off)[reach > 0] / reach[reach > 0]
         return Digits(
-            delta_q=relative_digits(norm.displacement(off), free),
+            delta_q=relative_digits(norm.displacement(off), unconstrained),
             net_impulse=net_impulse,
-            slack=relative_digits(float(slack_off.max(initial=0.0)), free),
+            slack=relative_digits(float(slack_off.max(initial=0.0)), unconstrained),
         )
 
 
-def relative_digits(size: float, free: float) -> float:
-    """Correct digits, 0 to 16 [-], of what is off by `size` where ||H^-1 g||_H is `free`."""
-    if free == 0:
-        return MOST if size == 0 else 0.0
-    return digits_of_error(size / free)
+def relative_digits(off: float, unconstrained: float) -> float:
+    """Correct digits, 0 to 16 [-], of what is `off` where ||H^-1 g||_H is `unconstrained`."""
+    if unconstrained == 0:
+        return MOST if off == 0 else 0.0
+    return digits_of_error(off / unconstrained)

@@ -219,7 +219,7 @@ def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
 
 
 def well_posed(
-    step: StepData, optimum: ExactOptimum, norm: EnergyNorm, free: float
+    step: StepData, optimum: ExactOptimum, norm: EnergyNorm, unconstrained: float
 ) -> ExactOptimum:
     """An optimum of a step, unless it is absurdly long.
 
@@ -229,7 +229,7 @@ def well_posed(
     optimum : ExactOptimum
     norm : EnergyNorm
         That of the step.
-    free : float
+    unconstrained : float
         ||H^-1 g||_H in it [(N m s)^0.5].
 
     Raises
@@ -237,7 +237,7 @@ def well_posed(
     StepIllPosed
     """
     # Of three loads' steps the longest is at least a third of the step that they cause together.
-    if norm.displacement(optimum.delta_q) <= ILL_POSED / 4 * free:
+    if norm.displacement(optimum.delta_q) <= ILL_POSED / 4 * unconstrained:
         return optimum
     check_length(step, optimum.delta_q, norm)
     return optimum

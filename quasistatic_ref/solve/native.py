@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, installed
-from quasistatic_ref.solve.solver import Attempt, Solver
-from quasistatic_ref.solve.units import Metric, reach_of_rows
+from quasistatic_ref.solve.solver import OptionSet, Solver
+from quasistatic_ref.solve.units import NaturalHessian, reach_of_rows
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import FAR
@@ -72,7 +72,7 @@ class NativeSolver(Solver):
         self.adapter: type[Adapter] = getattr(module, BACKENDS[name].adapter)
         self.sizes = sizes(like)
         self.warm = warm and self.adapter.WARM
-        self.metric: Metric | None = None
+        self.metric: NaturalHessian | None = None
         self.program: Program | SparseProgram = self.empty()
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -113,22 +113,22 @@ class NativeSolver(Solver):
         np.multiply(form.A, S / ell, out=program.A)
         np.multiply(form.b, 1 / (rho * ell), out=program.b)
 
-    def reply(self, attempt: Attempt, scaled: Any) -> Reply:
+    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
         """One attempt: from the answer before, if there is one; cold if not, or if that fails."""
         program = self.program
         if isinstance(program, Program) and not program.b.size:  # not every backend takes that
             x = np.asarray(np.linalg.solve(program.H, -program.f), dtype=np.float64)
             return Reply(x, np.zeros(0), True, "optimal", 0)
-        held: _Held | None = attempt.held
-        attempt.held = None  # an adapter that raises is set up again
+        held: _SetUpAdapter | None = attempt.kept
+        attempt.kept = None  # an adapter that raises is set up again
         if held is None:
-            held = _Held(self.adapter(program, attempt.options), self.metric)
+            held = _SetUpAdapter(self.adapter(program, attempt.options), self.metric)
         warm = self.warm and held.warm
         reply = held.adapter.reply(held.metric is self.metric, warm)
         if warm and not reply.solved:
             reply = held.adapter.reply(False, False)
         held.metric, held.warm = self.metric, reply.solved
-        attempt.held = held
+        attempt.kept = held
         return reply
 
 
@@ -138,9 +138,9 @@ def sizes(step: StepData) -> tuple[int, int, int]:
 
 
 @dataclass(eq=False)
-class _Held:
+class _SetUpAdapter:
     """An adapter, the H that it has, and whether it can start from its answer."""
 
     adapter: Adapter
-    metric: Metric | None
+    metric: NaturalHessian | None
     warm: bool = False

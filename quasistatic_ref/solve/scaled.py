@@ -10,8 +10,8 @@ from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.solve.units import (
     Units,
-    metric,
     natural_form,
+    natural_hessian,
     squared_lengths,
     to_natural,
     units_of,
@@ -49,7 +49,7 @@ class DenseStep:
         self.step = step
         self.form = standard_form(step)
         try:
-            self.metric = metric(self.form.H)
+            self.metric = natural_hessian(self.form.H)
             self.units = units_of(self.form, self.metric)
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None

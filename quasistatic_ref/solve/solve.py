@@ -13,7 +13,7 @@ from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep, out_of_range
-from quasistatic_ref.solve.solver import Answer, Solver, solver_for
+from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import from_natural, in_natural
 from quasistatic_ref.step.arrays import QUIET, Array, finite
 from quasistatic_ref.step.cones import CurvedCone, cone
@@ -192,7 +192,7 @@ def _certified(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSoluti
 
 def _attempt(
     scaled: DenseStep, solver: Solver, accuracy: float
-) -> tuple[Answer | None, SolverStatistics]:
+) -> tuple[NaturalAnswer | None, SolverStatistics]:
     """A backend's answer, or None and why not."""
     statistics = SolverStatistics(
         solver.name, "not called", None, None, accuracy, engine=solver.engine
@@ -209,7 +209,9 @@ def _attempt(
     return answer, statistics
 
 
-def uncertified(scaled: NaturalStep, solver: Solver, answer: Answer, certify: str) -> StepSolution:
+def uncertified(
+    scaled: NaturalStep, solver: Solver, answer: NaturalAnswer, certify: str
+) -> StepSolution:
     """A backend's own answer as a solution in SI units.
 
     Parameters
@@ -217,7 +219,7 @@ def uncertified(scaled: NaturalStep, solver: Solver, answer: Answer, certify: st
     scaled : NaturalStep
         Of :meth:`~quasistatic_ref.solve.solver.Solver.scaled`.
     solver : Solver
-    answer : Answer
+    answer : NaturalAnswer
         In the natural units of `scaled` [-].
     certify : str
         ``"residual"``: refused if its residuals are not small, and with a bound of its error;
@@ -236,7 +238,7 @@ def uncertified(scaled: NaturalStep, solver: Solver, answer: Answer, certify: st
 
 
 def _judged(
-    scaled: NaturalStep, solver: Solver, answer: Answer, delta_q: Array, lam: Array
+    scaled: NaturalStep, solver: Solver, answer: NaturalAnswer, delta_q: Array, lam: Array
 ) -> Certificate:
     """The residuals of an answer as it is given, in SI units, and a bound of its error."""
     check_arithmetic()

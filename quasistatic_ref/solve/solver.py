@@ -58,8 +58,8 @@ KIND: dict[str, Callable[[StepData], Any]] = {
 
 
 @dataclass(eq=False)
-class Answer:
-    """A solver's answer to a step: the solver claims to have solved it, and all numbers are finite.
+class NaturalAnswer:
+    """A solver's answer: it claims to have solved the step, and all numbers are finite.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ class Answer:
 
 
 @dataclass(eq=False)
-class Attempt:
+class OptionSet:
     """A set of options, and what a solver keeps for it.
 
     Parameters
@@ -85,13 +85,13 @@ class Attempt:
         In natural units [-].
     options : dict
         The backend's own.
-    held : object
+    kept : object
         The solver's.
     """
 
     accuracy: float
     options: Options
-    held: Any = None
+    kept: Any = None
 
 
 class Solver(ABC):
@@ -128,7 +128,7 @@ class Solver(ABC):
     def __init__(self, like: StepData, name: str) -> None:
         self.like, self.name = like, name
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
-        self._attempts: dict[float, list[Attempt]] = {}
+        self._attempts: dict[float, list[OptionSet]] = {}
         self._fitting: StepData | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -158,7 +158,7 @@ class Solver(ABC):
     def differences(self, step: StepData) -> list[str]:
         """In what of ``fixed`` a step is not like the one that the problem was compiled for."""
         pairs = ((what, KIND[what](self.like), KIND[what](step)) for what in self.fixed)
-        return [what for what, one, other in pairs if not np.array_equal(one, other)]
+        return [what for what, made, given in pairs if not np.array_equal(made, given)]
 
     def takes(self, step: StepData) -> bool:
         """Whether the numbers of a step can be written into the problem."""
@@ -168,7 +168,7 @@ class Solver(ABC):
         """The step in natural units."""
         return DenseStep(step)
 
-    def optimum(self, scaled: DenseStep, answer: Answer | None) -> ExactOptimum:
+    def optimum(self, scaled: DenseStep, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum, sought from where an answer shows it to be, or from cold.
 
         Raises
@@ -205,20 +205,20 @@ class Solver(ABC):
         """
 
     @abstractmethod
-    def reply(self, attempt: Attempt, scaled: Any) -> Reply:
+    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
         """What the backend says to the problem as it is written."""
 
-    def attempts(self, accuracy: float) -> list[Attempt]:
+    def attempts(self, accuracy: float) -> list[OptionSet]:
         """The sets of options for an accuracy in natural units [-], in the order to be tried."""
         if accuracy not in self._attempts:
             entry = BACKENDS[self.name.removeprefix(QPSOLVERS)]
             least = max(accuracy, entry.floor)
             steps = (1.0,) if cone(self.like.cone).polyhedral else RELAXED
             tried = [k * least for k in steps]
-            self._attempts[accuracy] = [Attempt(a, o) for a in tried for o in entry.attempts(a)]
+            self._attempts[accuracy] = [OptionSet(a, o) for a in tried for o in entry.attempts(a)]
         return self._attempts[accuracy]
 
-    def answer(self, scaled: NaturalStep, accuracy: float) -> Answer:
+    def answer(self, scaled: NaturalStep, accuracy: float) -> NaturalAnswer:
         """The backend's answer to a step, in natural units; rows out of reach bear no load.
 
         Parameters
@@ -255,8 +255,8 @@ class Solver(ABC):
                 if idle is not None:
                     reply.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
                 cost = reply.iterations, reply.seconds, tried
-                said = SolverStatistics(self.name, "optimal", *cost, None, self.engine)
-                return Answer(reply.x, reply.lam, said)
+                statistics = SolverStatistics(self.name, "optimal", *cost, None, self.engine)
+                return NaturalAnswer(reply.x, reply.lam, statistics)
         raise StepNotSolved(self.name, status, scaled.step, tried) from cause
 
 
@@ -277,19 +277,19 @@ class NoSolver(Solver):
     def __init__(self, like: StepData, name: str = NONE) -> None:
         super().__init__(like, name)
 
-    def attempts(self, accuracy: float) -> list[Attempt]:
+    def attempts(self, accuracy: float) -> list[OptionSet]:
         """One, without options."""
-        return [Attempt(accuracy, {})]
+        return [OptionSet(accuracy, {})]
 
     def write(self, scaled: Any) -> None:
         """Nothing to write."""
 
-    def reply(self, attempt: Attempt, scaled: Any) -> Reply:
+    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
         """No reply."""
         return Reply(None, None, False, "not called")
 
 
-def warm_start(scaled: DenseStep, answer: Answer | None) -> list[int]:
+def warm_start(scaled: DenseStep, answer: NaturalAnswer | None) -> list[int]:
     """Rows that an answer shows to be active, from which the exact method starts; none without."""
     if answer is None:
         return []

@@ -11,7 +11,7 @@ from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.scaled import DenseStep
-from quasistatic_ref.solve.solver import KIND, Attempt, Solver
+from quasistatic_ref.solve.solver import KIND, OptionSet, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.data import Array, Mask, StepData
 
@@ -56,7 +56,7 @@ class CvxpySolver(Solver):
         self.problem.fill(within_reach(natural))
         return np.repeat(out_of_reach(natural), natural.counts)
 
-    def reply(self, attempt: Attempt, scaled: DenseStep) -> Reply:
+    def reply(self, attempt: OptionSet, scaled: DenseStep) -> Reply:
         """What the backend says, from a cold start.
 
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY

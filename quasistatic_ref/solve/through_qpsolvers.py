@@ -10,7 +10,7 @@ import qpsolvers
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.scaled import DenseStep
-from quasistatic_ref.solve.solver import Attempt, Solver
+from quasistatic_ref.solve.solver import OptionSet, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -36,7 +36,7 @@ class QpsolversSolver(Solver):
         self.form = standard_form(within_reach(natural))
         return np.repeat(out_of_reach(natural), natural.counts)
 
-    def reply(self, attempt: Attempt, scaled: DenseStep) -> Reply:
+    def reply(self, attempt: OptionSet, scaled: DenseStep) -> Reply:
         """What the backend says, from a cold start."""
         name = self.name.removeprefix(QPSOLVERS)
         reply = qpsolvers_reply(self.form, name, attempt.options)

@@ -47,7 +47,7 @@ class Units(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Metric:
+class NaturalHessian:
     """What natural units take from H alone; a solver keeps it while H is the same.
 
     Parameters
@@ -73,12 +73,12 @@ class Metric:
     usable: bool
 
 
-def metric(H: Array) -> Metric:
+def natural_hessian(H: Array) -> NaturalHessian:
     """What natural units take from H alone, shape (n_v, n_v) [N m s/m^2]."""
     coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
     natural = H * np.outer(coordinate, coordinate)
-    return Metric(H, coordinate, float_inverse(H), coordinate * coordinate, natural, usable)
+    return NaturalHessian(H, coordinate, float_inverse(H), coordinate * coordinate, natural, usable)
 
 
 def coordinate_units(diagonal: Array) -> Array:
@@ -100,10 +100,10 @@ def natural_units(step: StepData) -> Units:
         A function of the step alone, so that a step replayed by itself gives the same numbers.
     """
     form = standard_form(step)
-    return units_of(form, metric(form.H))
+    return units_of(form, natural_hessian(form.H))
 
 
-def squared_lengths(form: StandardForm, of_H: Metric) -> Array:
+def squared_lengths(form: StandardForm, of_H: NaturalHessian) -> Array:
     """Squared lengths of the rows of A S [m^2/(N m s)], shape (m,), ascending; NaN comes last."""
     # Squares and sums are rounded, which is enough to choose a power of two.
     squares: Array = np.square(form.A).dot(of_H.squared)
@@ -111,13 +111,13 @@ def squared_lengths(form: StandardForm, of_H: Metric) -> Array:
     return squares
 
 
-def units_of(form: StandardForm, of_H: Metric) -> Units:
+def units_of(form: StandardForm, of_H: NaturalHessian) -> Units:
     """Natural units of a step from its standard form; not finite where its numbers are not.
 
     Parameters
     ----------
     form : StandardForm
-    of_H : Metric
+    of_H : NaturalHessian
     """
     squares = squared_lengths(form, of_H)
     energy = math.sqrt(max(float(form.g.dot(of_H.inverse).dot(form.g)), 0.0))  # ||H^-1 g||_H

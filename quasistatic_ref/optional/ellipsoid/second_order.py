@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.solve.adapters.program import Program, Reply
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.solver import Attempt
+from quasistatic_ref.solve.solver import OptionSet
 from quasistatic_ref.step.data import Array, Mask, StepData
 
 
@@ -49,7 +49,7 @@ class ConeSolver(NativeSolver):
             contacts[:] = contacts[:, :1]
         return idle
 
-    def reply(self, attempt: Attempt, scaled: Any) -> Reply:
+    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
         """One attempt, its multipliers those of the unscaled rows: impulses (n, d1, d2, spin)."""
         reply = super().reply(attempt, scaled)
         if reply.lam is not None:

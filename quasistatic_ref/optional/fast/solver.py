@@ -16,8 +16,8 @@ from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.backends import RESIDUAL
 from quasistatic_ref.solve.native import NativeSolver, native_backends
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep, check_units, out_of_range
-from quasistatic_ref.solve.solver import Answer, Solver, solver_for, warm_start
-from quasistatic_ref.solve.units import Metric, Units, in_natural, metric, units_of
+from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for, warm_start
+from quasistatic_ref.solve.units import NaturalHessian, Units, in_natural, natural_hessian, units_of
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -114,7 +114,7 @@ class FastSolver(NativeSolver):
         """The norm ||.||_H of a step."""
         return self.kept_hessian(scaled.step).norm
 
-    def optimum(self, scaled: DenseStep, answer: Answer | None) -> ExactOptimum:
+    def optimum(self, scaled: DenseStep, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum: proved on a guess of its working set, or found by the exact method."""
         step, hessian = scaled.step, self.kept_hessian(scaled.step)
         found = None if answer is None else self._proved(scaled, answer, hessian)
@@ -128,7 +128,7 @@ class FastSolver(NativeSolver):
         return well_posed(step, found, hessian.norm, hessian.norm.impulse(scaled.form.g))
 
     def _proved(
-        self, scaled: DenseStep, answer: Answer, hessian: BallHessian
+        self, scaled: DenseStep, answer: NaturalAnswer, hessian: BallHessian
     ) -> ExactOptimum | None:
         """The optimum proved on rows pressed in the answer: in C, or in balls; or None."""
         step, form = scaled.step, scaled.natural_form
@@ -166,7 +166,7 @@ class KeptStep(DenseStep):
     Parameters
     ----------
     step : StepData
-    like : Metric or None
+    like : NaturalHessian or None
         Of an earlier step: taken over if H is the same array.
     form : StandardForm, optional
         That of the step, where it is known.
@@ -177,7 +177,7 @@ class KeptStep(DenseStep):
     def __init__(
         self,
         step: StepData,
-        like: Metric | None,
+        like: NaturalHessian | None,
         form: StandardForm | None = None,
         units: Units | None = None,
     ) -> None:
@@ -185,7 +185,7 @@ class KeptStep(DenseStep):
         self.form = standard_form(step) if form is None else form
         try:
             same = like is not None and like.H is self.form.H
-            self.metric = like if like is not None and same else metric(self.form.H)
+            self.metric = like if like is not None and same else natural_hessian(self.form.H)
             self.units = units_of(self.form, self.metric) if units is None else units
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None

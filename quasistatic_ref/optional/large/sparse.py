@@ -14,13 +14,13 @@ from scipy.sparse import csc_matrix
 from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.large.sizes import sizes_of
-from quasistatic_ref.optional.large.sparse_bound import LargeForm, Metric, sparse_error_bound
+from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.solve.adapters.program import SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import NaturalStep, check_units
-from quasistatic_ref.solve.solver import Attempt
+from quasistatic_ref.solve.solver import OptionSet
 from quasistatic_ref.solve.units import coordinate_units, in_natural, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.tolerances import FAR
@@ -84,7 +84,7 @@ class SparseSolver(NativeSolver):
         scaled = csc_matrix((P.data * S[P.indices] * S[column], P.indices, P.indptr), P.shape)
         m, n = A.shape
         program = SparseProgram(scaled, np.zeros(n), A.copy(), np.zeros(m))
-        self.of_H = Metric(program.H)
+        self.of_H = SparseHessian(program.H)
         return program
 
     def takes(self, step: StepData) -> bool:
@@ -95,7 +95,7 @@ class SparseSolver(NativeSolver):
         """In what a step is not like the one that the pattern was made for."""
         return [*super().differences(step), "H or the pattern of A"]
 
-    def attempts(self, accuracy: float) -> list[Attempt]:
+    def attempts(self, accuracy: float) -> list[OptionSet]:
         """The sets of options, none of which asks for a gap that rounding hides."""
         if accuracy not in self._attempts:
             for attempt in super().attempts(accuracy):

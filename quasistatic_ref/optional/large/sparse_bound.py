@@ -30,7 +30,7 @@ ENOUGH = 1 + 2.0**-40
 
 
 @dataclass(frozen=True, eq=False)
-class Metric:
+class SparseHessian:
     """What the bound takes from H alone.
 
     Parameters
@@ -73,7 +73,7 @@ class LargeForm:
 
     Parameters
     ----------
-    metric : Metric
+    metric : SparseHessian
         Of H.
     g : ndarray, shape (n_v,)
     A : scipy.sparse.csc_matrix, shape (m, n_v)
@@ -82,7 +82,7 @@ class LargeForm:
         Sums of the absolute values of all terms of A x, A'y and g, for bounds of their rounding.
     """
 
-    metric: Metric
+    metric: SparseHessian
     g: Array
     A: csc_matrix
     b: Array

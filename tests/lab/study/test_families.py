@@ -15,7 +15,7 @@ from quasistatic_ref.lab.study.problems.folder import problems_begun, set_read
 from quasistatic_ref.lab.study.problems.making import family_problems, problem_of, recipe_made
 from quasistatic_ref.lab.study.problems.recipe import Recipe
 from quasistatic_ref.solve.backends import BACKENDS
-from quasistatic_ref.solve.units import metric, natural_form, units_of
+from quasistatic_ref.solve.units import natural_form, natural_hessian, units_of
 from quasistatic_ref.step.standard_form import standard_form
 
 SHORT = [name for name in DIALS if name not in ("sparse", "ellipsoid", "near_copies", "condition")]
@@ -64,7 +64,7 @@ def test_copies_multiply_rows_and_leave_the_answer():
 def test_exact_copies_cost_an_active_set_method_no_step_and_no_bit(seed):
     """Of 16 copies one bears; the others are then met without rounding."""
     forms = [standard_form(copied(np.random.default_rng(seed), copies)) for copies in (1, 4, 16)]
-    own = [natural_form(form, units_of(forms[0], metric(forms[0].H))) for form in forms]
+    own = [natural_form(form, units_of(forms[0], natural_hessian(forms[0].H))) for form in forms]
     replies = [Native("daqp", "cold", BACKENDS["daqp"].plain(1e-9))(form, None) for form in own]
     assert [len(form.b) // len(own[0].b) for form in own] == [1, 4, 16]
     assert len({reply.iterations for reply in replies}) == 1

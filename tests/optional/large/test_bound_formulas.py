@@ -17,7 +17,7 @@ from quasistatic_ref.optional.large.opening import RIDGE, opening
 from quasistatic_ref.optional.large.sparse_bound import (
     ENOUGH,
     LargeForm,
-    Metric,
+    SparseHessian,
     sparse_error_bound,
 )
 from tests.helpers import random_step, random_stiffness
@@ -94,7 +94,7 @@ class Sizes:
 
 def large(H, g, A, b):
     H, g, A, b = (np.array(v, dtype=np.float64) for v in (H, g, A, b))
-    return LargeForm(Metric(csc_matrix(H)), g, csc_matrix(A), b, Sizes(A, 2 * np.abs(g)))
+    return LargeForm(SparseHessian(csc_matrix(H)), g, csc_matrix(A), b, Sizes(A, 2 * np.abs(g)))
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -103,7 +103,7 @@ def test_sparse_bound_is_that_of_its_formula(monkeypatch, seed):
     H, g, A = random_stiffness(rng, 4, 2.0), rng.standard_normal(4), rng.random((5, 4))
     x, y = rng.standard_normal(4), rng.random(5)
     b = A @ x - [-0.3, *rng.standard_normal(4)]
-    form, least = large(H, g, A, b), Metric(csc_matrix(H)).least
+    form, least = large(H, g, A, b), SparseHessian(csc_matrix(H)).least
     monkeypatch.setattr(sparse_bound, "rounding", loose)
     slack, off = A @ x - b, loose(3, np.abs(A) @ np.abs(x) + np.abs(b))
     d = opening(csc_matrix(A), slack)

@@ -15,11 +15,11 @@ from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, ENCLOSED, EXACT, Answer
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.large.bound import enclosed_answer
-from quasistatic_ref.optional.large.sparse_bound import LargeForm, Metric, sparse_error_bound
+from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
-from quasistatic_ref.solve.units import Units, metric, natural_form, units_of
+from quasistatic_ref.solve.units import Units, natural_form, natural_hessian, units_of
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ACCURACY, KNOWN
@@ -48,7 +48,7 @@ def dense_answer(form: StandardForm) -> Answer:
     """
     if len(form.g) <= EXACT_COORDINATES:
         return exact_answer(form)
-    natural = natural_form(form, units_of(form, metric(form.H)))
+    natural = natural_form(form, units_of(form, natural_hessian(form.H)))
     warm: list[int] = []
     for solver in WITNESSES:
         reply = reply_of(natural, solver)
@@ -120,7 +120,7 @@ def bounded_answer(H: csr_matrix, g: Array, A: csr_matrix, b: Array, units: Unit
     NotKnown
         If no bound is at most 1e-6.
     """
-    form = LargeForm(Metric(csc_matrix(H)), g, csc_matrix(A), b, PlainSizes(A, g))
+    form = LargeForm(SparseHessian(csc_matrix(H)), g, csc_matrix(A), b, PlainSizes(A, g))
     best = (math.inf, NONE, NONE)
     for x, lam in _answers(StandardForm(csc_matrix(H), g, csc_matrix(A), b)):
         error = sparse_error_bound(form, x, lam)

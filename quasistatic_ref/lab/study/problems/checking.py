@@ -13,7 +13,7 @@ from quasistatic_ref.lab.study.problems.answers import cone_answer, step_of
 from quasistatic_ref.lab.study.problems.families.short import framed
 from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
-from quasistatic_ref.optional.large.sparse_bound import LargeForm, Metric, sparse_error_bound
+from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
 
@@ -69,7 +69,7 @@ def _different(one: Problem, x: np.ndarray, error: float) -> str | None:
 def _not_bounded(one: Problem) -> str | None:
     natural = one.natural
     H, A = csc_matrix(natural.H), csc_matrix(natural.A)
-    form = LargeForm(Metric(H), natural.g, A, natural.b, PlainSizes(natural.A, natural.g))
+    form = LargeForm(SparseHessian(H), natural.g, A, natural.b, PlainSizes(natural.A, natural.g))
     error = sparse_error_bound(form, natural.answer.x, natural.answer.lam)
     worse = error > 1.01 * one.answer.error
     return f"its error is bounded by {error:.1g} only" if worse else None

@@ -26,7 +26,13 @@ from quasistatic_ref.lab.study.problems.problem import QP, SOCP, SPARSE, Answer,
 from quasistatic_ref.lab.study.problems.recipe import CONTACT_QP_1, Recipe, family_steps
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.simulate.progress import progress_bar
-from quasistatic_ref.solve.units import Units, coordinate_units, metric, units_from, units_of
+from quasistatic_ref.solve.units import (
+    Units,
+    coordinate_units,
+    natural_hessian,
+    units_from,
+    units_of,
+)
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -179,7 +185,7 @@ def problem_of(one: Made, kept: Kept = NOTHING) -> Problem:
         plain = Problem({}, *numbers, units, UNKNOWN).natural
         answer = bounded_answer(plain.H, plain.g, plain.A, plain.b, units)
     else:
-        units = units_of(form, metric(form.H))
+        units = units_of(form, natural_hessian(form.H))
         answer = cone_answer(one.step, form) if kind == SOCP else dense_answer(form)
     return _measured(one, kind, numbers, units, answer)
 

@@ -7,7 +7,7 @@ from quasistatic_ref.optional.fast.compiled.scene import Scene
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.adapters.program import Program
-from quasistatic_ref.solve.units import Metric, Units
+from quasistatic_ref.solve.units import NaturalHessian, Units
 from quasistatic_ref.step.data import StepData
 
 NUMBERS = ("n", "m", "row", "column")
@@ -31,11 +31,13 @@ class NaturalProgram:
     solver : FastSolver
     program : Program
         That of the solver.
-    metric : Metric
+    metric : NaturalHessian
         Of H.
     """
 
-    def __init__(self, scene: Scene, solver: FastSolver, program: Program, metric: Metric) -> None:
+    def __init__(
+        self, scene: Scene, solver: FastSolver, program: Program, metric: NaturalHessian
+    ) -> None:
         found = library()
         self._write, self._solver, self._metric = found.natural_program, solver, metric
         self._structure = s = Structure(NUMBERS, ARRAYS, found.natural_size)

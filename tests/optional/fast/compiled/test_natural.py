@@ -8,7 +8,7 @@ import pytest
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.adapters.program import Program
-from quasistatic_ref.solve.units import STANDSTILL, metric, units_of
+from quasistatic_ref.solve.units import STANDSTILL, natural_hessian, units_of
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
@@ -20,7 +20,7 @@ HALF = np.sqrt(2.0)
 def units(H, g, A, b):
     """Units by C, and by NumPy; and the program that C has written, None if it has not."""
     H, g, A, b = (np.array(values, dtype=np.float64) for values in (H, g, A, b))
-    of_H, solver = metric(H), SimpleNamespace(written=None)
+    of_H, solver = natural_hessian(H), SimpleNamespace(written=None)
     program = Program(H, np.zeros(len(g)), np.zeros(A.shape), np.zeros(len(b)))
     made = compiled("natural").NaturalProgram({"g": g, "A": A, "b": b}, solver, program, of_H)
     found = made.written()
