@@ -24,7 +24,3 @@ def test_a_record_of_a_run_is_the_same_when_it_is_made_again():
     assert one["exact"] == one["steps"] == 3
     other = same_bits.run_record("two_finger_pinch", ["steps=4"])
     assert all(one[key] != other[key] for key in ("q", "delta_q", "A'lam", "slack"))
-
-
-def test_the_kernel_of_blas_is_named():
-    assert len(same_bits.kernel().split()) == 3
