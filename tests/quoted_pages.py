@@ -49,15 +49,6 @@ QUOTED = {
         f"measures {len(BY_NAME)} claims",
         f"(certified steps meet them to {CLOSED_FORM:.0e})",
     ],
-    "docs/compiled.md": lambda: [
-        "| C, by the system's compiler | {:.0f} | {:.1f} | {:.0f} | {:.1f} |".format(
-            *of.compiler("C, cc")
-        ),
-        "| C, by ziglang | {:.0f} | {:.1f} | {:.0f} | {:.1f} |".format(*of.compiler("C, ziglang")),
-        "| numba, one function of twenty lines | {:.0f} | {:.1f} | {:.0f} | {:.1f} |".format(
-            *of.compiler("numba")
-        ),
-    ],
     "docs/index.md": lambda: [
         "the bunny turns by {:.1f} degrees about the points by which the fingers hold it while "
         "it is lifted, with it by {:.1f} (the largest angle from the closed "

@@ -7,7 +7,7 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.patched import program
 from tests.lab.vectors.material import answer_file, cases
-from tests.quoted import ROOT, filled, flat, printed, stale
+from tests.quoted import ROOT, flat, printed, stale
 from tests.quoted_pages import OTHERS, QUOTED
 
 ELSEWHERE = {"docs/solver_study.md": "tests/lab/study/test_solver_study_page.py holds every number"}

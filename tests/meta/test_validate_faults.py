@@ -11,7 +11,7 @@ from quasistatic_ref.model.system import System
 
 TRUE = {
     "jacobian": jacobian.ContactGeometry.jacobian,
-    "cross": jacobian.cross_matrix,
+    "columns": jacobian.columns_at,
     "gravity": System.gravity_force,
     "integrate": System.integrate,
 }
@@ -34,10 +34,13 @@ def half_the_spin(self, *arguments):
     return J
 
 
+def other_turn(columns, r, n):
+    """nu_origin - omega x r in place of nu_origin + omega x r; the spin is the same."""
+    return 2 * TRUE["columns"](columns, 0 * r, n) - TRUE["columns"](columns, r, n)
+
+
 FAULTS = {
-    "r x omega instead of omega x r": (
-        jacobian, "cross_matrix", lambda r: -TRUE["cross"](r), "mujoco_rows",
-    ),
+    "r x omega instead of omega x r": (jacobian, "columns_at", other_turn, "mujoco_rows"),
     "half the spin": (jacobian.ContactGeometry, "jacobian", half_the_spin, "by_hand"),
     "gravity is half": (
         System, "gravity_force", lambda s, q, g: 0.5 * TRUE["gravity"](s, q, g), "free_fall",

@@ -35,6 +35,8 @@ from tests.tolerances import DIFFERENCE_OF_STEPS, FIRST_ORDER, ROUNDING, SCENARI
 
 G = 9.81
 ROOT = Path(__file__).parents[3]
+BISECTED = 1e-3
+"""Where the bisections of a patch end here [-]."""
 
 
 @pytest.fixture(autouse=True)
@@ -47,7 +49,7 @@ def runs_of_the_demo(demo, monkeypatch):
         monkeypatch.setattr(module, "grasp", read)
     monkeypatch.setattr(solver_digits, "EVERY", 75)
     monkeypatch.setattr(coulomb_against_convex_slip, "PUSHES", np.linspace(0.0, 3.0, 4))
-    monkeypatch.setattr(flat_patch, "PRECISION", 1e-3)
+    monkeypatch.setattr(flat_patch, "PRECISION", BISECTED)
     monkeypatch.setattr(flat_patch, "DRAWN", 0.25)
     monkeypatch.setattr(hold_or_slip, "MU_V", np.array([0.2, 0.5]))
     monkeypatch.setattr(hold_or_slip, "MU_OMEGA", np.array([0.015, 0.02]))
@@ -99,7 +101,7 @@ PAIRS = {
     "a square patch holds mu a times the cosine of its tangents angle": (
         "flat_patch",
         0.0,
-        2 * flat_patch.PRECISION,
+        2 * BISECTED,
     ),
     "a pinch holds from the squeeze of the formulas": ("pinch_threshold", 0.0, 100 * THRESHOLD),
     "the peg slides in along two walls": ("peg_in_a_hole", 0.0, SCENARIO),
