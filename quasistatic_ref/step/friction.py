@@ -1,4 +1,4 @@
-"""Rows and wrenches of contacts in their friction cone; the cones: see :mod:`.cones`."""
+"""Rows and wrenches of contacts in their friction cone (:mod:`~quasistatic_ref.step.cones`)."""
 
 from fractions import Fraction
 from typing import Any
