@@ -24,9 +24,6 @@ from tests.lab.study import test_known_issues as known_issues
 from tests.quoted import claim, word
 from tests.quoted_sources import G, H
 from tests.solve import test_options_of_backends as options
-from validation.make.bench_exact import PROMISED
-
-GRASP_EXACT, LARGE_EXACT = PROMISED["bunny_grasp, 13 x 80"], PROMISED["random, 24 x 180"]
 
 SOFT = ("250", "500")
 """Stiffnesses of the sweep that are too small [N/m]."""
@@ -160,13 +157,6 @@ QUOTED = {
     "docs/exactness.md": lambda: [
         "of `sphere_spin`, and on {:,} random steps".format(*of.steps_with_equal_bits()[-1:]),
         f"more than 1e{math.log10(ILL_POSED):.0f} times longer",
-        "a median of at most {:.0f} ms and a 99th percentile of at most {:.0f} ms".format(
-            *GRASP_EXACT
-        ),
-        "a median of at most {:.0f} ms for 30 contacts".format(*LARGE_EXACT[:1]),
-        *of.exact_rows(),
-        "Verification in rational numbers takes {:.0f} ms at 13 x 80 and {:.0f} ms "
-        "at 24 x 180".format(*map(of.verification, ("13 x 80", "24 x 180"))),
         "each backend claims at least one answer without a single correct digit; OSQP leaves "
         "{} unsolved, PIQP {}.".format(*of.unsolved_random_steps("osqp", "piqp")),
     ],

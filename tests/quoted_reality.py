@@ -65,16 +65,6 @@ def unidentified(*cones):
             for cone in cones]  # fmt: skip
 
 
-def residual(*keys):
-    found = result("reality_residuals")
-    for key in keys:
-        found = found[key]
-    return found
-
-
-TOUCH = "paths shifted so that they touch"
-CORRELATION = "correlation of displacement errors with the published simulator's"
-GAP = "distance of the finger from the outline at the start [mm]"
 CANCEL = ("mass 10 kg", "h 0.2 s", "mu_v 0.6", "gyration 20 mm", "finger's stiffness 1e5 N/m")
 
 
@@ -202,24 +192,6 @@ def held():
                 x
                 for name in ("9 points", "25 points", "100 points", "ellipsoid")
                 for x in variant(name)
-            ]
-        ),
-        f"correlate by {residual(CORRELATION):.2f}",
-        f"is off by {residual(GAP, 'standard deviation'):.1f} mm (standard deviation)",
-        "changes the mean error by {:+.2f} mm ({:+.2f} to {:+.2f}) and {:+.2f} degrees".format(
-            *(residual(TOUCH, "change", part)[0] for part in ENDS),
-            residual(TOUCH, "change", "mean")[1],
-        ),
-        "sticks throughout {:.1f} mm and {:.1f} degrees ({} pushes), where it slides throughout "
-        "{:.1f} mm and {:.1f} degrees ({}), where it does both {:.1f} mm and "
-        "{:.1f} degrees ({})".format(
-            *[
-                x
-                for kind in ("sticks", "slides", "both")
-                for x in (
-                    *residual("by grip of the finger", kind, "mean"),
-                    residual("by grip of the finger", kind, "pushes"),
-                )
             ]
         ),
         f"{min(tripods()):.0f} to {max(tripods()):.0f} % of the median turn",
