@@ -8,7 +8,6 @@ from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.model.system import Body, System
 from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, mimic, robot, written
 from tests.tolerances import ROUNDING
@@ -177,16 +176,3 @@ def test_many_bodies_of_one_file_do_not_meet(tmp_path: Path) -> None:
     for k, name in enumerate(names):
         assert t[system.link(f"{name}/b")] == pytest.approx([k, 0, 0], abs=ROUNDING)
         assert t[system.link(f"{name}/c")] == pytest.approx([-k, 0, 0], abs=ROUNDING)
-
-
-def test_a_workspace_in_parts_adds_and_subtracts_as_the_whole_model() -> None:
-    """Nine free bodies, 54 coordinates: pinocchio's own sums, part by part."""
-    system, rng = pile((9, 1, 1)).simulator.system, np.random.default_rng(2)
-    workspace = system.workspace()
-    assert len(workspace.parts) == 2
-    q = system.integrate(system.q_start, rng.normal(size=system.n_v))
-    delta_q = rng.normal(size=system.n_v)
-    after = workspace.sum(q, delta_q)
-    assert after.tobytes() == system.pinocchio_sum(q, delta_q).tobytes()
-    change = workspace.difference(q, after)
-    assert change.tobytes() == system.pinocchio_difference(q, after).tobytes()

@@ -19,8 +19,8 @@ from tests.optional.derivatives.free_bodies import (
     sided,
     verdict,
 )
+from tests.oracles.differences import after
 from tests.tolerances import DIFFERENCE_OF_STEPS
-from validation.make.derivatives import after
 
 
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (0, 0, -1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])

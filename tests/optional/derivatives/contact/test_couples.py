@@ -26,8 +26,8 @@ from quasistatic_ref.shapes.placed_shape import (
     PointCloud,
     Sphere,
 )
+from tests.oracles.differences import rate
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
-from validation.make.derivatives import rate
 
 FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
 TANGENTS = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])

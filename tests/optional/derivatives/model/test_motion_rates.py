@@ -10,9 +10,9 @@ from quasistatic_ref.optional.derivatives.model.tangent import (
     difference_rates,
     sum_rates,
 )
+from tests.oracles.differences import rate
 from tests.scenes import chain_scene
 from tests.tolerances import DIFFERENCE
-from validation.make.derivatives import rate
 
 GRAVITY = np.array([1.0, 2.0, -9.0])
 

@@ -1,0 +1,280 @@
+"""Where a step has no derivative it says so, by name."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PlacedShape,
+    PointCloud,
+    Sphere,
+)
+from quasistatic_ref.simulate.simulator import Simulator
+from tests.model.urdf.urdf_texts import joint, link, robot
+from tests.oracles.differences import after, rate
+from tests.tolerances import DIFFERENCE_OF_STEPS
+
+H, G, NONE = 0.01, 9.81, np.zeros(0)
+FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+WHEEL = robot(link("rail"), link("wheel"), joint("turn", "rail", "wheel", "continuous", "0 0 1"))
+
+
+def sided(function, step=1e-6):
+    """Derivative at 0 from above of a function of one number, extrapolated once."""
+    start = function(0.0)
+    near, far = ((function(h) - start) / h for h in (step, 2 * step))
+    return 2 * near - far
+
+
+def free(shape, xyz, *fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="floating"):
+    """(simulator, q) of one free body on shapes that are fixed in the world: (shape, xyz)."""
+    solid = shape if isinstance(shape, Box | Sphere | Cylinder | Capsule) else Sphere(0.05)
+    system = System([Body.of_shape("body", solid, 0.3, xyz=xyz, rpy=rpy, base=base)])
+    placed = PlacedShape("body", system.link("body"), np.eye(3), np.zeros(3), shape)
+    pairs = [
+        ContactPair(f"c{i}", PlacedShape(f"f{i}", 0, np.eye(3), np.array(at), s), placed, *mu, 6, k)
+        for i, (s, at) in enumerate(fixed)
+    ]
+    return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
+
+
+def verdict(simulator, q, force=0.0):
+    found = derivatives(simulator, q, np.zeros(0), force)
+    return found, {why.kind for why in found.reasons}
+
+
+def test_a_ball_that_just_reaches_the_floor_has_weak_rows():
+    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    found, kinds = verdict(simulator, q)
+    assert kinds == {reason.WEAK}
+    assert {why.where[0] for why in found.reasons} == {"c0/0"}
+    assert np.isnan(found.dq_dq[:, 2]).all()
+    assert np.isfinite(found.dq_dq[:, :2]).all()  # along the floor nothing happens
+
+
+def test_exactly_at_the_limit_of_friction_a_row_is_weak():
+    simulator, q = free(PointCloud(np.zeros((1, 3))), (0, 0, 0), (FLOOR, (0, 0, 0)), mu=(0.5, 0.0))
+    force = np.array([0.5 * 0.3 * G, 0, 0, 0, 0, 0])
+    found, kinds = verdict(simulator, q, force)
+    assert kinds >= {reason.WEAK}
+    assert any("dq_dtau" in why.fields for why in found.reasons)
+
+
+def test_a_ladder_that_sticks_at_wall_and_floor_contradicts_itself():
+    ends = PointCloud(np.array([[0.0, 0, 0], [-0.3, 0, 0.4]]))
+    wall = HalfSpace(np.array([1.0, 0, 0]), 0.0)
+    simulator, q = free(ends, (0.3, 0, 0), (FLOOR, (0, 0, 0)), (wall, (0, 0, 0)), mu=(0.9, 0.01))
+    force = np.array([0.0, 0, -30.0, 0, -2.0, 0])
+    found, kinds = verdict(simulator, q, force)
+    assert kinds >= {reason.CONTRADICTION}
+    (why,) = [why for why in found.reasons if why.kind == reason.CONTRADICTION]
+    assert set(why.where) == {"c0/0", "c1/1"}
+    assert why.fields == ("dq_dq",)
+    assert np.isfinite(found.dq_dtau).all()
+    kinked = np.isnan(found.dq_dq).any(axis=0)
+    move = simulator.system.integrate
+    for e, expected in zip(np.eye(6), kinked, strict=True):
+
+        def moved(t, e=e):
+            return after(simulator, found.result.q, move(q, t * e), NONE, force)
+
+        apart = np.abs(sided(moved) + sided(lambda t: moved(-t))).max()
+        assert (apart > 0.1) if expected else (apart < 1e-3)
+
+
+def test_a_box_that_lies_flat_and_sticks_on_four_corners_has_a_derivative():
+    simulator, q = free(Box(np.array([0.1, 0.1, 0.05])), (0, 0, 0.0499), (FLOOR, (0, 0, 0)), k=4)
+    found, kinds = verdict(simulator, q)
+    assert kinds == set()
+    # It sticks: wherever it stood before along the floor it stands after, at the floor's height.
+    assert np.allclose(found.dq_dq[:, :2], np.eye(6)[:, :2], atol=1e-12)
+    assert np.allclose(found.dq_dq[:, 2], 0, atol=1e-12)
+
+
+BOX = Box(np.array([0.1, 0.1, 0.05]))
+SLAB, SMALL = Box(np.array([0.3, 0.3, 0.05])), Box(np.array([0.01, 0.02, 0.03]))
+LONG, BAR = Box(np.array([0.2, 0.02, 0.01])), Box(np.array([0.02, 0.2, 0.05]))
+PLATE, DISC = Box(np.array([0.3, 0.3, 0.005])), Cylinder(0.3, 0.005)
+
+KINKS = {
+    "two points that are equally near, of which one is kept": (
+        reason.POINTS,
+        lambda: free(
+            PointCloud(np.array([[0.1, 0, 0], [-0.1, 0, 0]])), (0, 0, 0), (FLOOR, (0, 0, 0))
+        ),
+    ),
+    "a ball over the rim of a face": (
+        reason.FEATURE,
+        lambda: free(Sphere(0.05), (0.1, 0, 0.0999), (BOX, (0, 0, 0))),
+    ),
+    "a point over the seam of a capsule's side and cap": (
+        reason.FEATURE,
+        lambda: free(
+            PointCloud(np.zeros((1, 3))), (0, 0.0299, 0.05), (Capsule(0.03, 0.05), (0, 0, 0))
+        ),
+    ),
+    "a box that lies flat, of which one point is kept": (
+        reason.MANY,
+        lambda: free(BOX, (0, 0, 0.05), (FLOOR, (0, 0, 0))),
+    ),
+    "a cylinder that lies on its side": (
+        reason.MANY,
+        lambda: free(
+            Cylinder(0.04, 0.06), (0, 0, 0.04), (FLOOR, (0, 0, 0)), rpy=(np.pi / 2, 0, 0.3)
+        ),
+    ),
+    "a box edge along a box face": (
+        reason.MANY,
+        lambda: free(
+            BOX, (0, 0, 0.0499 + 0.15 / np.sqrt(2)), (SLAB, (0, 0, 0)), rpy=(np.pi / 4, 0, 0)
+        ),
+    ),
+    "a point at a box's corner": (
+        reason.NO_NORMAL,
+        lambda: free(PointCloud(np.zeros((1, 3))), (0.1, 0.1, 0.05), (BOX, (0, 0, 0))),
+    ),
+    "a point on a box's edge": (
+        reason.NO_NORMAL,
+        lambda: free(PointCloud(np.zeros((1, 3))), (0.02, 0.1, 0.05), (BOX, (0, 0, 0))),
+    ),
+    "a normal as far from two axes of the world": (
+        reason.TANGENTS,
+        lambda: free(  # so slippery that it does not roll
+            Sphere(0.05),
+            0.0999 * np.array([1.0, 1, 2]) / np.sqrt(6),
+            (Sphere(0.05), (0, 0, 0)),
+            mu=(0.1, 0.01),
+        ),
+    ),
+    "a cylinder that stands upright on its rim": (
+        reason.RIM,
+        lambda: free(Cylinder(0.04, 0.06), (0, 0, 0.06), (FLOOR, (0, 0, 0)), k=4),
+    ),
+    # Depths that tie by more than a step is refused for.
+    "a point as deep below two faces": (
+        reason.SURFACES,
+        lambda: free(PointCloud(np.zeros((1, 3))), (0.09, 0, 0.04 + 4e-12), (BOX, (0, 0, 0))),
+    ),
+    "an ellipsoid in the middle of a disc": (
+        reason.SURFACES,
+        lambda: free(
+            Ellipsoid(np.array([0.01, 0.02, 0.03])),
+            (0, 0, 4e-12),
+            (DISC, (0, 0, 0)),
+            rpy=(0.3, 0.4, 0.2),
+        ),
+    ),
+    "a box on another that lies across it": (
+        reason.MANY,
+        lambda: free(LONG, (0, 0, 0.0599), (BAR, (0, 0, 0)), k=4),
+    ),
+    "a box whose middle is in the middle of a plate": (
+        reason.SURFACES,
+        lambda: free(SMALL, (0, 0, 4e-12), (PLATE, (0, 0, 0)), rpy=(0.3, 0.4, 0.2)),
+    ),
+}
+
+
+@pytest.mark.parametrize(("kind", "scene"), KINKS.values(), ids=KINKS)
+def test_a_constructed_kink_is_named(kind, scene):
+    simulator, q = scene()
+    found, kinds = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))
+    assert kind in kinds, [str(why) for why in found.reasons]
+    assert not found.differentiable
+    assert np.isnan(found.dq_dq).all()
+    assert np.isfinite(found.dq_dtau).any()
+    assert all(why.where[0].startswith("c0") for why in found.reasons if why.kind == kind)
+
+
+@pytest.mark.parametrize(("distance", "kinds"), [(1e-9, 1), (1e-7, 1), (1e-5, 0)])
+def test_so_near_to_an_edge_that_float64_does_not_know_the_normal(distance, kinds):
+    # Places are right to 1e-16 m, and the normal to that over the distance.
+    at = np.array([0.02, 0.1, 0.05]) + distance * np.array([0.0, 0.6, 0.8])
+    simulator, q = free(PointCloud(np.zeros((1, 3))), at, (BOX, (0, 0, 0)))
+    found, named = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))
+    assert named == ({reason.NO_NORMAL} if kinds else set())
+    assert np.isnan(found.dq_dq).all() == np.isnan(found.dq_dtau).all() == bool(kinds)
+
+
+@pytest.mark.parametrize(("tilt", "kind"), [(1e-8, True), (3e-6, True), (1e-4, False)])
+def test_a_rim_so_level_that_float64_does_not_know_its_lowest_point(tilt, kind):
+    simulator, q = free(
+        Cylinder(0.04, 0.06), (0, 0, 0.06), (FLOOR, (0, 0, 0)), k=4, rpy=(tilt, 0, 0)
+    )
+    named = verdict(simulator, q, np.array([0, 0, -1.0, 0, 0, 0]))[1]
+    assert (reason.RIM in named) == kind
+
+
+def test_a_kink_of_a_contact_that_is_far_away_does_not_matter():
+    simulator, q = free(BOX, (0, 0, 0.5), (FLOOR, (0, 0, 0)))
+    found, kinds = verdict(simulator, q)
+    assert kinds == set()
+    assert np.allclose(found.dq_dq, np.eye(6), atol=1e-2)
+
+
+def test_points_that_slide_where_nothing_depends_on_it_do_no_harm():
+    # In the plane, the upright edge of a box lies along the wall: which of its points is nearest
+    # is open, and all of them move alike. Flush with the wall, one of its edges or the other is.
+    wall = HalfSpace(np.array([1.0, 0, 0]), 0.0)
+    x = 0.1 * np.cos(0.3) + 0.1 * np.sin(0.3) - 1e-4
+    simulator, q = free(BOX, (x, 0, 0), (wall, (0, 0, 0)), rpy=(0, 0, 0.3), base="planar")
+    force = np.array([-3.0, 1.0, 0.002])
+    found, kinds = verdict(simulator, q, force)
+    assert kinds == set()
+    for e in np.eye(3):
+        there = rate(
+            lambda t, e=e: after(
+                simulator, found.result.q, simulator.system.integrate(q, t * e), NONE, force
+            )
+        )
+        size = np.abs(found.dq_dq).max()
+        assert np.abs(found.dq_dq @ e - there).max() <= DIFFERENCE_OF_STEPS * size
+    flush, q = free(BOX, (0.1 - 1e-4, 0, 0), (wall, (0, 0, 0)), base="planar")
+    assert verdict(flush, q, force)[1] == {reason.MANY}
+
+
+def test_a_normal_along_an_axis_is_no_kink_of_the_pyramid():
+    simulator, q = free(Sphere(0.05), (0, 0, 0.0999), (Sphere(0.05), (0, 0, 0)))
+    assert verdict(simulator, q, np.array([1.0, 0.2, 0, 0, 0, 0]))[1] == set()
+
+
+def test_friction_of_zero_has_one_side_only():
+    simulator, q = free(Sphere(0.05), (0, 0, 0.0499), (FLOOR, (0, 0, 0)), mu=(0.0, 0.0))
+    found, kinds = verdict(simulator, q)
+    assert kinds == {reason.ZERO_FRICTION}
+    assert np.isnan(found.dq_dmu_v).all()
+    assert np.isfinite(found.dq_dq).all()
+
+
+def test_a_target_half_a_turn_away_is_named(tmp_path):
+    system = System([Body("rail", WHEEL, actuated=("turn",))])
+    simulator = Simulator(system, [], h=H, K_q=np.eye(1), fast=True)
+    found = derivatives(simulator, np.array([1.0, 0.0]), np.array([-1.0, 0.0]))
+    assert [why.kind for why in found.reasons] == [reason.HALF_TURN]
+    assert np.isnan(found.dq_dq_bar_a).all()
+    assert derivatives(simulator, np.array([1.0, 0.0]), np.array([0.0, 1.0])).differentiable
+
+
+def test_a_pair_without_friction_leaves_the_columns_of_the_others():
+    wall = HalfSpace(np.array([1.0, 0, 0]), 0.0)
+    system = System([Body.of_shape("body", Sphere(0.05), 0.3, xyz=(0.0499, 0, 0.0499))])
+    own = PlacedShape("body", system.link("body"), np.eye(3), np.zeros(3), Sphere(0.05))
+    pairs = [
+        ContactPair(name, PlacedShape(name, 0, np.eye(3), np.zeros(3), shape), own, mu, 0.01, 6, 1)
+        for name, shape, mu in (("wall", wall, 0.0), ("floor", FLOOR, 0.3))
+    ]
+    simulator = Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True)
+    found, kinds = verdict(simulator, system.q_start, np.array([-3.0, 2.0, -1.0, 0, 0, 0]))
+    assert kinds == {reason.ZERO_FRICTION}
+    assert np.isnan(found.dq_dmu_v[:, 0]).all()
+    assert np.isfinite(found.dq_dmu_v[:, 1]).all()
+    assert found.dq_dmu_v[1, 1] < 0  # more friction, less sliding
