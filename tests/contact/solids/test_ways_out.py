@@ -67,3 +67,12 @@ def test_a_way_out_through_a_side_is_found_between_the_axes() -> None:
     found = rival_directions(cylinder, inside, R[:, 2], -0.14, 0.1)
     # On the ridge of such ways the widest sampled gap need not be the nearest one.
     assert np.arccos(found[0] @ way) <= 2 * REACH
+
+
+def test_no_more_ways_out_are_followed_than_starts() -> None:
+    # From the middle of a hull of twelve points, evenly spread, all faces are as near.
+    g = (1 + np.sqrt(5)) / 2
+    plane = np.array([[0, s, u * g] for s in (-1, 1) for u in (-1, 1)])
+    hull = convex_hull(np.concatenate([np.roll(plane, k, axis=1) for k in range(3)]))
+    a, b = Placed(hull, R, AT), Placed(Ellipsoid(HALF_AXES), S, AT)
+    assert len(rival_directions(a, b, R[:, 0], -10.0, 1.0)) == STARTS
