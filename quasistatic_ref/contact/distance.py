@@ -18,12 +18,12 @@ from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.contact.placed import Placed
-from quasistatic_ref.contact.poses import rotated
 from quasistatic_ref.contact.separations import BISECTOR, OWN, pair_normal, rounding
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array, Indices, Mask
+from quasistatic_ref.step.ordered import dot, norm, product, rotated
 from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
 
 
@@ -137,7 +137,7 @@ def with_corners(a: Placed, b: Placed, nearest: ClosestPoints) -> ClosestPoints:
     if nearest.tie[0] == BISECTOR:
         alike = np.abs(every.n - n).max(axis=1) <= SAME_NORMAL
         every = every._replace(tie=np.where(alike, BISECTOR, every.tie))
-    return every.chosen(np.flatnonzero(every.n @ n >= TURNED))
+    return every.chosen(np.flatnonzero(dot(every.n, n) >= TURNED))
 
 
 def _towards(body: Placed, nearest: Array, n: Array) -> Array:
@@ -146,12 +146,12 @@ def _towards(body: Placed, nearest: Array, n: Array) -> Array:
     Where the closest point is on a rim, the point itself gives this direction more accurately than
     the normal does: near contact the normal is computed from a difference that cancels.
     """
-    local, way = body.R.T @ (nearest - body.t), body.R.T @ n
+    local, way = product(body.R.T, nearest - body.t), product(body.R.T, n)
     radius = body.shape.rim_radius
     if radius is None:
         return way
-    on_rim = np.hypot(*local[:2]) >= (1 - ON_RIM) * radius
-    return local if on_rim and np.hypot(*way[:2]) > UPRIGHT else way
+    on_rim = norm(local[:2]) >= (1 - ON_RIM) * radius
+    return local if on_rim and norm(way[:2]) > UPRIGHT else way
 
 
 def late(candidates: ClosestPoints, k: int) -> Mask:
@@ -188,14 +188,13 @@ def _corners_on_solid(
     """Corners of another solid, each with a ball about it; n is the pair's normal, out of this."""
     relative = _relative(solid, other)
     x = rotated(relative[:, :3], corners) + relative[:, 3]
-    found = corner_surface(solid, x, solid.R.T @ n, rounding(solid, other))
+    found = corner_surface(solid, x, product(solid.R.T, n), rounding(solid, other))
     return _contacts(solid, other, corners, radius, found)
 
 
 def _relative(solid: Placed, other: Placed) -> Array:
     """[R, t] from another body's frame to a solid's, shape (3, 4)."""
-    # One product, because a tracker forms it so for all pairs at once: the bits are then equal.
-    return np.asarray(solid.R.T @ np.column_stack([other.R, other.t - solid.t]))
+    return product(solid.R.T, np.column_stack([other.R, other.t - solid.t]))
 
 
 def _contacts(
@@ -216,5 +215,5 @@ def _contacts(
 def placed(shape: PlacedShape, R: Array, t: Array) -> Placed:
     """A shape where its link is; R (L, 3, 3) and t (L, 3) [m] are the links'."""
     R_link, t_link = R[shape.link], t[shape.link]
-    world = R_link @ np.column_stack([shape.R, shape.t])
+    world = product(R_link, np.column_stack([shape.R, shape.t]))
     return Placed(shape.shape, world[:, :3], world[:, 3] + t_link)

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import dot, product, rotated
 
 
 class Placed(NamedTuple):
@@ -15,11 +16,11 @@ class Placed(NamedTuple):
 
     def farthest(self, direction: Array) -> Array:
         """The farthest point along a direction, shape (3,) [m]; both in the world frame."""
-        return self.R @ self.shape.support_point(self.R.T @ direction) + self.t
+        return rotated(self.R, self.shape.support_point(product(self.R.T, direction))) + self.t
 
     def reach(self, directions: Array) -> Array:
         """How far it reaches along unit vectors (N, 3) of the world frame, shape (N,) [m]."""
-        return self.shape.support_value(directions @ self.R) + directions @ self.t
+        return self.shape.support_value(product(directions, self.R)) + dot(directions, self.t)
 
 
 class Witness(NamedTuple):

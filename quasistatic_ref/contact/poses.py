@@ -7,6 +7,7 @@ import numpy as np
 
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import product
 
 
 class PairPoses(NamedTuple):
@@ -51,24 +52,11 @@ class Placements:
         self.on_link = np.array(on_link).reshape(-1, 3, 4)
 
     def poses(self, R: Array, t: Array) -> PairPoses:
-        """Poses from those of the links, shapes (L, 3, 3) and (L, 3).
-
-        Each product is one of 3 x 3 and 3 x 4 matrices, whatever the number of pairs, so that a
-        pair's pose does not depend on the others.
-        """
-        world = R.take(self.link, axis=0) @ self.on_link
+        """Poses from those of the links, shapes (L, 3, 3) and (L, 3)."""
+        world = product(R.take(self.link, axis=0), self.on_link)
         rotation, origin = world[..., :3], world[..., 3]
         origin += t.take(self.link, axis=0)
         apart = world[self.P :].copy()  # the points' poses, from the origins of their solids
         apart[..., 3] = origin[self.P :] - origin[: self.P]
-        relative = rotation[: self.P].transpose(0, 2, 1) @ apart
+        relative = product(rotation[: self.P].transpose(0, 2, 1), apart)
         return PairPoses(rotation, origin, relative)
-
-
-def rotated(R: Array, points: Array) -> Array:
-    """Points (..., 3) turned by R, shape (3, 3), or one for each, shape (..., 3, 3)."""
-    # Not `@`: BLAS may sum in another order for another number of points, and a point's
-    # distance must not depend on its company.
-    return np.asarray(
-        points[..., :1] * R[..., 0] + points[..., 1:2] * R[..., 1] + points[..., 2:] * R[..., 2]
-    )

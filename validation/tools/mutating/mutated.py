@@ -58,18 +58,18 @@ ENCLOSED = (
     "optional/ellipsoid/test_enclosure.py",
     "solve/test_native.py",
 )
-PAIRS = units("corners", "distance", "pairs", "jacobian")
-SOLIDS = units("corners", "polytopes", "solid_pairs", "distance", "curved_pairs")
+PAIRS = units("patch", "distance", "pairs", "jacobian")
+SOLIDS = units("corners", "patch", "polytope_pair", "solid_pair", "distance", "curved_pair")
 LARGE = ("optional/large/test_sparse_bound.py", "optional/large/test_bound_formulas.py")
 SPARSE = (*units("kept_and_shown", "mass_in_blocks", "sparse"), *units("solver"))
-CLOUDS = units("clouds", "cloud_headers", "meshes")
+CLOUDS = units("clouds", "cloud_headers", "mesh_files")
 SCENES = (
     "scenario/test_scenario.py",
     "simulate/test_simulator.py",
     "optional/show/test_words.py",
 )
 URDF = (
-    *units("urdf", "urdf_refusals", "urdf_limits", "meshes"),
+    *units("urdf", "urdf_refusals", "urdf_file", "mesh_files"),
     "errors/test_bad_urdfs.py",
 )
 DATA = units("arrays", "kept_and_shown", "data", "plain_data", "step_files")
@@ -86,20 +86,21 @@ SOLVERS = units(
 )
 SOLVED = (
     "solve/test_kept_between_steps.py",
-    "solve/test_plain_programs.py",
+    "lab/study/test_plain_programs.py",
     "solve/test_solver.py",
     "solve/test_backends.py",
     "step/test_problem.py",
     "step/test_cones.py",
 )
-CURVED = units("curved_witness", "curved_pairs", "faces", "distance_guard", "distance")
+CURVED = units("curved_pair", "settle", "faces", "by_coal", "distance")
 DRAWN = "shapes/test_shapes.py"
 
 DIFFERENTIATED = (
     "optional/derivatives/step/test_touching.py",
+    "optional/derivatives/step/test_optimum_rates.py",
     "optional/derivatives/test_derivatives.py",
     "optional/derivatives/test_derivative_verdicts.py",
-    "optional/derivatives/test_one_sided.py",
+    "optional/derivatives/test_gradient.py",
     "lab/vectors/test_derivative_layer.py",
 )
 
@@ -112,7 +113,14 @@ def ordered(own: str) -> tuple[str, ...]:
 
 TESTS: dict[str, tuple[str, ...]] = {
     "step/problem.py": ("step/test_standard_form.py", *PAGE, "step/test_problem.py"),
-    "step/friction.py": ("step/test_friction.py", *PAGE, "step/test_cones.py"),
+    "step/friction.py": (
+        "step/test_friction.py",
+        *PAGE,
+        "step/test_cones.py",
+        "optional/large/test_kept_and_shown.py",
+        "simulate/test_wrenches.py",
+    ),
+    "step/cones.py": ("step/test_cones.py", *PAGE, *JUDGE, "cli/test_completion.py"),
     "step/pivots.py": units("pivots"),
     "step/standard_form.py": ("step/test_standard_form.py", *PAGE),
     "certify/optimality.py": (
@@ -121,17 +129,13 @@ TESTS: dict[str, tuple[str, ...]] = {
         "optional/ellipsoid/test_enclosure.py",
     ),
     "certify/arithmetic.py": units("environments"),
-    "certify/dyadic.py": ordered("rational"),
     "certify/rational.py": ordered("rational"),
-    "certify/kkt.py": ordered("exact"),
     "certify/dependence.py": ordered("dependence"),
-    "certify/balls.py": ordered("balls"),
-    "certify/point.py": ordered("exact"),
+    "certify/point.py": ordered("balls"),
     "certify/active_set.py": ordered("active_set"),
     "certify/degeneracy.py": ordered("exact"),
     "certify/rounding.py": ordered("rounding"),
     "certify/exact.py": ordered("exact"),
-    "certify/exact_step.py": ordered("farkas"),
     "optional/fast/guess/confirm.py": ("optional/fast/guess/test_confirm.py",),
     "optional/large/bound.py": ("optional/large/test_bound.py", *FORGED),
     "optional/large/rounded_bound.py": (
@@ -147,18 +151,24 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/gap.py": ("certify/test_gap.py", *FORGED),
     "optional/ellipsoid/impulses.py": ("optional/ellipsoid/test_impulses.py", *FORGED),
     "optional/large/judged.py": ("optional/large/test_judged.py", *FORGED),
-    "optional/ellipsoid/ellipsoid.py": ("optional/ellipsoid/test_apex.py", *FORGED),
+    "optional/ellipsoid/cone.py": (
+        "optional/ellipsoid/test_apex.py",
+        *FORGED,
+        "optional/ellipsoid/test_enclosure.py",
+        "certify/test_optimality.py",
+        "step/test_standard_form.py",
+    ),
     "optional/ellipsoid/apex.py": ("optional/ellipsoid/test_apex.py", *FORGED),
     "optional/extensions/conic.py": ("optional/extensions/test_conic.py", *FORGED),
     "certify/verdict.py": ("certify/test_certificate.py", *FORGED),
     "certify/warm.py": ("certify/test_warm.py", *EXACT),
     "optional/derivatives/step/sensitivity.py": (
         "optional/derivatives/step/test_sensitivity.py",
-        "optional/fast/guess/test_obstacles.py",
+        "optional/derivatives/step/test_parameters.py",
     ),
     "optional/derivatives/step/parameters.py": (
         "optional/derivatives/step/test_sensitivity.py",
-        "optional/fast/guess/test_obstacles.py",
+        "optional/derivatives/step/test_parameters.py",
     ),
     "certify/rows.py": ("certify/test_certificate.py", "certify/test_farkas.py"),
     "certify/farkas.py": ("certify/test_farkas.py",),
@@ -166,6 +176,8 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/norm.py": ("certify/test_digits.py", "certify/test_farkas.py"),
     "certify/digits.py": ("certify/test_digits.py",),
     "model/coordinates.py": ("model/test_system.py",),
+    "model/angles.py": ("model/test_angles.py",),
+    "step/ordered.py": ("step/test_ordered.py",),
     "model/rotation.py": ("model/test_rotation.py",),
     "model/system.py": MASSES,
     "contact/jacobian.py": ("contact/test_jacobian.py", *CONTACT),
@@ -194,18 +206,18 @@ TESTS: dict[str, tuple[str, ...]] = {
         "analytic/test_flat_on_flat.py",
         "optional/derivatives/contact/test_depth_ties.py",
     ),
-    "contact/solids/solid_pair.py": ("contact/solids/test_polytopes.py", *CURVED),
+    "contact/solids/solid_pair.py": ("contact/solids/test_polytope_pair.py", *CURVED),
     "optional/fast/tracker/solid_rows.py": ("lab/test_step_time.py", *FOLLOWED, *PAIRS),
     "optional/large/sparse_jacobian.py": SPARSE,
     "contact/solids/ways_out.py": ("contact/solids/test_ways_out.py", *SOLIDS),
     "model/body.py": ("model/urdf/test_solid.py", "model/test_planar.py", *SCENES),
     "model/readers/clouds.py": CLOUDS,
     "model/configuration.py": (*units("configuration", "system_refusals"), *SCENES),
-    "shapes/convex_mesh.py": (*units("meshes", "shapes"), *SOLIDS),
-    "model/readers/dae.py": ("model/readers/test_meshes.py",),
+    "shapes/convex_mesh.py": (*units("convex_mesh", "mesh_files", "shapes"), *SOLIDS),
+    "model/readers/dae.py": ("model/readers/test_mesh_files.py",),
     "shapes/frozen.py": ("shapes/test_shapes.py", "step/test_plain_data.py", *SYSTEM),
     "model/kinematics.py": ("model/test_system.py", *CONTACT),
-    "model/readers/mesh_files.py": ("model/readers/test_meshes.py",),
+    "model/readers/mesh_files.py": ("model/readers/test_mesh_files.py",),
     "model/motion.py": ("model/test_system.py", "simulate/test_simulator.py", *CONTACT),
     "model/readers/pcd.py": CLOUDS,
     "model/readers/ply.py": CLOUDS,
@@ -215,9 +227,9 @@ TESTS: dict[str, tuple[str, ...]] = {
     "shapes/point_cloud.py": (DRAWN, *CLOUDS),
     "shapes/box.py": (DRAWN, *SOLIDS),
     "shapes/capsule.py": (DRAWN, *SOLIDS),
-    "shapes/cone.py": ("contact/solids/test_curved_points.py", DRAWN, *CURVED),
+    "shapes/cone.py": ("contact/test_cloud.py", DRAWN, *CURVED),
     "shapes/cylinder.py": (DRAWN, *CURVED),
-    "shapes/ellipsoid.py": ("contact/solids/test_curved_points.py", DRAWN, *CURVED),
+    "shapes/ellipsoid.py": ("contact/test_cloud.py", DRAWN, *CURVED),
     "shapes/half_space.py": ("contact/test_cloud.py", DRAWN, *SOLIDS),
     "shapes/hull.py": SOLIDS,
     "shapes/round.py": SOLIDS,
@@ -246,7 +258,6 @@ TESTS: dict[str, tuple[str, ...]] = {
     "solve/adapters/program.py": SOLVERS,
     "solve/adapters/quadprog.py": SOLVERS,
     "solve/backends.py": SOLVERS,
-    "optional/ellipsoid/cone_problem.py": ("step/test_standard_form.py", *SOLVERS),
     "solve/cvxpy_problem.py": ("step/test_standard_form.py", "step/test_problem.py", *SOLVERS),
     "optional/fast/backends.py": ("solve/test_defaults.py", *SOLVERS),
     "optional/fast/solver.py": (*SOLVED, "solve/test_native.py", "solve/test_defaults.py"),
@@ -255,18 +266,16 @@ TESTS: dict[str, tuple[str, ...]] = {
     "solve/native.py": ("solve/test_native.py", "solve/test_units.py"),
     "solve/scaled.py": SOLVERS,
     "optional/ellipsoid/second_order.py": ("solve/test_native.py", "step/test_cones.py"),
-    "solve/solve.py": (*SOLVED, "solve/test_native.py"),
+    "solve/solve.py": (*SOLVED, "solve/test_native.py", "optional/large/test_rounded_bound.py"),
     "solve/solver.py": SOLVED,
     "optional/large/sparse.py": (*SPARSE, "optional/large/test_sparse_bound.py"),
     "solve/through_cvxpy.py": SOLVED,
     "solve/through_qpsolvers.py": SOLVED,
-    "optional/large/uncertified.py": (*SOLVED, "optional/large/test_rounded_bound.py"),
     "solve/units.py": ("solve/test_units.py", *SOLVERS),
     "step/arrays.py": (*MASSES, *DATA),
     "optional/large/blocks.py": SPARSE,
     "optional/large/sparse_contacts.py": SPARSE,
-    "step/cones.py": ("step/test_cones.py", "cli/test_completion.py"),
-    "step/contacts.py": ("step/test_artifacts.py", *DATA),
+    "step/contacts.py": ("optional/doctor/test_artifacts.py", *DATA),
     "step/data.py": DATA,
     "step/extension.py": ("solve/test_native.py", "lab/examples/test_extensions.py"),
     "step/files.py": (
@@ -275,11 +284,6 @@ TESTS: dict[str, tuple[str, ...]] = {
         "errors/test_bad_steps.py",
     ),
     "optional/fast/posed.py": (*MASSES, *DATA),
-    "step/rounded_wrench.py": (
-        "optional/large/test_kept_and_shown.py",
-        "simulate/test_wrenches.py",
-        "optional/ellipsoid/test_enclosure.py",
-    ),
     "optional/show/show.py": ("optional/show/test_words.py", *DATA),
     "step/solution.py": (
         "optional/large/test_kept_and_shown.py",
@@ -329,7 +333,10 @@ TESTS: dict[str, tuple[str, ...]] = {
         "optional/derivatives/contact/test_spare_pairs.py",
         *DIFFERENTIATED,
     ),
-    "optional/derivatives/contact/witness_rates.py": ("contact/test_sliding.py", *DIFFERENTIATED),
+    "optional/derivatives/contact/witness_rates.py": (
+        "optional/derivatives/contact/test_witness_rates.py",
+        *DIFFERENTIATED,
+    ),
     "model/mass.py": MASSES,
     "optional/derivatives/model/mass_rates.py": DIFFERENTIATED,
     "optional/derivatives/model/motion_rates.py": (

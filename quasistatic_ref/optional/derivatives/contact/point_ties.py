@@ -7,11 +7,11 @@ import numpy as np
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import ClosestPoints, late, nearest_of_solids, with_corners
 from quasistatic_ref.contact.placed import Placed
-from quasistatic_ref.contact.poses import rotated
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.fast.tracker.cloud_tracker import cloud_tree
 from quasistatic_ref.optional.fast.tracker.tracker_bound import shortlist
 from quasistatic_ref.shapes.placed_shape import PointCloud
+from quasistatic_ref.step.ordered import rotated
 from quasistatic_ref.tolerances import TIED
 
 

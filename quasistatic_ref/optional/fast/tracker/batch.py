@@ -12,6 +12,7 @@ from quasistatic_ref.optional.fast.tracker.solid_rows import SolidRows
 from quasistatic_ref.optional.fast.tracker.tracker_bound import Shortlist
 from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.step.data import Array, Indices, Mask
+from quasistatic_ref.step.ordered import total
 from quasistatic_ref.tolerances import UNSEEN
 
 CORNERS = 8
@@ -113,7 +114,7 @@ class Batch:
         """
         pose = poses.relative
         # The sums of `rotated`, without broadcasting, which takes longer than the sums.
-        x = np.add.reduce(pose.T.take(self.of, axis=2) * self.columns)
+        x = total(pose.T.take(self.of, axis=2) * self.columns)
         phi, normal = self.measured(x.T)
         return phi, normal, self.limit(pose)
 

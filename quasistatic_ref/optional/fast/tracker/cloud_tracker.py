@@ -15,7 +15,7 @@ from quasistatic_ref.contact.distance import ClosestPoints, check_finite
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.patch import cloud_surface
 from quasistatic_ref.contact.placed import Placed
-from quasistatic_ref.contact.poses import PairPoses, Placements, rotated
+from quasistatic_ref.contact.poses import PairPoses, Placements
 from quasistatic_ref.contact.separations import OWN
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.fast.tracker.ball_tree import BallTree, ball_tree
@@ -24,6 +24,7 @@ from quasistatic_ref.optional.fast.tracker.solid_rows import kind_order
 from quasistatic_ref.optional.fast.tracker.tracker_bound import Shortlist, shortlist
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.ordered import rotated, total
 from quasistatic_ref.tolerances import TIED_FACES
 
 WIDTH = 32
@@ -182,7 +183,7 @@ class CloudTracker:
 
     def _contacts(self, poses: PairPoses, nearest: Nearest, tie: Indices) -> ClosestPoints:
         vectors = np.concatenate([nearest.normal, nearest.local], axis=1)
-        turned = np.add.reduce(poses.R.T.take(self.side, axis=2) * vectors[:, None])
+        turned = total(poses.R.T.take(self.side, axis=2) * vectors[:, None])
         count = len(self.order)
         n, centre = turned[:, :count], turned[:, count:]
         centre += poses.t.T.take(self.cloud_side, axis=1)

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.shapes.hull import dot
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape
 from quasistatic_ref.shapes.rounded import Rounded, distance_to_rounded_box
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import dot
 
 
 def kind_order(shapes: Sequence[Shape]) -> list[int]:
