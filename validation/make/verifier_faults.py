@@ -18,6 +18,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.page.markdown import markdown_table
 from validation.tools.check_verifier import VERIFIER, disagreement, verdicts
 from validation.tools.verifier_files import Case, all_cases
 
@@ -107,11 +108,12 @@ def main() -> int:
             by = next((i for i in range(2) if noticed(path, parts[i : i + 1])), 2)
             counts[f"{kind}, {by}"] += 1
             unseen += [fault] if by == 2 else []
-    lines = ["| fault | planted | noticed by files with one fault | by the others | by none |"]
-    lines.append("|-" * 5 + "|")
+    names = ("fault", "planted", "noticed by files with one fault", "by the others", "by none")
+    rows = []
     for kind in ("a refusal taken out", "a change"):
         found = [counts[f"{kind}, {by}"] for by in range(3)]
-        lines.append(f"| {kind} | {sum(found)} | {' | '.join(map(str, found))} |")
+        rows.append((kind, sum(found), *found))
+    lines = markdown_table(names, rows)
     print(*lines, *unseen, sep="\n")
     if options.out:
         text_written(options.out, HEAD + "\n".join(lines) + "\n")
