@@ -1,31 +1,14 @@
-"""The two pages of results: layers.md, and phenomena.md."""
+"""The page of results, phenomena.md."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.lab.page.markdown import markdown_table
 from validation.programs.engines.phenomena import PHENOMENA
 from validation.programs.engines.reproduce import of_cell
 
-HERE = Path(__file__).parent
-HEAD = ("engine", "layer", "passed", "acceptable", "failed", "left out", "worst digits",
-        "first failure")  # fmt: skip
 MARK = {"holds": "{}", "differs": "**{}** ✗", "-": "({})"}
-
-
-def layers_page(records: dict[str, Any]) -> str:
-    """Each engine on each layer, and what was found."""
-    rows = []
-    for record in records.values():
-        for row in record["layers"]:
-            counts = [row[key] for key in ("passed", "acceptable", "failed", "missing")]
-            digits = "-" if row["worst digits"] is None else row["worst digits"]
-            first = f"`{row['first failure']}`" if row["first failure"] else "-"
-            rows.append((row["engine"], row["layer"], *counts, digits, first))
-    table = "\n".join(markdown_table(HEAD, rows))
-    return (HERE / "layers_template.md").read_text("utf-8").replace("TABLE", table)
 
 
 def phenomena_page(records: dict[str, Any]) -> str:
