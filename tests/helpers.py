@@ -33,6 +33,12 @@ def changed(contacts, **changes):
     return Contacts(**{name: getattr(contacts, name) for name in ("name", *NUMBERS)} | changes)
 
 
+def changed_blocks(contacts, **changes):
+    """The same of contacts in blocks."""
+    names = ("name", "phi", "n", "d1", "d2", "blocks", "mu_v", "mu_omega", "rows")
+    return SparseContacts(**{name: getattr(contacts, name) for name in names} | changes)
+
+
 def always_in_blocks(patch):
     """Have simulators hand over contacts in blocks, however few, where the backend takes them."""
     where = "quasistatic_ref.optional.fast.simulator.sparse_from"  # which needs more than steps do

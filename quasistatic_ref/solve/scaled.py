@@ -1,7 +1,6 @@
 """A step with its natural units."""
 
 import math
-from dataclasses import replace
 from functools import cached_property
 from typing import Protocol
 
@@ -95,7 +94,7 @@ def check_units(units: Units, step: StepData, usable: bool = True) -> None:
 
 def out_of_range(step: StepData) -> StepDataError:
     """The error about a step whose numbers are finite, but not what is made of them."""
-    step.replace(contacts=replace(step.contacts))  # says so, if they are not
+    step.replace()  # says so, if they are not
     return StepDataError(
         "its numbers are too large, too small or too unlike each other: their products leave the "
         "range of float64; look for a wrong unit"

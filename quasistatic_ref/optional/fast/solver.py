@@ -12,14 +12,14 @@ from quasistatic_ref.optional.fast.backends import fast_backend
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import proved_nearby
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.backends import RESIDUAL
 from quasistatic_ref.solve.native import NativeSolver, native_backends
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep, check_units, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver, solver_for, warm_start
 from quasistatic_ref.solve.units import Metric, Units, in_natural, metric, units_of
 from quasistatic_ref.step.cones import CurvedCone, cone
-from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import BOUNDED
 
@@ -42,10 +42,11 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     kind = cone(step.cone)
     if isinstance(kind, CurvedCone):
         return kind.native_solver(step, name)
-    if isinstance(step.contacts, Contacts):
-        return FastSolver(step, name)
-    sparse: Solver = needed_part("large.sparse", "a step in blocks").SparseSolver(step, name)
-    return sparse
+    large = part("large.sparse_contacts")
+    if large is not None and isinstance(step.contacts, large.SparseContacts):
+        sparse: Solver = needed_part("large.sparse", "a step in blocks").SparseSolver(step, name)
+        return sparse
+    return FastSolver(step, name)
 
 
 class FastSolver(NativeSolver):

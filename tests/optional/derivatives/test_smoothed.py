@@ -94,9 +94,8 @@ def test_what_cannot_be_smoothed_is_refused():
         barrier_step(closed, 1e-6)
 
 
-def two_walls(contacts):
+def two_walls(c):
     """The contact, closed, and another one from the opposite side: they contradict each other."""
-    c = contacts.dense()
     return Contacts(
         ("a", "b"), np.array([-1e-3, -1e-3]), np.stack([c.n[0], -c.n[0]]),
         np.stack([c.d1[0], c.d1[0]]), np.stack([c.d2[0], -c.d2[0]]), np.stack([c.J[0], c.J[0]]),
