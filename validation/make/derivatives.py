@@ -11,8 +11,8 @@ import sys
 from pathlib import Path
 
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.vectors.challenge.live import challenge
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
+from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.layers import layer
 
 LAYERS = ("derivative",)

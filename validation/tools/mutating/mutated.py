@@ -44,7 +44,9 @@ TABLE = """
 step/problem.py
     standard_form PAGE problem
 step/friction.py
-    PAGE cones
+    PAGE cones kept_and_shown wrenches
+step/cones.py
+    PAGE JUDGE completion
 step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
 certify/digits.py model/angles.py step/ordered.py model/rotation.py contact/cloud.py
 model/readers/mesh_files.py simulate/pace.py
@@ -55,10 +57,11 @@ certify/optimality.py
     JUDGE enclosure
 certify/arithmetic.py
     environments
-certify/dyadic.py certify/rational.py certify/kkt.py certify/dependence.py certify/balls.py
-certify/point.py certify/active_set.py certify/degeneracy.py certify/rounding.py certify/exact.py
-certify/exact_step.py certify/warm.py certify/certificate.py
+certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
+certify/rounding.py certify/exact.py certify/warm.py certify/certificate.py
     EXACT
+certify/point.py
+    balls EXACT
 optional/large/bound.py certify/gap.py optional/ellipsoid/impulses.py optional/large/judged.py
 optional/ellipsoid/apex.py optional/extensions/conic.py
     FORGED
@@ -69,14 +72,14 @@ optional/large/sparse_bound.py
     LARGE
 optional/large/outward.py
     sizes LARGE
-optional/ellipsoid/ellipsoid.py
-    apex FORGED
+optional/ellipsoid/cone.py
+    apex FORGED optimality standard_form
 certify/verdict.py
     certificate FORGED
 optional/derivatives/step/sensitivity.py
-    obstacles
+    parameters
 optional/derivatives/step/parameters.py
-    step/sensitivity obstacles
+    step/sensitivity parameters
 certify/rows.py
     certificate farkas
 certify/norm.py
@@ -164,8 +167,6 @@ solve/adapters/clarabel.py solve/adapters/daqp.py solve/adapters/osqp.py solve/a
 solve/adapters/program.py solve/adapters/quadprog.py solve/backends.py
 optional/extensions/extended.py solve/scaled.py solve/units.py
     SOLVERS
-optional/ellipsoid/cone_problem.py
-    standard_form SOLVERS
 solve/cvxpy_problem.py
     standard_form problem SOLVERS
 optional/fast/backends.py
@@ -177,17 +178,13 @@ solve/native.py
 optional/ellipsoid/second_order.py
     native cones
 solve/solve.py
-    SOLVED native
+    SOLVED native rounded_bound
 solve/solver.py solve/through_cvxpy.py solve/through_qpsolvers.py
     SOLVED
 optional/large/sparse.py
     SPARSE sparse_bound
-optional/large/uncertified.py
-    SOLVED rounded_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA
-step/cones.py
-    completion
 step/contacts.py
     artifacts DATA
 step/data.py
@@ -196,8 +193,6 @@ step/extension.py
     native extensions
 step/files.py
     step_files solution_files bad_steps
-step/rounded_wrench.py
-    kept_and_shown wrenches enclosure
 optional/show/show.py optional/show/step_words.py
     words DATA
 step/solution.py
