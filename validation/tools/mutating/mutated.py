@@ -44,7 +44,9 @@ TABLE = """
 step/problem.py
     standard_form PAGE problem
 step/friction.py
-    PAGE cones
+    PAGE cones kept_and_shown wrenches
+step/cones.py
+    PAGE JUDGE completion
 step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
 certify/digits.py model/angles.py step/ordered.py model/rotation.py contact/cloud.py
 model/readers/mesh_files.py simulate/pace.py
@@ -55,9 +57,11 @@ certify/optimality.py
     JUDGE enclosure
 certify/arithmetic.py
     environments
-certify/rational.py certify/dependence.py certify/point.py certify/active_set.py
-certify/degeneracy.py certify/rounding.py certify/exact.py certify/warm.py certify/certificate.py
+certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
+certify/rounding.py certify/exact.py certify/warm.py certify/certificate.py
     EXACT
+certify/point.py
+    balls EXACT
 optional/large/bound.py certify/gap.py optional/ellipsoid/impulses.py optional/large/judged.py
 optional/ellipsoid/apex.py optional/extensions/conic.py
     FORGED
@@ -69,11 +73,13 @@ optional/large/sparse_bound.py
 optional/large/outward.py
     sizes LARGE
 optional/ellipsoid/cone.py
-    apex FORGED
+    apex FORGED optimality standard_form
 certify/verdict.py
     certificate FORGED
-optional/derivatives/step/sensitivity.py optional/derivatives/step/parameters.py
-    step/sensitivity
+optional/derivatives/step/sensitivity.py
+    parameters
+optional/derivatives/step/parameters.py
+    step/sensitivity parameters
 certify/rows.py
     certificate farkas
 certify/norm.py
@@ -172,15 +178,13 @@ solve/native.py
 optional/ellipsoid/second_order.py
     native cones
 solve/solve.py
-    SOLVED native
+    SOLVED native rounded_bound
 solve/solver.py solve/through_cvxpy.py solve/through_qpsolvers.py
     SOLVED
 optional/large/sparse.py
     SPARSE sparse_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA
-step/cones.py
-    completion
 step/contacts.py
     artifacts DATA
 step/data.py
