@@ -14,7 +14,7 @@ from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.examples.grasp_against_mu_omega import physical_limit
 from quasistatic_ref.lab.grasp import TOP
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from quasistatic_ref.optional.fast.tracker import ball_tree, cloud_tracker, tracker_bound
+from quasistatic_ref.optional.fast.tracker import ball_tree, tracker, tracker_bound
 from quasistatic_ref.tolerances import CLOSED_FORM, ILL_POSED, SLOW, UNSEEN
 from tests import quoted_reality as reality
 from tests import quoted_sources as of
@@ -168,7 +168,7 @@ QUOTED = {
         ("leaves of up to {} points", lambda: [ball_tree.LEAF]),
         ("the next best up to a width of {}", lambda: [tracker_bound.BEAM]),
         ("lasted for fewer than {} steps are made twice as long, up to {} points",
-         lambda: [cloud_tracker.SHORT, cloud_tracker.WIDE]),
+         lambda: [tracker.SHORT, tracker.WIDE]),
     ],
     "docs/exactness.md": [
         ("of `sphere_spin`, and on {:,} random steps", lambda: of.steps_with_equal_bits()[-1:]),

@@ -17,8 +17,7 @@ import numpy as np
 from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
-from quasistatic_ref.contact.placed import Placed
-from quasistatic_ref.contact.poses import rotated
+from quasistatic_ref.contact.placed import Placed, rotated
 from quasistatic_ref.contact.separations import BISECTOR, OWN, pair_normal, rounding
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
@@ -174,27 +173,54 @@ def _cloud_on_solid(
     pair: ContactPair, solid: Placed, cloud: Placed, points: Array
 ) -> ClosestPoints:
     """The k closest points of a cloud on a solid."""
-    relative = _relative(solid, cloud)
+    relative = relative_pose(solid, cloud)
     x = rotated(relative[:, :3], points) + relative[:, 3]
-    phi, normal = signed_distance(solid.shape, x)
+    return cloud_contacts(pair, solid, cloud, relative, x, *signed_distance(solid.shape, x))
+
+
+def cloud_contacts(
+    pair: ContactPair,
+    solid: Placed,
+    cloud: Placed,
+    relative: Array,
+    x: Array,
+    phi: Array,
+    normal: Array,
+    index: Indices | None = None,
+) -> ClosestPoints:
+    """The k closest points of a cloud on a solid, from their signed distances.
+
+    Parameters
+    ----------
+    pair : ContactPair
+    solid, cloud : Placed
+    relative : ndarray, shape (3, 4)
+        [R, t] from the cloud's frame to the solid's.
+    x, phi, normal : ndarray, shapes (N, 3), (N,) and (N, 3)
+        Points in the solid's frame [m], their signed distances [m] and normals [-].
+    index : ndarray of int, shape (N,), optional
+        Their numbers in the cloud; by default they are all of it.
+    """
+    assert isinstance(cloud.shape, PointCloud)
     some = closest(phi, pair.k)
+    point = some if index is None else index[some]
     found = cloud_surface(pair.name, solid, cloud, relative, x[some], phi[some], normal[some])
-    return _contacts(solid, cloud, points[some], 0.0, found)._replace(point=some)
+    return _contacts(solid, cloud, cloud.shape.points[point], 0.0, found)._replace(point=point)
 
 
 def _corners_on_solid(
     solid: Placed, other: Placed, corners: Array, radius: float, n: Array
 ) -> ClosestPoints:
     """Corners of another solid, each with a ball about it; n is the pair's normal, out of this."""
-    relative = _relative(solid, other)
+    relative = relative_pose(solid, other)
     x = rotated(relative[:, :3], corners) + relative[:, 3]
     found = corner_surface(solid, x, solid.R.T @ n, rounding(solid, other))
     return _contacts(solid, other, corners, radius, found)
 
 
-def _relative(solid: Placed, other: Placed) -> Array:
-    """[R, t] from another body's frame to a solid's, shape (3, 4)."""
-    # One product, because a tracker forms it so for all pairs at once: the bits are then equal.
+def relative_pose(solid: Placed, other: Placed) -> Array:
+    """[R, t] from another body's frame to a solid's, shape (3, 4); R [-], t [m]."""
+    # One product, as compiled code forms it: the bits are then equal.
     return np.asarray(solid.R.T @ np.column_stack([other.R, other.t - solid.t]))
 
 

@@ -12,8 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed
-from quasistatic_ref.contact.poses import rotated
+from quasistatic_ref.contact.placed import Placed, rotated
 from quasistatic_ref.contact.separations import (
     BISECTOR,
     OF_CLOUD,

@@ -2,6 +2,8 @@
 
 from typing import NamedTuple
 
+import numpy as np
+
 from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.step.data import Array
 
@@ -33,3 +35,12 @@ class Witness(NamedTuple):
     def swapped(self) -> "Witness":
         """The same with alpha and beta exchanged."""
         return Witness(self.phi, self.beta, self.alpha, -self.n)
+
+
+def rotated(R: Array, points: Array) -> Array:
+    """Points, shape (..., 3) [m], turned by R, shape (3, 3)."""
+    # Not `@`: BLAS may sum in another order for another number of points, and a point's
+    # distance must not depend on its company.
+    x, y, z = points[..., :1], points[..., 1:2], points[..., 2:]
+    turned = x * R[:, 0] + y * R[:, 1] + z * R[:, 2]
+    return np.asarray(turned + 0.0)  # -0.0 is written 0.0

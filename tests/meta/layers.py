@@ -56,8 +56,6 @@ REMAINING = {
     "solve/cvxpy_problem.py": {"optional/ellipsoid"},
     "solve/scaled.py": {"optional/large"},
     "solve/solve.py": {"optional/ellipsoid", "optional/extensions", "optional/large"},
-    "optional/derivatives/contact/couples.py": {"optional/fast"},
-    "optional/derivatives/contact/point_ties.py": {"optional/fast"},
     "optional/fast/compiled/answer.py": {"optional/large"},
     "optional/fast/geometry.py": {"optional/large"},
     "optional/fast/solver.py": {"optional/ellipsoid", "optional/large"},

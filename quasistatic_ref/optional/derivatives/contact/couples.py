@@ -9,7 +9,6 @@ from quasistatic_ref.contact.distance import ClosestPoints, placed
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
-from quasistatic_ref.optional.fast.tracker.cloud_tracker import cloud_tree
 from quasistatic_ref.shapes.placed_shape import Cylinder, PointCloud, Sphere
 from quasistatic_ref.shapes.round import QUARTERS
 from quasistatic_ref.step.data import Array
@@ -100,14 +99,12 @@ def closest_pair(pair: ContactPair, a: Placed, b: Placed, points: ClosestPoints)
 
 
 def _extents(a: Placed, b: Placed) -> tuple[float, float]:
-    """Of a cloud by the box about it, which is kept; of a half-space, infinity [m]."""
-    boxes = [
-        cloud_tree(body.shape).box if isinstance(body.shape, PointCloud) else None
-        for body in (a, b)
-    ]
+    """How large two bodies are [m]: a cloud as the box about it; of a half-space, infinity."""
     first, second = (
-        body.shape.extent if box is None else float(np.ptp(box, axis=0).max())
-        for body, box in zip((a, b), boxes, strict=True)
+        float(np.ptp(body.shape.points, axis=0).max())
+        if isinstance(body.shape, PointCloud)
+        else body.shape.extent
+        for body in (a, b)
     )
     return first, second
 

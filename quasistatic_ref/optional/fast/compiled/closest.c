@@ -4,7 +4,7 @@
 
 int64_t scene_size(void) { return sizeof(Scene); }
 
-/* model/poses: R @ on_link, then + t. */
+/* contact/distance: R @ on_link, then + t. */
 static void placed(const double *R, const double *t, const double *on_link, double *world)
 {
     for (int i = 0; i < 3; i++) {
@@ -18,7 +18,7 @@ static void placed(const double *R, const double *t, const double *on_link, doub
     }
 }
 
-/* contact/poses: R_solid' @ [R_cloud, t_cloud - t_solid]. */
+/* contact/distance: R_solid' @ [R_cloud, t_cloud - t_solid]. */
 static void relative(const double *solid, const double *cloud, double *pose)
 {
     for (int i = 0; i < 3; i++)
@@ -39,7 +39,7 @@ static inline double along(const double *row, double x, double y, double z)
     return (row[0] * x + row[1] * y) + row[2] * z;
 }
 
-/* The same by np.add.reduce, which starts from zero: it never gives -0.0. */
+/* contact/placed: rotated, which never gives -0.0. */
 static inline double turned(const double *row, double x, double y, double z)
 {
     return ((0.0 + row[0] * x) + row[1] * y) + row[2] * z;
@@ -122,7 +122,7 @@ static int faces_tie(int64_t kind, const double *size, const double *x, double p
     return level > 1;
 }
 
-/* contact/batch: below which signed distances no point outside the list can have come. Its rounding
+/* tracker/tracker_bound: below which signed distances no point outside the list can have come. Its rounding
    is in the bounds' room, so that any order of its sum will do. */
 static double limit(const Scene *s, int64_t pair, const double *pose)
 {
@@ -143,7 +143,7 @@ static void in_solid(const double *pose, double x, double y, double z, double *a
         at[i] = turned(pose + 4 * i, x, y, z) + pose[4 * i + 3];
 }
 
-/* contact/batch: the `count` least distances in ascending order, ties by index; 0 if one is NaN. */
+/* contact/cloud: the `count` least distances in ascending order, ties by index; 0 if one is NaN. */
 static int selected(const Scene *s, int64_t pair, const double *pose)
 {
     int64_t kept = 0, count = s->count[pair];
@@ -167,7 +167,7 @@ static int selected(const Scene *s, int64_t pair, const double *pose)
     return kept == count;
 }
 
-/* contact/cloud_tracker: the points and normal of one contact in the world; 0 if faces tie. */
+/* contact/distance: the points and normal of one contact in the world; 0 if faces tie. */
 static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, int64_t p)
 {
     const double *solid = s->world + 24 * pair, *cloud = solid + 12;
