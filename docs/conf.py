@@ -1,7 +1,8 @@
 """How the documentation is built: ``python -m sphinx -W -n docs OUT``, without network.
 
 Nothing that a page loads comes from elsewhere: MathJax is a Python package whose files are copied,
-and the theme brings its own fonts and scripts. ``python -m validation.check_site OUT`` proves it.
+and the theme brings its own fonts and scripts. ``python -m validation.tools.check_site OUT`` proves
+it.
 """
 
 import ast
@@ -43,7 +44,10 @@ nitpicky = True
 html_theme = "furo"
 html_title = f"quasistatic_ref {version}"
 html_static_path = ["_static"]
-html_extra_path = ["../validation/verifier", "draggable"]  # pages of their own, and a script
+html_extra_path = [
+    "../validation/programs/verifier",
+    "draggable",
+]  # pages of their own, and a script
 viewcode_follow_imported_members = False
 html_css_files = ["page.css"]
 html_show_sphinx = False
@@ -110,7 +114,10 @@ KEPT = re.compile(
     r"(^```.*?^```$|\$\$.+?\$\$|\$[^$]+\$|`[^`\n]+`|\[[^\]]*\]\{#r\d+\})", re.MULTILINE | re.DOTALL
 )
 """What of a page is no prose: fences, literals, formulas, results where they begin."""
-INCLUDED = {"validation/claims.md": "claims.md", "validation/vectors/README.md": "vectors.md"}
+INCLUDED = {
+    "validation/results/claims.md": "claims.md",
+    "validation/vectors/README.md": "vectors.md",
+}
 """Pages of the repository that are pages of the site too: where they are, and where here."""
 CITED_RESULT = re.compile(r"\((R\d+)\)")
 CITED_EQUATION = re.compile(r":eq:`eq-(\d+)`")

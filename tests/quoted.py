@@ -74,7 +74,7 @@ def cell(file, section, row, column):
 
 def claim(name, quantity):
     """What a claim measured, in the committed claims."""
-    return cell("validation/claims.md", f"{name}: ", quantity, "measured")
+    return cell("validation/results/claims.md", f"{name}: ", quantity, "measured")
 
 
 def said(file, pattern):

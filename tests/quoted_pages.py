@@ -25,7 +25,7 @@ from tests.lab.study import test_known_issues as known_issues
 from tests.quoted import claim, word
 from tests.quoted_sources import G, H
 from tests.solve import test_options_of_backends as options
-from validation.bench_exact import PROMISED
+from validation.make.bench_exact import PROMISED
 
 GRASP_EXACT, LARGE_EXACT = PROMISED["bunny_grasp, 13 x 80"], PROMISED["random, 24 x 180"]
 

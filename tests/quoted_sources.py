@@ -12,14 +12,14 @@ from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
 from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.simulate.measures import link_motion
 from tests.quoted import ROOT, cells, claim
-from validation.options_of_backends import NATURAL
-from validation.options_of_backends import records_read as options
+from validation.make.options_of_backends import NATURAL
+from validation.make.options_of_backends import records_read as options
 
 G, H = 9.81, 0.01
 """m/s^2, and the time step of the scenes [s]."""
 LIFTING = 137
 """The step of the grasp that the exercises take."""
-BENCH = "validation/benchmarks/bench.md"
+BENCH = "validation/results/benchmarks/bench.md"
 SWEEP = "validation/studies/bunny_torsion/report.md"
 EXACT_COST = "validation/results/bench_exact.txt"
 
@@ -145,7 +145,11 @@ def cases_of(layer):
 
 def largest_error(wanted, *of):
     """Over the pairs of the table of distances that are wanted, of some columns [m]."""
-    rows = [r for r in cells("validation/pair_distances.md") if wanted(set(r["pair"].split(" - ")))]
+    rows = [
+        r
+        for r in cells("validation/results/pair_distances.md")
+        if wanted(set(r["pair"].split(" - ")))
+    ]
     return max(float(row[column]) for row in rows for column in of)
 
 

@@ -2,7 +2,7 @@
 
 from tests.quoted import cell, cells, said
 
-PROFILE, BENCH = "validation/step_profile.md", "validation/benchmarks/bench.md"
+PROFILE, BENCH = "validation/results/step_profile.md", "validation/results/benchmarks/bench.md"
 LARGE, HEAP = "validation/results/large_steps.md", "5 x 5 x 4"
 SHOWN = ("1", "3", "8", "16", "24", "32", "3 x 3 x 3", "4 x 4 x 3")
 """Boxes, in the table of docs/speed.md."""

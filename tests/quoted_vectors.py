@@ -3,7 +3,7 @@
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.versions import RELEASE
 from tests import quoted_sources as of
-from validation.challenges import ANSWERS
+from validation.make.challenges import ANSWERS
 
 
 def passed(*layers):

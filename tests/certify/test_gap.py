@@ -18,8 +18,8 @@ from quasistatic_ref.certify.gap import (
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.tolerances import IMPULSES
-from validation.random_steps import any_step
-from validation.solution_truth import dot, program, solved
+from tests.oracles.random_steps import any_step
+from tests.oracles.solution_truth import dot, program, solved
 
 
 def plain(x):

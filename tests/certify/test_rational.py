@@ -10,7 +10,7 @@ from quasistatic_ref.certify.rational import exact_form, exact_form_of
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.data import Extra
-from validation.random_steps import any_step
+from tests.oracles.random_steps import any_step
 
 
 def fraction(q):

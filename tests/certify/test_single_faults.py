@@ -2,8 +2,8 @@
 
 import pytest
 
-from validation.single_faults import PROVED, single_faults
-from validation.verifier_files import verify_refusal
+from tests.oracles.single_faults import PROVED, single_faults
+from validation.tools.verifier_files import verify_refusal
 
 FAULTS = list(single_faults())
 

@@ -9,7 +9,7 @@ from matplotlib.text import Text
 
 from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from tests.quoted import filled, stale
-from validation.digits_of_backends import (
+from validation.make.digits_of_backends import (
     ACCURACIES,
     BACKENDS,
     NATURAL,

@@ -3,7 +3,7 @@
 import os
 
 from quasistatic_ref.errors import InputError
-from validation.fuzzing.worker import Reader
+from validation.tools.fuzzing.worker import Reader
 
 
 def numbered(rng, good):

@@ -4,14 +4,14 @@ import shutil
 import subprocess
 import sys
 
-from validation.browser import NAMES
-from validation.check_layout import ROOT
+from validation.tools.browser import NAMES
+from validation.tools.check_layout import ROOT
 
 WIDE = '<!doctype html><title>b</title><table id="wide" style="width:700px"><tr><td>y</table>'
 
 
 def checked(site):
-    command = [sys.executable, "-m", "validation.check_layout", str(site)]
+    command = [sys.executable, "-m", "validation.tools.check_layout", str(site)]
     return subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.meta.layers import OPTIONAL, REMAINING
-from validation import check_parts
+from validation.tools import check_parts
 
 GAP = {"phi": np.zeros(3).tobytes()}
 

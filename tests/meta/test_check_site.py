@@ -2,7 +2,7 @@
 
 import pytest
 
-from validation.check_site import ROOT, equation_faults, markdown_faults, site_faults
+from validation.tools.check_site import ROOT, equation_faults, markdown_faults, site_faults
 
 GOOD = """<html><head><link rel="stylesheet" href="_static/a.css">
 <script src="_static/a.js"></script>

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from validation.check_verifier import VERIFIER, disagreement
-from validation.verifier_faults import CHANGES, faults
-from validation.verifier_files import Case
+from validation.make.verifier_faults import CHANGES, faults
+from validation.tools.check_verifier import VERIFIER, disagreement
+from validation.tools.verifier_files import Case
 
 MOST_LINES = 400
 """Of the second checker, which a reader is to read whole."""

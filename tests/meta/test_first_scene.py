@@ -10,7 +10,7 @@ from matplotlib import image
 from quasistatic_ref import trajectory_read
 from quasistatic_ref.cli.main import main
 from tests.tolerances import CLOSED_FORM
-from validation.installs import WALK, WALK_FILES, shell_lines
+from validation.tools.installs import WALK, WALK_FILES, shell_lines
 
 
 @pytest.fixture(scope="module")

@@ -2,8 +2,8 @@
 
 import json
 
-from validation.fuzz import outcomes, table
-from validation.fuzzing.readers import names, readers
+from validation.tools.fuzz import outcomes, table
+from validation.tools.fuzzing.readers import names, readers
 
 PLANTED = "tests.meta.planted_readers"
 SAMPLE = 12

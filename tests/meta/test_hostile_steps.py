@@ -1,4 +1,4 @@
-"""No backend holds up a step at strange scales: a sample of validation/hostile_steps.py."""
+"""No backend holds up a step at strange scales: a sample of validation/make/hostile_steps.py."""
 
 import numpy as np
 
@@ -9,8 +9,8 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.tolerances import ALIKE
 from tests.tolerances import ROUNDING
-from validation.fuzz import outcomes
-from validation.hostile_steps import names
+from validation.make.hostile_steps import names
+from validation.tools.fuzz import outcomes
 
 HELD_UP = {"quadprog": 115, "cvxpy proxqp": 12, "highs": 308}
 """Inputs that held a backend up: quadprog for ever, by both its interfaces, and ProxQP through
@@ -18,7 +18,7 @@ CVXPY for longer than 10 s, in 20,000 iterations of up to 1,500 inner ones; HiGH
 interfaces, ended the process."""
 SAMPLE = 3
 """Steps that every path is given."""
-READERS = "validation.hostile_steps"
+READERS = "validation.make.hostile_steps"
 
 
 def unlike_step(ratio):

@@ -4,8 +4,8 @@ import re
 import tomllib
 from pathlib import Path
 
-from validation.check_installs import largest, python_code, written
-from validation.installs import COMMANDS, OWN, REFUSED, SCRIPTS
+from validation.tools.check_installs import largest, python_code, written
+from validation.tools.installs import COMMANDS, OWN, REFUSED, SCRIPTS
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]

@@ -1,7 +1,7 @@
 """A wrong sign, comparison or index in the paper's page or in the judge makes a test fail.
 
-The mutants are generated (validation/mutating/mutants.py); these are a fixed sample of them. All of
-them: ``python -m validation.mutations``.
+The mutants are generated (validation/tools/mutating/mutants.py); these are a fixed sample of them.
+All of them: ``python -m validation.tools.mutations``.
 """
 
 import ast
@@ -12,11 +12,11 @@ import sys
 
 import pytest
 
-from validation.mutating.forks import forked
-from validation.mutating.mutants import mutants
-from validation.mutating.mutated import TESTS
-from validation.mutating.swapped import changed_functions, swap
-from validation.mutations import PACKAGE, all_mutants
+from validation.tools.mutating.forks import forked
+from validation.tools.mutating.mutants import mutants
+from validation.tools.mutating.mutated import TESTS
+from validation.tools.mutating.swapped import changed_functions, swap
+from validation.tools.mutations import PACKAGE, all_mutants
 
 PAGE, CONES, FORM = "step/problem.py", "step/friction.py", "step/standard_form.py"
 JUDGE = "certify/optimality.py"
@@ -90,7 +90,7 @@ every test once, in a fork that is watched, takes longer than to try the mutants
 
 TRIED = """
 import json, sys
-from validation.mutations import TESTS, all_mutants, outcomes
+from validation.tools.mutations import TESTS, all_mutants, outcomes
 keys, found = json.load(sys.stdin), {}
 tests = {file: all_of_it[:1] for file, all_of_it in TESTS.items()}
 known = {m.key: m for m in all_mutants(sorted({key.split()[0] for key in keys}))}

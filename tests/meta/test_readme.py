@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from quasistatic_ref.scenario.scenario import load_scenario
-from validation.installs import COMMANDS, shell_lines
+from validation.tools.installs import COMMANDS, shell_lines
 
 ROOT = Path(__file__).parents[2]
 

@@ -7,17 +7,17 @@ import numpy as np
 import pytest
 from matplotlib import image
 
-from validation import remade
-from validation.release import RESULTS
+from validation.tools import remade
+from validation.tools.release import RESULTS
 
 ROOT = Path(__file__).parents[2]
 # Written by a person who judged what was found, not by a command.
-BY_HAND = {"validation/mutation_survivors.md", "validation/results/ports.md"}
+BY_HAND = {"validation/results/mutation_survivors.md", "validation/results/ports.md"}
 
 
 def committed():
-    folders = ("validation/results/*", "validation/figures/*.png", "docs/figures/*.png")
-    folders = (*folders, "validation/*.md", "validation/benchmarks/*")
+    folders = ("validation/results/*", "validation/results/figures/*.png", "docs/figures/*.png")
+    folders = (*folders, "validation/*.md", "validation/results/benchmarks/*")
     return {str(p.relative_to(ROOT)) for folder in folders for p in ROOT.glob(folder)}
 
 

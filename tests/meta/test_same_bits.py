@@ -1,6 +1,6 @@
 """The script that holds bits the same finds what differs, and nothing else."""
 
-from validation import same_bits
+from validation.make import same_bits
 
 BEFORE = {"runs": {"push": {"q": "a1", "steps": 3}, "pinch": {"q": "b2", "steps": 4}}}
 

@@ -6,7 +6,7 @@ import tarfile
 import tomllib
 from pathlib import Path
 
-from validation.check_sdist import TESTS, differences, members
+from validation.tools.check_sdist import TESTS, differences, members
 
 ROOT = Path(__file__).parents[2]
 TARGETS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]

@@ -17,7 +17,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.files import step_text
 from quasistatic_ref.step.solution_files import infeasible_text, solution_text
-from validation.attacked_steps import steps
+from tests.oracles.attacked_steps import steps
 from validation.make.attacks import Attack, bounds, exact_answers, matrices
 
 PROVES_NOTHING = "proves nothing"

@@ -1,4 +1,4 @@
-"""A sample of validation/exact_everywhere.py: every backend ends at the same bits, verified."""
+"""A sample of validation/make/exact_everywhere.py: every backend ends at the same bits."""
 
 import numpy as np
 import pytest
@@ -8,9 +8,9 @@ from quasistatic_ref.certify.exact_step import exact_step
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.scenario.scenario import load_scenario
 from tests.helpers import sphere_on_floor
-from validation import exact_everywhere
-from validation.exact_everywhere import BACKENDS, checked
-from validation.random_steps import mixed_step
+from tests.oracles.random_steps import mixed_step
+from validation.make import exact_everywhere
+from validation.make.exact_everywhere import BACKENDS, checked
 
 
 @pytest.mark.parametrize("mu_omega", [0.003, 0.0])

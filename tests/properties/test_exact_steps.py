@@ -11,7 +11,7 @@ from quasistatic_ref.errors import StepInfeasible, StepNotSolved
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ACCURACY
-from validation.random_steps import mixed_step
+from tests.oracles.random_steps import mixed_step
 
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp")
 

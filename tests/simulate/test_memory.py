@@ -12,7 +12,7 @@ import pytest
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.recorder import PACKED, Recorder
 
-GROWTH = "from validation.memory_of_steps import growth; print(*growth(1000, [600, 1000]))"
+GROWTH = "from validation.make.memory_of_steps import growth; print(*growth(1000, [600, 1000]))"
 """In a process of its own: what other tests have put in Python's free lists is counted, too."""
 LEFT = 50.0
 """Bytes that a step may leave between the 600th and the 1,000th, where NumPy still fills its cache

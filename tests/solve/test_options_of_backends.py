@@ -2,7 +2,7 @@
 
 from quasistatic_ref.solve.backends import BACKENDS
 from tests.quoted import filled, stale
-from validation.options_of_backends import NATURAL, RAW, RESULTS, combinations, records_read
+from validation.make.options_of_backends import NATURAL, RAW, RESULTS, combinations, records_read
 
 PAGE = RESULTS.parents[2] / "docs" / "conventions.md"
 STEPS = 300

@@ -9,7 +9,7 @@
 - *Nearly singular matrices*: exact pivots say which are positive definite; reading a step and
   ``verify.js`` have to say the same. What is accepted has to end in an answer or in a sentence.
 
-Nothing that is expected comes from the package: see :mod:`validation.solution_truth`. Its exact
+Nothing that is expected comes from the package: see :mod:`tests.oracles.solution_truth`. Its exact
 method only names working sets, whose optimality is proved here. Writes a table, and exits with
 status 1 if anything is wrong.
 """
@@ -39,10 +39,9 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_text
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
-from validation.attacked_steps import FAMILIES, singular, steps
-from validation.check_verifier import verdicts
-from validation.random_steps import any_step
-from validation.solution_truth import (
+from tests.oracles.attacked_steps import FAMILIES, singular, steps
+from tests.oracles.random_steps import any_step
+from tests.oracles.solution_truth import (
     Judge,
     combinations,
     exact,
@@ -52,7 +51,8 @@ from validation.solution_truth import (
     rounded,
     wrenches,
 )
-from validation.verifier_files import Case
+from validation.tools.check_verifier import verdicts
+from validation.tools.verifier_files import Case
 
 Json = Any
 BACKENDS = "daqp", "clarabel", "osqp", "piqp", "quadprog"

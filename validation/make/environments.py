@@ -34,8 +34,8 @@ from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
+from tests.oracles.random_steps import mixed_step
 from validation.make.broken_compilers import compiler_lines
-from validation.random_steps import mixed_step
 
 ROOT = Path(__file__).parents[2]
 PAGE = """# What surrounds a proof, made hostile

@@ -2,7 +2,7 @@
 
     python -m validation.make.random_mechanisms [--count COUNT]
 
-The reference, validation/mechanisms.py, shares no code with the package.
+The reference, tests/oracles/mechanisms.py, shares no code with the package.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections import Counter
 import numpy as np
 
 from quasistatic_ref.model.system import Body, System
-from validation.mechanisms import (
+from tests.oracles.mechanisms import (
     GRAVITY,
     Mechanism,
     State,

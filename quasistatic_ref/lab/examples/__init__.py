@@ -2,5 +2,5 @@
 
 ``python -m quasistatic_ref.lab.examples.door`` prints the numbers and writes the figure. The
 numbers are asserted on in tests/lab/examples, the figures are the gallery of the docs, and the
-modules are made into notebooks by ``python -m validation.notebooks``.
+modules are made into notebooks by ``python -m validation.tools.notebooks``.
 """

@@ -12,7 +12,7 @@ from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
-from tests import closest
+from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR, DIFFERENCE, EXACT
 
 SOLIDS = closest.solids()

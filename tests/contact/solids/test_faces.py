@@ -9,7 +9,7 @@ from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.solids.faces import FLAT, Face, curvature, face, kinks
 from quasistatic_ref.contact.solids.settle import CROSSING, NOTHING, _crossing, _turn
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
-from tests import closest
+from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT, ROUNDING
 
 SOLIDS = closest.solids()

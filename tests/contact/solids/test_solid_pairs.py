@@ -1,6 +1,6 @@
 """Every pair of solids against an independent computation, on a sample of poses.
 
-The whole table, 1,000 poses a pair, is printed by validation/pair_distances.py.
+The whole table, 1,000 poses a pair, is printed by validation/make/pair_distances.py.
 """
 
 import numpy as np
@@ -23,7 +23,7 @@ from quasistatic_ref.shapes.placed_shape import (
     PlacedShape,
     Shape,
 )
-from tests import closest
+from tests.oracles import closest
 from tests.tolerances import CLOSED_FORM, CONE_PROGRAM, CURVED_PAIR, EXACT, WAY_OUT
 
 CURVED = {"cylinder", "cone", "ellipsoid"}

@@ -1,6 +1,7 @@
 """What each example comes to: its numbers against formulas, and its figure against the rules.
 
-The runs of the grasp are those of ``demo``; what is slow is run in full by validation/notebooks.py.
+The runs of the grasp are those of ``demo``; what is slow is run in full by
+validation/tools/notebooks.py.
 """
 
 import os

@@ -2,7 +2,7 @@
 
 import pytest
 
-from validation.lectures import FOLDER, LECTURES, cells, marks
+from validation.tools.lectures import FOLDER, LECTURES, cells, marks
 
 
 @pytest.mark.parametrize("name", LECTURES)

@@ -1,4 +1,4 @@
-"""Figures in a paper of two columns, on slides and in a user's grid; all: validation/restyled."""
+"""Figures in a paper of two columns, on slides and in a grid; all: validation/tools/restyled.py."""
 
 import inspect
 
@@ -7,7 +7,7 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
 from quasistatic_ref.optional.show.figures import panels
-from validation.restyled import COLUMN, FIGURES, GRID, drawer, in_styles
+from validation.tools.restyled import COLUMN, FIGURES, GRID, drawer, in_styles
 
 QUICK = ("block_on_an_incline", "corner_loads")
 """Three panels each: drawings, lines, a legend for all. The others take minutes."""

@@ -17,7 +17,7 @@ from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, planted_step
 from tests.lab.study.planted import slab
-from validation.engines.reproduce import FOLDER
+from validation.programs.engines.reproduce import FOLDER
 
 PAPERS = (7, 6, (6,) * 10 + (4,) * 5)
 """13 coordinates and 80 rows."""

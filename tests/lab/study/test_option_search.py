@@ -13,8 +13,8 @@ import qpalm
 
 from quasistatic_ref.lab.study.measuring.tuning import MOST_SETTINGS, Score
 from quasistatic_ref.solve.backends import BACKENDS
-from validation import option_search
-from validation.option_report import report
+from validation.make import option_search
+from validation.make.option_report import report
 
 VALIDATION = Path(__file__).parents[3] / "validation"
 NOT_SEARCHED: set[str] = set()
@@ -27,7 +27,7 @@ NOTHING = Score(2, 1.0, 0.0, 0.0, 0.0, 0, 0, 0)
 
 @pytest.fixture(scope="module")
 def spaces():
-    return tomllib.loads((VALIDATION / "option_search.toml").read_text("utf-8"))
+    return tomllib.loads((VALIDATION / "make" / "option_search.toml").read_text("utf-8"))
 
 
 @pytest.fixture(scope="module")

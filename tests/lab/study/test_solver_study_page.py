@@ -16,7 +16,7 @@ from tests.lab.study.plain_report import (
     shared,
 )
 from tests.quoted import unheld
-from validation.study_advice import NAME, advice
+from validation.make.study_advice import NAME, advice
 
 VALIDATION = Path(__file__).parents[3] / "validation"
 DEFAULT = VALIDATION / "studies" / "default"

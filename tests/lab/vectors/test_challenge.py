@@ -19,7 +19,7 @@ from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from tests.lab.vectors.material import NUMPY, ROOT
 from tests.lab.vectors.programs import command
-from validation import challenges, planted_bugs
+from validation.make import challenges, planted_bugs
 
 TABLE = ROOT / "validation" / "results" / "planted_bugs.md"
 CHALLENGES = TABLE.with_name("challenges.md")

@@ -10,16 +10,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from validation.engines import phenomena
-from validation.engines.judge import ENGINES, HERE
-from validation.engines.reproduce import FOLDER, LIST, missing, printed_for, unlike
-from validation.engines.tables import layers_page, phenomena_page
+from validation.programs.engines import phenomena
+from validation.programs.engines.judge import ENGINES, HERE, RESULTS
+from validation.programs.engines.reproduce import FOLDER, LIST, missing, printed_for, unlike
+from validation.programs.engines.tables import layers_page, phenomena_page
 
 G, M = 9.81, 0.3
 RECORDS = {
     name: json.loads(path.read_text("utf-8"))
     for name in ENGINES
-    if (path := HERE / "results" / f"{name}.json").exists()
+    if (path := RESULTS / f"{name}.json").exists()
 }
 MUJOCO = sorted(e["file"] for e in LIST if e["engines"][0] == "mujoco" and e["phenomena"])
 SETTLED = 1e-9
@@ -129,8 +129,8 @@ def test_a_reproduction_that_prints_another_number_shows_no_cell():
 
 def test_the_pages_are_those_of_the_results():
     assert set(RECORDS) == set(ENGINES)
-    assert (HERE / "phenomena.md").read_text("utf-8") == phenomena_page(RECORDS)
-    assert (HERE / "layers.md").read_text("utf-8") == layers_page(RECORDS)
+    assert (RESULTS / "phenomena.md").read_text("utf-8") == phenomena_page(RECORDS)
+    assert (RESULTS / "layers.md").read_text("utf-8") == layers_page(RECORDS)
 
 
 def test_every_setting_of_the_table_is_one_that_is_asked():

@@ -18,7 +18,7 @@ from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answer
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
 from tests.lab.vectors.material import JAVASCRIPT, NUMPY, VECTORS, cases
-from validation.planted_bugs import COMMANDS, RUNNERS
+from validation.make.planted_bugs import COMMANDS, RUNNERS
 
 PROGRAM = Path(program.__file__).parent
 LIBRARIES = {"json", "numpy", "pathlib", "sys"}

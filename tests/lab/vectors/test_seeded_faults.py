@@ -15,7 +15,7 @@ from quasistatic_ref.lab.vectors.check.patched import patched_texts, program
 from quasistatic_ref.lab.vectors.check.table import ENTRIES, FACTOR
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from tests.lab.vectors.material import cases, expected, report_on, right_answers, small_cases
-from validation import planted_bugs
+from validation.make import planted_bugs
 
 IMPOSSIBLE = (ArithmeticError, LookupError, TypeError, ValueError)
 """What a patched program raises in cases in which the mistake cannot be made."""

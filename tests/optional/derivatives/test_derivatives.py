@@ -16,7 +16,7 @@ from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.extension import Extension
 from tests.tolerances import DIFFERENCE_OF_STEPS, SEEN
-from validation.derivatives import COUPLES, after, rate, unit, wrong_by
+from validation.make.derivatives import COUPLES, after, rate, unit, wrong_by
 
 
 @pytest.mark.parametrize("couple", COUPLES, ids="-".join)

@@ -1,6 +1,7 @@
 """Derivatives against differences of steps without rounding: samples of two validation programs.
 
-``validation.derivative_states`` and ``validation.derivative_kinks`` have thousands, and tables.
+``validation.make.derivative_states`` and ``validation.make.derivative_kinks`` have thousands, and
+tables.
 """
 
 import json
@@ -20,15 +21,15 @@ from quasistatic_ref.optional.derivatives import step_rates as module
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step.reason import TANGENTS
 from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
+from tests.oracles.gradients.closest import closest_pair
+from tests.oracles.gradients.placing import HERE, UP, WEIGHT, Scene
+from tests.oracles.gradients.placing import placed as place
+from tests.oracles.gradients.reference import reference, slope
+from tests.oracles.gradients.states import table_of, whole_state
 from tests.tolerances import SEEN
-from validation.derivative_kinks import FAMILIES, NEAR, faults
-from validation.derivative_kinks import record as kink_record
-from validation.derivative_states import WITHIN, error, page, record, records
-from validation.gradients.closest import closest_pair
-from validation.gradients.placing import HERE, UP, WEIGHT, Scene
-from validation.gradients.placing import placed as place
-from validation.gradients.reference import reference, slope
-from validation.gradients.states import table_of, whole_state
+from validation.make.derivative_kinks import FAMILIES, NEAR, faults
+from validation.make.derivative_kinks import record as kink_record
+from validation.make.derivative_states import WITHIN, error, page, record, records
 
 STATES = (3, 5, 9, 14, 16, 24, 46, 53, 88, 112, 675)
 """Pushes, pairs, crowds, mechanisms and two scenarios; cones and ellipsoids among themselves; rims

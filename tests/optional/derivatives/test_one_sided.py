@@ -20,7 +20,7 @@ from tests.optional.derivatives.test_derivative_verdicts import (
     verdict,
 )
 from tests.tolerances import DIFFERENCE_OF_STEPS
-from validation.derivatives import after
+from validation.make.derivatives import after
 
 
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (0, 0, -1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])

@@ -17,8 +17,8 @@ from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_farkas import EAST, point_between_walls
 from tests.helpers import error, point_on_floor
+from tests.oracles.random_steps import any_step
 from tests.tolerances import ROUNDING
-from validation.random_steps import any_step
 
 FUZZED = 200
 """Random steps with answers made to look good: two seconds."""

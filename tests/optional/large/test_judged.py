@@ -10,8 +10,8 @@ from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.solve.solve import solve_step
 from tests.helpers import point_on_floor
-from validation.forged_scenes import facing
-from validation.solution_truth import least_bound
+from tests.oracles.forged_scenes import facing
+from tests.oracles.solution_truth import least_bound
 
 STEP = point_on_floor(force=(4.0, 1.0, -2.943))  # it slides: some rows bear load, some none
 EXACT = solve_step(STEP, "none")

@@ -20,9 +20,9 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import Units, from_natural, in_natural, to_natural
 from quasistatic_ref.step.friction import cone_matrix
 from tests.helpers import point_on_floor
+from tests.oracles.random_steps import any_step
 from tests.tolerances import ROUNDING
-from validation.confirmed_bits import CONES
-from validation.random_steps import any_step
+from validation.make.confirmed_bits import CONES
 
 MASS = np.eye(1)
 FUZZED = 150

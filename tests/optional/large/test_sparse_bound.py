@@ -21,8 +21,8 @@ from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.solve.solve import solve_step
 from tests.helpers import always_in_blocks, error, in_blocks, point_on_floor, random_step
 from tests.optional.large.test_bound import made_up, within
+from tests.oracles.random_steps import any_step
 from tests.tolerances import ROUNDING
-from validation.random_steps import any_step
 
 FUZZED = 150
 """Random steps with answers made to look good: two seconds."""

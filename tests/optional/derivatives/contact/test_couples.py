@@ -29,7 +29,7 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
-from validation.derivatives import rate
+from validation.make.derivatives import rate
 
 FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
 TANGENTS = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])

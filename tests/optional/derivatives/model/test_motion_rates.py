@@ -13,7 +13,7 @@ from quasistatic_ref.optional.derivatives.model.tangent import (
 )
 from tests.scenes import chain_scene
 from tests.tolerances import DIFFERENCE
-from validation.derivatives import rate
+from validation.make.derivatives import rate
 
 GRAVITY = np.array([1.0, 2.0, -9.0])
 

@@ -28,8 +28,8 @@ from tests.helpers import (
     random_step,
     sphere_on_floor,
 )
+from tests.oracles.random_steps import any_step
 from tests.tolerances import EXACT, ROUNDING
-from validation.random_steps import any_step
 
 WAYS = ((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
 TINY = F(1, 2**80)

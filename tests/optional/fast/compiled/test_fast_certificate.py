@@ -20,7 +20,7 @@ from quasistatic_ref.solve.units import natural_units
 from tests.helpers import changed, random_step
 from tests.optional.fast.compiled.changed_c import changed_sources
 from tests.optional.fast.compiled.test_fast import needs_compiler
-from validation.confirmed_bits import CONES, checked, differing, random_case
+from validation.make.confirmed_bits import CONES, checked, differing, random_case
 
 pytestmark = needs_compiler
 MATRICES = 40
@@ -108,7 +108,7 @@ def made(folder, text, other):
 
 
 def test_random_steps_are_proved_with_the_bits_of_the_exact_method():
-    """A sample of validation/confirmed_bits.py."""
+    """A sample of validation/make/confirmed_bits.py."""
     outcomes = [checked(seed) for seed in range(3 * 2 * len(CONES))]
     assert [fault for _, _, faults in outcomes for fault in faults] == []
     optima, proved = (sum(found[key] for _, found, _ in outcomes) for key in ("optima", "compiled"))

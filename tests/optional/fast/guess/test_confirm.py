@@ -23,8 +23,8 @@ from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_exact import resting_point
 from tests.helpers import changed, pinch, planted_step, random_step, sphere_on_floor
 from tests.tolerances import ACTIVE_SET, ROUNDING
-from validation import confirmed_bits
-from validation.confirmed_bits import CONES, checked, differing, random_case
+from validation.make import confirmed_bits
+from validation.make.confirmed_bits import CONES, checked, differing, random_case
 
 FLOOR_OWN = Extra(("stop", "far"), [[1.0, 0, 0, 0, 0, 0, 0], [0, 1.0, 0, 0, 0, 0, 0]], [1e-4, -1.0])
 
@@ -60,7 +60,7 @@ def test_the_right_working_set_is_confirmed_with_the_same_bits(step):
 
 @pytest.mark.parametrize("block", range(4))
 def test_random_steps_have_the_same_bits_and_wrong_sets_are_refused(block):
-    """A sample of validation/confirmed_bits.py."""
+    """A sample of validation/make/confirmed_bits.py."""
     outcomes = [checked(seed) for seed in range(block, 120, 4)]
     assert [faults for _, _, faults in outcomes if faults] == []
     total = {key: sum(found[key] for _, found, _ in outcomes) for key in confirmed_bits.COLUMNS}

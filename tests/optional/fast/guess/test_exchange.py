@@ -14,7 +14,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.helpers import pinch
 from tests.optional.fast.compiled.test_fast import needs_compiler
-from validation.confirmed_bits import (
+from validation.make.confirmed_bits import (
     NEARBY,
     OTHERS,
     differing,

@@ -12,7 +12,7 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.units import natural_units
 from tests.certify.test_exact import resting_point
 from tests.helpers import changed, random_step
-from validation.confirmed_bits import differing
+from validation.make.confirmed_bits import differing
 
 SPINS, SLIPS = [4, 5], [0, 1, 2, 3]
 """Rows of a contact. Both of its spins hold its gap and its spin."""

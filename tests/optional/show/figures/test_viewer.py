@@ -1,4 +1,4 @@
-"""The viewer's commands are the trajectory; validation/check_viewer.py tries the page itself."""
+"""The viewer's commands are the trajectory; validation/tools/check_viewer.py tries the page."""
 
 import json
 import re

@@ -1,0 +1,69 @@
+"""Steps that validation/make/attacks.py tries: ordinary ones, and those of strange numbers."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import count
+
+import numpy as np
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.step.data import StepData
+from tests.oracles.random_steps import mixed_step
+from validation.make.hostile_steps import hostile_step
+
+CONES = "pyramid", "product", "frictionless"
+FAMILIES = "ordinary", "all scales", "subnormal loads", "tiny or huge weights", "nearly singular"
+
+
+def subnormal(rng: np.random.Generator, step: StepData) -> StepData:
+    """The same step with loads, targets and gaps smaller by one large power of two."""
+    small = 2.0 ** -int(rng.integers(900, 1075))
+    far = replace(step.contacts, phi=step.contacts.phi * small)
+    loads = {name: getattr(step, name) * small for name in ("tau_a", "tau_u", "delta_q_bar_a")}
+    return step.replace(contacts=far, **loads)
+
+
+def light_or_heavy(rng: np.random.Generator, step: StepData) -> StepData:
+    """The same step with stiffness, masses and all forces larger or smaller by one power of two."""
+    weight = 2.0 ** int(rng.integers(-1000, 1000))
+    names = "K_q", "M_u", "tau_a", "tau_u"
+    return step.replace(**{name: getattr(step, name) * weight for name in names})
+
+
+def steps(family: str) -> Iterator[StepData]:
+    """Steps of a family, without end."""
+    for seed in count():
+        rng = np.random.default_rng(seed)
+        try:
+            step = hostile_step(random.Random(seed)) if "scales" in family else mixed_step(seed)
+            if family == "subnormal loads":
+                step = subnormal(rng, step)
+            elif family == "tiny or huge weights":
+                step = light_or_heavy(rng, step)
+            elif family == "nearly singular":
+                K_q, M_u = (singular(rng, n, 2e-14) for n in (step.n_a, step.n_u))
+                step = step.replace(K_q=K_q, M_u=M_u)
+            yield step.replace(cone=CONES[seed % 3])
+        except InputError:
+            continue
+
+
+def singular(rng: np.random.Generator, n: int, share: float | None = None) -> np.ndarray:
+    """A symmetric matrix (n, n) whose last pivot has about this share of its diagonal entry."""
+    if share is None:
+        share = float(rng.choice([0.0, -1e-14, 1e-15, 1e-14, 1e-14 * (1 + 1e-9), 1e-13, 1e-12]))
+        share *= float(rng.choice([1.0, rng.uniform(0.5, 2.0)]))
+    L = np.tril(rng.standard_normal((n, n)), -1) + np.diag(rng.uniform(0.5, 2.0, n))
+    if rng.random() < 0.5:  # whole numbers: their products are exact
+        L = np.round(4 * L) + 4 * np.eye(n)
+    at = int(rng.integers(n)) if n else 0
+    pivots = np.ones(n)
+    pivots[at : at + 1] = share * float(L[at, :at] @ L[at, :at]) if at else max(share, 0.0)
+    S = (L / np.diag(L)) @ np.diag(pivots) @ (L / np.diag(L)).T
+    if rng.random() < 0.3:
+        unit = 10.0 ** rng.uniform(-150, 150, n) if rng.random() < 0.5 else 2.0**-520
+        S = S * unit * np.reshape(unit, (-1, 1)) if np.ndim(unit) else S * unit * unit
+    return np.tril(S) + np.tril(S, -1).T

@@ -1,0 +1,194 @@
+"""Solution files with one fault, each of which one line of the second checker finds first.
+
+Forged files mostly have several: a number that is moved is no longer what the others give. Here the
+others go with it, or it comes first, so that a checker without that line would say something else.
+Files without a fault are among them, where only their roundings are rare.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
+from quasistatic_ref.lab.scenes.rigid import actuated_step, free_step, point_step
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.step.files import step_sha256, step_text
+from quasistatic_ref.step.solution_files import infeasible_text, solution_text
+from tests.oracles.forged_scenes import facing, scenes
+from validation.make.forgeries import MISSING, good_file, put, with_its_wrenches
+
+Fault = tuple[str, str, str]
+"""Texts of a step and of a solution, and what the second checker says first."""
+PROVED = "every field is proved"
+H, DOWN = 0.5, 2.0
+"""Time step [s] and push on the floor [N]: all numbers here are dyadic."""
+
+
+def single_faults() -> Iterator[Fault]:
+    """Each file with the beginning of the reason for its verdict."""
+    yield from in_the_files()
+    yield from rounded()
+    yield from on_other_rows()
+    yield from in_the_ellipsoid()
+    yield from beyond_a_limit()
+
+
+def fault(step: StepData, record: Any, reason: str) -> Fault:
+    """A fault of a solution file."""
+    return step_text(step), json.dumps(record), reason
+
+
+def solved(step: StepData) -> Any:
+    """The solution file of a step, which is right."""
+    return json.loads(solution_text(solve_step(step)))
+
+
+def in_the_files() -> Iterator[Fault]:
+    """Texts that are no JSON, steps that are none, and solutions that claim nothing."""
+    of = {kind: step for (kind, _), step in scenes().items()}
+    step = of["residual"]
+    text, good = step_text(step), good_file(step, "residual")
+    for wrong in (
+        text.replace("[4.0, 1.0", "[4.0 5.0 1.0"), text.replace(": ", ", ", 1), f"{text} 1",
+        "[" * 30 + "]" * 30,
+    ):  # fmt: skip
+        yield wrong, json.dumps(good), "the step is not JSON"
+    record, solution = json.loads(text), json.dumps(good)
+    for where, value, reason in (
+        (("h",), MISSING, "the step has no field h"),
+        (("h",), 0.0, "h is not greater than 0"),
+        (("cone",), "facets-5", "the cone is unknown"),
+        (("contacts", 0, "d1"), [-1.0, 0.0, 0.0], "d1, d2, n are not orthonormal and right-handed"),
+        (("contacts", 0, "mu_v"), -0.5, "a coefficient of friction is negative"),
+        (
+            ("extra",),
+            {"names": [1], "A": [[1.0] * 3], "b": [0.0]},
+            "names of extra are not strings",
+        ),
+    ):
+        yield json.dumps(put(record, where, value)), solution, reason
+    yield fault(step, put(good, ("certificate", "error_bound"), None), "nothing is claimed")
+    yield fault(of["none"], good_file(of["none"], "none"), "nothing is claimed")
+    step = of["infeasible"].replace(cone="ellipsoid")
+    proof = infeasible_text(step, ["1"] * 8)
+    yield step_text(step), proof, "a proof of infeasibility is not written in the ellipsoid"
+
+
+def rounded() -> Iterator[Fault]:
+    """Numbers half-way between two of float64, and below the normal ones; an indefinite matrix."""
+    ulp = math.ulp(1.0)
+    tau, target = np.array([1.0, 1.0 + ulp]), np.full(2, ulp / 2)  # delta_q = tau + target
+    for numbers in ((tau, target), (np.array([1.0, 0.0]), np.array([0.0, 3 * math.ulp(0.0)]))):
+        step = actuated_step(np.eye(2), *numbers, no_contacts(2), 1.0)
+        yield fault(step, solved(step), PROVED)
+    step = actuated_step([[4.0, 1.0], [1.0, 4.0]], (1.0, 2.0), (0.0, 0.0), no_contacts(2), 1.0)
+    text = step_text(step).replace("4.0", "0.0")
+    delta_q, own = [2.0, 1.0], hashlib.sha256(text.encode()).hexdigest()  # the saddle point
+    record = solved(step) | {"delta_q": delta_q, "step_sha256": own}
+    yield text, json.dumps(record), "K_q is not positive definite"
+
+
+def on_other_rows() -> Iterator[Fault]:
+    """Minimisers on rows that are not those of the optimum, or that are named out of order."""
+    cases = {name: step for (kind, name), step in scenes().items() if kind == "exact"}
+    idle, held, sticks = (
+        next(step for name, step in cases.items() if word in name)
+        for word in ("bears nothing", "held back", "sticks")
+    )
+    record = solved(idle)
+    record["certificate"] |= {"active": [[0, 0]], "smallest_active_multiplier": 0.0}
+    yield fault(idle, record, "a multiplier on the rows of active is not positive")
+    free = held.replace(extra=Extra((), np.zeros((0, held.n_v)), np.zeros(0)))
+    record = solved(free) | {"step_sha256": step_sha256(held), "lam_extra": [0.0]}
+    yield fault(held, record, "the minimiser on the rows of active violates a row")
+    for active, reason in (
+        ([[0, 3], [0, 2]], "active is not in increasing order without repetition"),
+        ([[0, 2], [0, 2]], "active is not in increasing order without repetition"),
+        ([[0, i] for i in range(4)], "the rows of active are not independent"),
+    ):
+        yield fault(sticks, put(solved(sticks), ("certificate", "active"), active), reason)
+
+
+def on_floor(across: float, mu_v: float = 0.5, copies: tuple[float, ...] = (0.0,)) -> StepData:
+    """A point mass in the ellipsoid, pushed down and across, over planes at some distances."""
+    step = point_step(H, (across, 0.0, -DOWN), mu_v, 0.0, H)
+    n = len(copies)
+    planes = contacts_of(
+        copies, np.tile(np.eye(3), (n, 1, 1)), np.tile(np.eye(4, 3), (n, 1, 1)), mu_v
+    )
+    return step.replace(cone="ellipsoid", contacts=planes)
+
+
+def stuck(step: StepData, lam: list[list[float]], active: list[list[int]], gap: float) -> Any:
+    """The file of a body that stays where it is."""
+    certificate = {"kind": "exact", "active": active, "error_bound": 0.0, "gap": gap}
+    record = solved(on_floor(0.0)) | {"step_sha256": step_sha256(step), "delta_q": [0.0] * 3}
+    return with_its_wrenches(step, record | {"lam": lam, "certificate": certificate})
+
+
+def in_the_ellipsoid() -> Iterator[Fault]:
+    """Exact answers whose multipliers, slacks or products alone are wrong, by less than the gap."""
+    rows, push = [[0, 0], [0, 1], [0, 2]], H * DOWN
+    edge, over = 0.5 * DOWN, 0.5 * DOWN * (1 + 2.0**-40)  # of the friction that the floor can give
+    at_the_edge = stuck(on_floor(edge), [[push, -H * edge, 0.0, 0.0]], rows, 0.0)
+    yield fault(on_floor(edge), at_the_edge, PROVED)
+    beyond = put(at_the_edge, ("lam", 0, 1), math.nextafter(-H * edge, -1.0))
+    step = on_floor(edge)
+    yield fault(step, with_its_wrenches(step, beyond), "lam is not in the dual cones")
+    slides, gap = on_floor(over), 1e-20  # more than what is left of the push costs
+    record = stuck(slides, [[push, -H * edge, 0.0, 0.0]], rows, gap)
+    yield fault(slides, record, "lam with its entries on active changed is not in the dual cones")
+    smooth = on_floor(0.0, mu_v=0.0)
+    record = stuck(smooth, [[push, 2.0**-40, 0.0, 0.0]], [[0, 0]], gap)
+    yield fault(smooth, record, "lam has a force whose coefficient is 0")
+    two = on_floor(0.0, copies=(0.0, 2.0**-50))
+    half = [push / 2, 0.0, 0.0, 0.0]
+    yield fault(two, stuck(two, [half, half], rows, gap), "the multipliers are not complementary")
+    violated = "the minimiser on the rows of active violates a row"
+    near = on_floor(0.0, copies=(0.0, -1e-3))
+    none = [0.0] * 4
+    yield fault(near, stuck(near, [[push, 0.0, 0.0, 0.0], none], rows, 0.0), violated)
+    own = on_floor(0.0).replace(extra=Extra(("lifted",), np.eye(3)[2:], np.array([1e-3])))
+    record = stuck(own, [[push, 0.0, 0.0, 0.0]], rows, 0.0) | {"lam_extra": [0.0]}
+    yield fault(own, record, violated)
+    record = stuck(own, [[push, 0.0, 0.0, 0.0]], rows, 0.0) | {"lam_extra": [-1e-12]}
+    yield fault(own, record, "lam has a negative multiplier of the user's own rows")
+
+
+def beyond_a_limit() -> Iterator[Fault]:
+    """Bounds, gaps and signs that no other field depends on."""
+    of = {kind: step for (kind, _), step in scenes().items()}
+    slides = of["enclosure"]
+    good = good_file(slides, "enclosure")
+    for name, value, reason in (
+        ("error_bound", 5e-13, "error_bound is not between 0 and 1e-13"),
+        ("error_bound", -1e-20, "error_bound is not between 0 and 1e-13"),
+        ("gap", -1e-20, "gap is above its limit"),
+        ("gap", 1.0, "gap is above its limit"),
+    ):
+        yield fault(slides, put(good, ("certificate", name), value), reason)
+    record = put(good, ("lam", 0, 1), 2 * good["lam"][0][0])
+    yield fault(slides, with_its_wrenches(slides, record), "lam is not in the dual cones")
+    sticks = of["exact in the ellipsoid"]
+    record = put(good_file(sticks, "exact in the ellipsoid"), ("certificate", "gap"), 1.0)
+    yield fault(sticks, record, "gap is below the gap, or above its limit")
+    slides = of["residual"]
+    good = good_file(slides, "residual")
+    record = put(good, ("certificate", "error_bound"), 1.5)
+    yield fault(slides, record, "error_bound is not between 0 and 1")
+    record = with_its_wrenches(slides, put(good, ("lam", 0, 3), -1e-12))
+    yield fault(slides, record, "a multiplier is negative")
+    open_walls = contacts_of(1e-3, facing(2), np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
+    step = free_step(np.eye(3), np.zeros(3), open_walls, H)
+    for y in ("0", "-1"):
+        farkas = ["0"] * 8
+        farkas[0] = farkas[4] = y
+        reason = "farkas has a negative entry, or b'y is not positive"
+        yield step_text(step), infeasible_text(step, farkas), reason

@@ -1,0 +1,181 @@
+"""A guess that is confirmed in balls ends at the bits of the exact method: each wrong one is seen.
+
+Run ``python -m validation.make.confirmed_bits --out FILE`` (ten minutes on two cores; ``--random``
+makes it shorter). Random steps of every polyhedral cone, degenerate ones among them, as they are
+and in units up to 2^40 apart. Of each, the exact method finds a working set from cold;
+``confirmed`` is then given that set, and others that are wrong: without a row, with one more, with
+one exchanged, and random ones. What it confirms must be equal in every bit to what the exact method
+makes of the same guess. (A guess with one row too many may be mended by dropping it, in both.)
+Compiled code is given the same sets: what it proves must have the same bits ("proved too": of sets
+that were not the exact method's, but hold the optimum as well, where multipliers are not unique).
+
+Prints a table, and exits with status 1 if a bit differs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import fields
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+from tqdm import tqdm
+
+from quasistatic_ref.certify.active_set import Farkas
+from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
+from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
+from quasistatic_ref.solve.units import Units, natural_units, to_natural
+from quasistatic_ref.step.data import Indices, StepData
+from quasistatic_ref.step.standard_form import standard_form
+from tests.oracles.random_steps import mixed_step
+
+CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
+COLUMNS = (
+    "optima", "infeasible", "confirmed", "left open", "compiled", "wrong sets", "refused", "mended",
+    "proved too", "nearby",
+)  # fmt: skip
+
+
+NEARBY = {"walks"}
+"""In what may differ from the exact optimum what is proved near a wrong guess."""
+
+OTHERS = NEARBY | {"lam", "working_set", "smallest_active_multiplier"}
+"""The same where multipliers are not unique."""
+
+
+def random_case(seed: int) -> tuple[str, StepData]:
+    """A random step, its cone and units; the seed decides."""
+    rng = np.random.default_rng([seed, 1])
+    cone = CONES[seed % len(CONES)]
+    step = mixed_step(seed // len(CONES)).replace(cone=cone)
+    if seed % 2:
+        return cone, step
+    apart = Units(2.0 ** rng.integers(-20, 21, step.n_v), 2.0 ** int(rng.integers(-20, 21)), 1.0)
+    return f"{cone}, badly scaled", to_natural(step, apart)
+
+
+def wrong_sets(rng: np.random.Generator, working: list[int], m: int) -> Iterator[list[int]]:
+    """Sets of rows that are others than the working set."""
+    others = sorted(set(range(m)) - set(working))
+    if working:
+        out = int(rng.choice(working))
+        rest = [i for i in working if i != out]
+        yield rest
+        if others:
+            yield [*rest, int(rng.choice(others))]
+    if others:
+        yield [*working, int(rng.choice(others))]
+    if m:
+        yield rng.choice(m, size=min(m, 1 + len(working)), replace=False).tolist()
+
+
+def differing(one: ExactOptimum, other: ExactOptimum | Farkas) -> list[str]:
+    """Names of the fields in which two optima differ in any bit."""
+    names = [f.name for f in fields(one)]
+    return [name for name in names if bits(getattr(one, name)) != bits(getattr(other, name, None))]
+
+
+def proof(step: StepData, rows: Indices) -> Proof:
+    """What compiled code makes of a guess, where there is any."""
+    fast = compiled("certificate")
+    if fast is None:
+        return None
+    units = natural_units(step)
+    found: Proof = fast.prover(step, units.coordinate, None).optimum(step, rows, units)
+    return found
+
+
+def compiled_answer(step: StepData, guess: list[int]) -> ExactOptimum | None:
+    """What compiled code proves of a guess."""
+    found = proof(step, np.array(sorted(set(guess)), dtype=np.int64))
+    return found if isinstance(found, ExactOptimum) else None
+
+
+def confirmed_answer(step: StepData, guess: list[int], hessian: BallHessian) -> ExactOptimum | None:
+    """What is confirmed of a guess."""
+    found = BallStep(step, hessian).confirmed(guess)
+    return found if isinstance(found, ExactOptimum) else None
+
+
+def nearby_answer(
+    step: StepData, guess: list[int], hessian: BallHessian, by_code: bool
+) -> ExactOptimum | None:
+    """What is proved on a guess or near it, in balls or by compiled code."""
+    rows = np.array(sorted(set(guess)), dtype=np.int64)
+    prove = partial(proof, step) if by_code else BallStep(step, hessian).confirmed
+    return proved_nearby(prove, rows, standard_form(step), hessian.rough)
+
+
+def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
+    """The kind of a random step, what was found on it, and faults in words."""
+    kind, step = random_case(seed)
+    found, faults = Counter[str](), []
+    rng, form, hessian = np.random.default_rng([seed, 2]), exact_form(step), BallHessian(step)
+    truth = exact_optimum(form)
+    if isinstance(truth, Farkas):
+        found["infeasible"] += 1
+        right: list[int] = []
+    else:
+        found["optima"] += 1
+        right = list(truth.working_set)
+        answer, proved = confirmed_answer(step, right, hessian), compiled_answer(step, right)
+        found["left open" if answer is None else "confirmed"] += 1
+        found["compiled"] += proved is not None
+        for one in (answer, proved):
+            if one is not None and (wrong := differing(one, exact_optimum(form, right))):
+                faults.append(f"{kind}, step {seed}: {', '.join(wrong)}")
+    for guess in wrong_sets(rng, right, form.m):
+        answer, proved = confirmed_answer(step, guess, hessian), compiled_answer(step, guess)
+        found["wrong sets"] += 1
+        found["refused" if answer is None else "mended"] += 1
+        found["proved too"] += proved is not None
+        for one in (answer, proved):
+            if one is not None and (wrong := differing(one, exact_optimum(form, guess))):
+                faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
+        if (near := nearby_answer(step, guess, hessian, by_code=False)) is not None:
+            found["nearby"] += 1
+            may = NEARBY if near.multipliers_unique else OTHERS
+            wrong = sorted(set(differing(near, truth)) - may)
+            same = nearby_answer(step, guess, hessian, by_code=True)
+            wrong += [] if same is None else differing(near, same)
+            if wrong:
+                faults.append(f"{kind}, step {seed}, near {guess}: {', '.join(wrong)}")
+    return kind, found, faults
+
+
+def main() -> int:
+    """Check, print and write the table; exit status 1 if a bit differs."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--random", type=int, default=5000, metavar="STEPS")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="write the table here, too")
+    options = parser.parse_args()
+    found: dict[str, Counter[str]] = {}
+    faults: list[str] = []
+    with ProcessPoolExecutor() as pool:
+        outcomes = pool.map(checked, range(options.random), chunksize=16)
+        for kind, counts, wrong in tqdm(outcomes, total=options.random):
+            found.setdefault(kind, Counter()).update(counts)
+            faults += wrong
+    found["all"] = sum(found.values(), Counter())
+    lines = [f"{'':24}" + "".join(f"{name:>12}" for name in COLUMNS)]
+    for kind in sorted(found, key=lambda kind: (kind == "all", kind)):
+        lines.append(f"{kind:24}" + "".join(f"{found[kind][name]:>12}" for name in COLUMNS))
+    lines += faults or ["What was confirmed has the bits of the exact method, in every field."]
+    print(text := "\n".join(lines))
+    if options.out is not None:
+        text_written(options.out, text + "\n")
+    return int(bool(faults))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,67 @@
+"""Engines that we did not write, judged: ``python -m validation.make.engines [NAME ...]``.
+
+For each engine of engines.toml, or those named: makes an environment with its pinned versions in a
+temporary folder (``--environments`` keeps them in a folder of yours, and takes what is there), asks
+its adapter for the layers of the reference vectors and for the phenomena, writes
+``NAME.json`` in the folder ``--out`` (validation/results/engines unless it is said), and runs the
+engine's reproductions in its environment. At the end the two tables, layers.md and phenomena.md,
+are written again from all results that are there.
+
+Settings that are named as causes of a red cell are changed, and the cell is measured again
+(``tried``). It takes an hour on two busy cores, seven minutes of it computing, and three
+gigabytes. Exit status 1 if a red cell has no reproduction, or one that does not print the cell's
+number, or if a reproduction ended with an error.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+from pathlib import Path
+
+from quasistatic_ref.formats.files import text_written
+from validation.programs.engines.judge import ENGINES, RESULTS, judged, python_of
+from validation.programs.engines.reproduce import missing, reproduced, unlike
+from validation.programs.engines.tables import layers_page, phenomena_page
+
+
+def main() -> int:
+    """Judge, and write the tables."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("names", nargs="*", metavar="NAME", choices=[[], *ENGINES], default=[])
+    parser.add_argument("--out", type=Path, default=RESULTS)
+    parser.add_argument("--environments", type=Path)
+    parser.add_argument("--tables", action="store_true", help="write the tables only")
+    parser.add_argument("--resume", action="store_true", help="keep settings that have results")
+    given = parser.parse_args()
+    results: Path = given.out
+    results.mkdir(parents=True, exist_ok=True)
+    wrong = 0
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = (given.environments or Path(temporary)).absolute()
+        for name in () if given.tables else given.names or ENGINES:
+            judged(name, folder, results, given.resume)
+            path = results / f"{name}.json"
+            record = json.loads(path.read_text("utf-8"))
+            record["printed"] = reproduced(name, python_of(name, folder))
+            text_written(path, json.dumps(record, indent=1) + "\n")
+            wrong += sum(text.startswith("status") for text in record["printed"].values())
+    records = {
+        name: json.loads(path.read_text("utf-8"))
+        for name in ENGINES
+        if (path := results / f"{name}.json").exists()
+    }
+    text_written(results / "layers.md", layers_page(records))
+    text_written(results / "phenomena.md", phenomena_page(records))
+    for cell in missing(records):
+        wrong += 1
+        print(f"without a reproduction: {', '.join(cell)}")
+    for cell in unlike(records):
+        wrong += 1
+        print(f"not shown by its reproduction: {', '.join(cell)}")
+    return int(wrong > 0)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,111 @@
+"""Signed distance, witness points and normal of every pair of shapes, on 1,000 poses each.
+
+    python -m validation.make.pair_distances [POSES]
+
+The reference is computed another way (tests/oracles/closest.py). For each pair, the largest of:
+- phi: |phi - reference| [m], where there is an exact one;
+- inside: where there is none (curved solids in penetration), by how much the gap along some of
+  4,000 directions exceeds phi [m]: a shallower way out than the one found;
+- normal: |s(n) - phi| [m], the gap along the normal against the distance;
+- points: distance of the witness points from the surfaces, and |beta - alpha - phi n| [m];
+- moved: |phi' - (phi + d)| [m] after moving beta's body by d = 1 mm along n.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[2]))
+
+from quasistatic_ref.contact import cloud
+from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape
+from tests.oracles import closest
+
+COLUMNS = ("phi", "inside", "normal", "points", "moved")
+STEP = 1e-3
+WORDS = """Refused: curved solids that meet, and whose answer could not be proved. Of curved solids
+apart the reference is a cone program in float64: at the largest difference, of a cone and an
+ellipsoid, the gap along n, a lower bound of the distance, exceeds the reference. Microseconds
+are upper bounds: the machine did other work meanwhile.
+"""
+
+
+def points_off(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, found: Witness) -> float:
+    """How far closest points are off the surfaces, or apart by another vector than phi n [m]."""
+    on_a = cloud.signed_distance(a, found.alpha[None])[0][0]
+    on_b = cloud.signed_distance(b, ((found.beta - t) @ R)[None])[0][0]
+    apart = np.abs(found.beta - found.alpha - found.phi * found.n).max()
+    return float(max(abs(on_a), abs(on_b), apart))
+
+
+def pair_errors(a: Shape, b: Shape, count: int, seed: int = 0) -> tuple[dict[str, float], int, int]:
+    """Largest errors over some poses, how many were in penetration, how many were refused."""
+    random = np.random.default_rng(seed)
+    directions = random.normal(size=(4000, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    worst = dict.fromkeys(COLUMNS, 0.0)
+    inside = refused = 0
+    here = Placed(a, np.eye(3), np.zeros(3))
+    for R, t in closest.poses(count, seed):
+        try:
+            found = solid_pair("pair", here, Placed(b, R, t))
+            moved = solid_pair("pair", here, Placed(b, R, t + STEP * found.n))
+        except ContactError:
+            refused += 1
+            continue
+        phi, n = found.phi, found.n
+        inside += phi < 0
+        reference = closest.signed_distance(a, b, R, t)
+        errors = {
+            "points": points_off(a, b, R, t, found),
+            "moved": abs(moved.phi - phi - STEP),
+            "normal": abs(n @ n - 1),
+        }
+        if not (isinstance(a, HalfSpace) or isinstance(b, HalfSpace)):
+            along = float(closest.gap(a, b, R, t, n[None])[0])
+            errors["normal"] = max(errors["normal"], abs(along - phi))
+        if reference is not None:
+            errors["phi"] = abs(phi - reference)
+        elif phi < closest.MEETING:
+            errors["inside"] = float(closest.gap(a, b, R, t, directions).max()) - phi
+        else:
+            errors["phi"] = phi  # the reference says that they meet
+        for name, error in errors.items():
+            worst[name] = max(worst[name], float(error))
+    return worst, inside, refused
+
+
+def main() -> int:
+    """Print the table."""
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
+    solids = closest.solids()
+    print(f"{count} poses a pair, half of them degenerate; errors in metres, sizes of 0.1 m.\n")
+    print(WORDS)
+    print("| pair | " + " | ".join(COLUMNS) + " | in penetration | refused | us |")
+    print("|---" * (len(COLUMNS) + 4) + "|")
+    for first, second in closest.pairs():
+        a, b = solids[first], solids[second]
+        worst, inside, refused = pair_errors(a, b, count)
+        poses = list(closest.poses(50, 1))
+        start = time.perf_counter()
+        for R, t in poses:
+            try:
+                solid_pair("pair", Placed(a, np.eye(3), np.zeros(3)), Placed(b, R, t))
+            except ContactError:
+                continue
+        cost = (time.perf_counter() - start) / len(poses) * 1e6
+        cells = [f"{worst[name]:.0e}" if worst[name] else "0" for name in COLUMNS]
+        cells += [str(inside), str(refused), f"{cost:.0f}"]
+        print(f"| {first} - {second} | " + " | ".join(cells) + " |", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,43 @@
+"""The time of a step in numbers: the table behind the figure of the claim ``step_time``.
+
+Run ``python -m validation.make.step_profile > validation/results/step_profile.md`` (ten seconds;
+the extra ``test`` brings DAQP). docs/speed.md compares it with the paper's Fig. 4.
+"""
+
+from __future__ import annotations
+
+import sys
+
+from quasistatic_ref.lab.study.bench.profile import PARTS, SOLVE, Microseconds, measured, share
+from quasistatic_ref.lab.study.measuring.environment import machine
+
+
+def main() -> int:
+    """Measure, and print the page."""
+    found, m = measured(), machine()
+    print("# The time of a step")
+    print()
+    print(
+        f"Written by `python -m validation.make.step_profile` on {m['processor']}, {m['cores']} "
+        f"cores, Python {m['python']}. Every step of `bunny_grasp`, native engine, "
+        "accuracy 1e-12; wall time [us], share of the lap `solve` and of the solver's call alone "
+        f"[%]. By brute force a step evaluates {found['all']} signed distances, with the tracker "
+        f"{found['tracked']:.0f} in the mean."
+    )
+    for title, of_profile in (("Medians", "typical"), ("Means", "mean")):
+        print(f"\n## {title}\n")
+        names = ("backend, distances", *PARTS, "step", "solve [%]", "call alone [%]")
+        print(f"| {' | '.join(names)} |")
+        print("|" + "---|" * len(names))
+        for profile in found["profiles"].all:
+            print(f"| {profile.name} | {' | '.join(_row(getattr(profile, of_profile)))} |")
+    return 0
+
+
+def _row(times: Microseconds) -> list[str]:
+    shares = [f"{100 * share(times, *parts):.0f}" for parts in (SOLVE, SOLVE[:1])]
+    return [f"{us:.0f}" for us in (*times.values(), sum(times.values()))] + shares
+
+
+if __name__ == "__main__":
+    sys.exit(main())

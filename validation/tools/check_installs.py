@@ -1,0 +1,257 @@
+"""Each extra alone does what its name says.
+
+Run ``python -m validation.tools.check_installs [EXTRA ...]``.
+
+Builds the wheel. For each extra (``base`` is none) makes a fresh environment, installs the wheel
+with that extra and nothing else, and runs the commands that ``COMMANDS`` gives it, in an empty
+folder; those that start with ``checkout:`` run in the checkout, whose programs or pages they are.
+Each must end with status 0. What the extra does not bring must be refused by one sentence that
+names the extra that does (``REFUSED``). The README's own lines are taken from the README.
+
+``--python`` names another interpreter, ``--lowest`` installs the lowest versions that are declared,
+``--out`` writes the table and keeps what other runs wrote there. The base comes by pip, as the
+README says; with an extra or on another interpreter, uv takes the same wheels in less time, and it
+can take the lowest. An environment takes one or two gigabytes and is removed. Exit status 1 if a
+command fails.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass
+from importlib.metadata import distributions
+from pathlib import Path
+from textwrap import dedent
+
+from validation.tools.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
+
+ROOT = Path(__file__).parents[2]
+DEMO_SECONDS = 60.0
+"""Processor time of both runs: on a busy machine the clock says what else it does."""
+DEMO_MEBIBYTES = 1024.0
+STILL, PIVOTED = 2.0, 20.0
+"""Degrees that the bunny turns at most with torsional friction, and at least without."""
+HEAD = (
+    "| extra | Python | versions | MB | largest parts [MB] | install [s] | commands [s] | commands "
+    "| verdict |"
+)
+LOWEST = ("--resolution", "lowest-direct", "--only-binary", ":all:")
+"""Options of uv: of what the package itself asks for, the lowest versions; of the rest, newest."""
+PARTS = 8
+"""Packages that are named for their size."""
+PAGE = """# What an installation holds, and that it works
+
+Written by `python -m validation.tools.check_installs --out validation/results/installs.md`. Each
+line is a fresh environment that holds the wheel with one extra (`base`: none), its size that of the
+whole environment, pip included. The commands are those of `validation/tools/installs.py` when the
+line was written; the times are those of one machine with 2 cores that were busy otherwise. What has
+no line was not tried.
+
+"""
+
+
+@dataclass(frozen=True)
+class Environment:
+    """A virtual environment, and the empty folder that its commands run in."""
+
+    home: Path
+    folder: Path
+
+    def run(self, line: str) -> subprocess.CompletedProcess[str]:
+        """One command with this environment's programs and none of the checkout's modules."""
+        place, line = (ROOT, line.removeprefix(CHECKOUT)) if CHECKOUT in line else ("", line)
+        path = f"{self.home / 'bin'}{os.pathsep}{os.environ['PATH']}"
+        settings = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "PYTHONHOME")}
+        settings |= {"PATH": path}
+        words = shlex.split(line.replace("{out}", str(self.folder)))
+        words[0] = str(self.home / "bin" / words[0])
+        return subprocess.run(
+            words, cwd=place or self.folder, env=settings, capture_output=True, text=True,
+        )  # fmt: skip
+
+
+def built(folder: Path) -> Path:
+    """The wheel of this checkout."""
+    command = [sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "-w", folder, ROOT]
+    subprocess.run([str(word) for word in command], check=True, cwd=folder)
+    (wheel,) = folder.glob("*.whl")
+    return wheel
+
+
+def installed(wheel: Path, extra: str, python: str, lowest: bool, folder: Path) -> Environment:
+    """A fresh environment with the wheel and an extra."""
+    home, empty = folder / "environment", folder / "empty"
+    empty.mkdir()
+    subprocess.run([python, "-m", "venv", str(home)], check=True)
+    what = str(wheel) if extra == "base" else f"{wheel}[{extra}]"
+    command = [home / "bin" / "pip", "install", "-q", what]
+    if lowest or extra != "base" or python != sys.executable:
+        command = [_uv(wheel.parent), "pip", "install", "-q", "--python", home / "bin" / "python"]
+        command += [*(LOWEST if lowest else ()), "--compile-bytecode", what]
+    subprocess.run([str(word) for word in command], check=True)
+    return Environment(home, empty)
+
+
+def _uv(folder: Path) -> Path:
+    """The program uv, installed into an environment of its own once a run."""
+    home = folder / "uv"
+    if not home.exists():
+        subprocess.run([sys.executable, "-m", "venv", str(home)], check=True)
+        subprocess.run([str(home / "bin" / "pip"), "install", "-q", "uv"], check=True)
+    return home / "bin" / "uv"
+
+
+def mebibytes(files: Iterable[Path]) -> float:
+    """What files take on the disk; one with two names counts once."""
+    found = (path.lstat() for path in files if path.is_symlink() or path.exists())
+    return sum({(s.st_dev, s.st_ino): 512 * s.st_blocks for s in found}.values()) / 2**20
+
+
+def largest(home: Path) -> str:
+    """The largest packages of an environment, by the files that each one's record lists."""
+    (packages,) = home.glob("lib/python*/site-packages")
+    sizes = {
+        package.name: mebibytes(Path(str(package.locate_file(file))) for file in package.files)
+        for package in distributions(path=[str(packages)])
+        if package.files is not None
+    }
+    named = sorted(sizes.items(), key=lambda item: -item[1])[:PARTS]
+    return ", ".join(f"{name} {size:.0f}" for name, size in named)
+
+
+def python_code(page: str, word: str) -> str:
+    """The fenced blocks of Python on a page of the checkout that hold a word, one after another."""
+    text = (ROOT / page).read_text("utf-8")
+    blocks = re.findall(r"^( *)```python\n(.*?)^\1```", text, re.MULTILINE | re.DOTALL)
+    return "\n".join(dedent(block) for _, block in blocks if word in block)
+
+
+def faults(at: Environment, extra: str) -> list[str]:
+    """What is wrong with the commands of an extra, each printed as it runs."""
+    scripts = {name: python_code(page, word) for name, (page, word) in SCRIPTS.items()}
+    for name, text in (scripts | WALK_FILES).items():
+        (at.folder / name).write_text(text, "utf-8")
+    wrong = []
+    for line in COMMANDS[extra]:
+        start, before = time.perf_counter(), os.times()
+        done = at.run(line)
+        fault = f"status {done.returncode}\n{done.stdout}{done.stderr}" if done.returncode else ""
+        if not fault and line.startswith("quasistatic-ref demo"):
+            now = os.times()
+            spent = sum(now[2:4]) - sum(before[2:4])  # of children, in user and system mode
+            fault = demo_fault(json.loads(done.stdout), spent, at.folder)
+        if not fault and line.startswith("quasistatic-ref run") and "--json" in line:
+            report = json.loads(done.stdout)
+            if report["certified"] != f"{report['steps']} of {report['steps']} steps exact":
+                fault = report["certified"]
+        print(f"  {time.perf_counter() - start:6.1f} s  {line}", flush=True)
+        if fault:
+            wrong.append(f"{line}: {fault}")
+            print(fault, flush=True)
+    for line, names in REFUSED.get(extra, {}).items():
+        done = at.run(line)
+        print(f"  refused: {line}: {done.stderr.strip().splitlines()[-1:]}", flush=True)
+        traced = "Traceback" in done.stderr and not line.startswith("python")
+        if names not in done.stderr or traced:
+            wrong.append(f"{line}: does not name {names}: {done.stderr}")
+    return wrong
+
+
+def demo_fault(report: dict[str, object], seconds: float, folder: Path) -> str:
+    """What a demo did not keep of its promises."""
+    cases, figures = report["cases"], report["figures"]
+    assert isinstance(cases, dict)
+    assert isinstance(figures, list)
+    kept = (
+        cases["with torsion"]["rotation_deg"] < STILL,
+        cases["without torsion"]["rotation_deg"] > PIVOTED,
+        seconds < DEMO_SECONDS,
+        float(str(report["peak_mebibytes"])) < DEMO_MEBIBYTES,
+        all((folder / "demo" / str(name)).stat().st_size > 0 for name in figures),
+    )
+    return "" if all(kept) else f"{seconds:.0f} s, {report}"
+
+
+def row(wheel: Path, extra: str, python: str, lowest: bool) -> tuple[list[str], list[str]]:
+    """The cells of a line of the table, and what was wrong."""
+    folder = Path(tempfile.mkdtemp(prefix="installs-"))
+    try:
+        start = time.perf_counter()
+        at = installed(wheel, extra, python, lowest, folder)
+        took, size, parts = (
+            time.perf_counter() - start,
+            mebibytes(at.home.rglob("*")),
+            largest(at.home),
+        )
+        version = at.run("python -V").stdout.removeprefix("Python ").strip()
+        print(f"{extra}, Python {version}: {size:.0f} MB in {took:.0f} s", flush=True)
+        start = time.perf_counter()
+        wrong = faults(at, extra)
+        ran = time.perf_counter() - start
+    except subprocess.CalledProcessError as error:
+        return [extra, python, _versions(lowest), *"-----", "cannot be installed"], [str(error)]
+    finally:
+        shutil.rmtree(folder)
+    count = len(COMMANDS[extra]) + len(REFUSED.get(extra, {}))
+    verdict = f"{len(wrong)} fail" if wrong else "good"
+    cells = [extra, version, _versions(lowest), f"{size:.0f}", parts]
+    return [*cells, f"{took:.0f}", f"{ran:.0f}", str(count), verdict], wrong
+
+
+def _versions(lowest: bool) -> str:
+    return "lowest" if lowest else "newest"
+
+
+def written(path: Path, rows: list[list[str]]) -> None:
+    """The table with these rows; other rows of a table that is there stay."""
+    kept: dict[tuple[str, ...], list[str]] = {}
+    for line in path.read_text("utf-8").splitlines() if path.exists() else []:
+        cells = [cell.strip() for cell in line.strip("|").split("|")]
+        if line.startswith("|") and line != HEAD and cells[0] in COMMANDS:
+            kept[tuple(cells[:3])] = cells
+    kept |= {tuple(cells[:3]): cells for cells in rows}
+    order = list(COMMANDS)
+    found = sorted(
+        kept.values(), key=lambda cells: (order.index(cells[0]), cells[2] != "newest", cells[1])
+    )
+    lines = [HEAD, "|" + "---|" * (HEAD.count("|") - 1)]
+    lines += ["| " + " | ".join(cells) + " |" for cells in found]
+    path.write_text(PAGE + "\n".join(lines) + "\n", "utf-8")
+
+
+def main() -> int:
+    """Try what was named; 1 if something is wrong."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("extras", nargs="*", metavar="EXTRA", help=", ".join(COMMANDS))
+    parser.add_argument("--python", default=sys.executable, help="interpreter of the environment")
+    parser.add_argument("--lowest", action="store_true", help="the lowest versions declared")
+    parser.add_argument("--out", type=Path, metavar="FILE", help="write the table here")
+    options = parser.parse_args()
+    extras = options.extras or list(COMMANDS)
+    if unknown := set(extras) - set(COMMANDS):
+        parser.error(f"no such extra: {', '.join(sorted(unknown))}")
+    wrong: list[str] = []
+    with tempfile.TemporaryDirectory() as temporary:
+        wheel = built(Path(temporary))
+        for extra in extras:
+            cells, faulty = row(wheel, extra, options.python, options.lowest)
+            print("| " + " | ".join(cells) + " |", flush=True)
+            if options.out is not None:
+                written(options.out, [cells])
+            wrong += [f"{extra}: {fault}" for fault in faulty]
+    print("\n".join(wrong), file=sys.stderr, end="\n" if wrong else "")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,161 @@
+"""Whether the pages of a built site fit a phone and a desktop, in a headless Chromium.
+
+Run ``python -m validation.tools.check_layout SITE [FOLDER]``, where Debian's package chromium is;
+with FOLDER, screenshots of every page stay there.
+
+Every page is opened at each width of ``WIDTHS``. Nothing may be wider than the window or be cut by
+a box that does not scroll: code, tables and equations scroll inside their own boxes. At the larger
+width a command of the shell fits its box, because a comment that has to be scrolled into view is
+not read. Faults planted in a page of the checker's own are found first, or the check fails.
+
+Prints one line for each fault, page and element, and exits with status 1 if there is any.
+"""
+
+from __future__ import annotations
+
+import base64
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from validation.tools.browser import Browser
+
+ROOT = Path(__file__).parents[2]
+WIDTHS = (400, 1280)
+"""Of a phone and of a small laptop [px]."""
+HEIGHT = 900
+TYPESET = "!window.MathJax || window.typeset"
+"""True when MathJax has made its formulas, or a page has none."""
+
+FAULTS = """
+(commands => {
+  const slack = 1.5;  // of rounding [px]
+  const width = document.documentElement.clientWidth;
+  const name = e => e.tagName.toLowerCase() + (e.id ? '#' + e.id : '')
+    + (typeof e.className === 'string' && e.className.trim()
+       ? '.' + e.className.trim().split(/\\s+/).join('.') : '')
+    + ' "' + (e.innerText || e.alt || '').trim().replace(/\\s+/g, ' ').slice(0, 60) + '"';
+  const faults = [];
+  if (document.documentElement.scrollWidth > width + slack)
+    faults.push(`the page is ${document.documentElement.scrollWidth} px wide`);
+  // What a reader cannot see, or what is out of the window until it is shown.
+  const hidden = e => getComputedStyle(e).visibility === 'hidden'
+    || (e.matches('.sidebar-drawer, .toc-drawer, .skip-to-content, .visually-hidden')
+        && (r => r.right <= slack || r.left >= width - slack || r.bottom <= slack
+                 || r.width <= 1)(e.getBoundingClientRect()));
+  const look = (element, box) => {
+    if (element.matches('script, style, mjx-assistive-mml, svg') || hidden(element)) return;
+    const style = getComputedStyle(element), {left, right, width: own} =
+      element.getBoundingClientRect();
+    if (style.display === 'none') return;
+    if (own && !box && (right > width + slack || left < -slack)) {
+      faults.push(`${name(element)} reaches from ${Math.round(left)} to ${Math.round(right)} px`);
+      return;  // what is inside it reaches as far
+    }
+    const [across, down] = [element.scrollWidth - element.clientWidth,
+                            element.scrollHeight - element.clientHeight];
+    const cuts = value => ['hidden', 'clip'].includes(value);
+    if (own > 1 && element.clientWidth && ((cuts(style.overflowX) && across > slack)
+        || (cuts(style.overflowY) && down > slack)))
+      faults.push(`${name(element)} cuts ${Math.max(across, 0)} x ${Math.max(down, 0)} px`);
+    if (element.matches('mjx-container')) return;  // MathJax cuts and hides as it likes
+    const scrolls = ['auto', 'scroll'].includes(style.overflowX);
+    if (commands && scrolls && across > slack && element.closest('.highlight-sh'))
+      faults.push(`${name(element)} hides ${across} px of a command`);
+    for (const child of element.children) look(child, box || scrolls);
+  };
+  look(document.body, false);
+  return faults;
+})
+"""
+"""JavaScript: the faults of the page that is open, one sentence each."""
+
+LONG = "a_name_without_a_break_" * 20
+DOT = "data:image/gif;base64,R0lGODlhAQABAAAAACwAAAAAAQABAAA="
+"""A picture of one pixel."""
+PLANTED = {
+    "a block that is too wide": ('<div style="width:2000px">x</div>', "the page is 2"),
+    "a word that does not break": (f"<p>{LONG}</p>", "the page is"),
+    "a picture that is too wide": (
+        f'<img alt="p" src="{DOT}" style="width:1400px">', 'img "p" reaches',
+    ),
+    "a table without a box": (f"<table><tr><td>{LONG}</table>", "table"),
+    "what is folded away": (
+        f"<details><summary>s</summary><p>{LONG}</p></details>", "the page is",
+    ),
+    "code that is cut": (f'<pre style="overflow:hidden">{LONG}</pre>', "pre"),
+    "a line that is cut in half": (
+        '<div style="height:9px;overflow-y:hidden">cut</div>', 'div "cut" cuts 0 x',
+    ),
+    "a command that has to be scrolled": (
+        f'<div class="highlight-sh"><pre style="overflow:auto">{LONG}</pre></div>',
+        "of a command",
+    ),
+}  # fmt: skip
+"""What is planted in a page, and words of the fault that it is."""
+GOOD = f'<pre style="overflow:auto">{LONG}</pre><div style="overflow-x:auto">{LONG}</div><p>x</p>'
+
+
+def resized(browser: Browser, width: int) -> None:
+    """Give the window a width [px], without scroll bars, which a phone has not."""
+    browser.ask(
+        "Emulation.setDeviceMetricsOverride",
+        width=width, height=HEIGHT, deviceScaleFactor=1, mobile=False,
+    )  # fmt: skip
+    browser.ask("Emulation.setScrollbarsHidden", hidden=True)
+
+
+def page_faults(browser: Browser, page: Path, pictures: Path | None = None) -> Iterator[str]:
+    """One sentence for each fault of a page, with the width at which it is one."""
+    browser.open(page)
+    browser.value("void window.MathJax?.startup?.promise.then(() => { window.typeset = true })")
+    browser.until(TYPESET)
+    browser.until("document.fonts.status === 'loaded'")
+    browser.value("for (const folded of document.querySelectorAll('details')) folded.open = true")
+    # Formulas for screen readers: not seen, and taller than the others in Chromium 156.
+    browser.value("for (const one of document.querySelectorAll('mjx-assistive-mml')) one.remove()")
+    for width in WIDTHS:
+        resized(browser, width)
+        for fault in browser.value(f"{FAULTS}({str(width == WIDTHS[-1]).lower()})"):
+            yield f"at {width} px: {fault}"
+        if pictures:
+            shot = browser.ask("Page.captureScreenshot", format="png", captureBeyondViewport=True)
+            name = f"{'_'.join(page.with_suffix('').parts[-3:])}_{width}.png"
+            (pictures / name).write_bytes(base64.b64decode(shot["data"]))
+
+
+def planted_faults(browser: Browser) -> Iterator[str]:
+    """What the checker does not find in pages with a planted fault, or finds in a good one."""
+    with TemporaryDirectory() as folder:
+        page = Path(folder) / "page.html"
+        for planted, (body, said) in {"nothing": (GOOD, ""), **PLANTED}.items():
+            page.write_text(f"<!doctype html><title>planted</title><body>{body}</body>", "utf-8")
+            found = list(page_faults(browser, page))
+            if bool(found) != bool(said) or not any(said in one for one in found or [""]):
+                yield f"the checker does not work: {planted} was planted, it finds {found}"
+
+
+def main() -> None:
+    """Check the checker, then every page of the site named on the command line."""
+    if len(sys.argv) not in (2, 3):
+        sys.exit("usage: python -m validation.tools.check_layout SITE [FOLDER]")
+    site = Path(sys.argv[1]).resolve()
+    pictures = Path(sys.argv[2]) if len(sys.argv) > 2 else None
+    if pictures:
+        pictures.mkdir(parents=True, exist_ok=True)
+    pages = [path for path in sorted(site.rglob("*.html")) if "_static" not in path.parts]
+    with Browser() as browser:
+        faults = list(planted_faults(browser))
+        for page in () if faults else pages:
+            where = page.relative_to(site)
+            faults += [f"{where} {fault}" for fault in page_faults(browser, page, pictures)]
+    if not pages:
+        faults.append(f"{site} holds no page")
+    found = "\n".join(faults).encode("utf-8", "replace").decode()  # a letter may be cut in half
+    print(found or f"{len(pages)} pages fit {' and '.join(map(str, WIDTHS))} px")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,108 @@
+"""What is optional can be taken away: ``python -m validation.tools.check_parts [PART ...]``.
+
+Each named part (those of ``PARTS`` without a name) is deleted from a copy of the package, then all
+of ``PARTS`` at once. The copy has no ``lab/`` either. ``quasistatic-ref run`` then takes the first
+steps of the grasp, all arrays of which must have the bits that the whole package gives them; and a
+word that needs the part must be refused in a sentence that names it.
+
+Exit status 1 if one of them does not hold.
+"""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).parents[2]
+SCENARIO, STEPS = "bunny_grasp", 40
+PARTS: dict[str, list[str]] = {
+    "derivatives": [],
+    "doctor": ["--strict"],
+    "extensions": [],
+    "fast": ["--fast"],
+    "runs": ["--resume"],
+    "show": ["--view"],
+}
+"""The parts that can go, and of each the option of ``run`` that needs it; ``tests/meta/layers.py``
+lists the imports for which the others (ellipsoid, large) cannot go yet."""
+
+
+def package_copied(folder: Path, *without: str) -> Path:
+    """A folder with the package as a wheel has it, but for ``lab/`` and some parts."""
+    package = folder / "quasistatic_ref"
+    ignored = shutil.ignore_patterns("__pycache__", "lab")
+    shutil.copytree(ROOT / "quasistatic_ref", package, ignore=ignored)
+    for name in without:
+        shutil.rmtree(package / "optional" / name)
+    shutil.copytree(ROOT / "models", package / "models")
+    return folder
+
+
+def ended(folder: Path, steps: int, *options: str) -> subprocess.CompletedProcess[str]:
+    """What ``quasistatic-ref run`` came to with the package in a folder."""
+    command = [sys.executable, "-m", "quasistatic_ref", "run", SCENARIO, "--set", f"steps={steps}"]
+    return subprocess.run(
+        [*command, "--out", str(folder), *options],
+        cwd=folder, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+
+
+def arrays(folder: Path, steps: int) -> dict[str, bytes]:
+    """The bits of all arrays of a run with the package in a folder.
+
+    Raises
+    ------
+    RuntimeError
+        If the run fails.
+    """
+    done = ended(folder, steps)
+    if done.returncode:
+        raise RuntimeError(done.stderr)
+    with np.load(folder / f"{SCENARIO}.npz") as file:
+        return {name: file[name].tobytes() for name in file.files if name != "header"}
+
+
+def faults(expected: dict[str, bytes], steps: int, *gone: str) -> list[str]:
+    """What a package without some parts does wrong, one sentence each."""
+    with tempfile.TemporaryDirectory() as made:
+        folder = package_copied(Path(made), *gone)
+        try:
+            found = arrays(folder, steps)
+        except RuntimeError as error:
+            return [f"the run fails: {error}"]
+        wrong = [f"{name} has other bits" for name in expected if found.get(name) != expected[name]]
+        for name in gone:
+            for option in PARTS[name]:
+                said = ended(folder, 0, option)
+                sentence = f"{option.removeprefix('--')} needs quasistatic_ref/optional/{name}"
+                if said.returncode != 2 or sentence not in said.stderr:
+                    wrong.append(f"{option} is not refused in a sentence: {said.stderr}")
+        return wrong
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Delete and compare; the exit status."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)}")
+    parser.add_argument("--steps", type=int, default=STEPS)
+    options = parser.parse_args(arguments)
+    if unknown := set(options.parts) - set(PARTS):
+        parser.error(f"{unknown.pop()} is not among the parts that can go: {', '.join(PARTS)}")
+    with tempfile.TemporaryDirectory() as made:
+        expected = arrays(package_copied(Path(made)), options.steps)
+    status = 0
+    for gone in [*((name,) for name in options.parts or PARTS), tuple(PARTS)]:
+        wrong = faults(expected, options.steps, *gone)
+        print(f"without {', '.join(gone)}: {'; '.join(wrong) or 'the same bits'}", flush=True)
+        status = status or int(bool(wrong))
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

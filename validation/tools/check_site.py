@@ -1,0 +1,161 @@
+"""Whether a built site holds together and needs no network.
+
+Run ``python -m validation.tools.check_site OUT``.
+
+Of every page: each link and each picture inside the site exists, with the place in the page that a
+link names; nothing that a browser loads by itself (scripts, styles, fonts, pictures, frames) comes
+from elsewhere; and no picture stands twice in one page, which is how a name taken twice shows. The
+paper's equations have the paper's numbers. Of README and the Markdown pages of the repository: each
+relative link leads to a file.
+
+Prints one line for each fault, and exits with status 1 if there is any.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+ROOT = Path(__file__).parents[2]
+LOADED = {
+    "script": "src", "img": "src", "iframe": "src", "source": "src", "video": "src",
+    "audio": "src", "embed": "src", "object": "data",
+}  # fmt: skip
+LOADED_RELATIONS = {"stylesheet", "preload", "modulepreload", "icon", "manifest", "preconnect"}
+STYLE_ADDRESS = re.compile(r"""(?:url\(\s*|@import\s+)["']?((?:https?:)?//[^"')\s]+)""")
+SCRIPT_LOADS = re.compile(
+    r"""(?:(?<!@)\bimport\s*\(?|\bfetch\(|\bsrc\s*=)\s*["']((?:https?:)?//[^"']+)"""
+)
+EQUATION = re.compile(r'id="equation-eq-(\d+)">\s*<span class="eqno">\((\d+)\)')
+MARKDOWN_LINK = re.compile(r"\]\(([^()\s]+)\)")
+FENCE = re.compile(r"^(```+).*?^\1", re.MULTILINE | re.DOTALL)
+
+
+class Page(HTMLParser):
+    """What one page links to, loads, and can be linked to.
+
+    Attributes
+    ----------
+    links, loads, names : list of str
+        Addresses of links; addresses that a browser fetches by itself; ids of places.
+    """
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.loads: list[str] = []
+        self.pictures: list[str] = []
+        self.names: set[str] = set()
+        self.text: list[str] = []
+        self._inside = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """Take up one element."""
+        given = {key: value or "" for key, value in attrs}
+        self._inside = tag
+        self.names |= {given[key] for key in ("id", "name") if key in given}
+        if tag == "a" and "href" in given:
+            self.links.append(given["href"])
+        if tag == "link" and LOADED_RELATIONS & set(given.get("rel", "").split()):
+            self.loads.append(given["href"])
+        if tag in LOADED and LOADED[tag] in given:
+            self.loads.append(given[LOADED[tag]])
+        if tag == "img" and "src" in given:
+            self.pictures.append(given["src"])
+        self.text.append(f"style: {given['style']}" if "style" in given else "")
+
+    def handle_data(self, data: str) -> None:
+        """Keep the text of styles and scripts."""
+        if self._inside in ("style", "script"):
+            self.text.append(data)
+
+
+def site_faults(site: Path) -> Iterator[str]:
+    """One sentence for each fault of a built site."""
+    pages = {path: Page(path.read_text("utf-8")) for path in sorted(site.rglob("*.html"))}
+    if not pages:
+        yield f"{site} holds no page"
+    for path, page in pages.items():
+        where = path.relative_to(site)
+        for address in page.loads:
+            if is_elsewhere(address):
+                yield f"{where} loads {address}"
+            elif not address.startswith("data:") and not _target(path, address).exists():
+                yield f"{where} loads {address}, which is not there"
+        for found in _remote("\n".join(page.text)):
+            yield f"{where} loads {found}"
+        for picture, times in Counter(page.pictures).items():
+            if times > 1:
+                yield f"{where} shows {picture} {times} times"
+        for address in page.links:
+            yield from link_faults(path, address, pages, site)
+    for path in sorted((*site.rglob("*.css"), *site.rglob("*.js"))):
+        if "mathjax" not in path.parts:  # it names addresses, and does not use them
+            for found in _remote(path.read_text("utf-8", "replace")):
+                yield f"{path.relative_to(site)} loads {found}"
+
+
+def link_faults(path: Path, address: str, pages: dict[Path, Page], site: Path) -> Iterator[str]:
+    """Faults of one link of a page; links to other sites are not followed."""
+    if urlsplit(address).scheme or address.startswith("//"):
+        return
+    target, place = _target(path, address), unquote(urlsplit(address).fragment)
+    where = path.relative_to(site)
+    if not target.exists():
+        yield f"{where} links to {address}, which is not there"
+    elif place and target in pages and place not in pages[target].names:
+        yield f"{where} links to {address}, a place that the page does not have"
+
+
+def equation_faults(page: str) -> Iterator[str]:
+    """Whether the paper's equations have the paper's numbers in a page: label eq-N, number (N)."""
+    numbered = EQUATION.findall(page)
+    expected = [(str(n), str(n)) for n in range(1, 14)]
+    if numbered != expected:
+        yield f"equations and their numbers are {numbered}, not 1 to 13"
+
+
+def markdown_faults(root: Path) -> Iterator[str]:
+    """Relative links of README and other Markdown files of a repository that lead nowhere."""
+    folders = ("docs", "models", "validation", "quasistatic_ref")
+    files = [*root.glob("*.md"), *(p for f in folders for p in sorted((root / f).rglob("*.md")))]
+    for path in files:
+        for address in MARKDOWN_LINK.findall(FENCE.sub("", path.read_text("utf-8"))):
+            parts = urlsplit(address)
+            if not parts.scheme and parts.path and not (path.parent / unquote(parts.path)).exists():
+                yield f"{path.relative_to(root)} links to {address}, which is not there"
+
+
+def is_elsewhere(address: str) -> bool:
+    """Whether an address leads out of the site."""
+    return urlsplit(address).scheme in ("http", "https", "ftp") or address.startswith("//")
+
+
+def _remote(text: str) -> list[str]:
+    return STYLE_ADDRESS.findall(text) + SCRIPT_LOADS.findall(text)
+
+
+def _target(path: Path, address: str) -> Path:
+    file = unquote(urlsplit(address).path)
+    return (path.parent / file).resolve() if file else path
+
+
+def main() -> None:
+    """Check the site named on the command line, and the Markdown files of this repository."""
+    if len(sys.argv) != 2:
+        sys.exit("usage: python -m validation.tools.check_site OUT")
+    site = Path(sys.argv[1]).resolve()
+    equations = (site / "theory" / "equations.html").read_text("utf-8")
+    faults = [*site_faults(site), *equation_faults(equations), *markdown_faults(ROOT)]
+    print("\n".join(faults) or "every link leads somewhere, and nothing comes from elsewhere")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()

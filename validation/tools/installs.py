@@ -1,0 +1,141 @@
+"""What each extra is for, as commands that need it; ``check_installs.py`` runs them."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Final
+
+CHECKOUT: Final = "checkout:"
+"""In front of commands whose programs or pages are in the checkout and not in the wheel."""
+
+ROOT: Final = Path(__file__).parents[2]
+MODELS: Final = ROOT / "models"
+OWN: Final = tuple(
+    sorted(
+        path.stem for path in MODELS.glob("*/*.toml") if "package://" not in path.read_text("utf-8")
+    )
+)
+"""Scenarios whose robots come along."""
+
+SHELL: Final = re.compile(r"^```(?:sh|bash|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+FILE: Final = re.compile(
+    r"^```\{code-block\} \w+\n:caption: (\S+)\n\n(.*?)^```", re.MULTILINE | re.DOTALL
+)
+
+
+def shell_lines(markdown: str) -> tuple[str, ...]:
+    """Every command line in the fenced shell blocks of a text, without prompts and comments."""
+    lines = [line for block in SHELL.findall(markdown) for line in block.splitlines()]
+    stripped = [line.removeprefix("$ ").partition(" #")[0].strip() for line in lines]
+    return tuple(line for line in stripped if line and not line.startswith("#"))
+
+
+WALK: Final = (ROOT / "docs" / "guides" / "first_scene.md").read_text("utf-8")
+"""From a URDF to a picture: the page of which a newcomer types every command."""
+WALK_FILES: Final = dict(FILE.findall(WALK))
+"""Its files, by the captions that name them."""
+
+ROBOTS: Final = (
+    "quasistatic-ref run panda_push --set steps=20 --json",
+    "quasistatic-ref run allegro_turn --set steps=5 --json",
+)
+VIEW: Final = ("quasistatic-ref run two_finger_pinch --set steps=20 --view",)
+ENGINES: Final = ("quasistatic-ref validate mujoco_rows",)
+FAST: Final = (
+    'python -c "import os, sys; '
+    "os.environ['QUASISTATIC_REF_CC'] = sys.executable + ' -m ziglang cc'; "
+    'from quasistatic_ref.optional.fast.compiled import why_not; sys.exit(why_not())"',
+    "quasistatic-ref run sphere_spin --set steps=20 --json",
+)
+"""With the compiler that comes along, also where the system has one."""
+PARQUET: Final = ("quasistatic-ref vectors export --out bundle",)
+PANDAS: Final = (
+    'python -c "from quasistatic_ref import load_scenario as load; '
+    "print(load('sphere_spin', steps=5).run(progress=False).to_pandas())\"",
+)
+JAX: Final = ("python -m quasistatic_ref.lab.examples.plan_a_push",)
+STUDY: Final = (
+    "quasistatic-ref study run default --quick --out study",
+    "quasistatic-ref study report study --out report",
+    "quasistatic-ref study pack study",
+    "quasistatic-ref study export study --every 20 --out qpbenchmark",
+    "quasistatic-ref study problems check",
+    "quasistatic-ref study problems export --to npz --families wedge --every 20 --out problems",
+    "quasistatic-ref study sequences daqp --scenario sphere_spin --repetitions 1 --out sequences",
+)
+
+COMMANDS: Final[dict[str, tuple[str, ...]]] = {
+    "base": (
+        "quasistatic-ref --help",
+        "quasistatic-ref demo --out demo --json",
+        "python readme.py",
+        *shell_lines(WALK),
+        *(f"quasistatic-ref run {name} --json" for name in OWN if name != "bunny_grasp"),
+        "quasistatic-ref run bunny_grasp --set contacts.grip.mu_omega=0 --set steps=20 --json",
+        "quasistatic-ref run sphere_spin --set steps=5 --out short --backend osqp --json",
+        "quasistatic-ref run sphere_spin --set steps=5 --out short --cone ellipsoid",
+        "quasistatic-ref extract results/stack.npz --step 5 -o step.json",
+        "quasistatic-ref solve step.json -o solution.json",
+        "quasistatic-ref verify step.json solution.json",
+        "quasistatic-ref inspect bunny_grasp",
+        "quasistatic-ref backends",
+        "quasistatic-ref completion bash",
+        "quasistatic-ref schema",
+        "quasistatic-ref vectors own --layer qp --out answers",
+        "quasistatic-ref vectors check answers",
+        "quasistatic-ref vectors report answers --implementation 'own answers' --out conformance",
+        "quasistatic-ref vectors pack --out archive",
+        "quasistatic-ref vectors challenge --layer rows --cases 12 "
+        "--command 'quasistatic-ref vectors challenge --serve own' --out counterexamples",
+        "quasistatic-ref validate incline_sliding",
+        "quasistatic-ref figures block_on_a_table",
+        "python -m quasistatic_ref.lab.examples.door",
+        "quasistatic-ref bench --quick",
+    ),
+    "robots": ROBOTS,
+    "view": VIEW,
+    "fast": FAST,
+    "engines": ENGINES,
+    "drake": ("quasistatic-ref validate drake",),
+    "pandas": PANDAS,
+    "parquet": PARQUET,
+    "diff": ("python diff.py",),
+    "jax": JAX,
+    "study": STUDY,
+    "notebooks": (
+        "checkout:python -m validation.tools.notebooks --only door robot_push "
+        "--out {out}/notebooks",
+    ),
+    "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
+    "fuzz": ("checkout:python -m validation.tools.fuzz --inputs 600 --out {out}/fuzz",),
+    "test": (
+        "checkout:python -m pytest -q -p no:cacheprovider tests/meta tests/equations",
+        "checkout:ruff check .",
+        "checkout:mypy",
+    ),
+    "all": (*ROBOTS, *VIEW, *FAST, *ENGINES, *PARQUET, *PANDAS, *JAX),
+}
+"""Extra -> command lines; ``{out}`` is the empty folder."""
+
+SCRIPTS: Final = {
+    "readme.py": ("README.md", "solve_step"),
+    "diff.py": ("docs/sensitivity.md", "DIFFCP"),
+}
+"""Script in the empty folder -> the page that it stands on, and a word of its blocks there."""
+
+REFUSED: Final = {
+    "base": {
+        "quasistatic-ref run panda_push": "quasistatic-ref[robots]",
+        "quasistatic-ref run sphere_spin --set steps=5 --out short --view": "quasistatic-ref[view]",
+        "quasistatic-ref run sphere_spin --backend proxqp": "quasistatic-ref[study]",
+        "quasistatic-ref vectors export": "quasistatic-ref[parquet]",
+        "quasistatic-ref figures robot_push": "quasistatic-ref[robots]",
+        "quasistatic-ref figures plan_a_push": "quasistatic-ref[jax]",
+        "quasistatic-ref validate mujoco_rows": "quasistatic-ref[engines]",
+        "quasistatic-ref validate drake": "quasistatic-ref[drake]",
+        "checkout:python -m validation.tools.notebooks": "quasistatic-ref[notebooks]",
+        PANDAS[0]: "quasistatic-ref[pandas]",
+    }
+}
+"""Extra -> command that needs another one -> what its sentence must name."""

@@ -1,0 +1,123 @@
+"""Make the notebook of each lecture: text, tasks, and cells that say whether an answer is right.
+
+Run ``python -m validation.tools.lectures [--out FOLDER] [--answers] [--run]`` (extra
+``notebooks``). A lecture is a file of ``docs/lectures/`` whose cells begin with ``# %% setup``,
+``task``, ``answer`` or ``check``. Notebooks have no answers by default. With --run, each is
+executed with its answers; exit status 1 if one fails, gives less than all marks, or takes a minute
+of the processor.
+"""
+
+import argparse
+import ast
+import re
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+FOLDER = Path(__file__).parents[2] / "docs" / "lectures"
+LECTURES = (
+    "one_contact", "springs_and_steps", "clouds_and_jacobians", "the_program_in_cvxpy",
+    "grasps_and_certificates",
+)  # fmt: skip
+MINUTE = 60.0
+"""Longest time of the processor that a lecture's notebook may take [s]."""
+
+GRADES = '''marks = {}
+
+
+def check(task, right):
+    """Mark a task: right, or not yet."""
+    try:
+        marks[task] = bool(right())
+    except Exception as error:
+        marks[task] = False
+        print(f"{type(error).__name__}: {error}")
+    print(f"{task}: {'right' if marks[task] else 'not yet'}")
+'''
+TOTAL = 'print(f"{sum(marks.values())} of {len(marks)} right")'
+
+
+def cells(name: str) -> tuple[str, list[tuple[str, str]]]:
+    """Text at the head of a lecture, and its cells: kind and source."""
+    head, *parts = re.split(
+        r"^# %% (\w+)\n", (FOLDER / f"{name}.py").read_text("utf-8"), flags=re.M
+    )
+    pairs = zip(parts[::2], parts[1::2], strict=True)
+    return ast.get_docstring(ast.parse(head)) or "", [(kind, code.strip()) for kind, code in pairs]
+
+
+def program(name: str, answers: bool) -> str:
+    """A lecture as one program, with its answers or with what is to be filled in."""
+    left_out = "task" if answers else "answer"
+    return "\n\n".join(
+        [GRADES, *(code for kind, code in cells(name)[1] if kind != left_out), TOTAL]
+    )
+
+
+def marks(name: str, answers: bool) -> dict[str, bool]:
+    """Task -> whether it is right, after the lecture has run in this process."""
+    space: dict[str, Any] = {}
+    exec(compile(program(name, answers), name, "exec"), space)
+    return dict(space["marks"])
+
+
+def notebook(name: str, answers: bool) -> Any:
+    """A lecture as a notebook."""
+    import nbformat
+
+    text, parts = cells(name)
+    title, _, body = text.partition("\n")
+    book = nbformat.v4.new_notebook()
+    new, say = nbformat.v4.new_code_cell, nbformat.v4.new_markdown_cell
+    book.cells = [say(f"# {title}\n{body}"), new(GRADES)]
+    for kind, code in parts:
+        if kind == "task":
+            question = ast.get_docstring(ast.parse(code)) or ""
+            book.cells.append(say(f"**Task.** {question}"))
+            code = re.sub(r'\A""".*?"""\s*', "", code, count=1, flags=re.S)
+        if kind != ("task" if answers else "answer"):
+            book.cells.append(new(code))
+    book.cells.append(new(TOTAL))
+    for k, cell in enumerate(book.cells):
+        cell["id"] = f"cell-{k}"  # the same every time
+    return book
+
+
+def fault(name: str, book: Any) -> str:
+    """What is wrong with a notebook that has its answers, or nothing."""
+    import nbformat
+    from nbclient import NotebookClient
+    from traitlets.config import Config
+
+    book.cells.append(nbformat.v4.new_code_cell("import time; print(time.process_time())"))
+    with TemporaryDirectory() as folder:  # spoken to through files: no ports
+        config = Config({"KernelManager": {"transport": "ipc", "ip": f"{folder}/kernel"}})
+        NotebookClient(book, timeout=600, config=config).execute()
+    said, seconds = (cell.outputs[0]["text"].strip() for cell in book.cells[-2:])
+    took = float(seconds)
+    print(f"{name}: {said}, {took:.1f} s", flush=True)
+    right, _, whole, _ = said.split()
+    return "" if right == whole and took < MINUTE else f"{name}: {said} in {took:.1f} s"
+
+
+def main() -> int:
+    """Write, and run."""
+    import nbformat
+
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, default=Path("lectures"))
+    parser.add_argument("--answers", action="store_true")
+    parser.add_argument("--run", action="store_true")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    for name in LECTURES:
+        nbformat.write(notebook(name, options.answers), options.out / f"{name}.ipynb")
+    print(f"wrote {len(LECTURES)} notebooks to {options.out}")
+    wrong = [fault(name, notebook(name, True)) for name in LECTURES] if options.run else []
+    print("\n".join(filter(None, wrong)), end="")
+    return 1 if any(wrong) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
