@@ -93,13 +93,17 @@ def _resized(shape: Shape, scale: float) -> Shape:
 
 
 def _best(a: Placed, b: Placed, start: Judged) -> Judged:
-    """Of an answer and the maxima near it, the widest gap that is proved, or the least defect."""
+    """Of an answer and the maxima near it, the widest gap that is proved."""
     every = [start]
     if np.isfinite(start.n).all():
         every += [judged(a, b, *way) for way in settled(a, b, Witness(*start[:4]))]
-    widest = max((found.phi for found in every if found.defect <= WITNESS), default=-np.inf)
-    level = [found for found in every if found.phi >= widest - WITNESS]
-    return min(level, key=lambda found: found.defect)
+    for room in (ENOUGH, WITNESS):
+        proved = [found for found in every if found.defect <= room]
+        if proved:  # no gap exceeds the distance
+            widest = max(found.phi for found in proved)
+            level = [found for found in proved if found.phi >= widest - room]
+            return min(level, key=lambda found: found.defect)
+    return min(every, key=lambda found: found.defect)
 
 
 def _by_coal(a: Placed, b: Placed) -> Judged:

@@ -1,16 +1,14 @@
 """Signed distance, closest points and normal of two solids, each pair by its own method.
 
 A sphere on anything, anything on a half-space, and every pair of box, convex mesh and capsule
-have closed forms, right to rounding (a sphere on an ellipsoid: Newton's method, as accurate). A
-polytope or a cylinder and a cylinder, cone or ellipsoid that are apart have candidates, one for
-each face, edge, rim and vertex. For all others, curved solids that meet, and cones and ellipsoids
-among themselves, coal's answer is refined, and then checked.
+have closed forms, right to rounding (a sphere on an ellipsoid: Newton's method, as accurate). For
+all others, a cylinder, cone or ellipsoid and any of these or of those, coal's answer is refined,
+and then checked.
 """
 
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.solids.by_coal import coal_witness
-from quasistatic_ref.contact.solids.curved_pair import curved_witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
@@ -59,8 +57,7 @@ def _curved_pair(name: str, a: Placed, b: Placed) -> Witness:
         return _solid_on_plane(a, a.shape, b)
     if isinstance(b.shape, HalfSpace):
         return _solid_on_plane(b, b.shape, a).swapped()
-    apart = curved_witness(a, b)
-    return coal_witness(name, a, b) if apart is None else apart
+    return coal_witness(name, a, b)
 
 
 def _sphere_on_solid(solid: Placed, sphere: Placed, radius: float) -> Witness:

@@ -6,7 +6,6 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.placed import Placed, Witness
 from quasistatic_ref.contact.solids import by_coal
-from quasistatic_ref.contact.solids.curved_pair import curved_witness
 from quasistatic_ref.contact.solids.settle import settled
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
@@ -196,8 +195,8 @@ def test_what_is_below_a_cylinder_is_as_near_as_what_is_above_it(other, place) -
     turned = Rotation.from_rotvec([0.4, 0, 0]).as_matrix()
     mirror = np.array([1, 1, -1])
     flipped = turned.T @ (np.eye(3) if other == "ellipsoid" else np.diag([1, -1, -1]))
-    above = curved_witness(cylinder, Placed(SOLIDS[other], turned, np.array(place)))
-    below = curved_witness(cylinder, Placed(SOLIDS[other], flipped, mirror * place))
+    above = solid_pair("p", cylinder, Placed(SOLIDS[other], turned, np.array(place)))
+    below = solid_pair("p", cylinder, Placed(SOLIDS[other], flipped, mirror * place))
     np.testing.assert_allclose(below.phi, above.phi, rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(below.n, mirror * above.n, rtol=EXACT, atol=DIFFERENCE)
     np.testing.assert_allclose(below.alpha, mirror * above.alpha, rtol=EXACT, atol=DIFFERENCE)

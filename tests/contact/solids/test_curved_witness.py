@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.placed import Placed, Witness
-from quasistatic_ref.contact.solids.curved_pair import curved_witness
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
 from tests.contact.solids.test_curved_pairs import enlarged
@@ -60,7 +60,7 @@ def put(feature: str, other: Shape, distance: float, scale: float = 1.0) -> tupl
 def test_closest_points_are_found_at_every_feature(feature, other) -> None:
     for distance in (0.02, 1e-6):
         here, there, expected = put(feature, other, distance)
-        for found in (curved_witness(here, there), curved_witness(there, here).swapped()):
+        for found in (solid_pair("p", here, there), solid_pair("p", there, here).swapped()):
             np.testing.assert_allclose(found.phi, distance, rtol=EXACT, atol=ROUNDING)
             for one, two in zip(found[1:], expected[1:], strict=True):
                 np.testing.assert_allclose(one, two, rtol=EXACT, atol=WAY_OUT)
@@ -70,12 +70,12 @@ def test_closest_points_are_found_at_every_feature(feature, other) -> None:
 def test_closest_points_are_found_at_every_scale(scale) -> None:
     for feature in ("edge of a box", "side of a cylinder"):
         here, there, expected = put(feature, OTHERS[0], 0.02 * scale, scale)
-        found = curved_witness(here, there)
+        found = solid_pair("p", here, there)
         np.testing.assert_allclose(found.phi, expected.phi, rtol=ROUNDING)
 
 
 def test_a_normal_at_an_edge_has_length_one_however_near_the_contact() -> None:
     for feature in ("edge of a box", "edge of a mesh", "slanting edge of a mesh"):
-        found = curved_witness(*put(feature, OTHERS[1], 1e-11)[:2])
+        found = solid_pair("p", *put(feature, OTHERS[1], 1e-11)[:2])
         np.testing.assert_allclose(found.phi, 1e-11, rtol=EXACT, atol=CURVED_PAIR)
         np.testing.assert_allclose(found.n @ found.n, 1, rtol=FOUR_ULP)

@@ -177,7 +177,6 @@ TESTS: dict[str, tuple[str, ...]] = {
     "contact/solids/settle.py": CURVED,
     "contact/solids/faces.py": CURVED,
     "contact/solids/by_coal.py": CURVED,
-    "contact/solids/curved_pair.py": CURVED,
     "optional/ellipsoid/enclosure.py": ENCLOSED,
     "optional/ellipsoid/interior.py": ENCLOSED,
     "optional/ellipsoid/newton.py": ENCLOSED,
