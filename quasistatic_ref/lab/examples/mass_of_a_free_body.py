@@ -17,8 +17,7 @@ from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model.motion import cross_matrix
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.legible import DRAWING
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
 from quasistatic_ref.step.data import Array
 
 M, LENGTH, TILT, H, STEPS = 0.5, 0.2, 20.0, 0.02, 9
