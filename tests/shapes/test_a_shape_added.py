@@ -21,7 +21,7 @@ from quasistatic_ref.optional.derivatives.contact.features import feature
 from quasistatic_ref.optional.show.figures import draw_scene, moment, panels
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.scenario.world_solids import SOLIDS, Kind
-from quasistatic_ref.shapes.placed_shape import Box, HalfSpace
+from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, Sphere
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import lengths
 from tests.errors.scene import SCENE, changed, scene_written
@@ -81,9 +81,9 @@ def test_its_distances_of_points_are_those_of_the_formula():
     assert PAD.extent == pytest.approx(2 * (HALF.max() + RADIUS), rel=ROUNDING)
 
 
-@pytest.mark.parametrize("other", [Box(np.full(3, 0.05)), HalfSpace(np.array([0, 0, -1.0]), 0.05)])
+@pytest.mark.parametrize("other", [Sphere(0.05), HalfSpace(np.array([0, 0, -1.0]), 0.05)])
 def test_its_distance_to_other_solids_is_that_of_the_faces(other):
-    # The lower face of the box, and the plane of the half-space, are 0.05 from their frame.
+    # The ball's lowest point, and the plane of the half-space, are 0.05 from their frame.
     gap = 0.02
     above = Placed(other, np.eye(3), np.array([0.01, 0.02, HALF[2] + RADIUS + gap + 0.05]))
     found = solid_pair("pad", Placed(PAD, np.eye(3), np.zeros(3)), above)
