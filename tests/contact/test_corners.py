@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.distance import ClosestPoints, _towards, late
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -113,7 +113,7 @@ def test_candidates_that_differ_by_as_much_as_counts_are_one() -> None:
 
 
 def test_a_point_on_a_rim_that_is_not_level_is_the_way_to_the_other() -> None:
-    rim, z = Placed(Cylinder(0.5, 0.25), np.eye(3), np.zeros(3)), np.array([0.0, 0.0, 1.0])
+    rim, z = ShapeInWorld(Cylinder(0.5, 0.25), np.eye(3), np.zeros(3)), np.array([0.0, 0.0, 1.0])
     y = np.array([0.0, 1.0, 0.0])
     near, off = (0.5 * (1 - share * ON_RIM) * y + 0.25 * z for share in (1.0, 2.0))
     for point, tilt, own in ((near, 0.1, True), (off, 0.1, False), (near, UPRIGHT, False)):

@@ -31,7 +31,7 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
@@ -213,7 +213,9 @@ def main() -> int:
         side = "apart" if apart else "in"
         line[side] += 1
         try:
-            found = solid_pair("pair", Placed(a, np.eye(3), np.zeros(3)), Placed(b, R, t))
+            found = solid_pair(
+                "pair", ShapeInWorld(a, np.eye(3), np.zeros(3)), ShapeInWorld(b, R, t)
+            )
         except ContactError:
             line[f"refused {side}"] += 1
             continue

@@ -7,7 +7,7 @@ and then checked.
 """
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.by_coal import coal_witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
@@ -15,7 +15,7 @@ from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
 
 
-def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
+def solid_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     """Closest points of two solids in the world frame.
 
     Where the normal is not unique, it is any one; a contact's is chosen by
@@ -25,7 +25,7 @@ def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
     ----------
     name : str
         Of the pair, for messages.
-    a, b : Placed
+    a, b : ShapeInWorld
         Not two half-spaces.
 
     Raises
@@ -36,7 +36,9 @@ def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
     return pair_and_gaps(name, a, b)[0]
 
 
-def pair_and_gaps(name: str, a: Placed, b: Placed) -> tuple[Witness, tuple[Array, Array] | None]:
+def pair_and_gaps(
+    name: str, a: ShapeInWorld, b: ShapeInWorld
+) -> tuple[Witness, tuple[Array, Array] | None]:
     """The same, and of two polytopes the gaps (N,) [m] along all their normals (N, 3) [-]."""
     P, Q = polytope(a.shape), polytope(b.shape)
     if P is None or Q is None:
@@ -48,7 +50,7 @@ def pair_and_gaps(name: str, a: Placed, b: Placed) -> tuple[Witness, tuple[Array
     return points, (every - P.margin - Q.margin, normals @ a.R.T)
 
 
-def _curved_pair(name: str, a: Placed, b: Placed) -> Witness:
+def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     if isinstance(b.shape, Sphere):
         return _sphere_on_solid(a, b, b.shape.radius)
     if isinstance(a.shape, Sphere):
@@ -60,14 +62,14 @@ def _curved_pair(name: str, a: Placed, b: Placed) -> Witness:
     return coal_witness(name, a, b)
 
 
-def _sphere_on_solid(solid: Placed, sphere: Placed, radius: float) -> Witness:
+def _sphere_on_solid(solid: ShapeInWorld, sphere: ShapeInWorld, radius: float) -> Witness:
     distance, normal = signed_distance(solid.shape, ((sphere.t - solid.t) @ solid.R)[None])
     n = solid.R @ normal[0]
     phi = float(distance[0])
     return Witness(phi - radius, sphere.t - phi * n, sphere.t - radius * n, n)
 
 
-def _solid_on_plane(plane: Placed, half_space: HalfSpace, solid: Placed) -> Witness:
+def _solid_on_plane(plane: ShapeInWorld, half_space: HalfSpace, solid: ShapeInWorld) -> Witness:
     n = plane.R @ half_space.normal
     lowest = solid.farthest(-n)
     phi = float(n @ (lowest - plane.t) - half_space.offset)

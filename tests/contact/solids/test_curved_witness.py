@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
@@ -43,16 +43,18 @@ FEATURES = {
 OTHERS = Ellipsoid(np.array([0.03, 0.05, 0.08])), Cone(0.05, 0.08)
 
 
-def put(feature: str, other: Shape, distance: float, scale: float = 1.0) -> tuple[Placed, ...]:
+def put(
+    feature: str, other: Shape, distance: float, scale: float = 1.0
+) -> tuple[ShapeInWorld, ...]:
     """A solid and another next to one of its features."""
     solid, point, own = FEATURES[feature]
     R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix()
     t, n = scale * np.array([0.1, 0.2, 0.3]), R @ own
     alpha = scale * R @ point + t
     beta = alpha + distance * n
-    there = Placed(enlarged(other, scale), S, np.zeros(3))
+    there = ShapeInWorld(enlarged(other, scale), S, np.zeros(3))
     there = there._replace(t=beta - S @ there.shape.support_point(S.T @ -n))
-    return Placed(enlarged(solid, scale), R, t), there, Witness(distance, alpha, beta, n)
+    return ShapeInWorld(enlarged(solid, scale), R, t), there, Witness(distance, alpha, beta, n)
 
 
 @pytest.mark.parametrize("other", OTHERS, ids=["ellipsoid", "cone"])

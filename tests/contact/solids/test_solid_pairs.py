@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
@@ -45,11 +45,11 @@ def test_a_pair_is_as_far_apart_as_another_computation_says(names: tuple[str, st
     random = np.random.default_rng(5)
     directions = random.normal(size=(2000, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    here, answered = Placed(a, np.eye(3), np.zeros(3)), 0
+    here, answered = ShapeInWorld(a, np.eye(3), np.zeros(3)), 0
     for R, t in closest.poses(16, 11):
         try:
-            phi, alpha, beta, n = solid_pair("p", here, Placed(b, R, t))
-            moved = solid_pair("p", here, Placed(b, R, t + STEP * n)).phi
+            phi, alpha, beta, n = solid_pair("p", here, ShapeInWorld(b, R, t))
+            moved = solid_pair("p", here, ShapeInWorld(b, R, t + STEP * n)).phi
         except ContactError:
             assert by_coal(names)
             continue
@@ -154,13 +154,13 @@ def test_a_capsule_lies_on_its_two_caps_and_a_cylinder_on_its_rims() -> None:
 
 
 def test_parallel_and_crossing_capsules_have_a_normal_to_both_axes() -> None:
-    one = Placed(Capsule(0.03, 0.1), np.eye(3), np.zeros(3))
+    one = ShapeInWorld(Capsule(0.03, 0.1), np.eye(3), np.zeros(3))
     crossing = Rotation.from_rotvec([0, np.pi / 3, 0]).as_matrix()
     for R in (np.eye(3), crossing):
-        phi, _, _, n = solid_pair("p", one, Placed(Capsule(0.02, 0.1), R, np.zeros(3)))
+        phi, _, _, n = solid_pair("p", one, ShapeInWorld(Capsule(0.02, 0.1), R, np.zeros(3)))
         np.testing.assert_allclose(phi, -0.05, rtol=EXACT, atol=CLOSED_FORM)
         np.testing.assert_allclose([n[2], n @ R[:, 2]], 0, rtol=EXACT, atol=CLOSED_FORM)
-    end_to_end = Placed(Capsule(0.02, 0.1), np.eye(3), np.array([0, 0, 0.3]))
+    end_to_end = ShapeInWorld(Capsule(0.02, 0.1), np.eye(3), np.array([0, 0, 0.3]))
     phi, _, _, n = solid_pair("p", one, end_to_end)
     np.testing.assert_allclose(phi, 0.1 - 0.05, rtol=EXACT, atol=CLOSED_FORM)
     np.testing.assert_allclose(n, [0, 0, 1], rtol=EXACT, atol=CLOSED_FORM)
@@ -196,9 +196,12 @@ def test_a_corner_near_the_edge_of_another_solid(beyond: float, up: float) -> No
     tip = np.array([0.1 + beyond, 0.05, 0.2 + up])
     ways = np.array([[0, 0, 0], [0.03, 0.01, 0.05], [-0.02, 0.03, 0.06], [0.01, -0.03, 0.07]])
     here = np.eye(3), np.zeros(3)
-    other = Placed(convex_hull(tip + ways), *here)
+    other = ShapeInWorld(convex_hull(tip + ways), *here)
     for shape in (convex_hull(corners), Box(np.array([0.1, 0.3, 0.2]))):
-        for one, two, sign in ((Placed(shape, *here), other, 1), (other, Placed(shape, *here), -1)):
+        for one, two, sign in (
+            (ShapeInWorld(shape, *here), other, 1),
+            (other, ShapeInWorld(shape, *here), -1),
+        ):
             _, alpha, beta, n = solid_pair("p", one, two)
             np.testing.assert_allclose(sign * n, lean, rtol=0, atol=NORMAL_BESIDE)
             np.testing.assert_allclose(alpha if sign < 0 else beta, tip, rtol=0, atol=CLOSED_FORM)
@@ -208,13 +211,13 @@ def test_a_corner_near_the_edge_of_another_solid(beyond: float, up: float) -> No
 def test_edges_that_cross_nearly_parallel_have_their_common_normal(angle: float) -> None:
     # The edge of a cube turned by 45 degrees is the line z = 0.1 sqrt(2); one that crosses above.
     R = Rotation.from_rotvec([np.pi / 4, 0, 0]).as_matrix()
-    cube = Placed(Box(np.full(3, 0.1)), R, np.zeros(3))
+    cube = ShapeInWorld(Box(np.full(3, 0.1)), R, np.zeros(3))
     way, up = np.array([np.cos(angle), np.sin(angle), 0.0]), np.array([0.0, 0.0, 1.0])
     across = np.cross(up, way)
     middle = np.array([0.01, 0.0, 0.1 * np.sqrt(2) + 0.02])
     ends = [middle - 0.06 * way, middle + 0.04 * way]
     roof = convex_hull([*ends, *(middle + 0.05 * up + s * 0.02 * across for s in (-1, 1))])
-    phi, alpha, _, n = solid_pair("p", cube, Placed(roof, np.eye(3), np.zeros(3)))
+    phi, alpha, _, n = solid_pair("p", cube, ShapeInWorld(roof, np.eye(3), np.zeros(3)))
     np.testing.assert_allclose(n, up, rtol=0, atol=CLOSED_FORM)
     np.testing.assert_allclose(phi, 0.02, rtol=0, atol=CLOSED_FORM)
     np.testing.assert_allclose(alpha[:2], middle[:2], rtol=0, atol=CLOSED_FORM / angle)
@@ -229,9 +232,9 @@ def test_a_rims_first_corner_is_the_closest_point_and_repeats_it(seed: int) -> N
     R = Rotation.random(random_state=seed).as_matrix()
     way = rng.normal(size=3)
     t = 0.3 * way / np.sqrt(way @ way)
-    here = Placed(one, np.eye(3), np.zeros(3))
+    here = ShapeInWorld(one, np.eye(3), np.zeros(3))
     for _ in range(3):  # along the normal, until they are as near
-        phi, _, _, n = solid_pair("p", here, Placed(other, R, t))
+        phi, _, _, n = solid_pair("p", here, ShapeInWorld(other, R, t))
         t = t - (phi - 1e-5) * n
     points = found(one, other, R, t, 17)
     nearest = points.alpha[points.point == 16]

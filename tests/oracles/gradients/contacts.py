@@ -11,7 +11,7 @@ from typing import Final
 
 from flint import arb, fmpq
 
-from quasistatic_ref.contact.distance import placed as own_placed
+from quasistatic_ref.contact.distance import in_world as own_placed
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.distances.shapes import Placed

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.lab.scenes.pushes import SHAPES
 from quasistatic_ref.lab.scenes.systems import link_text, robot_text
 from quasistatic_ref.model.body import Body
@@ -43,7 +43,7 @@ def lowest(shape: Shape, R: Array) -> float:
     """How far below its origin a body with a rotation R reaches [m]."""
     if isinstance(shape, PointCloud):
         return float(-(shape.points @ R.T)[:, 2].min())
-    return float(-Placed(shape, R, np.zeros(3)).farthest(-UP)[2])
+    return float(-ShapeInWorld(shape, R, np.zeros(3)).farthest(-UP)[2])
 
 
 def landing(rng: Rng) -> Kink:

@@ -183,7 +183,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optional/ellipsoid/scaled_blocks.py": ENCLOSED,
     "contact/distance.py": PAIRS,
     "contact/patch.py": ("analytic/test_flat_on_flat.py", *PAIRS),
-    "contact/placed.py": SOLIDS,
+    "contact/shape_in_world.py": SOLIDS,
     "contact/solids/polytope.py": SOLIDS,
     "contact/solids/polytope_pair.py": SOLIDS,
     "contact/separations.py": (

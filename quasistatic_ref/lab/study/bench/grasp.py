@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.cloud import closest
-from quasistatic_ref.contact.distance import closest_points, placed, relative_pose
+from quasistatic_ref.contact.distance import closest_points, in_world, relative_pose
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.timing import (
@@ -202,7 +202,7 @@ def _selection(simulator: Simulator, q: Array) -> float:
     at = simulator.system.kinematics(q)
     measured = []
     for cloud in simulator.tracker.clouds:
-        sides = placed(cloud.solid, at.R, at.t), placed(cloud.cloud, at.R, at.t)
+        sides = in_world(cloud.solid, at.R, at.t), in_world(cloud.cloud, at.R, at.t)
         measured.append((cloud.measured(relative_pose(*sides))[1], cloud.pair.k))
     return seconds(lambda: [closest(phi, k) for phi, k in measured])
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.shapes import placed_shape as shapes
@@ -55,7 +55,7 @@ def own_rotation(quaternion: Sequence[float]) -> Array:
 def own_closest_points(case: dict[str, Any]) -> dict[str, Any]:
     """phi, alpha, beta, n of a case; of a cloud, lists over its points."""
     a, b = (
-        Placed(own_shape(case[side]), own_rotation(pose["quaternion"]), np.array(pose["xyz"]))
+        ShapeInWorld(own_shape(case[side]), own_rotation(pose["quaternion"]), np.array(pose["xyz"]))
         for side, pose in (("alpha", case["pose_alpha"]), ("beta", case["pose_beta"]))
     )
     if isinstance(b.shape, PointCloud):
@@ -70,7 +70,7 @@ def own_closest_points(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def _points_on_solid(
-    solid: Placed, cloud: Placed, points: Array
+    solid: ShapeInWorld, cloud: ShapeInWorld, points: Array
 ) -> tuple[Array, Array, Array, Array]:
     """Distances, closest points of the solid, the points themselves and normals, world frame."""
     world = points @ cloud.R.T + cloud.t

@@ -12,7 +12,7 @@ from quasistatic_ref.contact.distance import (
     relative_pose,
     with_corners,
 )
-from quasistatic_ref.contact.placed import Placed, rotated
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, rotated
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.data import Array
@@ -54,7 +54,7 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
     return points.point[level].tolist(), left_out
 
 
-def _cloud_distances(solid: Placed, body: Placed, points: Array) -> Array:
+def _cloud_distances(solid: ShapeInWorld, body: ShapeInWorld, points: Array) -> Array:
     """Signed distances of all points of a cloud, shape (N,) [m]."""
     relative = relative_pose(solid, body)
     x = rotated(relative[:, :3], points) + relative[:, 3]

@@ -39,7 +39,7 @@ static inline double along(const double *row, double x, double y, double z)
     return (row[0] * x + row[1] * y) + row[2] * z;
 }
 
-/* contact/placed: rotated, which never gives -0.0. */
+/* contact/shape_in_world: rotated, which never gives -0.0. */
 static inline double turned(const double *row, double x, double y, double z)
 {
     return ((0.0 + row[0] * x) + row[1] * y) + row[2] * z;

@@ -15,13 +15,13 @@ from quasistatic_ref.contact.distance import (
     ClosestPoints,
     check_finite,
     cloud_contacts,
+    in_world,
     joined,
     pair_closest_points,
-    placed,
     relative_pose,
 )
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.placed import rotated
+from quasistatic_ref.contact.shape_in_world import rotated
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.fast.tracker.ball_tree import BallTree, ball_tree
 from quasistatic_ref.optional.fast.tracker.tracker_bound import Shortlist, shortlist
@@ -140,7 +140,7 @@ class FollowedCloud:
         ContactError
             If a distance is no number.
         """
-        solid, cloud = placed(self.solid, R, t), placed(self.cloud, R, t)
+        solid, cloud = in_world(self.solid, R, t), in_world(self.cloud, R, t)
         relative = relative_pose(solid, cloud)
         self.steps += 1
         if self.list is None:

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.placed import rotated
+from quasistatic_ref.contact.shape_in_world import rotated
 from quasistatic_ref.optional.fast.tracker import ball_tree
 from quasistatic_ref.optional.fast.tracker.tracker import SHORT, ContactTracker
 from quasistatic_ref.optional.fast.tracker.tracker_bound import (

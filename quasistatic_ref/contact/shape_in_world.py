@@ -8,7 +8,7 @@ from quasistatic_ref.shapes.placed_shape import Shape
 from quasistatic_ref.step.data import Array
 
 
-class Placed(NamedTuple):
+class ShapeInWorld(NamedTuple):
     """A shape and its pose in the world: x_world = R x + t."""
 
     shape: Shape
