@@ -20,7 +20,6 @@ CHOSEN = {
     ],
     "docs/conventions.md": [
         "by more than 0.1 %",
-        "at these scales in 60 digits",
     ],
     "docs/derivations.md": ["A body 1 mm deep with h = 10 ms"],
     "docs/distances.md": ["sqrt 3 times"],

@@ -43,14 +43,6 @@ QUOTED = {
         ("measures {} claims", lambda: [len(BY_NAME)]),
         ("(certified steps meet them to {:.0e})", lambda: [CLOSED_FORM]),
     ],
-    "docs/compiled.md": [
-        ("| C, by the system's compiler | {:.0f} | {:.1f} | {:.0f} | {:.1f} |",
-         lambda: of.compiler("C, cc")),
-        ("| C, by ziglang | {:.0f} | {:.1f} | {:.0f} | {:.1f} |",
-         lambda: of.compiler("C, ziglang")),
-        ("| numba, one function of twenty lines | {:.0f} | {:.1f} | {:.0f} | {:.1f} |",
-         lambda: of.compiler("numba")),
-    ],
     "docs/index.md": [
         ("the bunny turns by {:.1f} degrees about the points by which the fingers hold it while it "
          "is lifted, with it by {:.1f} (the largest angle from the closed grip to t = {:g} s)",

@@ -24,12 +24,6 @@ SWEEP = "validation/studies/bunny_torsion/report.md"
 EXACT_COST = "validation/results/bench_exact.txt"
 
 
-def compiler(code):
-    """The row of a way to compile: packages [MB], first use [s], later [ms], a call [us]."""
-    (row,) = [row for row in cells("validation/results/compilers.md") if row["code"] == code]
-    return [float(value) for name, value in row.items() if name != "code"]
-
-
 # -- The grasp -----------------------------------------------------------------------------------
 def turned(mu_omega):
     """How far the bunny turns in the lift [deg], with mu_omega in mm."""

@@ -18,11 +18,12 @@ from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.contact.separations import BISECTOR, OWN, pair_normal, rounding
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, rotated
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array, Indices, Mask
+from quasistatic_ref.step.ordered import dot, norm, product, rotated
 from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
 
 
@@ -136,7 +137,7 @@ def with_corners(a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints) -> Cl
     if nearest.tie[0] == BISECTOR:
         alike = np.abs(every.n - n).max(axis=1) <= SAME_NORMAL
         every = every._replace(tie=np.where(alike, BISECTOR, every.tie))
-    return every.chosen(np.flatnonzero(every.n @ n >= TURNED))
+    return every.chosen(np.flatnonzero(dot(every.n, n) >= TURNED))
 
 
 def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
@@ -145,12 +146,12 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
     Where the closest point is on a rim, the point itself gives this direction more accurately than
     the normal does: near contact the normal is computed from a difference that cancels.
     """
-    local, way = body.R.T @ (nearest - body.t), body.R.T @ n
+    local, way = product(body.R.T, nearest - body.t), product(body.R.T, n)
     radius = body.shape.rim_radius
     if radius is None:
         return way
-    on_rim = np.hypot(*local[:2]) >= (1 - ON_RIM) * radius
-    return local if on_rim and np.hypot(*way[:2]) > UPRIGHT else way
+    on_rim = norm(local[:2]) >= (1 - ON_RIM) * radius
+    return local if on_rim and norm(way[:2]) > UPRIGHT else way
 
 
 def late(candidates: ClosestPoints, k: int) -> Mask:
@@ -214,14 +215,13 @@ def _corners_on_solid(
     """Corners of another solid, each with a ball about it; n is the pair's normal, out of this."""
     relative = relative_pose(solid, other)
     x = rotated(relative[:, :3], corners) + relative[:, 3]
-    found = corner_surface(solid, x, solid.R.T @ n, rounding(solid, other))
+    found = corner_surface(solid, x, product(solid.R.T, n), rounding(solid, other))
     return _contacts(solid, other, corners, radius, found)
 
 
 def relative_pose(solid: ShapeInWorld, other: ShapeInWorld) -> Array:
     """[R, t] from another body's frame to a solid's, shape (3, 4); R [-], t [m]."""
-    # One product, as compiled code forms it: the bits are then equal.
-    return np.asarray(solid.R.T @ np.column_stack([other.R, other.t - solid.t]))
+    return product(solid.R.T, np.column_stack([other.R, other.t - solid.t]))
 
 
 def _contacts(
@@ -242,5 +242,5 @@ def _contacts(
 def in_world(shape: PlacedShape, R: Array, t: Array) -> ShapeInWorld:
     """A shape where its link is; R (L, 3, 3) and t (L, 3) [m] are the links'."""
     R_link, t_link = R[shape.link], t[shape.link]
-    world = R_link @ np.column_stack([shape.R, shape.t])
+    world = product(R_link, np.column_stack([shape.R, shape.t]))
     return ShapeInWorld(shape.shape, world[:, :3], world[:, 3] + t_link)

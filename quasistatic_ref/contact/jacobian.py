@@ -6,13 +6,13 @@ from numpy.typing import NDArray
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.motion import Motion, cross_matrix
+from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import YZX, ZXY, crossed, dot, product
 
 AXES = np.eye(3)
-CROSS_AXES = cross_matrix(AXES)
 
 
 class ContactGeometry:
@@ -95,12 +95,11 @@ def columns_at(columns: Array, r: Array, n: Array) -> Array:
     ndarray, shape (..., 4, n_x)
         Rows 0-2: nu_origin + omega x r [m]; row 3: n'omega [rad].
     """
-    at = np.zeros((*r.shape[:-1], 4, 6))
-    at[..., :3, :3] = AXES  # nu_origin
-    at[..., :3, 3:] = -cross_matrix(r)  # omega x r = -[r x] omega
-    at[..., 3, 3:] = n  # n'omega
-    found: Array = at.reshape(-1, 6) @ columns
-    return found.reshape(*at.shape[:-1], columns.shape[1])
+    nu_origin, omega, at = columns[:3], columns[3:], r[..., None]
+    found = np.empty((*r.shape[:-1], 4, columns.shape[1]))
+    found[..., :3, :] = nu_origin + (omega[YZX] * at[..., ZXY, :] - omega[ZXY] * at[..., YZX, :])
+    found[..., 3, :] = product(n, omega)
+    return found
 
 
 def tangents(n: Array) -> tuple[Array, Array]:
@@ -120,10 +119,9 @@ def tangents(n: Array) -> tuple[Array, Array]:
     """
     least = np.abs(n).argmin(axis=1)
     axis = AXES.take(least, axis=0)
-    along = np.vecdot(n, axis)[:, None]
+    along = dot(n, axis)[:, None]
     length = np.sqrt(1 - along * along)  # of axis - along n, and of n x axis
-    n_cross_axis = (n[:, None] @ CROSS_AXES.take(least, axis=0))[:, 0]  # n x a = n'[a x]
-    return (axis - along * n) / length, n_cross_axis / length
+    return (axis - along * n) / length, crossed(n, axis) / length
 
 
 def contact_jacobian(

@@ -22,13 +22,15 @@ from quasistatic_ref.contact.separations import (
     refuse_unless_touching,
     rounding,
 )
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, rotated
-from quasistatic_ref.shapes.hull import CHUNK, dot
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.model.angles import cos_sin
+from quasistatic_ref.shapes.hull import CHUNK
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Shape
 from quasistatic_ref.step.data import Array, Indices, Mask
+from quasistatic_ref.step.ordered import dot, product, rotated
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SAME_NORMAL
 
-TURNED = float(np.cos(FACING))
+TURNED = cos_sin(FACING)[0]
 
 
 class Surface(NamedTuple):
@@ -92,17 +94,17 @@ def corner_surface(solid: ShapeInWorld, x: Array, n: Array, within: float) -> Su
         return Surface(phi, normal, tie)
     # Another corner is outside, and nearest to a face that faces n: nothing else to choose.
     near = OVER_FACE * shape.extent + within
-    open_ = np.flatnonzero((phi <= near) | (normal @ n < TURNED))
+    open_ = np.flatnonzero((phi <= near) | (dot(normal, n) < TURNED))
     phi, own, normal = phi.copy(), normal, normal.copy()
     block = max(1, CHUNK // max(1, shape.faces(x[:1])[0].size))
     for start in range(0, len(open_), block):
         some = open_[start : start + block]
         over, phi[some], normal[some] = _facing(shape, x[some], n, phi[some], normal[some], within)
         edge = some[~over]
-        gap = x[edge] @ n - shape.support_value(n[None])
+        gap = dot(x[edge], n) - shape.support_value(n[None])
         on_edge = _over(shape, x[edge], gap, np.broadcast_to(n, (len(edge), 3)), near)
         phi[edge[on_edge]], normal[edge[on_edge]] = gap[on_edge], n
-    tie[np.sum(own * normal, axis=1) < 1 - SAME_NORMAL] = OF_PAIR
+    tie[dot(own, normal) < 1 - SAME_NORMAL] = OF_PAIR
     return Surface(phi, normal, tie)
 
 
@@ -113,7 +115,7 @@ def _facing(
     heights, normals = shape.faces(x)
     if not heights.size:
         return np.zeros(len(x), dtype=bool), phi, normal
-    heights = np.where(normals @ n >= TURNED, heights, -np.inf)
+    heights = np.where(dot(normals, n) >= TURNED, heights, -np.inf)
     face, rivals = faces_apart(heights, normals, within)
     chosen = np.arange(len(x)), face
     height, own = heights[chosen], normals[chosen]
@@ -189,5 +191,5 @@ def _of_cloud(
     level = out >= out.max() - within
     if np.count_nonzero(level) == 1:
         return ways[level][0], OF_CLOUD
-    refuse_unless_touching(name, out.max(), ways[level] @ solid.R.T, within)
+    refuse_unless_touching(name, out.max(), product(ways[level], solid.R.T), within)
     return mean_direction(ways[level]), BISECTOR

@@ -12,6 +12,7 @@ from quasistatic_ref.contact.solids.ways_out import gaps, sharp_directions
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import dot, norm, product, total
 from quasistatic_ref.tolerances import SAME_NORMAL, TIED_FACES, TOUCHING_FACES
 
 OWN, OF_PAIR, BISECTOR, OF_CLOUD = range(4)
@@ -95,16 +96,16 @@ def _of_centre(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array,
     """Of a sphere and a solid: heights of its centre over the faces, less the radius."""
     solid, ball, sign = (a, b, 1.0) if isinstance(b.shape, Sphere) else (b, a, -1.0)
     assert isinstance(ball.shape, Sphere)
-    heights, normals = solid.shape.faces(((ball.t - solid.t) @ solid.R)[None])
-    return heights[0] - ball.shape.radius, sign * normals[0] @ solid.R.T
+    heights, normals = solid.shape.faces(product(ball.t - solid.t, solid.R)[None])
+    return heights[0] - ball.shape.radius, sign * product(normals[0], solid.R.T)
 
 
 def _of_solids(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array, Array]:
     """Along the normals of the faces at the closest points, and along the axes."""
     ways = [sharp_directions(a), -sharp_directions(b)]
     for solid, end, sign in ((a, found.alpha, 1.0), (b, found.beta, -1.0)):
-        _, normals = solid.shape.faces(((end - solid.t) @ solid.R)[None])
-        ways.append(sign * normals[0] @ solid.R.T)
+        _, normals = solid.shape.faces(product(end - solid.t, solid.R)[None])
+        ways.append(sign * product(normals[0], solid.R.T))
     every = np.concatenate(ways)
     return gaps(a._replace(t=a.t - b.t), b._replace(t=0 * b.t), every), every
 
@@ -120,8 +121,8 @@ def distinct(ways: list[Array]) -> Array:
 
 def mean_direction(ways: Array) -> Array:
     """The unit vector of the mean of `ways` (T, 3) [-]: of two, their bisector."""
-    mean = ways.sum(axis=0)
-    return np.asarray(mean / np.sqrt(mean @ mean))
+    mean = total(ways)
+    return np.asarray(mean / norm(mean))
 
 
 def refuse_unless_touching(name: str, phi: float, ways: Array, within: float) -> None:
@@ -142,8 +143,8 @@ def refuse_unless_touching(name: str, phi: float, ways: Array, within: float) ->
     ContactError
         If phi is not about zero, or the normals have no mean: a body is thinner than rounding.
     """
-    mean = ways.sum(axis=0)
-    opposite = mean @ mean < SAME_NORMAL
+    mean = total(ways)
+    opposite = dot(mean, mean) < SAME_NORMAL
     if opposite or phi < -TOUCHING_FACES / TIED_FACES * within:
         one, other = (np.array2string(way + 0.0, precision=4, separator=", ") for way in ways[:2])
         raise ContactError(

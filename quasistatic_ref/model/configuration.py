@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.step.arrays import Array, numbers
+from quasistatic_ref.step.ordered import length
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
 UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
@@ -28,9 +29,9 @@ def normalised(joints: Sequence[Joint], q: Array) -> Array:
     for joint in joints:
         if joint.kind in UNIT_PART:
             unit = found[joint.q][UNIT_PART[joint.kind] :]
-            length = np.hypot.reduce(unit)
-            if length > 0 and abs(length - 1) > UNIT_ROUNDING:
-                unit /= length
+            size = length(unit)
+            if size > 0 and abs(size - 1) > UNIT_ROUNDING:
+                unit /= size
     return found
 
 
@@ -57,11 +58,11 @@ def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
         if joint.kind not in UNIT_PART:
             continue
         unit = part[UNIT_PART[joint.kind] :]
-        length = np.hypot.reduce(unit)
-        if abs(length - 1) > UNIT_QUATERNION:
+        size = length(unit)
+        if abs(size - 1) > UNIT_QUATERNION:
             what = "quaternion" if joint.kind == "floating" else "(cos, sin)"
             problem = f"its {what} must have length one"
             raise ModelError(problem, field=field, value=unit.tolist())
-        if abs(length - 1) > UNIT_ROUNDING:
-            unit /= length
+        if abs(size - 1) > UNIT_ROUNDING:
+            unit /= size
     return checked

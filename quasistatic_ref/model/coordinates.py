@@ -129,20 +129,16 @@ class Order:
 
     def model_q(self, q: Array) -> Array:
         """Configuration in pinocchio's order, from the paper's; ModelError unless (n_q,)."""
-        q = _of_shape(q, "q", self.q.shape)
+        q = of_shape(q, "q", self.q.shape)
         return q if self.same else q.take(self.q_back)
 
     def paper_v(self, v: Array) -> Array:
         """Delta_q, or J, shape (..., n_v), its last axis in the paper's order, from pinocchio's."""
         return v if self.same else v.take(self.v, axis=-1)
 
-    def model_v(self, v: Array) -> Array:
-        """Vector of delta_q in pinocchio's order, from the paper's; ModelError unless (n_v,)."""
-        v = _of_shape(v, "delta_q", self.v.shape)
-        return v if self.same else v.take(self.v_back)
 
-
-def _of_shape(x: Array, name: str, shape: tuple[int, ...]) -> Array:
+def of_shape(x: Array, name: str, shape: tuple[int, ...]) -> Array:
+    """Numbers as a float64 array of that shape [any unit]; ModelError, which names it, else."""
     x = np.asarray(x, dtype=np.float64)
     if x.shape != shape:
         raise ModelError(f"must have shape {shape}", field=name, value=x.shape)

@@ -5,8 +5,9 @@ from functools import cached_property
 
 import numpy as np
 
-from quasistatic_ref.model.motion import Motion, cross_matrix
+from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import crossed
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,5 +43,5 @@ class Kinematics:
         if self.motion is None:
             return np.zeros((len(self.t), 6, 0))
         J = self.motion.of_coordinates(self.columns * self.motion.moves)
-        J[:, :3] -= cross_matrix(self.t) @ J[:, 3:]  # nu + omega x t
+        J[:, :3] += crossed(J[:, 3:], self.t[:, :, None])  # nu + omega x t
         return J

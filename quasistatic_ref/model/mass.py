@@ -12,8 +12,9 @@ import numpy as np
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.coordinates import Coordinate, Joint, joint_key
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.motion import Motion, crossed
+from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.step.arrays import Array, read_only
+from quasistatic_ref.step.ordered import crossed, dot, rotated
 
 
 class MassMatrix:
@@ -62,9 +63,9 @@ class MassMatrix:
         R, t = kinematics.R[self.link], kinematics.t[self.link]
         column = kinematics.columns.T[self.column]
         omega = column[:, 3:]
-        nu = column[:, :3] + crossed(omega, turned(R, self.centre) + t)
-        turn = turned(R.transpose(0, 2, 1), omega)  # omega in the link's frame
-        spin = turned(self.inertia, turn)
+        nu = column[:, :3] + crossed(omega, rotated(R, self.centre) + t)
+        turn = rotated(R.transpose(0, 2, 1), omega)  # omega in the link's frame
+        spin = rotated(self.inertia, turn)
         terms = self.mass * dot(nu[self.i], nu[self.j]) + dot(turn[self.i], spin[self.j])
         return read_only(np.bincount(self.entry, terms, self.n_u**2)[self.above])
 
@@ -73,18 +74,6 @@ def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:
     """Mass matrices (k, 6, 6) of the floating bases of k lone rigid bodies, in their frames."""
     masses = [model.inertias[model.getJointId(joint_key(joint.name))].matrix() for joint in joints]
     return np.array(masses).reshape(-1, 6, 6) + 0.0  # never -0.0
-
-
-def turned(M: Array, v: Array) -> Array:
-    """Products M v, shape (k, 3), of matrices (k, 3, 3) and vectors (k, 3) [any unit]."""
-    return dot(M, v[:, None])
-
-
-def dot(a: Array, b: Array) -> Array:
-    """Products a . b, shape (...), of vectors of shape (..., 3) [any unit]."""
-    product = a * b
-    total: Array = product[..., 0] + product[..., 1] + product[..., 2]
-    return total
 
 
 def constant_mass(model: Any, free: Sequence[Joint]) -> bool:

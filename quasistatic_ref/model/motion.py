@@ -9,39 +9,6 @@ import numpy as np
 from quasistatic_ref.model.coordinates import Order
 from quasistatic_ref.step.arrays import Array
 
-CROSS = np.cross(np.eye(3)[:, None], np.eye(3)).transpose(0, 2, 1).reshape(3, 9)
-"""[x], [y] and [z] of the axes, each row by row."""
-YZX = np.array([1, 2, 0])
-ZXY = np.array([2, 0, 1])
-
-
-def cross_matrix(r: Array) -> Array:
-    """[r x], so that [r x] w = r x w.
-
-    Parameters
-    ----------
-    r : ndarray, shape (..., 3)
-
-    Returns
-    -------
-    ndarray, shape (..., 3, 3)
-        Its entries are those of r, exactly: each is a sum with two zeros.
-    """
-    entries: Array = r @ CROSS
-    return entries.reshape(*r.shape, 3)
-
-
-def crossed(a: Array, b: Array) -> Array:
-    """Vector products a x b, shape (N, 3, ...); of few vectors np.cross takes three times as long.
-
-    Parameters
-    ----------
-    a, b : ndarray, shape (N, 3, ...)
-        Of any units; an axis of length 1 in the one stands for all of the other [-].
-    """
-    product: Array = a[:, YZX] * b[:, ZXY] - a[:, ZXY] * b[:, YZX]
-    return product
-
 
 class Motion:
     """Which columns of pinocchio's Jacobian ``data.J`` move a link, and with which coordinate.
@@ -76,6 +43,9 @@ class Motion:
             owner[at] = v + np.arange(at.stop - at.start)
         self.order, self.owner, self.n_v = order, order.v_back[owner], int(model.nv)
         self.mimics = model.nvExtended > model.nv
+        # A mimic joint comes after the one that it mimics.
+        self.own = np.unique(self.owner, return_index=True)[1]
+        self.copies = np.setdiff1d(np.arange(model.nvExtended), self.own)
 
     @cached_property
     def coordinates(self) -> Array:
@@ -87,5 +57,7 @@ class Motion:
         # Without mimics it is a permutation, which costs less for many coordinates.
         if not self.mimics:
             return self.order.paper_v(columns)
-        flat: Array = columns.reshape(-1, columns.shape[-1]).dot(self.coordinates)
-        return flat.reshape(*columns.shape[:-1], flat.shape[1])
+        of_joints = columns.take(self.own, axis=-1) + 0.0
+        for x in self.copies.tolist():
+            of_joints[..., self.owner[x]] += columns[..., x]
+        return of_joints

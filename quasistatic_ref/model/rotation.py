@@ -2,12 +2,13 @@
 
 import numpy as np
 
+from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.step.data import Array
 
 
 def rotation(rpy: Array) -> Array:
     """Rotation Rz(yaw) Ry(pitch) Rx(roll), shape (3, 3), of roll, pitch, yaw (3,) [rad]."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
+    (cr, sr), (cp, sp), (cy, sy) = map(cos_sin, rpy.tolist())
     return np.array(
         [
             [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
@@ -19,7 +20,7 @@ def rotation(rpy: Array) -> Array:
 
 def quaternion(rpy: Array) -> Array:
     """The same rotation as a quaternion [x y z w], shape (4,)."""
-    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy / 2), np.sin(rpy / 2)
+    (cr, sr), (cp, sp), (cy, sy) = map(cos_sin, (rpy / 2).tolist())
     return np.array(
         [
             sr * cp * cy - cr * sp * sy,

@@ -1,66 +1,50 @@
-"""How far a twist carries a base, and which twist carries it so far.
+"""q (+) delta_q and q_next (-) q of the joints that turn: screws of bases, turns of wheels.
 
-pinocchio computes both from differences like 1 - cos a divided by a power of the angle a, and
-changes to a series only below some angle: a floating base's translation is then wrong by 5e-13 of
-itself at 2e-4 rad, a planar base's by 1e-8 at 1e-9 rad and by 4e-4 at 1e-13 rad; and of a change
-of a planar or continuous joint's angle by less than 1e-8 it sometimes makes zero. Steps of a
-simulation are as small as that. Here nothing that cancels is divided by a small number.
+With a the angle of a turn, b = a / 2, and (C, S) = (cos b, sin b), all else is sums, products,
+quotients and square roots in one fixed order, so that a run has the same bits everywhere. Nothing
+that cancels is divided by a small number: pinocchio's translations, of differences like 1 - cos a
+divided by a power of a, are wrong by 5e-13 of themselves at 2e-4 rad, those of a planar base by
+4e-4 at 1e-13 rad. Steps of a simulation are as small as that.
 """
 
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
+from quasistatic_ref.model.angles import angle_of, cos_sin
 from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.step.data import Array
 
 Vector = Sequence[float]
 """Few numbers: on so few, plain arithmetic takes a tenth of NumPy's time."""
 
-
-def position(joint: Joint, q: list[float], delta_q: list[float]) -> list[float]:
-    """Translation part of a floating or planar base's q (+) delta_q, 3 or 2 numbers [m]."""
-    own = delta_q[joint.v]
-    if joint.kind == "planar":
-        own = [own[0], own[1], 0.0, 0.0, 0.0, own[2]]
-    x, y, z = translation(own[:3], own[3:])
-    rows = zip(q[joint.q], _rotation(joint, q), strict=False)  # the quaternion comes after
-    there = [at + (a * x + b * y + c * z) for at, (a, b, c) in rows]
-    return there[:2] if joint.kind == "planar" else there
+TURNING = ("floating", "planar", "continuous")
+"""Kinds of joints whose q holds a quaternion, or (cos, sin)."""
 
 
-def changes(joints: Sequence[Joint], q: Array, q_next: Array, delta_q: Array) -> Array:
-    """q_next (-) q: delta_q, in which :func:`change` replaces the entries of these joints.
-
-    Parameters
-    ----------
-    joints : sequence of Joint
-        Floating, planar or continuous.
-    q, q_next : ndarray, shape (n_q,)
-    delta_q : ndarray, shape (n_v,), or (n_a,) for the actuated coordinates alone
-
-    Returns
-    -------
-    ndarray, shape (n_v,) or (n_a,)
-    """
-    entries, here, there = delta_q.tolist(), q.tolist(), q_next.tolist()
-    for joint in joints:
-        if joint.v.stop <= len(entries):
-            entries[joint.v] = change(joint, here, there, entries)
-    return np.array(entries)
-
-
-def change(joint: Joint, q: list[float], q_next: list[float], delta_q: list[float]) -> list[float]:
-    """A joint's entries of q_next (-) q, of which delta_q holds a rotation vector already.
+def moved(joint: Joint, q: list[float], delta_q: list[float]) -> list[float]:
+    """A turning joint's entries of q (+) delta_q [m, -].
 
     Parameters
     ----------
     joint : Joint
-        Floating, planar or continuous.
+    q : list of n_q floats
+    delta_q : list of n_v floats
+    """
+    here, own = q[joint.q], delta_q[joint.v]
+    if joint.kind == "continuous":
+        return _heading(here, own[0])
+    if joint.kind == "planar":
+        v, w = [own[0], own[1], 0.0], [0.0, 0.0, own[2]]
+        return [*_carried(joint, here, v, w)[:2], *_heading(here[2:], own[2])]
+    return [*_carried(joint, here, own[:3], own[3:]), *_quaternion(here[3:], own[3:])]
+
+
+def change(joint: Joint, q: list[float], q_next: list[float]) -> list[float]:
+    """A turning joint's entries of q_next (-) q [m, rad].
+
+    Parameters
+    ----------
+    joint : Joint
     q, q_next : list of n_q floats
-    delta_q : list of n_v floats, or those of the actuated coordinates
-        Its entries for the rotation of a floating base are taken as they are.
     """
     here, there = q[joint.q], q_next[joint.q]
     if joint.kind == "continuous":
@@ -68,13 +52,13 @@ def change(joint: Joint, q: list[float], q_next: list[float], delta_q: list[floa
     planar = joint.kind == "planar"
     z = 0.0 if planar else there[2] - here[2]
     apart = [there[0] - here[0], there[1] - here[1], z]
-    columns = zip(*_rotation(joint, q), strict=True)  # of R: the base's own axes in the world
-    moved = [dot(axis, apart) for axis in columns]
+    columns = zip(*_rotation(joint, here), strict=True)  # of R: the base's own axes in the world
+    own = [dot(axis, apart) for axis in columns]
     if planar:
         angle = _turn(here[2:], there[2:])
-        return [*linear_part(moved, [0.0, 0.0, angle])[:2], angle]
-    angular = delta_q[joint.v][3:]
-    return [*linear_part(moved, angular), *angular]
+        return [*linear_part(own, [0.0, 0.0, angle])[:2], angle]
+    w, a, twice = _rotation_between(here[3:], there[3:])
+    return [*_combined(own, w, a, -0.5, twice), *w]
 
 
 def translation(v: Vector, w: Vector) -> list[float]:
@@ -87,9 +71,9 @@ def translation(v: Vector, w: Vector) -> list[float]:
     v, w : sequence of 3 floats
         Linear [m] and angular [rad] part of the twist.
     """
-    a = math.hypot(*w)
-    half = _sinc(a / 2)  # (1 - cos a) / a^2 = half^2 / 2, without the difference
-    return _combined(v, w, a, half * half / 2, 1 - _sinc(a))
+    a = length(w)
+    C, half = _half(a)
+    return _combined(v, w, a, half * half / 2, 1 - half * C)  # sin a = 2 sin(a/2) cos(a/2)
 
 
 def linear_part(t: Vector, w: Vector) -> list[float]:
@@ -102,8 +86,9 @@ def linear_part(t: Vector, w: Vector) -> list[float]:
     t, w : sequence of 3 floats
         Translation [m] and rotation vector [rad].
     """
-    a = math.hypot(*w)
-    return _combined(t, w, a, -0.5, 1 - a / 2 / math.tan(a / 2) if a else 0.0)
+    a = length(w)
+    C, half = _half(a)
+    return _combined(t, w, a, -0.5, 1 - C / half)
 
 
 def dot(w: Vector, v: Vector) -> float:
@@ -112,10 +97,21 @@ def dot(w: Vector, v: Vector) -> float:
     return p * x + q * y + r * z
 
 
+def length(w: Vector) -> float:
+    """Length of a vector of three numbers [its unit]; 0 where its square is."""
+    return math.sqrt(dot(w, w))
+
+
+def _half(a: float) -> tuple[float, float]:
+    """Cosine of a / 2, and its sine divided by a / 2."""
+    C, S = cos_sin(a / 2)
+    return C, S / (a / 2) if a / 2 else 1.0
+
+
 def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> list[float]:
     """Sum of v, once w x v and twice e x (e x v), where w = a e; the last is (e . v) e - v."""
     (x, y, z), (p, q, r), rest = v, w, 1 - twice
-    along = twice * (p * x + q * y + r * z) / (a * a) if a * a else 0.0
+    along = twice * dot(w, v) / (a * a) if a * a else 0.0
     return [
         rest * x + once * (q * z - r * y) + along * p,
         rest * y + once * (r * x - p * z) + along * q,
@@ -123,12 +119,65 @@ def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> list
     ]
 
 
-def _rotation(joint: Joint, q: list[float]) -> list[list[float]]:
-    """Rows of the rotation matrix of a base."""
+def _carried(joint: Joint, here: list[float], v: Vector, w: Vector) -> list[float]:
+    """Where a base is that starts here and is carried by a twist, 3 numbers [m]."""
+    t = translation(v, w)
+    rows = zip(here, _rotation(joint, here), strict=False)  # the quaternion comes after
+    return [at + dot(row, t) for at, row in rows]
+
+
+def _quaternion(here: Vector, w: Vector) -> list[float]:
+    """A quaternion times that of a rotation vector, of length one; without a turn as it is."""
+    C, half = _half(length(w))
+    p, q, r = (half / 2 * part for part in w)
+    if p == q == r == 0:
+        return [*here]
+    x, y, z, s = here
+    product = [
+        s * p + x * C + y * r - z * q,
+        s * q + y * C + z * p - x * r,
+        s * r + z * C + x * q - y * p,
+        s * C - x * p - y * q - z * r,
+    ]
+    a, b, c, d = product
+    shorter = (3 - (a * a + b * b + c * c + d * d)) / 2  # of 1 / sqrt, next to 1
+    return [shorter * part for part in product]
+
+
+def _rotation_between(here: Vector, there: Vector) -> tuple[list[float], float, float]:
+    """What turns one quaternion into another: w, a = |w| <= pi [rad], and 1 - (a/2) cot(a/2)."""
+    x, y, z, s = here
+    p, q, r, k = there
+    v = [
+        s * p - x * k - y * r + z * q,
+        s * q - y * k - z * p + x * r,
+        s * r - z * k - x * q + y * p,
+    ]
+    w = s * k + x * p + y * q + z * r
+    S, C = length(v), abs(w)
+    b = angle_of(S, C)
+    ratio = b / S if S else 1.0
+    scale = 2 * ratio if w >= 0 else -2 * ratio
+    return [scale * part for part in v], 2 * b, 1 - ratio * C if S else 0.0
+
+
+def _heading(here: Vector, angle: float) -> list[float]:
+    """(cos, sin) turned by an angle, of length one; without a turn as it is."""
+    if angle == 0:
+        return [*here]
+    (c, s), (C, S) = here, cos_sin(angle / 2)
+    cosine, sine = 1 - 2 * (S * S), 2 * (S * C)
+    x, y = c * cosine - s * sine, s * cosine + c * sine
+    shorter = (3 - (x * x + y * y)) / 2
+    return [shorter * x, shorter * y]
+
+
+def _rotation(joint: Joint, here: list[float]) -> list[list[float]]:
+    """Rows of the rotation matrix of a base, from its entries of q."""
     if joint.kind == "planar":
-        c, s = q[joint.q][2:]
+        c, s = here[2:]
         return [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
-    x, y, z, w = q[joint.q][3:]
+    x, y, z, w = here[3:]
     return [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
@@ -139,8 +188,4 @@ def _rotation(joint: Joint, q: list[float]) -> list[list[float]]:
 def _turn(before: Vector, after: Vector) -> float:
     """Angle from one (cos, sin) to another."""
     (c, s), (c_next, s_next) = before, after
-    return math.atan2(c * s_next - s * c_next, c * c_next + s * s_next)
-
-
-def _sinc(x: float) -> float:
-    return math.sin(x) / x if x else 1.0
+    return angle_of(c * s_next - s * c_next, c * c_next + s * s_next)

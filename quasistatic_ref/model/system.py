@@ -19,13 +19,14 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.configuration import configuration
-from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order
+from quasistatic_ref.model.coordinates import Coordinate, Joint, of_shape, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mass import MassMatrix, check_mass, constant_mass, regular, rigid_masses
 from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
 from quasistatic_ref.step.arrays import Array, read_only, whole
+from quasistatic_ref.step.ordered import product
 
 __all__ = ["Body", "Kinematics", "System"]
 
@@ -100,8 +101,8 @@ class System(Shown):
 
     def _make(self, world: World) -> None:
         self.bodies, self._world = world.bodies, world
-        self._model, parts, frames = world.models
-        self._workspace = Workspace(parts, frames)
+        self._model = world.models[0]
+        self._workspace = Workspace(*world.models)
         self.lock = RLock()
         self._latest: tuple[bytes, Kinematics] | None = None
         self._order, self._frames = paper_order(world.joints), world.frames
@@ -114,9 +115,10 @@ class System(Shown):
         for array in (self.masses, self.centres, self.inertias):
             array.setflags(write=False)
         self.joints: tuple[Joint, ...] = self._order.joints
-        turning = ("floating", "planar", "continuous")
-        self._screws = tuple(joint for joint in self.joints if joint.kind in turning)
-        self._bases = tuple(joint for joint in self._screws if joint.kind != "continuous")
+        self._turning = [joint for joint in self.joints if joint.kind in screw.TURNING]
+        others = [joint for joint in self.joints if joint.kind not in screw.TURNING]
+        self._scalars_q = np.array([joint.q.start for joint in others], dtype=np.int64)
+        self._scalars_v = np.array([joint.v.start for joint in others], dtype=np.int64)
         self.coordinates: tuple[Coordinate, ...] = tuple(
             coordinate for joint in self.joints for coordinate in joint.coordinates
         )
@@ -139,8 +141,7 @@ class System(Shown):
 
     def workspace(self) -> Workspace:
         """A workspace of the caller's own."""
-        _, parts, frames = self._world.models
-        return Workspace(parts, frames)
+        return Workspace(*self._world.models)
 
     def joint(self, name: str) -> Joint:
         """Joint of that name, e.g. ``gripper/width``; ModelError if there is none."""
@@ -171,29 +172,27 @@ class System(Shown):
 
     def integrate(self, q: Array, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
-        q_next, at, change = self.pinocchio_sum(q, delta_q).tolist(), q.tolist(), delta_q.tolist()
-        for joint in self._bases:
-            position, start = screw.position(joint, at, change), joint.q.start
-            q_next[start : start + len(position)] = position
-        return np.array(q_next)
-
-    def pinocchio_sum(self, q: Array, delta_q: Array) -> Array:
-        """Pinocchio's q (+) delta_q, (n_q,); :meth:`integrate` moves bases more accurately."""
-        order = self._order
-        return order.paper_q(pin.integrate(self._model, order.model_q(q), order.model_v(delta_q)))
-
-    def pinocchio_difference(self, q: Array, q_next: Array) -> Array:
-        """Pinocchio's q_next (-) q, shape (n_v,).
-
-        Its entries are used for revolute and prismatic joints and for the rotation of floating
-        bases; :mod:`~quasistatic_ref.model.screw` computes all others.
-        """
-        at, there = self._order.model_q(q), self._order.model_q(q_next)
-        return self._order.paper_v(pin.difference(self._model, at, there))
+        q = of_shape(q, "q", (self.n_q,))
+        delta_q = of_shape(delta_q, "delta_q", (self.n_v,))
+        q_next, here, change = q.copy(), q.tolist(), delta_q.tolist()
+        q_next[self._scalars_q] += delta_q[self._scalars_v]
+        for joint in self._turning:
+            q_next[joint.q] = screw.moved(joint, here, change)
+        return q_next
 
     def difference(self, q: Array, q_next: Array) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
-        return screw.changes(self._screws, q, q_next, self.pinocchio_difference(q, q_next))
+        return self._change(q, q_next, self.n_v)
+
+    def _change(self, q: Array, q_next: Array, n: int) -> Array:
+        """The first n entries of q_next (-) q, which are those of whole joints."""
+        q, q_next = (of_shape(x, "q", (self.n_q,)) for x in (q, q_next))
+        delta_q, here, there = np.zeros(self.n_v), q.tolist(), q_next.tolist()
+        delta_q[self._scalars_v] = q_next[self._scalars_q] - q[self._scalars_q]
+        for joint in self._turning:
+            if joint.v.stop <= n:
+                delta_q[joint.v] = screw.change(joint, here, there)
+        return delta_q[:n]
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,); see :meth:`with_actuated`.
@@ -203,9 +202,7 @@ class System(Shown):
         ModelError
             Unless q_a has shape (n_q_a,).
         """
-        q_next = self.with_actuated(q, q_a)
-        change = self.pinocchio_difference(q, q_next)[: self.n_a]
-        return screw.changes(self._screws, q, q_next, change)
+        return self._change(q, self.with_actuated(q, q_a), self.n_a)
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""
@@ -285,10 +282,9 @@ class System(Shown):
             raise ModelError(problem, field="body", value=body_name)
         kinematics = self.kinematics(q)
         # The root link's frame is that of the base's joint.
-        arm = kinematics.R[root] @ self._model.inertias[joint].lever
+        arm = product(kinematics.R[root], self._model.inertias[joint].lever)
         moment = np.asarray(torque, dtype=np.float64) + np.cross(arm, np.asarray(force))
-        generalised: Array = kinematics.J[root].T @ np.concatenate([np.asarray(force), moment])
-        return generalised
+        return product(kinematics.J[root].T, np.concatenate([np.asarray(force), moment]))
 
     def _root(self, body: str) -> int:
         if body not in self._roots:

@@ -1,7 +1,8 @@
 """Pinocchio's models with their workspaces, in parts: a workspace grows with the cube of n_v.
 
 Bodies move on their own (all of them hang from the world), so what pinocchio says about several
-of them at once is what it says about each.
+of them at once is what it says about each. It gets the cosine and the sine of revolute joints, and
+not their angles: its own sines are those of the C library.
 """
 
 from collections.abc import Sequence
@@ -10,7 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pinocchio as pin
 
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.model.angles import cos_sin
+from quasistatic_ref.step.arrays import Array, Indices
 
 PART = 48
 """Most coordinates of a part, unless one body alone has more: some ten megabytes of workspace."""
@@ -27,15 +29,25 @@ class Part(NamedTuple):
     model, data : pinocchio.Model, pinocchio.Data
     R, t : list of ndarray, shapes (3, 3) and (3,)
         Poses of the links of these bodies: views of the workspace, which pinocchio overwrites.
-    q, v : slice
+    of : slice or ndarray of int
+        For each entry of the part's own q, the entry of the whole q that it is, or is made of.
+    turns : list of int
+        Where in the part's own q the cosines of revolute joints are; their sines follow.
     """
 
     model: Any
     data: Any
     R: list[Array]
     t: list[Array]
-    q: slice
-    v: slice
+    of: slice | Indices
+    turns: list[int]
+
+    def own(self, q: Array) -> Array:
+        """The part's own q, from the whole, shape (n_q,)."""
+        own: Array = q[self.of]
+        for i in self.turns:
+            own[i], own[i + 1] = cos_sin(float(own[i]))
+        return own
 
 
 class Workspace:
@@ -43,31 +55,44 @@ class Workspace:
 
     Parameters
     ----------
+    whole : pinocchio.Model
+        All bodies.
     models : sequence of pinocchio.Model
-        Of groups of bodies, in the order in which the whole model has them; they are copied.
+        Of groups of bodies, in the order in which the whole model has them, with cosine and sine in
+        place of some angles; they are copied.
     frames : sequence of list of int
         Of the links of each group.
     """
 
-    def __init__(self, models: Sequence[Any], frames: Sequence[list[int]]) -> None:
+    def __init__(self, whole: Any, models: Sequence[Any], frames: Sequence[list[int]]) -> None:
         self.parts: list[Part] = []
-        q = v = 0
+        before = 0
         for model, links in zip(models, frames, strict=True):
-            entries = slice(q, q + model.nq), slice(v, v + model.nv)
             model = model.copy()  # its gravity is this workspace's own
             data = pin.Data(model)
             placements = [data.oMf[link] for link in links]
             R, t = [p.rotation for p in placements], [p.translation for p in placements]
-            self.parts.append(Part(model, data, R, t, *entries))
-            q, v = q + model.nq, v + model.nv
+            self.parts.append(Part(model, data, R, t, *_entries(whole, model, before)))
+            before += model.njoints - 1
+        self._turns = any(part.turns for part in self.parts)
+        self._at: tuple[bytes, list[Array]] | None = None
         self._none = np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
 
     def move(self, q: Array) -> None:
         """Have pinocchio write the poses and the columns at q, shape (n_q,), into the parts."""
-        for part in self.parts:
-            pin.computeJointJacobians(part.model, part.data, q[part.q])
+        for part, own in zip(self.parts, self._own(q), strict=True):
+            pin.computeJointJacobians(part.model, part.data, own)
             pin.updateFramePlacements(part.model, part.data)
+
+    def _own(self, q: Array) -> list[Array]:
+        """Each part's own q, kept for the next call at the same q."""
+        if not self._turns:
+            return [q[part.of] for part in self.parts]
+        at = q.tobytes()
+        if self._at is None or self._at[0] != at:
+            self._at = at, [part.own(q) for part in self.parts]
+        return self._at[1]
 
     def poses(self, q: Array) -> tuple[Array, Array, Array]:
         """R (L, 3, 3) and t (L, 3) of all links, the world first, and all joints' columns (6, n_x).
@@ -86,16 +111,6 @@ class Workspace:
             array.setflags(write=False)
         return found
 
-    def sum(self, q: Array, delta_q: Array) -> Array:
-        """Configuration q (+) delta_q, shape (n_q,), whose bases lack digits of their places."""
-        sums = [pin.integrate(part.model, q[part.q], delta_q[part.v]) for part in self.parts]
-        return sums[0] if len(sums) == 1 else np.concatenate(sums)
-
-    def difference(self, q: Array, q_next: Array) -> Array:
-        """Change q_next (-) q, shape (n_v,), of which only rotations of floating bases count."""
-        parts = [pin.difference(part.model, q[part.q], q_next[part.q]) for part in self.parts]
-        return parts[0] if len(parts) == 1 else np.concatenate(parts)
-
     def gravity_torque(self, q: Array, gravity: tuple[float, ...]) -> Array:
         """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m].
 
@@ -106,6 +121,21 @@ class Workspace:
                 part.model.gravity.linear = np.array(gravity)
             self._gravity = gravity
         torques: list[Array] = [
-            pin.computeGeneralizedGravity(part.model, part.data, q[part.q]) for part in self.parts
+            pin.computeGeneralizedGravity(part.model, part.data, own)
+            for part, own in zip(self.parts, self._own(q), strict=True)
         ]
         return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
+
+
+def _entries(whole: Any, model: Any, before: int) -> tuple[slice | Indices, list[int]]:
+    """Fields `of` and `turns` of a part, whose joints are in the whole after `before` others."""
+    of, turns = np.zeros(model.nq, dtype=np.int64), []
+    for joint in range(1, model.njoints):
+        start, size = model.idx_qs[joint], model.nqs[joint]
+        there = whole.idx_qs[joint + before] + np.arange(size)
+        if size > whole.nqs[joint + before]:
+            turns.append(start)
+            there[1] = there[0]
+        of[start : start + size] = there
+    first = int(of.min(initial=whole.nq))
+    return of if turns else slice(first, first + model.nq), turns

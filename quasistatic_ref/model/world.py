@@ -11,10 +11,18 @@ import pinocchio as pin
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import Joint, MimicJoint, joint_key
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.model.urdf.urdf import BASE, Urdf, body_frame, loaded_urdf, urdf_model
+from quasistatic_ref.model.urdf.urdf import (
+    BASE,
+    Urdf,
+    body_frame,
+    loaded_urdf,
+    urdf_model,
+    with_turns,
+)
 from quasistatic_ref.model.workspace import PART
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.step.arrays import Array
@@ -73,9 +81,18 @@ class World(Plain):
 
     @cached_property
     def models(self) -> tuple[Any, list[Any], list[list[int]]]:
-        """All bodies in one pinocchio model; the same in groups, and the frames of their links."""
-        own = [urdf_model(text, b.base) for b, text in zip(self.bodies, self.texts, strict=True)]
-        return _joined(self.bodies, own, self.links)
+        """All bodies in one pinocchio model; in groups, and the frames of the links of these.
+
+        The groups have cosine and sine in place of angles, as :func:`with_turns` says.
+        """
+        texts = self.texts, map(with_turns, self.texts)
+        one, other = (
+            [urdf_model(text, b.base) for b, text in zip(self.bodies, some, strict=True)]
+            for some in texts
+        )
+        whole, _, _ = _joined(self.bodies, one, self.links)
+        _, groups, frames = _joined(self.bodies, other, self.links)
+        return whole, groups, frames
 
 
 def world_of(bodies: Sequence[Body]) -> World:
@@ -215,9 +232,9 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
             start = np.concatenate([placement.translation, quaternion.coeffs()])
         elif kind == "planar":
             (x, y, _), yaw = np.asarray(body.xyz), np.asarray(body.rpy)[2]
-            start = np.array([x, y, np.cos(yaw), np.sin(yaw)])
+            start = np.array([x, y, *cos_sin(float(yaw))])
         elif kind == "continuous":
-            start = np.array([np.cos(position), np.sin(position)])
+            start = np.array(cos_sin(float(position)))
         else:
             start = np.array([position])
         actuated = body.actuated == "all" or name in body.actuated

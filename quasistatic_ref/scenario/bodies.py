@@ -10,6 +10,7 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
@@ -174,7 +175,7 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
                 target: Any = np.concatenate([xyz, quaternion(turned)])
             elif kind == "planar":
                 xyz, turned = _planar(waypoint, name, entry.body)
-                target = np.array([xyz[0], xyz[1], np.cos(turned[2]), np.sin(turned[2])])
+                target = np.array([xyz[0], xyz[1], *cos_sin(float(turned[2]))])
             else:
                 turned = np.array([waypoint.number(name)])
                 target = turned

@@ -38,6 +38,7 @@ from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
 from quasistatic_ref.step.arrays import Array, keep
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.ordered import total
 from quasistatic_ref.tolerances import ACCURACY
 
 
@@ -116,7 +117,7 @@ class Scenario(Plain, Shown):
         """External generalised force (t, q) -> (n_v,), or None where there is none."""
         if not self.wrenches:
             return None
-        return lambda t, q: np.sum([w.force(self.system, t, q) for w in self.wrenches], axis=0)
+        return lambda t, q: total(w.force(self.system, t, q) for w in self.wrenches)
 
     def run(self, progress: bool = True, **saving: Any) -> Trajectory:
         """Simulate the whole scenario.

@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
 from quasistatic_ref.shapes.shape import circle
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import dot, norm
 from quasistatic_ref.tolerances import ON_SURFACE
 
 
@@ -46,11 +47,11 @@ class Cone(Round):
         """The tip or a point of the rim, by the `direction`; both of shape (3,), [m] and [-]."""
         tip = np.array([0.0, 0.0, self.half_length])
         rim = np.array([*rim_point(self.radius, direction), -self.half_length])
-        return tip if tip @ direction > rim @ direction else rim
+        return tip if dot(tip, direction) > dot(rim, direction) else rim
 
     def support_value(self, directions: Array) -> Array:
         """The larger reach of tip and rim along `directions` (N, 3) [-], shape (N,) [m]."""
-        radial, axial = np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2]
+        radial, axial = norm(directions[:, :2]), directions[:, 2]
         tip = self.half_length * axial
         return np.maximum(tip, self.radius * radial - tip)
 
@@ -72,18 +73,18 @@ def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[
     """
     p, outward = _half_plane(points)
     rim, tip = np.array([radius, -half_length]), np.array([0.0, half_length])
-    slant = np.hypot(radius, 2 * half_length)
+    slant = norm(tip - rim)
     side = _side(radius, half_length)
     above_side, above_base = _heights(p, radius, half_length)
     along = (tip - rim) / slant
     s = (p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1]
     on_side = rim + np.clip(s, 0.0, slant)[:, None] * along
     on_base = np.stack([np.minimum(p[:, 0], radius), np.full(len(p), -half_length)], axis=1)
-    d_side, d_base = _length(p - on_side), _length(p - on_base)
+    d_side, d_base = norm(p - on_side), norm(p - on_base)
     side_nearest = d_side <= d_base
     nearest = np.where(side_nearest[:, None], on_side, on_base)
     away = p - nearest
-    distance = _length(away)
+    distance = norm(away)
     flat = np.where((above_side >= above_base)[:, None], side, np.array([0.0, -1.0]))
     level = np.maximum(above_side, above_base)
     # Inside, and wherever a face is the closest feature, its normal; else that of an edge or tip.
@@ -96,13 +97,9 @@ def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[
     return phi, np.concatenate([flat[:, :1] * outward, flat[:, 1:]], axis=1)
 
 
-def _length(vectors: Array) -> Array:
-    return np.hypot(vectors[:, 0], vectors[:, 1])
-
-
 def _half_plane(points: Array) -> tuple[Array, Array]:
     """(r, z) of points, and the unit vectors (N, 2) away from the axis; x where there is none."""
-    r = np.sqrt(points[:, 0] ** 2 + points[:, 1] ** 2)
+    r = norm(points[:, :2])
     degenerate = r == 0
     outward = points[:, :2] / np.where(degenerate, 1.0, r)[:, None]
     outward[degenerate] = (1.0, 0.0)
@@ -111,7 +108,8 @@ def _half_plane(points: Array) -> tuple[Array, Array]:
 
 def _side(radius: float, half_length: float) -> Array:
     """Outward normal of the edge rim - tip."""
-    return np.asarray(np.array([2 * half_length, radius]) / np.hypot(radius, 2 * half_length))
+    side = np.array([2 * half_length, radius])
+    return np.asarray(side / norm(side))
 
 
 def _heights(p: Array, radius: float, half_length: float) -> tuple[Array, Array]:

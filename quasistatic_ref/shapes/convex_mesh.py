@@ -13,6 +13,7 @@ from quasistatic_ref.shapes.frozen import freeze_array
 from quasistatic_ref.shapes.hull import distance_to_hull, levels
 from quasistatic_ref.shapes.shape import Shape, lengths
 from quasistatic_ref.step.arrays import Array, Indices
+from quasistatic_ref.step.ordered import dot, product
 from quasistatic_ref.tolerances import CONVEX
 
 BLOCK = 1 << 22
@@ -77,11 +78,11 @@ class ConvexMesh(Shape):
 
     def support_point(self, direction: Array) -> Array:
         """The first vertex farthest along a `direction`; both of shape (3,), [m] and [-]."""
-        return np.asarray(self.vertices[(self.vertices @ direction).argmax()])
+        return np.asarray(self.vertices[dot(self.vertices, direction).argmax()])
 
     def support_value(self, directions: Array) -> Array:
         """Of the vertices along `directions` (N, 3) [-], shape (N,) [m]."""
-        return np.asarray((directions @ self.vertices.T).max(axis=1))
+        return np.asarray(product(directions, self.vertices.T).max(axis=1))
 
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Its vertices, shape (V, 3) [m], whichever way `towards` [-] is."""

@@ -6,10 +6,10 @@ from typing import Any
 import coal
 import numpy as np
 
-from quasistatic_ref.shapes.hull import norm
 from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
 from quasistatic_ref.shapes.shape import circle
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import norm
 
 
 class Cylinder(Round):
@@ -47,7 +47,7 @@ class Cylinder(Round):
 
     def support_value(self, directions: Array) -> Array:
         """Sum of the radial and the axial reach along `directions` (N, 3) [-], shape (N,) [m]."""
-        radial, axial = np.hypot(directions[:, 0], directions[:, 1]), directions[:, 2]
+        radial, axial = norm(directions[:, :2]), directions[:, 2]
         return self.radius * radial + self.half_length * np.abs(axial)
 
     def corners(self, towards: Array) -> tuple[Array, float]:
@@ -72,7 +72,7 @@ def distance_to_cylinder(points: Array, radius: float, half_length: float) -> tu
     outward = _unit(radial, r)
     excess = np.stack([r - radius, np.abs(points[:, 2]) - half_length], axis=1)
     beyond = np.maximum(excess, 0.0)
-    outside = np.hypot(beyond[:, 0], beyond[:, 1])
+    outside = norm(beyond)
     is_outside = outside > 0
     side = excess[:, 0] >= excess[:, 1]
     face = np.stack([side, ~side], axis=1).astype(np.float64)

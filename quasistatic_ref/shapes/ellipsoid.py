@@ -10,6 +10,7 @@ import numpy as np
 from quasistatic_ref.shapes.frozen import freeze_lengths
 from quasistatic_ref.shapes.shape import Shape, ball, lengths
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import dot, norm, total
 
 STEPS = 100
 """Most Newton steps to the root of an ellipsoid's sum; about ten are usual."""
@@ -36,12 +37,12 @@ class Ellipsoid(Shape):
     def support_point(self, direction: Array) -> Array:
         """Where the normal is the `direction`, both of shape (3,), [m] and [-]."""
         scaled = self.half_axes * direction
-        return np.asarray(self.half_axes * scaled / np.sqrt(scaled @ scaled))
+        return np.asarray(self.half_axes * scaled / norm(scaled))
 
     def support_value(self, directions: Array) -> Array:
         """Length of the `directions` (N, 3) [-] scaled by the half-axes, shape (N,) [m]."""
         scaled = directions * self.half_axes
-        return np.asarray(np.sqrt(np.sum(scaled * scaled, axis=1)))
+        return norm(scaled)
 
     def resized(self, scale: float) -> "Ellipsoid":
         """All lengths by a scale [-]."""
@@ -77,17 +78,17 @@ def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array
     w = low
     for _ in range(STEPS):
         terms = (r * z / (w[:, None] + (r - 1))) ** 2
-        slope = 2 * np.sum(terms / (w[:, None] + (r - 1)), axis=1)
-        rise = (np.sum(terms, axis=1) - 1) / slope
+        slope = 2 * total((terms / (w[:, None] + (r - 1))).T)
+        rise = (total(terms.T) - 1) / slope
         # A point that has converged is not moved again: its bits do not depend on its batch.
         moving = rise > np.spacing(w)
         if not moving.any():
             break
         w = np.where(moving, w + rise, w)
     on = z * r / (w[:, None] + (r - 1))  # x / e, of length one
-    on /= np.sqrt(np.sum(on * on, axis=1))[:, None]
+    on /= norm(on)[:, None]
     normal = on / half_axes
-    normal /= np.sqrt(np.sum(normal * normal, axis=1))[:, None]
+    normal /= norm(normal)[:, None]
     # Along the normal: right to rounding also where the distance is next to nothing.
-    phi = np.sum((np.abs(points) - on * half_axes) * normal, axis=1)
+    phi = dot(np.abs(points) - on * half_axes, normal)
     return phi, sign * normal

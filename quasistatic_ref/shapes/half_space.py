@@ -9,9 +9,9 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.shapes.frozen import finite, freeze_array
-from quasistatic_ref.shapes.hull import dot
 from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import dot, length
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,14 +33,13 @@ class HalfSpace(Shape):
     def __post_init__(self) -> None:
         freeze_array(self, "normal", (3,))
         offset = finite(self.offset, "offset")
-        # hypot scales first: a tiny or huge normal neither underflows nor overflows.
-        length = float(np.hypot.reduce(self.normal))
-        if not (length > 0 and np.isfinite(offset / length)):
+        size = length(self.normal)
+        if not (size > 0 and np.isfinite(offset / size)):
             raise ModelError("must not be zero", field="normal", value=self.normal.tolist())
-        unit = self.normal / length
+        unit = self.normal / size
         unit.setflags(write=False)
         object.__setattr__(self, "normal", unit)
-        object.__setattr__(self, "offset", offset / length)
+        object.__setattr__(self, "offset", offset / size)
 
     @cached_property
     def coal(self) -> Any:

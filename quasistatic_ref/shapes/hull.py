@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import dot, norm
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 if TYPE_CHECKING:
@@ -94,26 +95,3 @@ def nearest_offsets(points: Array, hull: "ConvexMesh") -> Array:
     i = square.argmin(axis=1)
     nearer = square[rows, i] < best
     return np.where(nearer[:, None], level[rows, i, None] * n[i], offset)
-
-
-def dot(a: Array, b: Array) -> Array:
-    """Scalar products of vectors.
-
-    Parameters
-    ----------
-    a, b : ndarray, shape (..., 3)
-        [any unit].
-
-    Returns
-    -------
-    ndarray, shape (...)
-        [the product of both units].
-    """
-    # Not `@` or einsum: the order of the sum must not depend on the number of points.
-    products = a * b
-    return np.asarray(products[..., 0] + products[..., 1] + products[..., 2])
-
-
-def norm(vectors: Array) -> Array:
-    """Lengths [their unit] of vectors (..., 3), summed as :func:`dot` does."""
-    return np.sqrt(dot(vectors, vectors))

@@ -7,6 +7,7 @@ import numpy as np
 from quasistatic_ref.shapes.frozen import freeze_size
 from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import norm, product
 from quasistatic_ref.tolerances import UPRIGHT
 
 QUARTERS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
@@ -45,9 +46,9 @@ def rim_corners(radius: float, z: float, towards: Array) -> Array:
         Unit vector [-] to the other body; the first point is the one nearest to it.
     """
     x, y = towards[:2]
-    length = np.hypot(x, y)
+    length = norm(towards[:2])
     x, y = (x / length, y / length) if length > UPRIGHT else (1.0, 0.0)
-    around = QUARTERS @ np.array([[x, y], [-y, x]])
+    around = product(QUARTERS, np.array([[x, y], [-y, x]]))
     return np.column_stack([radius * around, np.full(4, z)])
 
 
@@ -62,5 +63,5 @@ def rim_point(radius: float, direction: Array) -> tuple[float, float]:
         Unit vector [-].
     """
     x, y, _ = direction
-    length = np.hypot(x, y)
+    length = norm(direction[:2])
     return (radius * x / length, radius * y / length) if length else (0.0, 0.0)

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from quasistatic_ref.shapes.hull import norm
 from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import dot, norm
 
 _AXES = np.eye(3)
 
@@ -29,7 +29,7 @@ class Rounded(Shape):
     def support_value(self, directions: Array) -> Array:
         """Reach of the core along `directions` (N, 3) [-] plus the radius, shape (N,) [m]."""
         half_extents, radius = self.core
-        return np.asarray(radius + np.abs(directions) @ half_extents)
+        return np.asarray(radius + dot(np.abs(directions), half_extents))
 
 
 def distance_to_rounded_box(

@@ -7,6 +7,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.arrays import Array, keep
@@ -67,7 +68,7 @@ class JointTrack(Plain):
         if self.joint.kind not in ("floating", "planar"):
             value = piecewise_linear(self.times, self.values, t)
             if self.joint.kind == "continuous":
-                return np.array([np.cos(value[0]), np.sin(value[0])])
+                return np.array(cos_sin(float(value[0])))
             return value
         i, s = _interval(self.times, t)
         start = self._placed(self.values[i])

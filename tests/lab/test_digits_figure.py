@@ -1,13 +1,5 @@
 """The figure of correct digits: the committed results, and steps that a backend left unsolved."""
 
-from dataclasses import replace
-
-import numpy as np
-import pytest
-from matplotlib import pyplot as plt
-from matplotlib.text import Text
-
-from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from tests.quoted import filled, stale
 from validation.make.digits_of_backends import (
     ACCURACIES,
@@ -15,30 +7,8 @@ from validation.make.digits_of_backends import (
     NATURAL,
     RAW,
     ROOT,
-    SUBJECT,
     records_read,
 )
-
-LEGIBLE = 7.0  # points
-
-
-@pytest.fixture
-def drawn():
-    figures = []
-
-    def figure_of(records):
-        figures.append(digits_of_backends(records, SUBJECT))
-        return figures[-1]
-
-    yield figure_of
-    for figure in figures:
-        plt.close(figure)
-
-
-def words(figure):
-    figure.canvas.draw()
-    texts = [t.get_text() for t in figure.findobj(Text)]
-    return [text.replace("\n", " ") for text in texts if text.strip()]
 
 
 def test_the_committed_results_are_all_steps_of_every_backend_and_setting():
@@ -92,35 +62,3 @@ def test_the_page_on_exact_answers_quotes_the_committed_results():
     wrong = stale((ROOT / "docs" / "exactness.md").read_text("utf-8"), filled(quoted()))
     assert not wrong, "ought to read:\n" + "\n".join(wrong)
     assert {r.unsolved for r in records_read()} == {0}
-
-
-def test_markers_are_the_medians_and_each_backend_has_its_own(drawn):
-    records = records_read()
-    figure = drawn(records)
-    panels = dict.fromkeys(r.units for r in records)
-    for axes, units in zip(figure.axes, panels, strict=True):
-        lines = {line.get_label(): line for line in axes.lines}
-        shapes = {lines[backend].get_marker() for backend in BACKENDS}
-        assert len(shapes) == len(BACKENDS)
-        for backend in BACKENDS:
-            medians = [r.median for r in records if (r.units, r.backend) == (units, backend)]
-            assert lines[backend].get_ydata().tolist() == medians
-
-
-def test_text_is_legible_and_says_what_is_shown(drawn):
-    figure = drawn(records_read())
-    said = " ".join(words(figure))
-    for part in ("h = 10 ms", "friction pyramid", "no step unsolved", *BACKENDS):
-        assert part in said
-    sizes = [t.get_fontsize() for t in figure.findobj(Text) if t.get_text().strip()]
-    assert min(sizes) >= LEGIBLE
-
-
-def test_unsolved_steps_are_a_category_of_their_own(drawn):
-    first, *others = records_read()
-    nothing = BackendDigits("here", "lost", "1e-3", 600, 600, *[np.nan] * 4)
-    some = replace(first, units="here", unsolved=3)
-    said = words(drawn([some, nothing, *(replace(r, units="here") for r in others[:4])]))
-    assert "0.5 % unsolved" in said
-    assert "100.0 % unsolved" in said
-    assert any("some steps unsolved" in text for text in said)

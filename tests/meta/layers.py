@@ -82,9 +82,10 @@ WALLS = {
     "matplotlib": ("optional/show/figures", "lab/figures"),
     "meshcat": ("optional/show/figures",),
     "jax": ("optional/derivatives/step_jax.py",),
-    # Exact and ball arithmetic: the judge, and the vectors that others are judged by.
+    # Exact and ball arithmetic: the judge, and the vectors that others are judged by. And angles.
     "flint": (
         "certify",
+        "model/angles.py",
         "optional/derivatives/step",
         "optional/ellipsoid",
         "optional/extensions",

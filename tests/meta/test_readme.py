@@ -15,11 +15,6 @@ def without_quiet(command):
     return re.sub(r" -q\b", "", command)
 
 
-def test_commands_are_read_from_shell_blocks_only():
-    text = "```sh\n# a comment\n$ one --two  # three\n```\n```python\nfour()\n```\n`five`\n"
-    assert shell_lines(text) == ("one --two",)
-
-
 NAMED = re.compile(r"^\d\. `(\w+/\w+\.py)`: (.*)$", re.MULTILINE)
 
 

@@ -85,9 +85,3 @@ def test_the_mass_matrix_of_a_cart_and_its_pendulum_follows_the_angle() -> None:
         both = -m_b * length * np.cos(angle)
         expected = [[m + m_b, both], [both, moment + m_b * length**2]]
         np.testing.assert_allclose(system.M_u(q), expected, rtol=0, atol=10 * ROUNDING)
-
-
-def test_m_u_of_a_free_body_beside_actuated_joints_is_the_same_everywhere() -> None:
-    system = System([Body("crane", CART, actuated="all"), Body("box", BOX, "floating")])
-    assert system.constant_mass_matrix
-    assert system.M_u(system.integrate(system.q_start, np.ones(8))) is system.M_u(system.q_start)

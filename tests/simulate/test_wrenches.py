@@ -64,50 +64,6 @@ def test_so_does_the_sum_over_the_links_of_a_body(pinch):
     assert np.abs(wrenches["held"]).max() > 1  # N
 
 
-def by_loops(run, pairs_of, origin, sign_of):
-    """The same sum, contact by contact; sign_of: +1 beta's body, -1 alpha's, 0 neither."""
-    total = np.zeros((run.steps, 6))
-    for k in range(run.steps):
-        for j, pair in enumerate(pairs_of):
-            for side, point in zip(sign_of(pair), ("alpha", "beta"), strict=True):
-                f_d1, f_d2, f_n, tau_n = run["wrench"][k, j]
-                f = f_d1 * run["d1"][k, j] + f_d2 * run["d2"][k, j] + f_n * run["n"][k, j]
-                r = run[point][k, j] - origin(k)
-                torque = [
-                    r[1] * f[2] - r[2] * f[1],
-                    r[2] * f[0] - r[0] * f[2],
-                    r[0] * f[1] - r[1] * f[0],
-                ]
-                total[k, :3] += side * f
-                total[k, 3:] += side * (np.array(torque) + tau_n * run["n"][k, j])
-    return total
-
-
-def test_the_sums_are_those_of_plain_loops(scenario, run, pinch):
-    sides = {"ball": {"floor": (0, 1), "push": (0, 1)}, "rail/plate": {"push": (-1, 0)}}
-    sides["rail"], sides["world"] = sides["rail/plate"], {"floor": (-1, 0)}
-    for name, sign in sides.items():
-        link = scenario.system.link(name)
-        expected = by_loops(
-            run,
-            ("floor", "push"),
-            lambda k, link=link: scenario.system.kinematics(run["q"][k]).t[link],
-            lambda pair, sign=sign: sign.get(pair, (0, 0)),
-        )
-        np.testing.assert_allclose(run.wrench_on(name), expected, rtol=ROUNDING, atol=ROUNDING)
-    there, held = pinch
-    palm = there.system.link("near")
-    for name, signs in (("near", ((-1, 0),) * 2), ("held", ((0, 1),) * 2)):
-        link = palm if name == "near" else there.system.link("held")
-        expected = by_loops(
-            held,
-            (*signs, (0, 0), (0, 0)),
-            lambda k, link=link: there.system.kinematics(held["q"][k]).t[link],
-            lambda sides: sides,
-        )
-        np.testing.assert_allclose(held.wrench_on(name), expected, rtol=ROUNDING, atol=ROUNDING)
-
-
 def test_both_sides_together_are_the_couple_of_the_gaps(scenario, run):
     """About one point, the wrenches on all bodies sum to phi n x f; their forces to nothing."""
     total, couple = np.zeros((run.steps, 6)), np.zeros((run.steps, 3))

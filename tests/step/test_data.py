@@ -94,12 +94,6 @@ def test_nothing_but_the_package_s_own_error_comes_out(build):
         build()
 
 
-def test_singular_stiffnesses_are_refused_even_with_a_float_factor():
-    for k in range(1, 101):
-        with pytest.raises(StepDataError):
-            STEP.replace(K_q=np.full((2, 2), float(k)))
-
-
 def test_a_frame_passes_just_inside_the_tolerance_and_not_outside():
     def tilted(angle):
         return np.cos(angle) * CONTACTS.n + np.sin(angle) * CONTACTS.d1
@@ -132,36 +126,11 @@ def test_fields_cannot_be_assigned():
         CONTACTS.phi = np.zeros(2)
 
 
-STEP_ARRAYS = ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
-CONTACT_ARRAYS = ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
-
-
-@pytest.mark.parametrize(
-    "array",
-    [getattr(STEP, name) for name in STEP_ARRAYS]
-    + [getattr(CONTACTS, name) for name in CONTACT_ARRAYS]
-    + [STEP.extra.A, STEP.extra.b],
-    ids=[*STEP_ARRAYS, *CONTACT_ARRAYS, "extra.A", "extra.b"],
-)
-def test_arrays_cannot_be_written(array):
-    assert not array.flags.writeable
-
-
-@pytest.mark.parametrize("name", ["mask", "offsets"])
-def test_derived_arrays_cannot_be_written(name):
-    assert not getattr(STEP, name).flags.writeable
-
-
 def test_the_caller_s_own_array_is_copied_not_locked():
     tau_a = np.array([1.0, 2.0])
     step = STEP.replace(tau_a=tau_a)
     tau_a[0] = 5.0
     np.testing.assert_allclose(step.tau_a, [1.0, 2.0], rtol=EXACT, atol=EXACT)
-
-
-def test_numbers_in_lists_become_float64():
-    step = STEP.replace(tau_a=[1, 2])
-    assert step.tau_a.dtype == np.float64
 
 
 def test_counts_are_those_of_the_arrays():
@@ -187,24 +156,6 @@ def test_equality_sees_every_bit():
     assert STEP.replace(extra=Extra(("a",), np.ones((1, 5)), [0.0])) != STEP
 
 
-def test_rows_that_cannot_be_written_are_kept_and_others_become_integers():
-    for dtype, kept in ((np.int64, True), (np.int32, False), (np.float64, False)):
-        rows = np.array([6, 4], dtype=dtype)
-        rows.setflags(write=False)
-        found = changed(CONTACTS, rows=rows).rows
-        assert (found is rows) == kept
-        assert found.dtype == np.int64
-        assert found.tolist() == [6, 4]
-
-
-def test_a_frame_at_the_tolerance_to_the_bit_passes_and_is_not_named():
-    x, y, z = np.eye(3)
-    limit = [ORTHONORMAL, 0.0, 1.0]  # d1 . n is the tolerance, n . n rounds to 1
-    right = changed(CONTACTS, d1=[x, x], d2=[y, y], n=[limit, z])
-    with pytest.raises(StepDataError, match=r"contacts\[c1\]: d1, d2, n must be"):
-        changed(right, n=[limit, 2 * z])
-
-
 def test_a_wrong_frame_is_named_with_its_axes():
     """The second contact's normal has length 2: d1, d2 and n of that contact are reported."""
     n = CONTACTS.n * [[1.0], [2.0]]
@@ -212,3 +163,12 @@ def test_a_wrong_frame_is_named_with_its_axes():
         changed(CONTACTS, n=n)
     expected = [CONTACTS.d1[1].tolist(), CONTACTS.d2[1].tolist(), n[1].tolist()]
     assert caught.value.value == expected
+
+
+def test_arrays_cannot_be_written():
+    def arrays(data):
+        return [value for value in vars(data).values() if isinstance(value, np.ndarray)]
+
+    found = [*arrays(STEP), *arrays(CONTACTS), *arrays(STEP.extra), STEP.mask, STEP.offsets]
+    assert len(found) >= 5 + 8 + 2 + 2
+    assert not any(array.flags.writeable for array in found)

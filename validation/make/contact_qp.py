@@ -25,7 +25,7 @@ from scipy.sparse.linalg import spsolve
 
 from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.formats.resources import problem_set_folder
-from quasistatic_ref.lab.figures.study_pens import pens
+from quasistatic_ref.lab.figures.line_styles import pens
 from quasistatic_ref.lab.study.calling.calls import tried
 from quasistatic_ref.lab.study.calling.sessions import Native
 from quasistatic_ref.lab.study.problems.folder import manifest, set_read

@@ -8,9 +8,11 @@ and goes on where it was. Exit status 1 if a number is wrong, or stands where th
 """
 
 import argparse
+import itertools
 import sys
 from collections import defaultdict
 from collections.abc import Iterator
+from operator import itemgetter
 from pathlib import Path
 from typing import Final
 
@@ -18,9 +20,9 @@ import numpy as np
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.lab.vectors.layers.derivative import QUIET, STILL
 from tests.oracles.gradients.judge import judged
-from tests.oracles.gradients.log import Record, logged
 from tests.oracles.gradients.reference import FIELDS
 from tests.oracles.gradients.states import state
 
@@ -49,11 +51,10 @@ def record(i: int) -> Record:
 
 def records(count: int, log: Path | None) -> Iterator[Record]:
     """Records until `count` states are judged; those of the log first, new ones added to it."""
-    one_of, i, done = logged(record, log), 0, 0
+    done, every = 0, Log(log, itemgetter("i")).records(itertools.count(), record)
     while done < count:
-        one = one_of(i)
+        one = next(every)
         done += "none" not in one
-        i += 1
         yield one
 
 

@@ -30,7 +30,7 @@ from quasistatic_ref.lab.study.measuring.tuning import (
 )
 from quasistatic_ref.lab.study.problems.for_study import TestSet, study_problems
 from quasistatic_ref.lab.study.problems.problem import Problem
-from quasistatic_ref.lab.study.report.numbers import milliseconds, options_words
+from quasistatic_ref.lab.study.report.words import milliseconds, options_words
 from validation.make.option_report import Spaces, is_searched, report
 
 HERE = Path(__file__).parent

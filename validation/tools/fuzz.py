@@ -20,15 +20,19 @@ import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from importlib import import_module
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.parallel import Log
 from validation.tools.fuzzing.worker import ENDED, SECONDS, content_of
 
 BATCH = 300
 """Inputs of one reader before those of the next."""
 ROOT = Path(__file__).parents[2]
-COLUMNS = "| reader | inputs | accepted | refused | failures | longest [s] | most memory [MiB] |"
+COLUMNS = ("reader", "inputs", "accepted", "refused", "failures", "longest [s]",
+           "most memory [MiB]")  # fmt: skip
 READERS = "validation.tools.fuzzing.readers"
 Job = tuple[str, int, int]
 
@@ -114,7 +118,7 @@ def kept(readers: str, name: str, inputs: list[int], folder: Path) -> None:
 
 def table(records: list[dict[str, Any]]) -> list[str]:
     """Lines of the table, one a reader."""
-    lines = [COLUMNS, "|---|---:|---:|---:|---:|---:|---:|"]
+    lines = []
     readers = sorted({record["reader"] for record in records})
     for name in [*readers, "all"]:
         own = [record for record in records if name in (record["reader"], "all")]
@@ -122,8 +126,8 @@ def table(records: list[dict[str, Any]]) -> list[str]:
         failures = sum(len(record["failures"]) for record in own)
         cells = [f"{n:,}" for n in (*sums, failures)]
         cells += [f"{max(r['seconds'] for r in own):.2f}", f"{max(r['mebibytes'] for r in own)}"]
-        lines.append(f"| {name} | {' | '.join(cells)} |")
-    return lines
+        lines.append((name, *cells))
+    return markdown_table(COLUMNS, lines, left=1)
 
 
 def main() -> int:
@@ -137,26 +141,23 @@ def main() -> int:
     parser.add_argument("--table", type=Path, metavar="FILE.md")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    path = options.out / "outcomes.jsonl"
-    records = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+    log = Log(options.out / "outcomes.jsonl", itemgetter("reader", "start"))
     module = import_module(options.readers)
     readers = options.reader or module.names()
     begun, each = time.monotonic(), -(-options.inputs // len(readers))
-    there = {(record["reader"], record["start"]) for record in records}
     jobs = [
         (name, start, min(BATCH, each - start))
-        for start in range(0, each, BATCH) for name in readers if (name, start) not in there
+        for start in range(0, each, BATCH) for name in readers if (name, start) not in log.found
     ]  # fmt: skip
     for number, record in enumerate(batches(jobs, options.out, options.readers), start=1):
-        records.append(record)
-        with path.open("a") as file:
-            file.write(json.dumps(record) + "\n")
+        log.add(record)
         said = f"{record['accepted']} accepted, {record['refused']} refused"
         print(f"{number}/{len(jobs)} {record['reader']}: {said}", flush=True)
         for failure in record["failures"]:
             print(f"  {failure['outcome']} of input {failure['input']}: {failure['words']}")
         if time.monotonic() - begun > options.seconds:
             break
+    records = list(log.found.values())
     if options.table:
         options.table.write_text(module.PAGE + "\n".join(table(records)) + "\n")
     print(*table(records), sep="\n")

@@ -15,7 +15,6 @@ from __future__ import annotations
 import argparse
 import ast
 import hashlib
-import json
 import os
 import random
 import re
@@ -26,12 +25,14 @@ import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from operator import itemgetter
 from pathlib import Path
 
 import pytest
 from tqdm import tqdm
 
 from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.parallel import Log
 from validation.tools.mutating.mutants import Mutant, mutants
 from validation.tools.mutating.mutated import EXACT, TESTS
 from validation.tools.mutating.trials import Trials
@@ -174,23 +175,19 @@ def main() -> int:
     chosen = all_mutants(files)
     if options.sample is not None:
         chosen = random.Random(1).sample(chosen, min(options.sample, len(chosen)))
-    log: Path | None = options.log
-    lines = log.read_text().splitlines() if log is not None and log.exists() else []
-    found = {key: said for said, key in (json.loads(line) for line in lines)}
-    left = [mutant for mutant in chosen if mutant.key not in found]
+    log = Log(options.log, itemgetter("mutant"))
+    left = [mutant for mutant in chosen if mutant.key not in log.found]
     progress = tqdm(desc="mutants", total=len(left))
 
     def heard(mutant: Mutant, said: str) -> None:
-        found[mutant.key] = said
+        log.add({"mutant": mutant.key, "said": said})
         progress.update()
-        if log is not None:
-            with log.open("a") as file:
-                print(json.dumps([said, mutant.key]), file=file)
         if said == "survived":
             tqdm.write(f"line {mutant.line}: {mutant.key}", file=sys.stderr)
 
     if left:
-        outcomes(left, heard, log.with_suffix(".traces.json") if log is not None else None)
+        outcomes(left, heard, options.log and options.log.with_suffix(".traces.json"))
+    found = {key: one["said"] for key, one in log.found.items()}
     table_written(found)
     known, counts = reasons(), Counter(found[mutant.key] for mutant in chosen)
     print(f"{len(chosen)} mutants: {', '.join(f'{n} {said}' for said, n in counts.items())}")

@@ -18,13 +18,11 @@ REALITY = ("pushes", "identified", "loads", "errors", "ablations", "tripods")
 """Figures of docs/reality.md."""
 
 RESULTS = (
-    written("compilers", "validation/results/compilers.md"),
     Result(
         "environments",
         ("validation.make.environments", "--out", "validation/results/environments.md"),
         ("validation/results/environments.md",),
     ),
-    printed("memory_of_steps", "validation/results/memory_of_steps.md"),
     Result(
         "vectors",
         (CLI, "vectors", "generate", "--out", "validation/vectors"),
@@ -76,9 +74,7 @@ RESULTS = (
         ("validation/results/sequences.txt",),
         output="validation/results/sequences.txt",
     ),
-    written("curved_pairs", "validation/results/curved_pairs.md"),
     printed("pair_distances", "validation/results/pair_distances.md"),
-    printed("load_robots", "validation/results/load_robots.md"),
     printed("step_profile", "validation/results/step_profile.md"),
     printed("random_mechanisms", "validation/results/random_mechanisms.md"),
     written("exact_everywhere", "validation/results/exact_everywhere.txt"),
@@ -92,10 +88,7 @@ RESULTS = (
     written("verifier_faults", "validation/results/verifier_faults.md"),
     written("confirmed_bits", "validation/results/confirmed_bits.txt"),
     written("same_bits", "validation/results/same_bits.json"),
-    written("derivatives", "validation/results/derivatives.md"),
     written("derivative_states", "validation/results/derivative_states.md"),
-    written("derivative_kinks", "validation/results/derivative_kinks.md"),
-    written("push_plans", "validation/results/push_plans.md"),
     Result(
         "bench_exact",
         ("validation.make.bench_exact", "200"),

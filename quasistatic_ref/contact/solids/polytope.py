@@ -3,6 +3,7 @@
 A capsule is a segment with a margin, its radius. So box, convex mesh and capsule are one family.
 """
 
+import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -13,6 +14,7 @@ from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Shape
 from quasistatic_ref.shapes.rounded import distance_to_rounded_box
 from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.ordered import dot, rotated
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -49,9 +51,9 @@ class Polytope:
 
     def moved(self, R: Array, t: Array) -> "Polytope":
         """The polytope in another frame, x' = R x + t (`shape` stays in its own)."""
-        normals = self.normals @ R.T
-        offsets = self.offsets + normals @ t
-        return replace(self, vertices=self.vertices @ R.T + t, normals=normals, offsets=offsets)
+        normals, vertices = rotated(R, self.normals), rotated(R, self.vertices) + t
+        offsets = self.offsets + dot(normals, t)
+        return replace(self, vertices=vertices, normals=normals, offsets=offsets)
 
     def core_distance(self, points: Array) -> tuple[Array, Array]:
         """Signed distance and normal of points, in the shape's own frame, to the core."""
@@ -66,8 +68,8 @@ def polytope(shape: Shape) -> Polytope | None:
     match shape:
         case Capsule():
             ends, radius = shape.corners(UP)
-            angle = 2 * np.pi / 3 * np.arange(3)
-            around = np.stack([np.cos(angle), np.sin(angle), np.zeros(3)], axis=1)
+            x, y = -0.5, math.sqrt(0.75)  # of a third of a turn
+            around = np.array([[1.0, 0.0, 0.0], [x, y, 0.0], [x, -y, 0.0]])
             sides = np.array([[0, 1], [1, 2], [2, 0]])
             edges = np.array([[0, 1]] * 3)
             return Polytope(shape, radius, ends, around, np.zeros(3), edges, sides)

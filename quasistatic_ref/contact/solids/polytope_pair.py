@@ -13,6 +13,7 @@ from quasistatic_ref.contact.shape_in_world import Witness
 from quasistatic_ref.contact.solids.polytope import Polytope
 from quasistatic_ref.shapes.placed_shape import Capsule
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import dot, norm, product
 from quasistatic_ref.tolerances import ON_SURFACE, OUTSIDE_FACE
 
 
@@ -38,7 +39,7 @@ def polytope_pair(
     if gap > 0:
         on_a, on_b, miss = _nearest(a, b, R, t, gap * n, size)
         between = on_b - on_a
-        distance = float(np.sqrt(between @ between))
+        distance = float(norm(between))
         if miss > OUTSIDE_FACE * size and distance > ON_SURFACE * size:
             gap, n = distance, between / distance
     else:
@@ -59,19 +60,19 @@ def _capsule_pair(a: Polytope, b: Polytope) -> Witness:
     s, r = nearest_on_segments(tail_a, way_a, tail_b, way_b)
     on_a, on_b = tail_a + s * way_a, tail_b + r * way_b
     apart = (on_b - on_a)[0]
-    gap, size = float(np.sqrt(apart @ apart)), float(np.abs([a.vertices, b.vertices]).max())
+    gap, size = float(norm(apart)), float(np.abs([a.vertices, b.vertices]).max())
     across = np.cross(way_a, way_b)[0]
-    steepness = float(np.sqrt((across @ across) / ((way_a @ way_a.T) * (way_b @ way_b.T))).item())
+    steepness = float(np.sqrt(dot(across, across) / (dot(way_a, way_a) * dot(way_b, way_b))[0]))
     inside = 0 < s[0] < 1 and 0 < r[0] < 1
     n = apart
     if gap <= ON_SURFACE * size:  # axes that cross, or lie in each other
-        n = across if np.sqrt(across @ across) > ON_SURFACE * size**2 else a.normals[0]
+        n = across if norm(across) > ON_SURFACE * size**2 else a.normals[0]
     elif inside and steepness * size > gap:  # the difference of near points has few digits
         n = across
     if n is not apart:
-        n = n * (1.0 if n @ apart >= 0 else -1.0)
-        gap = float(n @ apart / np.sqrt(n @ n))
-    return _with_margins(a, b, gap, on_a[0], n / np.sqrt(n @ n))
+        n = n * (1.0 if dot(n, apart) >= 0 else -1.0)
+        gap = float(dot(n, apart) / norm(n))
+    return _with_margins(a, b, gap, on_a[0], n / norm(n))
 
 
 def gaps_between(a: Polytope, b: Polytope) -> tuple[Array, Array]:
@@ -89,8 +90,8 @@ def gaps_between(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     normals : ndarray, shape (N, 3)
         From a to b [-].
     """
-    along_a = (a.normals @ b.vertices.T).min(axis=1) - a.offsets
-    along_b = (b.normals @ a.vertices.T).min(axis=1) - b.offsets
+    along_a = product(a.normals, b.vertices.T).min(axis=1) - a.offsets
+    along_b = product(b.normals, a.vertices.T).min(axis=1) - b.offsets
     crossing, gaps = _crossing_edges(a, b)
     normals = np.concatenate([a.normals, -b.normals, crossing])
     return np.concatenate([along_a, along_b, gaps]), normals
@@ -104,7 +105,7 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     """
     way_a = a.vertices[a.edges[:, 1]] - a.vertices[a.edges[:, 0]]
     way_b = b.vertices[b.edges[:, 1]] - b.vertices[b.edges[:, 0]]
-    b_on_a, a_on_b = -way_a @ b.normals.T, way_b @ a.normals.T
+    b_on_a, a_on_b = product(-way_a, b.normals.T), product(way_b, a.normals.T)
     c, d = b_on_a[:, b.sides[:, 0]], b_on_a[:, b.sides[:, 1]]
     e, f = a_on_b[:, a.sides[:, 0]].T, a_on_b[:, a.sides[:, 1]].T
     # Each arc has its ends on different sides of the plane of the other ...
@@ -112,18 +113,18 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     if not len(i):
         return np.zeros((0, 3)), np.zeros(0)
     n = np.cross(way_a[i], way_b[j])
-    length = np.sqrt(np.sum(n * n, axis=1))
-    scale = np.sqrt(np.sum(way_a[i] ** 2, axis=1) * np.sum(way_b[j] ** 2, axis=1))
+    length = norm(n)
+    scale = np.sqrt(dot(way_a[i], way_a[i]) * dot(way_b[j], way_b[j]))
     keep = length > ON_SURFACE * scale
     i, j, n = i[keep], j[keep], n[keep] / length[keep, None]
     # ... and they are on the same hemisphere: n is on the side of a's normals and of -b's.
     middle_a = a.normals[a.sides[i, 0]] + a.normals[a.sides[i, 1]]
     middle_b = -(b.normals[b.sides[j, 0]] + b.normals[b.sides[j, 1]])
-    side_a, side_b = np.sum(n * middle_a, axis=1), np.sum(n * middle_b, axis=1)
+    side_a, side_b = dot(n, middle_a), dot(n, middle_b)
     same = side_a * side_b > 0
     i, j, n = i[same], j[same], n[same] * np.sign(side_a[same])[:, None]
     apart = b.vertices[b.edges[j, 0]] - a.vertices[a.edges[i, 0]]
-    return n, np.sum(n * apart, axis=1)
+    return n, dot(n, apart)
 
 
 def _nearest(
@@ -138,14 +139,14 @@ def _nearest(
     phi_b, normal = a.core_distance(moved.vertices)
     i = int(phi_b.argmin())
     tip_b, foot_a = moved.vertices[i], moved.vertices[i] - phi_b[i] * normal[i]
-    phi_a, normal = b.core_distance((a.vertices - t) @ R)
+    phi_a, normal = b.core_distance(product(a.vertices - t, R))
     j = int(phi_a.argmin())
-    tip_a, foot_b = a.vertices[j], a.vertices[j] - phi_a[j] * (R @ normal[j])
+    tip_a, foot_b = a.vertices[j], a.vertices[j] - phi_a[j] * product(R, normal[j])
     least = float(min(phi_a[j], phi_b[i]))
     distance, on_a, on_b = _edge_distances(a, moved, max(least, 0.0))
     distance = np.concatenate([[phi_b[i], phi_a[j]], distance])
     on_a, on_b = np.concatenate([[foot_a, tip_a], on_a]), np.concatenate([[tip_b, foot_b], on_b])
-    miss = np.sqrt(np.sum((on_b - on_a - way) ** 2, axis=1))
+    miss = norm(on_b - on_a - way)
     best = int(distance.argmin())
     as_near = (distance <= distance[best] + OUTSIDE_FACE * size) & (miss <= OUTSIDE_FACE * size)
     if not as_near[best] and as_near.any():
@@ -158,13 +159,14 @@ def _edge_distances(a: Polytope, b: Polytope, bound: float) -> tuple[Array, Arra
     tail_a, tail_b = a.vertices[a.edges[:, 0]], b.vertices[b.edges[:, 0]]
     way_a, way_b = a.vertices[a.edges[:, 1]] - tail_a, b.vertices[b.edges[:, 1]] - tail_b
     middle_a, middle_b = tail_a + way_a / 2, tail_b + way_b / 2
-    reach_a, reach_b = (np.sqrt(np.sum(w * w, axis=1)) / 2 for w in (way_a, way_b))
+    reach_a, reach_b = (norm(w) / 2 for w in (way_a, way_b))
     # Only edges whose surrounding balls come within the bound.
-    apart2 = sum((middle_a[:, k, None] - middle_b[:, k]) ** 2 for k in range(3))
+    apart = middle_a[:, None] - middle_b
+    apart2 = dot(apart, apart)
     i, j = np.nonzero(apart2 <= (reach_a[:, None] + reach_b + bound) ** 2)
     s, r = nearest_on_segments(tail_a[i], way_a[i], tail_b[j], way_b[j])
     on_a, on_b = tail_a[i] + s[:, None] * way_a[i], tail_b[j] + r[:, None] * way_b[j]
-    return np.sqrt(np.sum((on_b - on_a) ** 2, axis=1)), on_a, on_b
+    return norm(on_b - on_a), on_a, on_b
 
 
 def nearest_on_segments(p: Array, u: Array, q: Array, v: Array) -> tuple[Array, Array]:
@@ -176,13 +178,13 @@ def nearest_on_segments(p: Array, u: Array, q: Array, v: Array) -> tuple[Array, 
     (C. Ericson, "Real-Time Collision Detection", 5.1.9.)
     """
     w = p - q
-    uu, vv, uv = (np.sum(x * y, axis=1) for x, y in ((u, u), (v, v), (u, v)))
-    uw, vw = np.sum(u * w, axis=1), np.sum(v * w, axis=1)
+    uu, vv, uv = (dot(x, y) for x, y in ((u, u), (v, v), (u, v)))
+    uw, vw = dot(u, w), dot(v, w)
     cross = np.cross(u, v)
-    det = np.sum(cross * cross, axis=1)
+    det = dot(cross, cross)
     parallel = det <= (ON_SURFACE**2) * uu * vv
     # Of uv vw - vv uw, the same number, nearly parallel segments leave half of the digits.
-    ahead = np.sum(np.cross(v, w) * cross, axis=1)
+    ahead = dot(np.cross(v, w), cross)
     s = np.where(parallel, 0.0, ahead / np.where(parallel, 1.0, det))
     s = np.clip(s, 0.0, 1.0)
     r = np.clip((uv * s + vw) / vv, 0.0, 1.0)

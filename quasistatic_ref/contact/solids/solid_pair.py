@@ -6,6 +6,8 @@ all others, a cylinder, cone or ellipsoid and any of these or of those, coal's a
 and then checked.
 """
 
+import numpy as np
+
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.by_coal import coal_witness
@@ -13,6 +15,7 @@ from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import dot, product, rotated
 
 
 def solid_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
@@ -43,11 +46,12 @@ def pair_and_gaps(
     P, Q = polytope(a.shape), polytope(b.shape)
     if P is None or Q is None:
         return _curved_pair(name, a, b), None
-    R, t = a.R.T @ b.R, a.R.T @ (b.t - a.t)
+    R, t = product(a.R.T, b.R), product(a.R.T, b.t - a.t)
     every, normals = gaps_between(P, Q.moved(R, t))
     found = polytope_pair(P, Q, R, t, (every, normals))
-    points = Witness(found.phi, a.R @ found.alpha + a.t, a.R @ found.beta + a.t, a.R @ found.n)
-    return points, (every - P.margin - Q.margin, normals @ a.R.T)
+    alpha, beta, n = rotated(a.R, np.array([found.alpha, found.beta, found.n]))
+    points = Witness(found.phi, alpha + a.t, beta + a.t, n)
+    return points, (every - P.margin - Q.margin, rotated(a.R, normals))
 
 
 def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
@@ -63,14 +67,14 @@ def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
 
 
 def _sphere_on_solid(solid: ShapeInWorld, sphere: ShapeInWorld, radius: float) -> Witness:
-    distance, normal = signed_distance(solid.shape, ((sphere.t - solid.t) @ solid.R)[None])
-    n = solid.R @ normal[0]
+    distance, normal = signed_distance(solid.shape, product(sphere.t - solid.t, solid.R)[None])
+    n = product(solid.R, normal[0])
     phi = float(distance[0])
     return Witness(phi - radius, sphere.t - phi * n, sphere.t - radius * n, n)
 
 
 def _solid_on_plane(plane: ShapeInWorld, half_space: HalfSpace, solid: ShapeInWorld) -> Witness:
-    n = plane.R @ half_space.normal
+    n = product(plane.R, half_space.normal)
     lowest = solid.farthest(-n)
-    phi = float(n @ (lowest - plane.t) - half_space.offset)
+    phi = float(dot(n, lowest - plane.t) - half_space.offset)
     return Witness(phi, lowest - phi * n, lowest, n)

@@ -73,10 +73,10 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _measured(options: argparse.Namespace, name: str, step: int) -> int:
-    from quasistatic_ref.lab.reality.conduct import predicted_pushes
     from quasistatic_ref.lab.reality.identify import identified
     from quasistatic_ref.lab.reality.loads import loads_read
     from quasistatic_ref.lab.reality.pairs import pairs_read
+    from quasistatic_ref.lab.reality.predictions import predicted_pushes
     from quasistatic_ref.lab.reality.pushes import pushes_read
     from quasistatic_ref.lab.reality.report import (
         certified_words,

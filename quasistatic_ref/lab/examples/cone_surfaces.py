@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.cones import SHOWN, limit_surfaces
 from quasistatic_ref.optional.show.figures import Figure
 from quasistatic_ref.step.friction import cone_matrix

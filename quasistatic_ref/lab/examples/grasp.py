@@ -7,7 +7,7 @@ about the points by which the two fingers hold it, and the bunny hangs down.
 from collections.abc import Sequence
 from typing import Any
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.grasp import CASES, CLOSED, INSTANTS, TOP
 from quasistatic_ref.lab.runs import grasp

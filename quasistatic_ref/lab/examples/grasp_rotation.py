@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.grasp import rotation_plot
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
 from quasistatic_ref.lab.runs import grasp

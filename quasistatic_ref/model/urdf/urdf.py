@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pinocchio as pin
@@ -121,6 +122,20 @@ def urdf_model(text: str, base: str) -> Any:
     """The pinocchio model of a URDF's text."""
     root = () if base == "fixed" else (BASES[base](), BASE)
     return pin.buildModelFromXML(text, *root, mimic=True)
+
+
+def with_turns(text: str) -> str:
+    """The same URDF, its revolute joints continuous: in q they have a cosine and a sine.
+
+    A joint that mimics another, or is mimicked, stays as it is: it may turn by more than pi.
+    """
+    robot = ElementTree.fromstring(text)
+    followed = {mimic.get("joint") for mimic in robot.iter("mimic")}
+    for joint in robot.findall("joint"):
+        alone = joint.find("mimic") is None and joint.get("name") not in followed
+        if joint.get("type") == "revolute" and alone:
+            joint.set("type", "continuous")
+    return ElementTree.tostring(robot, encoding="unicode")
 
 
 def _loaded(text: str, base: str) -> tuple[Any, Any]:

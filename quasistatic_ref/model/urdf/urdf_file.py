@@ -13,6 +13,7 @@ from quasistatic_ref.model.urdf.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import product
 from quasistatic_ref.tolerances import INERTIA_TRIANGLE
 
 _MOVING = ("revolute", "continuous", "prismatic")
@@ -170,7 +171,7 @@ def _inertial(link: Tag, ignored: list[str]) -> tuple[float, Array, Array, Defec
     defect = inertia_defect(inertia)
     if not mass > 0:
         defect = ("mass", "must be greater than 0", mass)
-    return mass, com, R @ inertia @ R.T, defect
+    return mass, com, product(product(R, inertia), R.T), defect
 
 
 def inertia_defect(inertia: Array) -> Defect | None:

@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from quasistatic_ref.model.motion import crossed
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.kinks import kinks
 from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
@@ -19,6 +18,7 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.friction import cone_matrix
+from quasistatic_ref.step.ordered import crossed
 
 FIELDS = ("dq_dq",)
 

@@ -15,10 +15,10 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.model.motion import crossed
 from quasistatic_ref.optional.derivatives.contact.contact_rates import ContactRates, tangent_rates
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.step.data import Array, Contacts, Indices
+from quasistatic_ref.step.ordered import crossed
 
 
 @dataclass(frozen=True, eq=False)

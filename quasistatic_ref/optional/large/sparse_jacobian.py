@@ -5,11 +5,12 @@ import numpy as np
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.model.motion import Motion, cross_matrix
+from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.data import Indices, Mask
+from quasistatic_ref.step.ordered import crossed, product
 
 
 class BlockGeometry:
@@ -63,11 +64,11 @@ class BlockGeometry:
         twist = kinematics.columns.T[self.joint_column].transpose(0, 2, 1)  # (n_c, 6, w)
         nu, omega = twist[:, :3], twist[:, 3:]
         a, b = self.alpha[:, None], self.beta[:, None]
-        at_alpha = nu - cross_matrix(points.alpha) @ omega  # nu_origin + omega x r
-        at_beta = nu - cross_matrix(points.beta) @ omega
-        spin = points.n[:, None] @ (omega * (b - a))
+        at_alpha = nu + crossed(omega, points.alpha[:, :, None])  # nu_origin + omega x r
+        at_beta = nu + crossed(omega, points.beta[:, :, None])
+        spin = product(points.n[:, None], omega * (b - a))
         J = np.concatenate([b * at_beta - a * at_alpha, spin], axis=1)  # Eqs. (2)-(3)
-        return Blocks(self.column, J if self.sums is None else J @ self.sums, self.n_v)
+        return Blocks(self.column, J if self.sums is None else product(J, self.sums), self.n_v)
 
 
 def _ragged(marked: Mask) -> tuple[Indices, Indices, Indices]:

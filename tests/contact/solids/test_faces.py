@@ -6,9 +6,8 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.solids.faces import FLAT, Face, curvature, face, kinks
-from quasistatic_ref.contact.solids.settle import CROSSING, NOTHING, _crossing, _turn
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
+from quasistatic_ref.contact.solids.faces import Face, curvature, face, kinks
+from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder
 from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT, ROUNDING
 
@@ -121,43 +120,3 @@ def test_beyond_a_segment_its_end_is_nearest_also_in_line_with_it() -> None:
         expected = [np.clip(x, 0, 1), 0, 0]
         found = segment.nearest(np.array([x, 0.0, 0.5]))
         np.testing.assert_allclose(found, expected, rtol=EXACT, atol=EXACT)
-
-
-def test_as_far_from_a_face_s_normal_as_counts_is_on_it() -> None:
-    # Along a side or a slant, and of a plate as thick as corners may differ in height.
-    x, _, z = np.eye(3)
-    needle, plate = Cone(1.0, 0.5 / FLAT), Box(np.array([1.0, 1.0, FLAT / 2]))
-    for shape, n, corners in (
-        (Capsule(0.1, 0.2), x + FLAT * z, 2),
-        (Capsule(0.1, 0.2), x + 2 * FLAT * z, 1),
-        (needle, x, 2),
-        (needle, x - FLAT * z, 1),
-        (plate, z, 8),
-    ):
-        assert len(face(ShapeInWorld(shape, *HERE), n).corners) == corners
-    # A disc is farthest along its axis, and nearer to that than as far as counts.
-    for tilt, radius in ((0.5 * FLAT, 0.1), (FLAT, 0.0)):
-        assert face(ShapeInWorld(Cylinder(0.1, 0.2), *HERE), z + tilt * x).radius == radius
-
-
-def test_kinks_are_near_a_direction_that_is_off_by_less() -> None:
-    n, within = np.array([1.0, 0.0, 0.25]), 0.25
-    assert not len(kinks(Capsule(0.1, 0.2)).near(n, within).axes)
-    assert len(kinks(Capsule(0.1, 0.2)).near(n, 2 * within).axes) == 1
-    assert not len(kinks(Cylinder(0.1, 0.2)).near(np.array([within, 0.0, 1.0]), within).normals)
-
-
-def test_a_gap_turns_by_what_is_more_than_rounding() -> None:
-    # Slope and bend below NOTHING are none; a slope alone has no maximum near.
-    assert _turn(0.5 * NOTHING, 0.0) == 0.0
-    assert _turn(NOTHING, 0.0) is None
-
-
-def test_segments_as_parallel_as_counts_do_not_cross() -> None:
-    # Along x, and through its middle at a sine s: they cross at (1/2, 0, 0).
-    x, z = np.eye(3)[[0, 2]]
-    one = Face(np.array([0 * x, x]), 0.0, z)
-    for sine, crosses in ((CROSSING, False), (2 * CROSSING, True)):
-        ends = np.array([[0.0, -sine / 2, 1.0], [1.0, sine / 2, 1.0]])
-        found = _crossing(one, Face(ends, 0.0, z), 0 * x)
-        np.testing.assert_allclose(found, [0.5 * crosses, 0.0, 0.0], atol=ROUNDING)

@@ -12,9 +12,9 @@ from quasistatic_ref.lab.figures.study import profile
 from quasistatic_ref.lab.figures.study_images import KINDS, drawn, images
 from quasistatic_ref.lab.page.html import html_page, sorting
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.report.columns import columns_of
-from quasistatic_ref.lab.study.report.noise import noise_of, noise_words
+from quasistatic_ref.lab.study.report.comparison import noise_of
 from quasistatic_ref.lab.study.report.report import study_report
+from quasistatic_ref.lab.study.report.rows import rows_of
 from quasistatic_ref.lab.study.report.statistics import (
     interval,
     performance_ratios,
@@ -144,11 +144,11 @@ def test_the_noise_is_the_difference_of_what_was_repeated(store):
             key = tuple(row[n] for n in names)
             by_key.setdefault(key, []).append(row["seconds"]["call"])
     ratios = [max(pair) / min(pair) - 1 for pair in by_key.values() if len(pair) == 2]
-    noise = noise_of(columns_of(every, made_store.LIMIT))
+    noise = noise_of(rows_of(every, made_store.LIMIT))
     assert noise.pairs == len(ratios) > 20
     assert noise.call == pytest.approx(np.median(ratios), rel=1e-12)
     assert noise.floor > 0
-    assert "not known" in noise_words(noise_of(columns_of(every[:1], made_store.LIMIT)))
+    assert "not known" in noise_of(rows_of(every[:1], made_store.LIMIT)).words
 
 
 def test_profiles_are_shares_of_problems_right_in_time(report, tables, rows):

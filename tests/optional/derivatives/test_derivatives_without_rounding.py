@@ -1,7 +1,6 @@
-"""Derivatives against differences of steps without rounding: samples of two validation programs.
+"""Derivatives against differences of steps without rounding: a sample of random states.
 
-``validation.make.derivative_states`` and ``validation.make.derivative_kinks`` have thousands, and
-tables.
+``validation.make.derivative_states`` has thousands, and a table.
 """
 
 import json
@@ -10,6 +9,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
 from quasistatic_ref.lab.vectors.distances.witness import Witness
@@ -17,18 +17,17 @@ from quasistatic_ref.lab.vectors.exact.precision import rational_near
 from quasistatic_ref.lab.vectors.families.derivative_pairs import shape_of
 from quasistatic_ref.lab.vectors.families.mechanisms import random_quaternion
 from quasistatic_ref.lab.vectors.whole.grid import working
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives import step_rates as module
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step.reason import TANGENTS
-from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud, Sphere
+from quasistatic_ref.simulate.simulator import Simulator
 from tests.oracles.gradients.closest import closest_pair
-from tests.oracles.gradients.placing import HERE, UP, WEIGHT, Scene
-from tests.oracles.gradients.placing import placed as place
 from tests.oracles.gradients.reference import reference, slope
 from tests.oracles.gradients.states import table_of, whole_state
 from tests.tolerances import SEEN
-from validation.make.derivative_kinks import FAMILIES, NEAR, faults
-from validation.make.derivative_kinks import record as kink_record
 from validation.make.derivative_states import WITHIN, error, page, record, records
 
 STATES = (3, 5, 9, 14, 16, 24, 46, 53, 88, 112, 675)
@@ -46,23 +45,6 @@ def test_a_random_state_agrees_with_differences_without_rounding(i):
     assert len(found["fields"]) >= 4
 
 
-@pytest.mark.parametrize("i", range(len(FAMILIES)), ids=[f.__name__ for f in FAMILIES])
-def test_a_constructed_kink_has_its_name_turned_anyhow(i):
-    found = kink_record(i, nearby=False)
-    assert found["right"], found["kinds"]
-
-
-@pytest.mark.parametrize(
-    "name",
-    ["landing", "on_three_balls", "over_a_rim", "at_an_edge", "switching_axis", "deep_in_a_box"],
-)
-def test_slopes_differ_at_a_kink_and_numbers_beside_it_are_right(name):
-    found = kink_record([f.__name__ for f in FAMILIES].index(name))
-    assert found["shown"]
-    assert faults(found) == []
-    assert len(found["near"]) == len(NEAR)
-
-
 @pytest.mark.parametrize("side", [0.0, 1.0, 2.6, 2.75, 3.0, 6.0])
 def test_tangents_that_switch_are_named_only_where_the_step_feels_it(side):
     # A point on a ball where the axes x and y are as far from the normal, (1, 1, 2) / sqrt(6). The
@@ -72,10 +54,14 @@ def test_tangents_that_switch_are_named_only_where_the_step_feels_it(side):
     up = np.array([1.0, 1.0, 2.0]) / np.sqrt(6)
     along = np.array([5.0, -1.0, -2.0]) / np.sqrt(30)
     limit = 0.5 * 6.3 / (0.2 + np.sqrt(0.96))
-    ball, point = Sphere(0.05), PointCloud(np.zeros((1, 3)))
-    scene = Scene(point, np.eye(3), 0.0499 * up, [(ball, *HERE)])
-    simulator, q, _ = place(scene, np.eye(3), np.zeros(3))
-    force = np.concatenate([WEIGHT * UP - 6 * up + side * along, np.zeros(3)])
+    system = System([Body.of_shape("body", Sphere(0.05), 0.3)])
+    here = np.eye(3), np.zeros(3)
+    point = PlacedShape("body", system.link("body"), *here, PointCloud(np.zeros((1, 3))))
+    pair = ContactPair("c0", PlacedShape("ball", 0, *here, Sphere(0.05)), point, 0.5, 0.01, 6, 1)
+    simulator = Simulator(system, [pair], h=0.01, K_q=np.zeros((0, 0)))
+    q = np.concatenate([0.0499 * up, [0.0, 0.0, 0.0, 1.0]])
+    weightless = np.array([0.0, 0.0, 0.3 * 9.81])
+    force = np.concatenate([weightless - 6 * up + side * along, np.zeros(3)])
     found = derivatives(simulator, q, np.zeros(0), force)
     state = whole_state("", "", simulator, table_of(simulator), q, np.zeros(0), force)
     one = reference(state)
@@ -97,16 +83,6 @@ def test_a_frozen_normal_is_seen(monkeypatch):
 
     monkeypatch.setattr(module, "contact_rates", frozen)
     assert error(record(112)) > SEEN
-
-
-def test_a_verdict_with_another_name_is_a_fault():
-    found = kink_record(0, nearby=False)
-    assert faults(found) == []
-    assert faults({**found, "right": False}) == [f"the verdict is {found['kinds']}"]
-    silent = {**found, "near": [[1e-4, "kink", 1.0, 1.0]]}
-    assert faults(silent) == ["0.0001 from it kink, wrong by 1.0e+00"]
-    wrong = {**found, "near": [[1e-4, "numbers", 2 * WITHIN, 1.0]]}
-    assert len(faults(wrong)) == 1
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from quasistatic_ref.shapes.placed_shape import Sphere
 from quasistatic_ref.step.data import Contacts
+from tests.oracles.differences import rate, unit
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
-from validation.make.derivatives import rate, unit
 
 G = 9.81
 NONE = np.zeros(0)

@@ -9,7 +9,7 @@ from quasistatic_ref.optional.derivatives.derivatives import Derivatives, deriva
 from quasistatic_ref.optional.derivatives.step.reason import ZERO_FRICTION
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.friction import frame_jacobian
-from tests.oracles.gradients.placing import unit_vector
+from tests.oracles.differences import unit
 from tests.oracles.gradients.reference import FIELDS, Reference, reference, slope, tied_pairs
 from tests.oracles.gradients.states import State
 
@@ -72,7 +72,7 @@ def judged(state: State, rng: np.random.Generator, every_column: bool = False) -
             free = sizes[FIELDS[field]]
             record["fields"][field] = [max(errors), size, free, len(errors)]
         if (can & ~known).any():
-            e = np.where(can, unit_vector(rng, len(can)), 0.0)
+            e = np.where(can, unit(rng, len(can)), 0.0)
             record["refused"][field] = not slope(one, field, e)[1] or tied_pairs(one)
     return record
 

@@ -25,8 +25,8 @@ from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
+from tests.oracles.differences import unit
 from tests.oracles.gradients.contacts import starts
-from tests.oracles.gradients.placing import unit_vector
 
 COUPLES: Final = [(a, b) for a in SHAPES for b in SHAPES if not a == b == "cloud"]
 TURN: Final = ("pushes", "scenario", "pushes", "pair", "scenario",
@@ -86,7 +86,7 @@ def _of_scenario(rng: np.random.Generator, turn: int) -> State:
     scenario, run, table = _ran(name)
     system = scenario.system
     k = int(rng.integers(run.steps))
-    q = system.integrate(run.q[k], 10 ** rng.uniform(-4, -2) * unit_vector(rng, system.n_v))
+    q = system.integrate(run.q[k], 10 ** rng.uniform(-4, -2) * unit(rng, system.n_v))
     t = (k + 1) * scenario.h
     target = scenario.targets(t)
     force = np.zeros(system.n_v)
@@ -94,7 +94,7 @@ def _of_scenario(rng: np.random.Generator, turn: int) -> State:
         force = force + scenario.force(t, q)
     if rng.integers(2):
         # About as large as what the scene has to bear, so that contacts slide and part.
-        push = rng.uniform(0, 20) * float(system.masses.sum()) * unit_vector(rng, system.n_v)
+        push = rng.uniform(0, 20) * float(system.masses.sum()) * unit(rng, system.n_v)
         force += push * np.where(np.arange(system.n_v) % 6 < 3, 1.0, 0.05)
     return whole_state("scenario", name, scenario.simulator(), table, q, target, force)
 
@@ -159,7 +159,7 @@ def _of_pushes(rng: np.random.Generator, turn: int) -> State:
     system = simulator.system
     force = np.zeros(system.n_v)
     if rng.integers(2):
-        force[6:] = rng.uniform(0, 8) * unit_vector(rng, 6) * [1, 1, 1, 0.05, 0.05, 0.05]
+        force[6:] = rng.uniform(0, 8) * unit(rng, 6) * [1, 1, 1, 0.05, 0.05, 0.05]
     return whole_state(
         "pushes", "-".join(couple), simulator, table_of(simulator), q, q_bar_a, force
     )

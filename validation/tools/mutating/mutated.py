@@ -58,18 +58,18 @@ ENCLOSED = (
     "optional/ellipsoid/test_enclosure.py",
     "solve/test_native.py",
 )
-PAIRS = units("corners", "distance", "pairs", "jacobian")
-SOLIDS = units("corners", "polytopes", "solid_pairs", "distance", "curved_pairs")
+PAIRS = units("patch", "distance", "pairs", "jacobian")
+SOLIDS = units("corners", "patch", "polytope_pair", "solid_pair", "distance", "curved_pair")
 LARGE = ("optional/large/test_sparse_bound.py", "optional/large/test_bound_formulas.py")
 SPARSE = (*units("kept_and_shown", "mass_in_blocks", "sparse"), *units("solver"))
-CLOUDS = units("clouds", "cloud_headers", "meshes")
+CLOUDS = units("clouds", "cloud_headers", "mesh_files")
 SCENES = (
     "scenario/test_scenario.py",
     "simulate/test_simulator.py",
     "optional/show/test_words.py",
 )
 URDF = (
-    *units("urdf", "urdf_refusals", "urdf_limits", "meshes"),
+    *units("urdf", "urdf_refusals", "urdf_file", "mesh_files"),
     "errors/test_bad_urdfs.py",
 )
 DATA = units("arrays", "kept_and_shown", "data", "plain_data", "step_files")
@@ -92,14 +92,16 @@ SOLVED = (
     "step/test_problem.py",
     "step/test_cones.py",
 )
-CURVED = units("curved_witness", "curved_pairs", "faces", "distance_guard", "distance")
+CURVED = units("curved_pair", "settle", "faces", "by_coal", "distance")
 DRAWN = "shapes/test_shapes.py"
 
 DIFFERENTIATED = (
     "optional/derivatives/step/test_touching.py",
+    "optional/derivatives/step/test_optimum_rates.py",
     "optional/derivatives/test_derivatives.py",
     "optional/derivatives/test_derivative_verdicts.py",
-    "optional/derivatives/test_one_sided.py",
+    "optional/derivatives/test_gradient.py",
+    "optional/derivatives/test_derivatives_without_rounding.py",
     "lab/vectors/test_derivative_layer.py",
 )
 
@@ -166,6 +168,8 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/norm.py": ("certify/test_digits.py", "certify/test_farkas.py"),
     "certify/digits.py": ("certify/test_digits.py",),
     "model/coordinates.py": ("model/test_system.py",),
+    "model/angles.py": ("model/test_angles.py",),
+    "step/ordered.py": ("step/test_ordered.py",),
     "model/rotation.py": ("model/test_rotation.py",),
     "model/system.py": MASSES,
     "contact/jacobian.py": ("contact/test_jacobian.py", *CONTACT),
@@ -190,17 +194,17 @@ TESTS: dict[str, tuple[str, ...]] = {
         "analytic/test_flat_on_flat.py",
         "optional/derivatives/contact/test_depth_ties.py",
     ),
-    "contact/solids/solid_pair.py": ("contact/solids/test_polytopes.py", *CURVED),
+    "contact/solids/solid_pair.py": ("contact/solids/test_polytope_pair.py", *CURVED),
     "optional/large/sparse_jacobian.py": SPARSE,
     "contact/solids/ways_out.py": ("contact/solids/test_ways_out.py", *SOLIDS),
     "model/body.py": ("model/urdf/test_solid.py", "model/test_planar.py", *SCENES),
     "model/readers/clouds.py": CLOUDS,
     "model/configuration.py": (*units("configuration", "system_refusals"), *SCENES),
-    "shapes/convex_mesh.py": (*units("meshes", "shapes"), *SOLIDS),
-    "model/readers/dae.py": ("model/readers/test_meshes.py",),
+    "shapes/convex_mesh.py": (*units("convex_mesh", "mesh_files", "shapes"), *SOLIDS),
+    "model/readers/dae.py": ("model/readers/test_mesh_files.py",),
     "shapes/frozen.py": ("shapes/test_shapes.py", "step/test_plain_data.py", *SYSTEM),
     "model/kinematics.py": ("model/test_system.py", *CONTACT),
-    "model/readers/mesh_files.py": ("model/readers/test_meshes.py",),
+    "model/readers/mesh_files.py": ("model/readers/test_mesh_files.py",),
     "model/motion.py": ("model/test_system.py", "simulate/test_simulator.py", *CONTACT),
     "model/readers/pcd.py": CLOUDS,
     "model/readers/ply.py": CLOUDS,
@@ -210,9 +214,9 @@ TESTS: dict[str, tuple[str, ...]] = {
     "shapes/point_cloud.py": (DRAWN, *CLOUDS),
     "shapes/box.py": (DRAWN, *SOLIDS),
     "shapes/capsule.py": (DRAWN, *SOLIDS),
-    "shapes/cone.py": ("contact/solids/test_curved_points.py", DRAWN, *CURVED),
+    "shapes/cone.py": ("contact/test_cloud.py", DRAWN, *CURVED),
     "shapes/cylinder.py": (DRAWN, *CURVED),
-    "shapes/ellipsoid.py": ("contact/solids/test_curved_points.py", DRAWN, *CURVED),
+    "shapes/ellipsoid.py": ("contact/test_cloud.py", DRAWN, *CURVED),
     "shapes/half_space.py": ("contact/test_cloud.py", DRAWN, *SOLIDS),
     "shapes/hull.py": SOLIDS,
     "shapes/round.py": SOLIDS,
@@ -261,7 +265,7 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optional/large/blocks.py": SPARSE,
     "optional/large/sparse_contacts.py": SPARSE,
     "step/cones.py": ("step/test_cones.py", "cli/test_completion.py"),
-    "step/contacts.py": ("step/test_artifacts.py", *DATA),
+    "step/contacts.py": ("optional/doctor/test_artifacts.py", *DATA),
     "step/data.py": DATA,
     "step/extension.py": ("solve/test_native.py", "lab/examples/test_extensions.py"),
     "step/files.py": (
@@ -324,7 +328,10 @@ TESTS: dict[str, tuple[str, ...]] = {
         "optional/derivatives/contact/test_spare_pairs.py",
         *DIFFERENTIATED,
     ),
-    "optional/derivatives/contact/witness_rates.py": ("contact/test_sliding.py", *DIFFERENTIATED),
+    "optional/derivatives/contact/witness_rates.py": (
+        "optional/derivatives/contact/test_witness_rates.py",
+        *DIFFERENTIATED,
+    ),
     "model/mass.py": MASSES,
     "optional/derivatives/model/mass_rates.py": DIFFERENTIATED,
     "optional/derivatives/model/motion_rates.py": (

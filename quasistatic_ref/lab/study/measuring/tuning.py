@@ -17,7 +17,7 @@ from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, ungraded
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.lab.study.measuring.measure import Limits, measured
 from quasistatic_ref.lab.study.problems.problem import Problem
-from quasistatic_ref.lab.study.report.columns import columns_of
+from quasistatic_ref.lab.study.report.rows import rows_of
 from quasistatic_ref.lab.study.report.statistics import shifted_geometric_mean, success
 
 Options = dict[str, Any]
@@ -109,7 +109,7 @@ def scored(solver: str, options: Options, problems: Sequence[Problem], function:
             else:
                 row = ungraded(NOT_RUN, "not run (patience)", None, p.feasible)
             rows.append(names | {"problem": p.id} | row)
-    found = columns_of(rows, LIMITS.call)
+    found = rows_of(rows, LIMITS.call)
     times = np.where(found["digits"] >= WANTED, found["seconds"], LIMITS.call)
     false = [found["wrong"] & found[f"said_{claim}"] for claim in ("optimal", "infeasible")]
     return Score(

@@ -6,11 +6,11 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.distance import nearest_of_solids
-from quasistatic_ref.model.motion import crossed
 from quasistatic_ref.optional.derivatives.contact.couples import Couple, closest_pair, rim_velocity
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.contact.witness_rates import Rates, Sides, witness_rates
 from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
 
 

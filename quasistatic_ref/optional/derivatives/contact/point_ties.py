@@ -12,10 +12,11 @@ from quasistatic_ref.contact.distance import (
     relative_pose,
     with_corners,
 )
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, rotated
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import rotated
 from quasistatic_ref.tolerances import TIED
 
 

@@ -23,9 +23,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.model.motion import crossed
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import CONSISTENT, SPLIT, UNIQUE
 
 

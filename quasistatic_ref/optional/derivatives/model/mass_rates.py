@@ -3,10 +3,10 @@
 import numpy as np
 
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.motion import crossed
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import crossed
 
 
 class MassRates:

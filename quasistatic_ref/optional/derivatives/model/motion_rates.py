@@ -14,8 +14,9 @@ generalised force :math:`J^T W`.
 import numpy as np
 
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.motion import Motion, crossed
+from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import crossed
 
 
 class MotionRates:

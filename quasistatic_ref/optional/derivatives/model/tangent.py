@@ -15,8 +15,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.model.motion import cross_matrix
 from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.ordered import cross_matrix
 
 PLANAR = np.ix_([0, 1, 5], [0, 1, 5])
 """What of a twist a planar base has."""

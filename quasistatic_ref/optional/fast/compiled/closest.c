@@ -4,31 +4,31 @@
 
 int64_t scene_size(void) { return sizeof(Scene); }
 
-/* contact/distance: R @ on_link, then + t. */
+/* contact/distance: R times on_link, then + t. */
 static void placed(const double *R, const double *t, const double *on_link, double *world)
 {
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 4; j++) {
-            double sum = 0.0;
-            for (int k = 0; k < 3; k++)
-                sum = ADDED(R[i + 3 * k], on_link[4 * k + j], sum);
+            double sum = R[i] * on_link[j];
+            for (int k = 1; k < 3; k++)
+                sum += R[i + 3 * k] * on_link[4 * k + j];
             world[4 * i + j] = sum;
         }
         world[4 * i + 3] += t[i];
     }
 }
 
-/* contact/distance: R_solid' @ [R_cloud, t_cloud - t_solid]. */
+/* contact/distance: R_solid' times [R_cloud, t_cloud - t_solid]. */
 static void relative(const double *solid, const double *cloud, double *pose)
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 4; j++) {
-            double sum = 0.0;
+            double terms[3];
             for (int k = 0; k < 3; k++) {
-                double at = cloud[4 * k + j] - (j == 3 ? solid[4 * k + 3] : 0.0);
-                sum = ADDED(solid[4 * k + i], at, sum);
+                double at = j < 3 ? cloud[4 * k + j] : cloud[4 * k + 3] - solid[4 * k + 3];
+                terms[k] = solid[4 * k + i] * at;
             }
-            pose[4 * i + j] = sum;
+            pose[4 * i + j] = (terms[0] + terms[1]) + terms[2];
         }
 }
 
@@ -37,12 +37,6 @@ static inline double larger(double a, double b) { return a > b ? a : b; }
 static inline double along(const double *row, double x, double y, double z)
 {
     return (row[0] * x + row[1] * y) + row[2] * z;
-}
-
-/* contact/shape_in_world: rotated, which never gives -0.0. */
-static inline double turned(const double *row, double x, double y, double z)
-{
-    return ((0.0 + row[0] * x) + row[1] * y) + row[2] * z;
 }
 
 /* contact/cloud: signed_distance, and its normal where one is asked for. */
@@ -72,7 +66,7 @@ static double cylinder(const double *size, const double *x, double *normal)
     double r = sqrt((x[0] * x[0] + x[1] * x[1]) + 0.0);
     double side = r - size[0], end = fabs(x[2]) - size[1];
     double beyond_side = larger(side, 0.0), beyond_end = larger(end, 0.0);
-    double outside = hypot(beyond_side, beyond_end);
+    double outside = sqrt(beyond_side * beyond_side + beyond_end * beyond_end);
     int is_outside = outside > 0.0;
     if (normal) {
         double of_side = is_outside ? beyond_side / outside : side >= end;
@@ -140,7 +134,7 @@ static double limit(const Scene *s, int64_t pair, const double *pose)
 static void in_solid(const double *pose, double x, double y, double z, double *at)
 {
     for (int i = 0; i < 3; i++)
-        at[i] = turned(pose + 4 * i, x, y, z) + pose[4 * i + 3];
+        at[i] = along(pose + 4 * i, x, y, z) + pose[4 * i + 3];
 }
 
 /* contact/cloud: the `count` least distances in ascending order, ties by index; 0 if one is NaN. */
@@ -181,8 +175,8 @@ static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, 
     if (faces_tie(s->kind[pair], s->size + 4 * pair, at, s->phi[c], places))
         return 0;
     for (int i = 0; i < 3; i++) {
-        double n = turned(solid + 4 * i, normal[0], normal[1], normal[2]);
-        double centre = turned(cloud + 4 * i, s->x[p], s->y[p], s->z[p]) + cloud[4 * i + 3];
+        double n = along(solid + 4 * i, normal[0], normal[1], normal[2]);
+        double centre = along(cloud + 4 * i, s->x[p], s->y[p], s->z[p]) + cloud[4 * i + 3];
         double foot = centre - s->phi[c] * n;
         int swapped = s->sign[pair] < 0.0;
         s->n[3 * c + i] = s->sign[pair] * n;

@@ -25,7 +25,6 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from quasistatic_ref.formats.quoting import clipped, one_line
-from quasistatic_ref.optional.fast.compiled.products import APART, FUSED, products
 
 VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
@@ -44,7 +43,9 @@ FUNCTIONS = {
     "closest_points": ctypes.c_int,
     "step_data": ctypes.c_double,
     "reach": ctypes.c_double,
-    "positions": None,
+    "half_turns": ctypes.c_int,
+    "sums": None,
+    "turns": ctypes.c_int,
     "changes": None,
     "natural_program": ctypes.c_int,
     "hessian": ctypes.c_int,
@@ -93,14 +94,13 @@ def _found() -> ctypes.CDLL | str:
 
 
 def compiler() -> list[str]:
-    """The command that compiles C, with what it needs to know of the processor.
+    """The command that compiles C.
 
     Raises
     ------
     CompileError
         If there is none, or its command cannot be read.
     """
-    fused = ["-mfma"] if platform.machine() in ("x86_64", "AMD64") else []
     named = os.environ.get(VARIABLE, "")
     if named == NONE:
         raise CompileError(f"{VARIABLE} says {NONE}")
@@ -117,8 +117,7 @@ def compiler() -> list[str]:
                 'pip install "quasistatic-ref[fast]"'
             )
         command = [sys.executable, "-m", "ziglang", "cc"]
-        fused = ["-mcpu=x86_64_v3"] if fused else []
-    return [*command, *(["-DFUSED", *fused] if products() == FUSED else [])]
+    return command
 
 
 def _made(command: list[str]) -> Path:
@@ -138,9 +137,8 @@ def _made(command: list[str]) -> Path:
         with tempfile.TemporaryDirectory(dir=folder) as made:
             out = Path(made) / file.name
             sources = [str(here / name) for name in SOURCES]
-            order = FUSED if "-DFUSED" in command else APART
             compiling = [*command, *FLAGS, "-o", str(out), *sources, "-lm"]
-            testing = [sys.executable, "-I", str(here / SELFTEST), str(out), order]
+            testing = [sys.executable, "-I", str(here / SELFTEST), str(out)]
             for work, failed in ((compiling, "could not compile it"), (testing, "is not used")):
                 if complaint := _complaint(work):
                     raise CompileError(f"{command[0]} {failed}: {complaint}")

@@ -8,13 +8,13 @@ static void tangents(const double *n, double *d1, double *d2)
     int axis = fabs(n[1]) < fabs(n[0]) ? 1 : 0;
     if (fabs(n[2]) < fabs(n[axis]))
         axis = 2;
-    double length = sqrt(1 - n[axis] * n[axis]);
-    for (int i = 0; i < 3; i++)
-        d1[i] = ((i == axis ? 1.0 : 0.0) - n[axis] * n[i]) / length;
-    int next = (axis + 1) % 3, last = (axis + 2) % 3;
-    d2[axis] = 0.0 / length; /* n x axis */
-    d2[next] = (n[last] + 0.0) / length;
-    d2[last] = (0.0 - n[next]) / length;
+    double a[3] = {axis == 0, axis == 1, axis == 2};
+    double along = (n[0] * a[0] + n[1] * a[1]) + n[2] * a[2], length = sqrt(1 - along * along);
+    for (int i = 0; i < 3; i++) {
+        int next = (i + 1) % 3, last = (i + 2) % 3;
+        d1[i] = (a[i] - along * n[i]) / length;
+        d2[i] = (n[next] * a[last] - n[last] * a[next]) / length; /* n x axis */
+    }
 }
 
 /* contact/jacobian: [nu; n'omega] of a body that all columns move, at the point r. */
@@ -25,10 +25,10 @@ static void columns_at(const double *col, int64_t n_x, const double *r, const do
     double r0 = r[0], r1 = r[1], r2 = r[2], n0 = n[0], n1 = n[1], n2 = n[2];
     for (int64_t x = 0; x < n_x; x++) {
         double w0 = w[x], w1 = w[n_x + x], w2 = w[2 * n_x + x];
-        out[x] = ADDED(-r1, w2, ADDED(r2, w1, col[x] + 0.0));
-        out[n_x + x] = ADDED(r0, w2, ADDED(-r2, w0, col[n_x + x] + 0.0));
-        out[2 * n_x + x] = ADDED(-r0, w1, ADDED(r1, w0, col[2 * n_x + x] + 0.0));
-        out[3 * n_x + x] = ADDED(n2, w2, ADDED(n1, w1, ADDED(n0, w0, 0.0)));
+        out[x] = col[x] + (w1 * r2 - w2 * r1);
+        out[n_x + x] = col[n_x + x] + (w2 * r0 - w0 * r2);
+        out[2 * n_x + x] = col[2 * n_x + x] + (w0 * r1 - w1 * r0);
+        out[3 * n_x + x] = (n0 * w0 + n1 * w1) + n2 * w2;
     }
 }
 

@@ -1,9 +1,8 @@
 /* What the files of a step's data have in common.
 
    Each function does what a Python function of the same task does, in the same order of operations,
-   so that the bits are the same; the comments name it. Products of matrices, which Python leaves to
-   BLAS, are sums from zero over rising indices: with one rounding for each product and sum
-   (-DFUSED), or with two. products.py finds out which of them NumPy has. */
+   so that the bits are the same; the comments name it. Sums of products are those of step/ordered:
+   over rising indices, from the first, each product and each sum rounded. */
 
 #ifndef SCENE_H
 #define SCENE_H
@@ -14,12 +13,6 @@
 
 #if FLT_EVAL_METHOD != 0
 #error "float64 operations must be rounded to float64"
-#endif
-
-#ifdef FUSED
-#define ADDED(x, y, sum) fma(x, y, sum)
-#else
-#define ADDED(x, y, sum) ((sum) + (x) * (y))
 #endif
 
 enum { ROUNDED_BOX, HALF_SPACE, CYLINDER };

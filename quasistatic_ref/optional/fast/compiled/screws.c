@@ -1,36 +1,39 @@
-/* model/screw: how far a twist carries a base, and which twist carries it so far.
+/* model/screw: sums q (+) delta_q and differences q_next (-) q of all joints.
 
-   The lengths of rotation vectors come from Python, whose hypot is its own. */
+   Sines and angles are correctly rounded: those of long double, where their error leaves no doubt
+   about that, or else those of Python. */
 
 #include <math.h>
 #include <stdint.h>
 
-enum { FLOATING, PLANAR, CONTINUOUS };
+enum { FLOATING, PLANAR, CONTINUOUS, SCALAR };
 
 /* One for one the fields of Screws in screws.py. */
 typedef struct {
     int64_t joints;
     /* Of each joint: its kind, and where its entries of q and of delta_q start. */
     const int64_t *kind, *q_start, *v_start;
-    /* Length of each joint's rotation vector [rad]. */
-    const double *angle;
+    /* How far each joint turns [rad]; cosine and sine of half of that. Of a difference of floating
+       bases: half of how far. */
+    double *angle, *cosine, *sine;
     const double *q;
     double *q_next, *delta_q;
+    /* Of each joint, the vector (x, y) whose angle is asked for in a difference. */
+    double *x, *y;
 } Screws;
 
 int64_t screws_size(void) { return sizeof(Screws); }
 
+static double dot(const double *a, const double *b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+
 /* Sum of v, once w x v and twice e x (e x v), where w = a e. */
 static void combined(const double *v, const double *w, double a, double once, double twice, double *out)
 {
-    double rest = 1 - twice;
-    double along = a * a != 0.0 ? twice * ((w[0] * v[0] + w[1] * v[1]) + w[2] * v[2]) / (a * a) : 0.0;
+    double rest = 1 - twice, along = a * a != 0.0 ? twice * dot(w, v) / (a * a) : 0.0;
     out[0] = rest * v[0] + once * (w[1] * v[2] - w[2] * v[1]) + along * w[0];
     out[1] = rest * v[1] + once * (w[2] * v[0] - w[0] * v[2]) + along * w[1];
     out[2] = rest * v[2] + once * (w[0] * v[1] - w[1] * v[0]) + along * w[2];
 }
-
-static double sinc(double x) { return x != 0.0 ? sin(x) / x : 1.0; }
 
 /* Rows of the rotation matrix of a base, from its entries of q. */
 static void rotation(int64_t kind, const double *q, double R[9])
@@ -48,11 +51,6 @@ static void rotation(int64_t kind, const double *q, double R[9])
     R[6] = 2 * (x * z - y * w), R[7] = 2 * (y * z + x * w), R[8] = 1 - 2 * (x * x + y * y);
 }
 
-static double turn(const double *before, const double *after)
-{
-    return atan2(before[0] * after[1] - before[1] * after[0], before[0] * after[0] + before[1] * after[1]);
-}
-
 /* The rotation vector of a base's entries of delta_q. */
 static void angular(int64_t kind, const double *delta_q, double w[3])
 {
@@ -62,47 +60,166 @@ static void angular(int64_t kind, const double *delta_q, double w[3])
         w[2] = delta_q[2];
 }
 
-/* Translations of the bases at q (+) delta_q, written into q_next. */
-void positions(Screws *s)
+/* Of a joint that turns by a: sin(a / 2) / (a / 2). */
+static double half_of(const Screws *s, int64_t joint)
+{
+    double b = s->angle[joint] / 2;
+    return b != 0.0 ? s->sine[joint] / b : 1.0;
+}
+
+/* A quaternion times that of a rotation vector. */
+static void quaternion(const double *here, const double *w, double C, double half, double *out)
+{
+    double p = half / 2 * w[0], q = half / 2 * w[1], r = half / 2 * w[2];
+    double x = here[0], y = here[1], z = here[2], s = here[3];
+    for (int i = 0; i < 4; i++)
+        out[i] = here[i];
+    if (p == 0.0 && q == 0.0 && r == 0.0)
+        return;
+    double a = s * p + x * C + y * r - z * q, b = s * q + y * C + z * p - x * r;
+    double c = s * r + z * C + x * q - y * p, d = s * C - x * p - y * q - z * r;
+    double shorter = (3 - (a * a + b * b + c * c + d * d)) / 2;
+    out[0] = shorter * a, out[1] = shorter * b, out[2] = shorter * c, out[3] = shorter * d;
+}
+
+/* (cos, sin) turned by an angle; C and S are the cosine and the sine of its half. */
+static void heading(const double *here, double angle, double C, double S, double *out)
+{
+    double c = here[0], s = here[1], cosine = 1 - 2 * (S * S), sine = 2 * (S * C);
+    double x = c * cosine - s * sine, y = s * cosine + c * sine;
+    double shorter = (3 - (x * x + y * y)) / 2;
+    out[0] = angle == 0.0 ? c : shorter * x;
+    out[1] = angle == 0.0 ? s : shorter * y;
+}
+
+/* The float64 nearest to a number whose long double is wrong by less than 2^-60 of itself (the sines
+   and angles of C libraries, by 2^-62); 0 if that leaves two. */
+static int nearest(long double found, double *out)
+{
+    volatile long double one = 1.0L;
+    long double room = found * 0x1p-60L;
+    *out = (double)(found - room);
+    return one + 0x1p-62L != one && *out == (double)(found + room);
+}
+
+/* Cosine and sine of half of a joint's angle; 0 if they are in doubt. */
+static int half_turn(Screws *s, int64_t joint)
+{
+    long double b = s->angle[joint] / 2;
+    return nearest(cosl(b), s->cosine + joint) & nearest(sinl(b), s->sine + joint);
+}
+
+/* How far each joint turns in a sum, with cosine and sine of half of that; 0 if one is in doubt. */
+int half_turns(Screws *s)
+{
+    int sure = 1;
+    for (int64_t joint = 0; joint < s->joints; joint++) {
+        const double *delta_q = s->delta_q + s->v_start[joint], *w = delta_q + 3;
+        if (s->kind[joint] == SCALAR)
+            continue;
+        s->angle[joint] = s->kind[joint] == FLOATING ? sqrt(dot(w, w))
+                                                     : delta_q[s->kind[joint] == PLANAR ? 2 : 0];
+        sure &= half_turn(s, joint);
+    }
+    return sure;
+}
+
+/* q (+) delta_q, written into q_next. */
+void sums(Screws *s)
 {
     for (int64_t joint = 0; joint < s->joints; joint++) {
         int64_t kind = s->kind[joint];
-        if (kind == CONTINUOUS)
-            continue;
         const double *q = s->q + s->q_start[joint], *delta_q = s->delta_q + s->v_start[joint];
+        double *there = s->q_next + s->q_start[joint], C = s->cosine[joint], S = s->sine[joint];
+        if (kind == SCALAR) {
+            there[0] = q[0] + delta_q[0];
+            continue;
+        }
+        if (kind == CONTINUOUS) {
+            heading(q, delta_q[0], C, S, there);
+            continue;
+        }
         double v[3] = {delta_q[0], delta_q[1], kind == FLOATING ? delta_q[2] : 0.0};
-        double w[3], R[9], x[3], a = s->angle[joint], half = sinc(a / 2);
+        double w[3], R[9], t[3], half = half_of(s, joint);
         angular(kind, delta_q, w);
-        combined(v, w, a, half * half / 2, 1 - sinc(a), x);
+        combined(v, w, s->angle[joint], half * half / 2, 1 - half * C, t);
         rotation(kind, q, R);
         for (int i = 0; i < (kind == FLOATING ? 3 : 2); i++)
-            s->q_next[s->q_start[joint] + i]
-                = q[i] + ((R[3 * i] * x[0] + R[3 * i + 1] * x[1]) + R[3 * i + 2] * x[2]);
+            there[i] = q[i] + dot(R + 3 * i, t);
+        if (kind == FLOATING)
+            quaternion(q + 3, w, C, half, there + 3);
+        else
+            heading(q + 2, delta_q[2], C, S, there + 2);
     }
 }
 
-/* Entries of q_next (-) q, of which delta_q holds the rotation vectors of floating bases. */
+/* What q_next (-) q starts from: of each joint that turns, the vector (x, y) and its angle; of a
+   floating base, a vector along its rotation vector. 0 if an angle is in doubt. */
+int turns(Screws *s)
+{
+    int sure = 1;
+    for (int64_t joint = 0; joint < s->joints; joint++) {
+        int64_t kind = s->kind[joint];
+        const double *here = s->q + s->q_start[joint], *there = s->q_next + s->q_start[joint];
+        double *delta_q = s->delta_q + s->v_start[joint];
+        if (kind == SCALAR)
+            delta_q[0] = there[0] - here[0];
+        if (kind == PLANAR)
+            here += 2, there += 2;
+        if (kind == PLANAR || kind == CONTINUOUS) {
+            s->y[joint] = here[0] * there[1] - here[1] * there[0];
+            s->x[joint] = here[0] * there[0] + here[1] * there[1];
+            sure &= nearest(atan2l(s->y[joint], s->x[joint]), s->angle + joint);
+            sure &= half_turn(s, joint);
+        }
+        if (kind != FLOATING)
+            continue;
+        double x = here[3], y = here[4], z = here[5], c = here[6];
+        double p = there[3], q = there[4], r = there[5], k = there[6];
+        double w = c * k + x * p + y * q + z * r, *v = delta_q + 3;
+        v[0] = c * p - x * k - y * r + z * q;
+        v[1] = c * q - y * k - z * p + x * r;
+        v[2] = c * r - z * k - x * q + y * p;
+        s->y[joint] = sqrt(dot(v, v));
+        s->x[joint] = fabs(w);
+        for (int i = 0; i < 3 && !(w >= 0); i++)
+            v[i] = -v[i];
+        sure &= nearest(atan2l(s->y[joint], s->x[joint]), s->angle + joint);
+    }
+    return sure;
+}
+
+/* Entries of q_next (-) q, after `turns` and with the angles. */
 void changes(Screws *s)
 {
     for (int64_t joint = 0; joint < s->joints; joint++) {
         int64_t kind = s->kind[joint];
         const double *here = s->q + s->q_start[joint], *there = s->q_next + s->q_start[joint];
-        double *delta_q = s->delta_q + s->v_start[joint];
+        double *delta_q = s->delta_q + s->v_start[joint], b = s->angle[joint];
+        if (kind == SCALAR)
+            continue;
         if (kind == CONTINUOUS) {
-            delta_q[0] = turn(here, there);
+            delta_q[0] = b;
             continue;
         }
-        if (kind == PLANAR)
-            delta_q[2] = turn(here + 2, there + 2);
         double apart[3] = {there[0] - here[0], there[1] - here[1], 0.0};
-        if (kind == FLOATING)
+        double w[3], R[9], own[3], v[3], a, twice;
+        if (kind == FLOATING) {
+            double S = s->y[joint], ratio = S != 0.0 ? b / S : 1.0;
             apart[2] = there[2] - here[2];
-        double w[3], R[9], moved[3], v[3], a = kind == PLANAR ? fabs(delta_q[2]) : s->angle[joint];
+            for (int i = 0; i < 3; i++)
+                delta_q[3 + i] = 2 * ratio * delta_q[3 + i];
+            a = 2 * b;
+            twice = S != 0.0 ? 1 - ratio * s->x[joint] : 0.0;
+        } else {
+            delta_q[2] = a = b;
+            twice = 1 - s->cosine[joint] / half_of(s, joint);
+        }
         angular(kind, delta_q, w);
         rotation(kind, here, R);
         for (int i = 0; i < 3; i++)
-            moved[i] = (R[i] * apart[0] + R[3 + i] * apart[1]) + R[6 + i] * apart[2];
-        combined(moved, w, a, -0.5, a != 0.0 ? 1 - a / 2 / tan(a / 2) : 0.0, v);
+            own[i] = (R[i] * apart[0] + R[3 + i] * apart[1]) + R[6 + i] * apart[2];
+        combined(own, w, a, -0.5, twice, v);
         for (int i = 0; i < (kind == FLOATING ? 3 : 2); i++)
             delta_q[i] = v[i];
     }

@@ -1,21 +1,23 @@
-"""Sums q (+) delta_q and differences of configurations: pinocchio's, with the screws of bases."""
+"""Sums q (+) delta_q and differences of configurations, whose sines Python decides if C cannot."""
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.model.angles import angle_of, cos_sin
 from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.screw import TURNING
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.step.data import Array
 
-KINDS = ("floating", "planar", "continuous")
 NUMBERS = ("joints",)
-ARRAYS = ("kind", "q_start", "v_start", "angle", "q", "q_next", "delta_q")
+ARRAYS = (
+    "kind", "q_start", "v_start", "angle", "cosine", "sine", "q", "q_next", "delta_q", "x", "y"
+)  # fmt: skip
 """The fields of ``Screws`` in screws.c."""
 
 
@@ -32,67 +34,55 @@ class Screws:
     def __init__(self, system: System, poses: Poses) -> None:
         found = library()
         self.system, self.q = system, poses.q
-        same, bodies = poses.order.same, poses.workspace
-        self._sum = bodies.sum if same else system.pinocchio_sum
-        self._difference = bodies.difference if same else system.pinocchio_difference
-        self._positions, self._changes = found.positions, found.changes
-        joints = [joint for joint in system.joints if joint.kind in KINDS]
+        self._half_turns, self._turns = found.half_turns, found.turns
+        self._add, self._subtract = found.sums, found.changes
+        joints, n_a = system.joints, system.n_a
         self._sums = _structure(found, poses.q, joints, system.n_v)
-        actuated = [joint for joint in joints if joint.actuated]
-        self._differences = _structure(found, poses.q, actuated, system.n_a)
+        self._differences = _structure(found, poses.q, [j for j in joints if j.actuated], n_a)
         self._of_sums, self._of_differences = (
-            tuple(s[name] for name in ("q_next", "delta_q", "angle"))
+            tuple(s[name] for name in ("q_next", "delta_q", "angle", "cosine", "sine", "x", "y"))
             for s in (self._sums, self._differences)
         )
         self._target = self._of_differences[0][: system.n_q_a]
-        self._vectors, self._actuated = _rotations(joints), _rotations(actuated)
+        self._turning = [(i, j.actuated) for i, j in enumerate(joints) if j.kind in TURNING]
 
     def integrate(self, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
-        there, change, angle = self._of_sums
-        there[:], change[:] = self._sum(self.q, delta_q), delta_q
-        moved = delta_q.tolist()
-        for i, where in self._vectors:
-            angle[i] = math.hypot(*moved[where])
-        self._positions(self._sums.address)
+        there, change, angle, cosine, sine, _, _ = self._of_sums
+        change[:] = delta_q
+        if not self._half_turns(self._sums.address):
+            for i, _ in self._turning:
+                cosine[i], sine[i] = cos_sin(float(angle[i]) / 2)
+        self._add(self._sums.address)
         return there.copy()
 
     def actuated_difference(self, q_a: Array) -> Array:
         """Change of the actuated coordinates, shape (n_a,), to q_a; ModelError unless (n_q_a,)."""
-        there, change, angle = self._of_differences
+        _, change, angle, cosine, sine, x, y = self._of_differences
         if np.shape(q_a) != self._target.shape:
             self.system.with_actuated(self.q, q_a)  # which says so
-        there[:] = self.q
         self._target[:] = q_a
-        change[:] = self._difference(self.q, there)[: len(change)]
-        moved = change.tolist()
-        for i, where in self._actuated:
-            angle[i] = math.hypot(*moved[where])
-        self._changes(self._differences.address)
+        if not self._turns(self._differences.address):
+            for i, actuated in self._turning:
+                if actuated:
+                    angle[i] = turn = angle_of(float(y[i]), float(x[i]))
+                    cosine[i], sine[i] = cos_sin(turn / 2)
+        self._subtract(self._differences.address)
         return change.copy()
 
 
 def _structure(found: Any, q: Array, joints: Sequence[Joint], n_v: int) -> Structure:
     """The structure for some joints at q, whose delta_q has n_v entries."""
     made = Structure(NUMBERS, ARRAYS, found.screws_size)
+    kinds = [*TURNING, "prismatic", "revolute"]  # of the two last, q is a number: SCALAR
     made.put(
         {
             "joints": len(joints),
-            "kind": np.array([KINDS.index(joint.kind) for joint in joints], np.int64),
+            "kind": np.array([min(kinds.index(joint.kind), 3) for joint in joints], np.int64),
             "q_start": np.array([joint.q.start for joint in joints], np.int64),
             "v_start": np.array([joint.v.start for joint in joints], np.int64),
-            "angle": np.zeros(len(joints)),
+            **{name: np.zeros(len(joints)) for name in ("angle", "cosine", "sine", "x", "y")},
             "q": q, "q_next": np.zeros(len(q)), "delta_q": np.zeros(n_v),
         }
     )  # fmt: skip
     return made
-
-
-def _rotations(joints: Sequence[Joint]) -> list[tuple[int, slice]]:
-    """Which of the joints are bases, and where the rotation vectors of these are in delta_q."""
-    first = {"floating": 3, "planar": 2}
-    return [
-        (i, slice(joint.v.start + first[joint.kind], joint.v.stop))
-        for i, joint in enumerate(joints)
-        if joint.kind in first
-    ]

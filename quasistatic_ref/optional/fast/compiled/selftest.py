@@ -1,4 +1,4 @@
-"""Whether a compiled library keeps to float64: ``python selftest.py LIBRARY fused|apart``.
+"""Whether a compiled library keeps to float64: ``python selftest.py LIBRARY``.
 
 A compiler may be told to change bits (``-ffast-math`` and its parts), by its command or by a
 wrapper. So the library does each operation on numbers for which a change shows, and the bits must
@@ -10,7 +10,6 @@ of its own.
 import ctypes
 import math
 import sys
-from fractions import Fraction
 
 COUNT = 61
 """Of roots that are summed: no multiple of the length of a vector register."""
@@ -21,8 +20,7 @@ SPECIAL = (
 )  # fmt: skip
 """Of x, y and z: subnormal numbers, signs of zero, and no numbers."""
 NAMES = (
-    "x y + z", "x y added to z", "x + y - x", "x / y", "x / 3", "0.1 x", "0 - x", "sqrt(y)",
-    "x == x",
+    "x y + z", "x + y - x", "x / y", "x / 3", "0.1 x", "0 - x", "sqrt(y)", "x == x",
 )  # fmt: skip
 SUMS = ("the sum of x", "the sum of x y")
 
@@ -33,24 +31,16 @@ def operands() -> list[tuple[float, float, float]]:
     return [*((x, y, -x * y) for x, y in signed), *SPECIAL]
 
 
-def added(x: float, y: float, z: float, order: str) -> float:
-    """The sum z + x y [-], rounded once or twice."""
-    twice = z + x * y
-    if order == "apart" or not math.isfinite(twice):
-        return twice
-    return float(Fraction(x) * Fraction(y) + Fraction(z)) or twice  # which has the sign of a zero
-
-
-def by_python(order: str) -> list[str]:
+def by_python() -> list[str]:
     """The results in words, which are different for any two float64 numbers."""
     of = operands()
     by, total, products, each = of[0][1], 0.0, 0.0, list[float]()
     for x, y, z in of:
-        each += [x * y + z, added(x, y, z, order), x + y - x, x / by, x / 3.0]
+        each += [x * y + z, x + y - x, x / by, x / 3.0]
         each += [x * 0.1, 0.0 - x, math.sqrt(y), float(x == x)]
     for x, y, _ in of[:COUNT]:
         total += x
-        products = added(x, y, products, order)
+        products += x * y
     return [repr(value) for value in [*each, total, products]]
 
 
@@ -63,9 +53,9 @@ def by_library(library: ctypes.CDLL) -> list[str]:
     return [repr(value) for value in found]
 
 
-def refusal(file: str, order: str) -> str | None:
+def refusal(file: str) -> str | None:
     """Why a library must not be used; None if its bits are right."""
-    right = by_python(order)
+    right = by_python()
     try:
         found = by_library(ctypes.CDLL(file))
     except (OSError, AttributeError) as failure:
@@ -74,7 +64,7 @@ def refusal(file: str, order: str) -> str | None:
     for name, one, other in zip(names, found, right, strict=True):
         if one != other:
             return f"its arithmetic is not that of float64: {name} is {one} in place of {other}"
-    return None if by_python(order) == right else "loading it changes the arithmetic of the process"
+    return None if by_python() == right else "loading it changes the arithmetic of the process"
 
 
 if __name__ == "__main__":

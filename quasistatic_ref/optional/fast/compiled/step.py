@@ -15,7 +15,6 @@ from quasistatic_ref.optional.fast.compiled.answer import as_said
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
 from quasistatic_ref.optional.fast.compiled.poses import Poses
-from quasistatic_ref.optional.fast.compiled.products import products
 from quasistatic_ref.optional.fast.compiled.scene import Scene, known
 from quasistatic_ref.optional.fast.compiled.screws import Screws
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
@@ -63,8 +62,6 @@ def unknown(simulator: FastSimulator) -> str | None:
         return "nothing can touch"
     if not isinstance(simulator.geometry, PosedGeometry):
         return "contacts are handed over in blocks"
-    if products() is None:
-        return "NumPy multiplies matrices here in an order that is not known"
     return None
 
 

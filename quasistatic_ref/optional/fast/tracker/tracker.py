@@ -21,12 +21,12 @@ from quasistatic_ref.contact.distance import (
     relative_pose,
 )
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.shape_in_world import rotated
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.fast.tracker.ball_tree import BallTree, ball_tree
 from quasistatic_ref.optional.fast.tracker.tracker_bound import Shortlist, shortlist
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import rotated
 
 WIDTH = 32
 """Least length of a list, where the cloud has so many points."""

@@ -9,10 +9,10 @@ from functools import cached_property
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.shape_in_world import rotated
 from quasistatic_ref.optional.fast.tracker.ball_tree import BallTree
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape
 from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.ordered import rotated
 from quasistatic_ref.tolerances import UNSEEN
 
 RATIO = 16.0

@@ -6,7 +6,6 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.optional.derivatives.contact.couples import couples
-from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.contact.kinks import _not_unique, _switches
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import Box, PointCloud, Sphere
@@ -72,22 +71,3 @@ SWITCHES = {
 def test_tangents_switch_where_two_axes_are_as_far_from_the_normal(name) -> None:
     n, d_n, quarters, expected = SWITCHES[name]
     assert _switches(np.array(n), np.array(d_n, dtype=float)[:, None], quarters) == expected
-
-
-def test_what_is_as_near_as_counts_touches_and_switches() -> None:
-    """Of a reach of 1 / UNIQUE one metre is a touch; of a normal TIED is no difference."""
-    at = couple(CUBE, CUBE, (ON_EDGE, CROSSED), [0.0, 0.0, 0.1 / HALF])
-    wide = at._replace(extents=(1.0, 1 / UNIQUE))
-    assert _not_unique(0, wide._replace(phi=1.0)).kind == reason.NO_NORMAL
-    assert _not_unique(0, wide._replace(phi=1.01)).kind == reason.MANY
-    n, x = np.array([0.0, TIED, 1.0]), np.array([[1.0], [0.0], [0.0]])
-    assert _switches(n, x, False)
-    assert not _switches(n, x, True)
-    assert not _switches(n, TIED * x, False)
-
-
-def test_straight_directions_as_near_to_each_other_as_counts_are_parallel() -> None:
-    x, y, _ = np.eye(3)
-    at = couple(CUBE, CUBE, (ON_EDGE, CROSSED), [0.0, 0.0, 0.1 / HALF])
-    one, other = (Feature(np.zeros((3, 3)), way[None]) for way in (x, UNIQUE * y))
-    assert "parallel" in _not_unique(0, at._replace(features=(one, other))).says

