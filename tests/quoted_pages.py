@@ -25,9 +25,6 @@ from tests.lab.study import test_known_issues as known_issues
 from tests.quoted import claim, word
 from tests.quoted_sources import G, H
 from tests.solve import test_options_of_backends as options
-from validation.make.bench_exact import PROMISED
-
-GRASP_EXACT, LARGE_EXACT = PROMISED["bunny_grasp, 13 x 80"], PROMISED["random, 24 x 180"]
 
 SOFT = ("250", "500")
 """Stiffnesses of the sweep that are too small [N/m]."""
@@ -165,12 +162,6 @@ QUOTED = {
     "docs/exactness.md": [
         ("of `sphere_spin`, and on {:,} random steps", lambda: of.steps_with_equal_bits()[-1:]),
         ("more than 1e{:.0f} times longer", lambda: [math.log10(ILL_POSED)]),
-        ("a median of at most {:.0f} ms and a 99th percentile of at most {:.0f} ms",
-         lambda: GRASP_EXACT),
-        ("a median of at most {:.0f} ms for 30 contacts", lambda: LARGE_EXACT[:1]),
-        *((row.replace("{", "{{"), list) for row in of.exact_rows()),
-        ("Verification in rational numbers takes {:.0f} ms at 13 x 80 and {:.0f} ms at 24 x 180",
-         lambda: map(of.verification, ("13 x 80", "24 x 180"))),
         ("each backend claims at least one answer without a single correct digit; OSQP leaves {} "
          "unsolved, PIQP {}.", lambda: of.unsolved_random_steps("osqp", "piqp")),
     ],

@@ -65,15 +65,6 @@ def unidentified(*cones):
             for cone in cones]  # fmt: skip
 
 
-def residual(*keys):
-    found = result("reality_residuals")
-    for key in keys:
-        found = found[key]
-    return found
-
-
-TOUCH = "paths shifted so that they touch"
-GAP = "distance of the finger from the outline at the start [mm]"
 CANCEL = ("mass 10 kg", "h 0.2 s", "mu_v 0.6", "gyration 20 mm", "finger's stiffness 1e5 N/m")
 
 
@@ -180,19 +171,6 @@ PHRASES = {
                "and {:.2f} degrees",
                lambda: [x for name in ("9 points", "25 points", "100 points", "ellipsoid")
                         for x in variant(name)]),
-    "correlation": ("correlate by {:.2f}", lambda: [residual(
-        "correlation of displacement errors with the published simulator's")]),
-    "gap": ("is off by {:.1f} mm (standard deviation)",
-            lambda: [residual(GAP, "standard deviation")]),
-    "shifted": ("changes the mean error by {:+.2f} mm ({:+.2f} to {:+.2f}) and {:+.2f} degrees",
-                lambda: [*(residual(TOUCH, "change", part)[0] for part in ENDS),
-                         residual(TOUCH, "change", "mean")[1]]),
-    "grip": ("sticks throughout {:.1f} mm and {:.1f} degrees ({} pushes), where it slides "
-             "throughout {:.1f} mm and {:.1f} degrees ({}), where it does both {:.1f} mm and "
-             "{:.1f} degrees ({})",
-             lambda: [x for kind in ("sticks", "slides", "both") for x in (
-                 *residual("by grip of the finger", kind, "mean"),
-                 residual("by grip of the finger", kind, "pushes"))]),
     "tripods": ("{:.0f} to {:.0f} % of the median turn", lambda: [min(tripods()),
                                                                     max(tripods())]),
     "tripods_pyramid": ("With the pyramid it is {:.0f} to {:.0f} %", pyramids),

@@ -13,7 +13,7 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.coordinates import Coordinate, Joint, joint_key
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.motion import Motion
-from quasistatic_ref.step.arrays import Array, read_only
+from quasistatic_ref.step.arrays import Array, Mask, read_only
 from quasistatic_ref.step.ordered import crossed, dot, rotated
 
 
@@ -22,7 +22,8 @@ class MassMatrix:
 
     The entry of two coordinates is a sum over the links that both move, of
     m nu_i . nu_j + omega_i . I omega_j, with the velocity nu of the link's centre of mass. All
-    sums are added up in one fixed order.
+    sums are added up in one fixed order. A joint that alone moves its links, below which no other
+    is, has constant entries: they are kept, those of a lone free body as its file says.
 
     Parameters
     ----------
@@ -34,13 +35,24 @@ class MassMatrix:
         [m]
     inertias : ndarray, shape (L, 3, 3)
         As in :class:`~quasistatic_ref.model.system.System` [kg m^2].
+    known : ndarray, shape (n_u, n_u)
+        The constant entries, 0 elsewhere [kg, kg m, kg m^2].
+    constant : ndarray of bool, shape (n_v,)
+        Whether a coordinate's entries are there.
     """
 
     def __init__(
-        self, motion: Motion, n_a: int, masses: Array, centres: Array, inertias: Array
+        self,
+        motion: Motion,
+        n_a: int,
+        masses: Array,
+        centres: Array,
+        inertias: Array,
+        known: Array,
+        constant: Mask,
     ) -> None:
-        self.n_u = motion.n_v - n_a
-        free = motion.owner >= n_a
+        self.n_u, self.known = motion.n_v - n_a, read_only(known)
+        free = (motion.owner >= n_a) & ~constant[motion.owner]
         # Each link once for each column that moves it.
         self.link, self.column = np.nonzero((motion.moves[:, 0] > 0) & free)
         self.centre, self.inertia = centres[self.link], inertias[self.link]
@@ -60,6 +72,8 @@ class MassMatrix:
 
     def at(self, kinematics: Kinematics) -> Array:
         """M_u, shape (n_u, n_u) [kg, kg m, kg m^2], exactly symmetric and read-only."""
+        if not len(self.link):
+            return self.known
         R, t = kinematics.R[self.link], kinematics.t[self.link]
         column = kinematics.columns.T[self.column]
         omega = column[:, 3:]
@@ -67,7 +81,45 @@ class MassMatrix:
         turn = rotated(R.transpose(0, 2, 1), omega)  # omega in the link's frame
         spin = rotated(self.inertia, turn)
         terms = self.mass * dot(nu[self.i], nu[self.j]) + dot(turn[self.i], spin[self.j])
-        return read_only(np.bincount(self.entry, terms, self.n_u**2)[self.above])
+        return read_only(self.known + np.bincount(self.entry, terms, self.n_u**2)[self.above])
+
+
+def mass_matrix(
+    model: Any,
+    free: Sequence[Joint],
+    at: Kinematics,
+    n_a: int,
+    inertias: tuple[Array, Array, Array],
+) -> MassMatrix:
+    """The M_u of a model with un-actuated joints `free`.
+
+    Parameters
+    ----------
+    model : pinocchio.Model
+    free : sequence of Joint
+    at : Kinematics
+        Of any configuration, with their motion.
+    n_a : int
+    inertias : tuple of ndarray, shapes (L,), (L, 3) and (L, 3, 3)
+        Masses, centres and inertias of the links, as in :class:`MassMatrix` [kg, m, kg m^2].
+    """
+    motion = at.motion
+    assert motion is not None
+    n_u, constant = motion.n_v - n_a, np.zeros(motion.n_v, dtype=bool)
+    whole = MassMatrix(motion, n_a, *inertias, np.zeros((n_u, n_u)), constant).at(at)
+    known = np.zeros((n_u, n_u))
+    for joint in free:
+        own = (joint.v.start <= motion.owner) & (motion.owner < joint.v.stop)
+        moved = (motion.moves[:, 0, own] > 0).any(axis=1)
+        shared = (motion.moves[moved][:, 0, (motion.owner >= n_a) & ~own] > 0).any()
+        mimicked = np.count_nonzero(own) > joint.v.stop - joint.v.start
+        if shared or mimicked or not moves_alone(model, joint):
+            continue
+        constant[joint.v] = True
+        block = (slice(joint.v.start - n_a, joint.v.stop - n_a),) * 2
+        floating = joint.kind == "floating"
+        known[block] = rigid_masses(model, [joint])[0] if floating else whole[block]
+    return MassMatrix(motion, n_a, *inertias, known, constant)
 
 
 def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:
@@ -82,10 +134,12 @@ def constant_mass(model: Any, free: Sequence[Joint]) -> bool:
     The mass matrix of a free rigid body is constant in the body's own frame, unless a moving joint
     connects another link to the body.
     """
-    if any(joint.kind != "floating" for joint in free):
-        return False
-    parents = list(model.parents)
-    return not any(model.getJointId(joint_key(joint.name)) in parents for joint in free)
+    return all(joint.kind == "floating" and moves_alone(model, joint) for joint in free)
+
+
+def moves_alone(model: Any, joint: Joint) -> bool:
+    """Whether no other joint is below a joint."""
+    return model.getJointId(joint_key(joint.name)) not in list(model.parents)
 
 
 def regular(M: Array) -> bool:

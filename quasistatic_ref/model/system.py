@@ -21,7 +21,14 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.configuration import configuration
 from quasistatic_ref.model.coordinates import Coordinate, Joint, of_shape, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.mass import MassMatrix, check_mass, constant_mass, regular, rigid_masses
+from quasistatic_ref.model.mass import (
+    MassMatrix,
+    check_mass,
+    constant_mass,
+    mass_matrix,
+    regular,
+    rigid_masses,
+)
 from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
@@ -132,8 +139,11 @@ class System(Shown):
         self.constant_mass_matrix = constant_mass(self._model, free)
         self._mass: MassMatrix | None = None  # if M_u is constant
         if not self.constant_mass_matrix:
-            inertias = self.masses, self.centres, self.inertias
-            self._mass = MassMatrix(self.motion, self.n_a, *inertias)
+            inertias, at = (
+                (self.masses, self.centres, self.inertias),
+                self.kinematics(self.neutral()),
+            )
+            self._mass = mass_matrix(self._model, free, at, self.n_a, inertias)
             free = []
         self.mass_blocks = read_only(rigid_masses(self._model, free))
         if not (self.constant_mass_matrix and regular(self.mass_blocks)):

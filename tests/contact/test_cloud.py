@@ -115,22 +115,15 @@ def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
 DEGENERATE = {
     "centre of a sphere": ("sphere", (0, 0, 0), -0.3, (1, 0, 0)),
     "centre of a sphere, by -0.0": ("sphere", (-0.0, -0.0, -0.0), -0.3, (1, 0, 0)),
-    "centre of a box, by -0.0": ("box", (-0.0, -0.0, -0.0), -0.2, (1, 0, 0)),
-    "on a sphere": ("sphere", (0, 0.3, 0), 0.0, (0, 1, 0)),
     "middle of a capsule": ("capsule", (0, 0, 0), -0.2, (1, 0, 0)),
-    "end of a capsule's segment": ("capsule", (0, 0, 0.3), -0.2, (1, 0, 0)),
-    "a capsule's pole": ("capsule", (0, 0, -0.5), 0.0, (0, 0, -1)),
     "centre of a box": ("box", (0, 0, 0), -0.2, (1, 0, 0)),
     "on a face of a box": ("box", (0.1, -0.3, 0.2), 0.0, (0, -1, 0)),
     "on an edge of a box": ("box", (0.2, -0.3, 0.1), 0.0, (1, 0, 0)),
-    "on a corner of a box": ("box", (-0.2, -0.3, -0.4), 0.0, (-1, 0, 0)),
     "off an edge of a box": ("box", (0.5, 0.7, 0.0), 0.5, (0.6, 0.8, 0)),
     "off a corner of a box": ("box", (-0.3, 0.5, 0.6), 0.3, (-1 / 3, 2 / 3, 2 / 3)),
     "centre of a cylinder": ("cylinder", (0, 0, 0), -0.25, (1, 0, 0)),
     "high on a cylinder's axis": ("cylinder", (0, 0, 0.2), -0.1, (0, 0, 1)),
-    "above a cylinder": ("cylinder", (0, 0, -0.7), 0.4, (0, 0, -1)),
     "on a cylinder's rim": ("cylinder", (0, 0.25, 0.3), 0.0, (0, 1, 0)),
-    "on a cylinder's cap": ("cylinder", (0.1, 0, 0.3), 0.0, (0, 0, 1)),
     "off a cylinder's rim": ("cylinder", (0, 0.55, 0.7), 0.5, (0, 0.6, 0.8)),
     "inside a half-space": ("half-space", (0, 0, 0), -0.1, (1 / 3, -2 / 3, 2 / 3)),
 }
@@ -236,11 +229,3 @@ def test_half_way_through_an_ellipsoid_the_upper_side_is_the_nearest(x, z) -> No
     phi, n = signed_distance(Ellipsoid(np.array([a, b, c])), np.array([[x, 0.0, z]]))
     np.testing.assert_allclose(phi, [-np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)
     np.testing.assert_allclose(n, [way / np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)
-
-
-def test_just_off_a_rim_the_normal_leads_away_from_it() -> None:
-    # A ten thousandth of a billionth of the size away: the direction has its first four digits.
-    cone, off = Cone(0.03, 0.02), 1e-12
-    phi, n = signed_distance(cone, np.array([[0.03 + off, 0.0, -0.02]]))
-    np.testing.assert_allclose(phi, [off], rtol=1e-4)
-    np.testing.assert_allclose(n, [[1.0, 0.0, 0.0]], atol=1e-4)

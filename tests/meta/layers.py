@@ -41,6 +41,7 @@ LAB = (
     "lab/page",
     "lab/figures",
     "lab/scenes",
+    "lab/program",
     "lab/vectors",
     "lab/study",
     "lab/reality",

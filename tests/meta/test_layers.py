@@ -16,6 +16,13 @@ def test_the_walls_hold_and_the_list_of_what_crosses_them_is_true():
     assert violations(PACKAGE) == []
 
 
+@pytest.mark.parametrize("folder", ["cli", "formats", "scenario"])
+def test_a_file_of_tests_has_the_name_of_the_module_that_it_tests(folder):
+    modules = {path.stem for path in (PACKAGE / folder).glob("*.py")}
+    files = {path.stem for path in (PACKAGE.parent / "tests" / folder).glob("test_*.py")}
+    assert {name.removeprefix("test_") for name in files} <= modules
+
+
 PLANTED = {
     "a later folder": ("step/a.py", "from quasistatic_ref.solve import units", "later folder"),
     "a later folder, relative": ("step/a.py", "from ..solve import units", "later folder"),

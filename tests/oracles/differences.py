@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.lab.scenes.pushes import SHAPES
+from tests.oracles.pushes import SHAPES
 from tests.tolerances import DIFFERENCE_OF_STEPS
 
 COUPLES = [(a, b) for a in SHAPES for b in SHAPES if not a == b == "cloud"]

@@ -15,11 +15,11 @@ from quasistatic_ref.step.solution import Certificate
 from quasistatic_ref.step.solution_files import claims_in, solution_read, solution_text
 from quasistatic_ref.tolerances import ENCLOSED
 from tests.helpers import pinch, point_on_floor
+from tests.oracles import forgeries
 from tests.oracles.forged_scenes import between_walls, scenes
+from tests.oracles.forgeries import at_random, good_file, outcomes, refused
+from tests.oracles.records import places
 from tests.oracles.solution_truth import truth_of, wrenches
-from validation.make import forgeries
-from validation.make.forgeries import at_random, good_file, outcomes, refused
-from validation.tools.fuzzing.records import places
 
 SCENES = scenes()
 PROVES_NOTHING = ("none", "residual in the ellipsoid")

@@ -35,12 +35,6 @@ def test_waypoints_are_joined_by_lines_and_held_at_both_ends(t, expected):
     )
 
 
-def test_one_waypoint_is_held_for_ever(system):
-    track = JointTrack(system, system.joint("desk/slide"), np.array([1.0]), np.array([[0.3]]))
-    for t in (0.0, 1.0, 2.0):
-        np.testing.assert_allclose(track.at(t), [0.3], rtol=EXACT)
-
-
 def test_a_continuous_joint_may_turn_beyond_pi(system):
     angles = np.array([[0.0], [7.0]])
     track = JointTrack(system, system.joint("arm/spin"), np.array([0.0, 1.0]), angles)

@@ -59,12 +59,6 @@ def test_the_first_axis_is_the_step_and_q_has_the_start_as_well(scenario, run):
     np.testing.assert_allclose(run["t"], [(k + 1) * 0.01 for k in range(5)], rtol=EXACT)
 
 
-def test_each_configuration_is_the_one_before_plus_delta_q(scenario, run):
-    for k in range(run.steps):
-        expected = scenario.system.integrate(run["q"][k], run["delta_q"][k])
-        np.testing.assert_allclose(run["q"][k + 1], expected, rtol=EXACT, atol=EXACT)
-
-
 def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
     simulator, targets, force = scenario.simulator(), scenario.targets, scenario.force
     for k in range(run.steps):
@@ -199,12 +193,3 @@ def test_what_a_run_leaves_cannot_be_written(tmp_path, scenario, run):
     other = dataclasses.replace(scenario, K_q=given)
     given[:] = 0.0
     assert other == scenario
-
-
-@pytest.mark.parametrize(
-    ("certify", "kind"), [("full", "exact"), ("residual", "residual"), ("off", "none")]
-)
-def test_each_step_says_how_it_was_certified(folder, certify, kind):
-    settings = ["steps=2", f"solver.certify={certify}"]
-    run = load_scenario(folder / "scene.toml", settings, fast=True).run(progress=False)
-    assert run["certificate"].tolist() == [kind, kind]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.solve.backends import BACKENDS
-from quasistatic_ref.solve.through_cvxpy import KEPT, PlainProgram, PlainPrograms
+from quasistatic_ref.solve.through_cvxpy import KEPT, PlainPrograms
 from quasistatic_ref.solve.through_qpsolvers import _account, _status, qpsolvers_reply
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.tolerances import OPTIMUM
@@ -41,10 +41,6 @@ def test_the_last_programs_are_kept_and_compiled_once():
     assert programs._program(forms[1]) is first[1]
     assert len(programs._compiled) == KEPT
     assert programs._program(forms[0]) is not first[0]
-
-
-def test_a_program_that_was_not_solved_has_no_multipliers():
-    assert PlainProgram(form(), "clarabel").dual() is None
 
 
 def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():

@@ -15,7 +15,7 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from tests.scenes import written_scenario
-from tests.step.public_data import DOWN, public_data, squeezed
+from tests.step.public_data import public_data, squeezed
 
 ROUND_TRIPS = {
     "pickle": lambda thing: pickle.loads(pickle.dumps(thing)),
@@ -23,7 +23,7 @@ ROUND_TRIPS = {
 }
 
 
-NAN, INF = np.nan, np.inf
+NAN = np.nan
 
 
 @pytest.fixture(scope="module")
@@ -86,21 +86,6 @@ def test_a_copy_of_a_step_is_solved_to_the_same_bits(things, name, trip):
     assert one == two
 
 
-@every_trip
-@pytest.mark.parametrize("name", ["System", "System of the grasp"])
-def test_a_copy_of_a_system_computes_the_same_bits(things, name, trip):
-    system = things[name]
-    again, q = trip(system), system.integrate(system.q_start, 0.01 * np.cos(np.arange(system.n_v)))
-    for one, two in (
-        (system.M_u(q), again.M_u(q)),
-        (system.kinematics(q).J, again.kinematics(q).J),
-        (system.gravity_force(q, DOWN), again.gravity_force(q, DOWN)),
-        (system.q_start, again.q_start),
-    ):
-        assert one.tobytes() == two.tobytes()
-        assert one.size
-
-
 def test_a_pickled_system_does_not_need_its_files(tmp_path):
     folder = tmp_path / "scene"
     folder.mkdir()
@@ -152,19 +137,6 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
     assert set(again) == set(given)
     for name, value in given.items():
         np.testing.assert_array_equal(again[name], value)
-
-
-def test_equality_sees_one_bit_in_every_field_of_a_solution(things):
-    solution = things["StepSolution"]
-    for name in ("delta_q", "lam"):
-        array = getattr(solution, name).copy()
-        array.flat[0] = np.nextafter(array.flat[0], INF)
-        assert replace(solution, **{name: array}) != solution
-    longer = np.append(solution.lam_extra, 1.0)
-    heavier = solution.step.replace(M_u=2 * solution.step.M_u)
-    other = {"lam_extra": longer, "backend": "osqp", "certificate": 0, "step": heavier}
-    for name, value in other.items():
-        assert replace(solution, **{name: value}) != solution
 
 
 def test_what_a_solver_took_of_the_clock_is_not_compared_but_copied(things):

@@ -12,8 +12,6 @@ from quasistatic_ref.step.solution_files import solution_read
 
 FILES = json.loads(Path(__file__).with_name("solutions_of_version_1.json").read_text())
 PROVED = ("exact", "exact in the ellipsoid", "enclosure", "infeasible")
-FREE = {"backend", "wrench", "residuals"}
-"""What nothing proves in a polyhedral cone."""
 
 
 def read(path, file, **changes):
@@ -75,12 +73,3 @@ def test_a_claim_that_is_null_is_a_claim_that_is_missing(tmp_path, kind):
         _, missing = read(tmp_path / "x.json", kind, certificate=others)
         assert null.certificate == missing.certificate
         assert refutation(step, null) == refutation(step, missing)
-
-
-def test_a_force_where_nothing_touches_is_refused_in_old_files_too(tmp_path):
-    """1,000 N on both walls, 1 m away."""
-    lam = json.loads(json.dumps(FILES["enclosure"]["solution"]["lam"]))
-    for wall in (1, 2):
-        lam[wall][0] += 10.0
-    step, solution = read(tmp_path / "x.json", "enclosure", lam=lam)
-    assert "presses where nothing touches" in refutation(step, solution)

@@ -18,8 +18,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.vectors.challenge.live import challenge
 from quasistatic_ref.lab.vectors.challenge.program import Program
+from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from validation.make.planted_bugs import COMMANDS

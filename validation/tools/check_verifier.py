@@ -24,7 +24,7 @@ import numpy as np
 
 from quasistatic_ref.formats.files import text_written
 from tests.oracles.forged_scenes import scenes
-from validation.make.forgeries import good_file
+from tests.oracles.forgeries import good_file
 from validation.tools.browser import Browser
 from validation.tools.verifier_files import Case, Cases, all_cases
 

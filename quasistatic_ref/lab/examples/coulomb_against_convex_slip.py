@@ -40,7 +40,8 @@ def slips(push: float, angle: float, mu_v: float, h: float, cone: str, steps: in
     psi, F, phi = np.radians(angle), push * mu_v * M * GRAVITY, 0.0
     for _ in range(steps):
         force = (F * np.cos(psi), F * np.sin(psi), -M * GRAVITY)
-        slip = solve_step(point_step(M, force, mu_v, phi, h).replace(cone=cone)).delta_q
+        step = point_step(M, force, mu_v, phi, h).replace(cone=cone)
+        slip = solve_step(step, fast=True).delta_q
         phi += float(slip[2])
     return slip[:2]
 

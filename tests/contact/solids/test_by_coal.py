@@ -4,7 +4,7 @@ import coal
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids import by_coal
 from quasistatic_ref.contact.solids.by_coal import coal_witness
 from quasistatic_ref.errors import ContactError
@@ -116,50 +116,3 @@ def test_where_coal_has_no_normal_the_way_out_is_found_from_any(monkeypatch, gap
     found = coal_witness("p", *tips(gap))
     np.testing.assert_allclose(found.phi, gap, rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(found.n, X, rtol=EXACT, atol=CURVED_PAIR)
-
-
-def test_rivals_are_looked_for_away_from_the_way_out_that_was_followed(monkeypatch) -> None:
-    without_normals(monkeypatch, len(by_coal.ACCURACIES))
-    calls, honest = [], by_coal.rival_directions
-    monkeypatch.setattr(by_coal, "rival_directions", lambda *a: calls.append(a) or honest(*a))
-    found = coal_witness("p", *tips(-0.01, SLANTING))
-    ((a, b, first, _, size),) = calls
-    np.testing.assert_allclose(found.n, SLANTING[:, 0], rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(first, found.n, rtol=EXACT, atol=CURVED_PAIR)
-    # Both widths along x, where the way began.
-    widths = [s.reach(X[None])[0] + s.reach(-X[None])[0] for s in (a, b)]
-    np.testing.assert_allclose(size, sum(widths), rtol=ROUNDING)
-
-
-@pytest.mark.parametrize(("way", "refused"), [(-X, True), (X, False)])
-def test_a_way_out_that_may_be_shorter_decides_nothing_unless_the_same(
-    monkeypatch, way, refused
-) -> None:
-    # A rival 0.02 deep, but for an error of 0.05, next to one that is 0.01 deep.
-    honest, followed = by_coal._refined, []
-
-    def refined(a, b, n, size):
-        followed.append(n)
-        known = honest(a, b, n, size)
-        return known if len(followed) == 1 else known._replace(phi=-0.02, n=way, defect=0.05)
-
-    monkeypatch.setattr(by_coal, "_refined", refined)
-    monkeypatch.setattr(by_coal, "rival_directions", lambda *_: [way])
-    if refused:
-        with pytest.raises(ContactError, match="no trustworthy contact normal"):
-            coal_witness("p", *tips(-0.01))
-        return
-    assert coal_witness("p", *tips(-0.01)).phi == pytest.approx(-0.01, abs=CURVED_PAIR)
-    assert len(followed) == 2
-
-
-def test_a_wider_gap_that_is_not_proved_is_not_taken(monkeypatch) -> None:
-    honest = by_coal.settled
-
-    def settled(a, b, start):
-        yield Witness(start.phi + 0.01, start.alpha, start.beta, start.n)
-        yield from honest(a, b, start)
-
-    monkeypatch.setattr(by_coal, "settled", settled)
-    found = coal_witness("p", *tips(0.125))
-    np.testing.assert_allclose(found.phi, 0.125, rtol=EXACT, atol=CURVED_PAIR)

@@ -14,7 +14,7 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
 from tests.oracles import closest
-from tests.tolerances import CURVED_PAIR, DIFFERENCE, EXACT, FOUR_ULP, ROUNDING, WAY_OUT
+from tests.tolerances import CURVED_PAIR, EXACT, ROUNDING, WAY_OUT
 
 SOLIDS = closest.solids()
 CURVED = {"cylinder", "cone", "ellipsoid"}
@@ -93,21 +93,6 @@ def test_closest_points_are_found_at_every_feature(feature, other) -> None:
                 np.testing.assert_allclose(one, two, rtol=EXACT, atol=WAY_OUT)
 
 
-@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
-def test_closest_points_are_found_at_every_scale(scale) -> None:
-    for feature in ("edge of a box", "side of a cylinder"):
-        here, there, expected = put(feature, OTHERS[0], 0.02 * scale, scale)
-        found = solid_pair("p", here, there)
-        np.testing.assert_allclose(found.phi, expected.phi, rtol=ROUNDING)
-
-
-def test_a_normal_at_an_edge_has_length_one_however_near_the_contact() -> None:
-    for feature in ("edge of a box", "edge of a mesh", "slanting edge of a mesh"):
-        found = solid_pair("p", *put(feature, OTHERS[1], 1e-11)[:2])
-        np.testing.assert_allclose(found.phi, 1e-11, rtol=EXACT, atol=CURVED_PAIR)
-        np.testing.assert_allclose(found.n @ found.n, 1, rtol=FOUR_ULP)
-
-
 @pytest.mark.parametrize("names", PAIRS, ids="-".join)
 def test_an_enlarged_pair_has_the_same_normal_and_a_larger_distance(names) -> None:
     a, b = (SOLIDS[name] for name in names)
@@ -158,26 +143,3 @@ def test_a_cone_upside_down_next_to_a_cylinder_just_touches_it() -> None:
     found = solid_pair("p", ShapeInWorld(Cylinder(0.05, 0.08), *HERE), cone)
     np.testing.assert_allclose(found.phi, 0.1 - 0.05 - 0.05, rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)
-
-
-ABOVE = {
-    "the cap": (0.03, 0.01, 0.2),
-    "the rim": (0.2, 0.05, 0.2),
-    "the side": (0.3, 0.05, 0.02),
-}
-
-
-@pytest.mark.parametrize("place", ABOVE.values(), ids=ABOVE)
-@pytest.mark.parametrize("other", ["ellipsoid", "cone"])
-def test_what_is_below_a_cylinder_is_as_near_as_what_is_above_it(other, place) -> None:
-    # Of an upright cylinder and a solid turned about x, mirrored in z: the other way round, and a
-    # cone upside down.
-    cylinder = ShapeInWorld(Cylinder(0.1, 0.05), *HERE)
-    turned = Rotation.from_rotvec([0.4, 0, 0]).as_matrix()
-    mirror = np.array([1, 1, -1])
-    flipped = turned.T @ (np.eye(3) if other == "ellipsoid" else np.diag([1, -1, -1]))
-    above = solid_pair("p", cylinder, ShapeInWorld(SOLIDS[other], turned, np.array(place)))
-    below = solid_pair("p", cylinder, ShapeInWorld(SOLIDS[other], flipped, mirror * place))
-    np.testing.assert_allclose(below.phi, above.phi, rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(below.n, mirror * above.n, rtol=EXACT, atol=DIFFERENCE)
-    np.testing.assert_allclose(below.alpha, mirror * above.alpha, rtol=EXACT, atol=DIFFERENCE)

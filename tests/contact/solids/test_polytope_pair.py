@@ -15,7 +15,7 @@ from quasistatic_ref.shapes.placed_shape import Box, Capsule, Shape
 from tests.tolerances import CLOSED_FORM, EXACT, OF_DIFFERENCE
 
 SCALES = [1e-5, 1e3]
-X, Y, Z = np.eye(3)
+X, _, Z = np.eye(3)
 HALF = np.array([0.1, 0.3, 0.2])
 CORNERS = HALF * [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
 ROOF = np.array([[0, 0, 0], [0.03, 0.01, 0.05], [-0.02, 0.03, 0.06], [0.01, -0.03, 0.07]])

@@ -73,17 +73,3 @@ def test_where_two_caps_overlap_the_point_next_to_the_start_is_taken() -> None:
     )
     start = Witness(0.02, R @ [0.2, 0, 0.1], R @ [0.2, 0, 0.12], n)
     assert settles_at(a, b, start, 0.02, R @ [1.9 - 1, 0, 0.1], n)
-
-
-@pytest.mark.parametrize("lengths", [(0.5, 0.5), (0.5, 1e-4), (1e-4, 0.5)])
-def test_sides_that_are_parallel_but_for_a_hair_meet_where_they_cross(
-    lengths,
-) -> None:
-    # Axes along z and turned about x by 1e-5, 0.3 m apart in x: crossing at z = 0, off the centres.
-    turned = Rotation.from_rotvec([1e-5, 0, 0]).as_matrix()
-    a = ShapeInWorld(Cylinder(0.1, lengths[0]), np.eye(3), np.array([0, 0, 0.3 * lengths[0]]))
-    at = np.array([0.3, 0, 0]) + 0.4 * lengths[1] * turned[:, 2]
-    b = ShapeInWorld(Cylinder(0.1, lengths[1]), turned, at)
-    n, aside = np.array([1, 3e-4, 0]), 0.2 * min(lengths)
-    start = Witness(0.1, np.array([0.1, 0, aside]), np.array([0.2, 0, aside]), n / np.sqrt(n @ n))
-    assert settles_at(a, b, start, 0.3 - 0.1 - 0.1, [0.1, 0, 0], [1, 0, 0])

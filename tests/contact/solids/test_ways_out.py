@@ -5,7 +5,6 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.solids import ways_out
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.ways_out import APART, REACH, STARTS, gaps, rival_directions
 from quasistatic_ref.shapes.convex_mesh import convex_hull
@@ -71,24 +70,3 @@ def test_a_way_out_through_a_side_is_found_between_the_axes() -> None:
     found = rival_directions(cylinder, inside, R[:, 2], -0.14, 0.1)
     # On the ridge of such ways the widest sampled gap need not be the nearest one.
     assert np.arccos(found[0] @ way) <= 2 * REACH
-
-
-def test_no_more_ways_out_are_followed_than_starts() -> None:
-    # From the middle of a hull of twelve points, evenly spread, all faces are as near.
-    g = (1 + np.sqrt(5)) / 2
-    plane = np.array([[0, s, u * g] for s in (-1, 1) for u in (-1, 1)])
-    hull = convex_hull(np.concatenate([np.roll(plane, k, axis=1) for k in range(3)]))
-    a, b = ShapeInWorld(hull, R, AT), ShapeInWorld(Ellipsoid(HALF_AXES), S, AT)
-    assert len(rival_directions(a, b, R[:, 0], -10.0, 1.0)) == STARTS
-
-
-def test_no_direction_is_farther_than_reach_from_the_spread_ones(rng) -> None:
-    sphere, neighbours = ways_out._sphere()
-    np.testing.assert_allclose(np.linalg.norm(sphere, axis=1), 1, rtol=ROUNDING)
-    some = rng.normal(size=(2000, 3))
-    some /= np.linalg.norm(some, axis=1)[:, None]
-    assert np.arccos((some @ sphere.T).max(axis=1)).max() <= REACH
-    for k in range(0, len(sphere), 100):
-        others = np.delete(np.arange(len(sphere)), k)
-        nearest = others[np.argsort(np.linalg.norm(sphere[others] - sphere[k], axis=1))[:8]]
-        assert set(neighbours[k].tolist()) == set(nearest.tolist())

@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.reality.predict import rotation
-from quasistatic_ref.lab.reality.tripods import (
+from validation.make.reality_tripods import (
     TRIANGLE,
     TripodSet,
     calibration,

@@ -7,6 +7,7 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.figures import study_images
 from quasistatic_ref.lab.study.calling.packages import announced, loaded
 from quasistatic_ref.lab.study.store.store import contents
 
@@ -71,6 +72,7 @@ def test_a_solver_of_an_installed_package_is_called_by_its_name(
     assert "cannot be imported: RuntimeError: no licence" in found.unreached["package:broken"]
     for name in ("pandas", "pyarrow"):
         monkeypatch.setitem(sys.modules, name, None)
+    monkeypatch.setattr(study_images, "images", lambda *_: {"png": b"", "svg": b""})
     assert main(["study", "report", str(tmp_path / "store")]) == 0
     page = (tmp_path / "store" / "report" / "report.md").read_text()
     for title in ("Time to 6", "Setting default", "False claims of success", "Worst 10 problems"):

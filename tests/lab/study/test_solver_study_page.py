@@ -118,18 +118,5 @@ def test_claims_of_the_whole_study_are_counted(text, committed):
         len(optimal), sum(optimal), len(infeasible), sum(infeasible)]  # fmt: skip
 
 
-def test_the_table_of_units_is_that_of_the_rows(text, rows):
-    lines = re.findall(r"^\| (\w+) \| (default|high) \| (\d+) \| ([\d.]+) \| ([\d.]+) \|$", text,
-                       re.MULTILINE)  # fmt: skip
-    assert len(lines) >= 8
-    for solver, setting, count, *cells in lines:
-        where = f"interface = qpsolvers, solver = {solver}, setting = {setting}, warm = false"
-        own = shared(picked(rows, where), ["units"])
-        for units, cell in zip(("raw", "natural"), cells, strict=True):
-            part = picked(own, f"units = {units}")
-            assert int(count) == len(part)
-            assert agrees(cell, share(part, 6))
-
-
 def test_the_page_has_no_number_that_is_not_made():
     assert unheld(PAGE.read_text("utf-8"), [], CONSTANTS) == []

@@ -1,7 +1,6 @@
 """Layer distance: closed forms by hand, two ways to one answer, uniqueness, the package's own."""
 
 from dataclasses import replace
-from itertools import islice
 from math import isqrt
 
 import numpy as np
@@ -9,14 +8,15 @@ import pytest
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.program.rotation import turn
+from quasistatic_ref.lab.vectors.challenge import fresh
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
 from quasistatic_ref.lab.vectors.exact.algebra import scaled, times
-from quasistatic_ref.lab.vectors.exact.precision import number
-from quasistatic_ref.lab.vectors.exact.rotation import axis_rotation, cos_sin
-from quasistatic_ref.lab.vectors.families.distance import SHAPES, distance_cases
+from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number
 from quasistatic_ref.lab.vectors.layers import distance
-from quasistatic_ref.lab.vectors.whole.grid import matrix_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import matrix_on_grid, working
+from tests.lab.vectors.material import cases
 from tests.lab.vectors.solids import (
     FLOOR,
     ON_SIDE,
@@ -31,7 +31,9 @@ from tests.lab.vectors.solids import (
 )
 from tests.tolerances import ROUNDING
 
-CASES = {id_: case for id_, _, case in distance_cases()}
+SHAPES = {kind: {"kind": kind, **sizes} for kind, sizes in fresh.SHAPES.items()}
+CASES = {case.id: case.input for case in cases("distance")[:171]}
+"""Those of no scenario."""
 CORNERS = [id_ for id_ in CASES if id_.startswith("distance/corner/")]
 
 NINETY_DIGITS = fmpq(1, 10**90)
@@ -96,7 +98,7 @@ def test_a_pose_rounded_in_its_hundredth_digit_still_has_flat_faces(axis):
     # rounded, and the matrix no rotation beyond the 96th digit.
     axis = [fmpq(x, isqrt(sum(y * y for y in axis))) for x in axis]
     with working():
-        R = matrix_on_grid(axis_rotation(axis, *cos_sin(fmpq(1))))
+        R = matrix_on_grid(turn(axis, *cos_sin(fmpq(1))))
         tips = [[0.0, 0.0, -0.25], [0.2, 0.1, 0.2], [-0.1, 0.2, 0.25], [-0.15, -0.2, 0.3]]
         solids = [
             replace(placed(shape, ORIGIN), R=R, t=times(R, [fmpq(0), fmpq(0), z]))
@@ -272,9 +274,3 @@ def test_capsules_that_graze_have_the_normal_of_their_axes():
     # The package took n from two points 1e-9 apart, right to 1e-7 only.
     own = distance.own(CASES["distance/corner/capsules_grazing"])
     np.testing.assert_allclose(own["n"], [1, 0, 0], rtol=0, atol=ROUNDING)
-
-
-def test_families_are_the_same_each_time():
-    assert {id_: c for id_, _, c in islice(distance_cases(), 12)} == {
-        id_: CASES[id_] for id_ in islice(CASES, 12)
-    }

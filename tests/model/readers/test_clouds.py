@@ -9,7 +9,6 @@ import pytest
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.readers.clouds import point_cloud
-from quasistatic_ref.tolerances import LARGE
 from tests.tolerances import FILE_FLOAT32
 
 POINTS = np.array([[0.1, -0.2, 0.3], [1.0, 2e-3, -0.5]])
@@ -221,17 +220,6 @@ def test_a_defect_is_one_sentence_that_names_the_file(
     with pytest.raises(ModelError, match=words) as caught:
         point_cloud(path)
     assert str(caught.value).startswith(f"{path}: ")
-
-
-def test_coordinates_are_taken_up_to_the_largest(tmp_path: Path) -> None:
-    path, points = tmp_path / "cloud.npy", LARGE * np.eye(4, 3)
-    path.write_bytes(npy(points))
-    assert np.array_equal(point_cloud(path).points, points)
-    for wrong in (np.nan, 1.1 * LARGE):
-        points[3, 0] = wrong
-        path.write_bytes(npy(points))
-        with pytest.raises(ModelError, match="point 3: "):
-            point_cloud(path)
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:

@@ -11,11 +11,11 @@ import pytest
 
 from quasistatic_ref import load_scenario
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.scenes.pushes import SHAPES, pushed
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.extension import Extension
 from tests.oracles.differences import after, rate, unit, wrong_by
+from tests.oracles.pushes import SHAPES, pushed
 from tests.tolerances import DIFFERENCE_OF_STEPS, SEEN
 
 KINDS = tuple(SHAPES)

@@ -5,13 +5,13 @@ import pytest
 
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.nudge import MASS, RADIUS, H, resting
-from quasistatic_ref.lab.scenes.pushes import pushed
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from quasistatic_ref.shapes.placed_shape import Sphere
 from quasistatic_ref.step.data import Contacts
 from tests.oracles.differences import rate, unit
+from tests.oracles.pushes import pushed
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
 
 G = 9.81

@@ -12,13 +12,13 @@ import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, NotDifferentiable
 from quasistatic_ref.lab.scenes.nudge import RADIUS, H, points, resting
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
-from quasistatic_ref.lab.scenes.pushes import pushed
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step_jax import smoothed_jax, step_jax
 from quasistatic_ref.shapes.placed_shape import Sphere
 from tests.optional.derivatives.free_bodies import BOX, FLOOR, free
+from tests.oracles.pushes import pushed
 from tests.tolerances import JAX_GRADIENT, JAX_STEP, ROUNDING
 
 G, NONE, UP = 9.81, np.zeros(0), np.eye(6)[2]

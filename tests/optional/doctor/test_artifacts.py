@@ -5,7 +5,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scipy.linalg import block_diag
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.model.coordinates import Joint
@@ -16,14 +15,11 @@ from quasistatic_ref.optional.doctor.artifacts import (
     quasi_dynamic_number,
     warning,
 )
-from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.solution import step_solution
 from quasistatic_ref.tolerances import SLOW
-from tests.helpers import changed, contacts_of, pinch, point_on_floor, sphere_on_floor
+from tests.helpers import changed, pinch, point_on_floor, sphere_on_floor
 from tests.scenes import chain_scene
 from tests.tolerances import ROUNDING
 
@@ -54,18 +50,6 @@ def test_pi_takes_the_least_friction_that_is_not_zero_and_needs_some(system):
     assert quasi_dynamic_number(system, step, delta_q, 0.0) is None
     smooth = step.replace(contacts=changed(step.contacts, mu_v=[0.0]))
     assert quasi_dynamic_number(system, smooth, delta_q, G) is None
-
-
-LEAST = 5e-324
-"""The least float64 above 0."""
-
-
-@pytest.mark.parametrize("mu_v", [LEAST, 1e-306])
-def test_pi_that_float64_cannot_hold_is_none(system, mu_v):
-    step = point_on_floor(mu_v=mu_v, h=H)
-    delta_q = np.full(system.n_v, 1e6)
-    # v = sqrt(3) 1e8 m/s over mu_v g h <= 1e-307 m/s is more than 1.8e308, the largest float64.
-    assert quasi_dynamic_number(system, step, delta_q, G) is None
 
 
 def free_body(m, at=0):
@@ -133,40 +117,6 @@ def test_a_body_without_freedom_friction_or_weight_has_no_share_of_drag():
     for other in (replace(base, actuated=True), replace(base, kind="planar")):
         body.joints = (other,)
         assert drag_share(body, solution, G) is None
-
-
-def in_step(solution, step):
-    """The same answer, of an equal step."""
-    return step_solution(
-        step, solution.delta_q, solution.lam, solution.certificate, solution.statistics
-    )
-
-
-def test_contacts_of_other_bodies_do_not_count_in_a_body_s_share():
-    # Two bodies side by side: one slides on the floor, one rests on another contact.
-    slides, _ = pulled_without_turning(1.5)
-    rests = sphere_on_floor(m=9.0, wrench=(0, 0, -9.0 * G, 0, 0, 0), h=H)
-    J = np.zeros((2, 4, 12))
-    J[0, :, :6], J[1, :, 6:] = slides.contacts.J[0], rests.contacts.J[0]
-    frames = np.tile(np.eye(3), (2, 1, 1))
-    step = slides.replace(
-        extra=None,
-        M_u=block_diag(slides.M_u, rests.M_u),
-        tau_u=[*slides.tau_u, *rests.tau_u],
-        contacts=contacts_of([*slides.contacts.phi, 0.0], frames, J, 0.5, 0.02, (6, 6)),
-    )
-    one, two = (free_body(m, at).joints[0] for m, at in ((0.3, 0), (9.0, 6)))
-    system = SimpleNamespace(joints=(two, one), mass=lambda name: 0.3)
-    solution = solve_step(step)
-    found = drag_share(system, solution, G)
-    np.testing.assert_allclose(found, 0.5, rtol=ROUNDING, atol=0.0)
-    # J by blocks, as in steps of many bodies: the same number.
-    columns = np.array([np.arange(6), np.arange(6, 12)])
-    blocks = Blocks(columns, np.stack([J[0, :, :6], J[1, :, 6:]]), 12)
-    c = step.contacts
-    at = SparseContacts(c.name, c.phi, c.n, c.d1, c.d2, blocks, c.mu_v, c.mu_omega, c.rows)
-    sparse = step.replace(contacts=at)
-    assert drag_share(system, in_step(solution, sparse), G) == found
 
 
 def test_the_layer_of_a_spun_sphere_is_mu_omega_times_its_turn():

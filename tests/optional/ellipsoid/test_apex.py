@@ -44,13 +44,6 @@ def test_contacts_in_one_place_share_a_load_as_their_friction_allows():
     assert apex_refutation(step, form, working, swapped) == "the force at c0 is outside of its cone"
 
 
-def test_a_body_that_touches_nothing_is_held_by_nothing():
-    """It falls by h^2 g = 1/4 (0, 0, -2), far above the floor: lam = 0 is in every cone."""
-    step = held((0.0, 0.0, -2.0), [0.5], phi=1.0)
-    delta_q = np.array([0.0, 0.0, -0.5, 0.0])
-    assert ellipsoid_verdict(step, delta_q, (), np.zeros(4), None)
-
-
 @pytest.mark.parametrize(("short", "right"), [(1e-12, True), (1e-5, False)])
 def test_impulses_without_a_claimed_gap_are_in_their_cone_but_for_rounding(short, right):
     """At the limit of friction, |t| = mu n; n = 2^-14 N s is said to be a little less."""

@@ -1,6 +1,5 @@
 """Steps that a simulator posed: equal to checked ones, checked when changed; what they refuse."""
 
-import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -15,11 +14,10 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from tests.helpers import changed, pinch
 from tests.scenes import chain_scene
 from tests.step.public_data import public_data
 
-NAN, INF = np.nan, np.inf
+NAN = np.nan
 
 
 @pytest.fixture(scope="module")
@@ -112,21 +110,3 @@ def test_a_force_of_another_shape_is_refused(things, shape):
     simulator, q, goal = scenario.simulator(), scenario.system.q_start, scenario.targets(0.01)
     with pytest.raises(StepDataError, match=r"force: must have shape \(8,\)"):
         simulator.step(q, goal, np.ones(shape))
-
-
-@pytest.mark.parametrize(
-    ("settings", "field"),
-    [({"h": 0.0}, "h"), ({"K_q": -np.eye(2)}, "K_q"), ({"K_q": np.eye(3)}, "K_q")],
-    ids=str,
-)
-def test_a_simulator_refuses_what_no_step_may_have(things, settings, field):
-    with pytest.raises(StepDataError) as caught:
-        replace(things["Scenario"], **settings).simulator()
-    assert caught.value.field == field
-
-
-def test_pinching_twice_from_one_pickle_is_equal():
-    step = pinch()
-    assert pickle.loads(pickle.dumps(step)) == step
-    moved = step.replace(contacts=changed(step.contacts, phi=step.contacts.phi + 1e-9))
-    assert moved != step

@@ -1,29 +1,13 @@
-"""The two pages of results: layers.md, and phenomena.md."""
+"""The page of results, phenomena.md."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 from validation.programs.engines.phenomena import PHENOMENA
 from validation.programs.engines.reproduce import of_cell
 
-HERE = Path(__file__).parent
-HEAD = "| engine | layer | passed | acceptable | failed | left out | worst digits | first failure |"
 MARK = {"holds": "{}", "differs": "**{}** ✗", "-": "({})"}
-
-
-def layers_page(records: dict[str, Any]) -> str:
-    """Each engine on each layer, and what was found."""
-    lines = [HEAD, "|" + "---|" * 8]
-    for record in records.values():
-        for row in record["layers"]:
-            counts = [row[key] for key in ("passed", "acceptable", "failed", "missing")]
-            digits = "-" if row["worst digits"] is None else row["worst digits"]
-            first = f"`{row['first failure']}`" if row["first failure"] else "-"
-            cells = [row["engine"], row["layer"], *counts, digits, first]
-            lines.append(f"| {' | '.join(map(str, cells))} |")
-    return (HERE / "layers_template.md").read_text("utf-8").replace("TABLE", "\n".join(lines))
 
 
 def phenomena_page(records: dict[str, Any]) -> str:

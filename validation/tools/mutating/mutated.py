@@ -101,7 +101,6 @@ DIFFERENTIATED = (
     "optional/derivatives/test_derivatives.py",
     "optional/derivatives/test_derivative_verdicts.py",
     "optional/derivatives/test_gradient.py",
-    "optional/derivatives/test_derivatives_without_rounding.py",
     "lab/vectors/test_derivative_layer.py",
 )
 
@@ -156,11 +155,11 @@ TESTS: dict[str, tuple[str, ...]] = {
     "certify/warm.py": ("certify/test_warm.py", *EXACT),
     "optional/derivatives/step/sensitivity.py": (
         "optional/derivatives/step/test_sensitivity.py",
-        "optional/fast/guess/test_obstacles.py",
+        "optional/derivatives/step/test_parameters.py",
     ),
     "optional/derivatives/step/parameters.py": (
         "optional/derivatives/step/test_sensitivity.py",
-        "optional/fast/guess/test_obstacles.py",
+        "optional/derivatives/step/test_parameters.py",
     ),
     "certify/rows.py": ("certify/test_certificate.py", "certify/test_farkas.py"),
     "certify/farkas.py": ("certify/test_farkas.py",),

@@ -14,7 +14,6 @@ import numpy as np
 from quasistatic_ref.lab.vectors.check.compare import tolerance_of
 from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
 from quasistatic_ref.lab.vectors.distances.candidates import parts
-from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
@@ -47,7 +46,6 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
     for one, other in pairwise(contacts):
         if one["pair"] == other["pair"] and one["index"] > other["index"]:
             return f"those of {one['pair']} do not stand in the order of index"
-    tree = mechanism(case["mechanism"])
     for pair in case["pairs"]:
         own = [c for c in contacts if c["pair"] == pair["name"]]
         due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
@@ -59,7 +57,7 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         sides: dict[str, Json] = {}
         for side in ("alpha", "beta"):
             entry = case["shapes"][pair[side]]
-            sides |= {side: entry["shape"], f"pose_{side}": shape_pose(tree, case["q"], entry)}
+            sides |= {side: entry["shape"], f"pose_{side}": shape_pose(case, entry)}
         candidates = [one for part in parts(sides, pair["k"]) for one in solid_cases(part)]
         for contact in own:
             if not 0 <= contact["index"] < len(candidates):

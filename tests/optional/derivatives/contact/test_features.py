@@ -30,7 +30,6 @@ BALL = 0.01 * (np.eye(3) - np.outer(TILTED, TILTED))
 FREE = {
     "a half-space": (HalfSpace(TILTED, 0.0), 0 * X, TILTED, NO, "normal"),
     "a face of a box": (BOX, np.array([0.01, 0.0, 0.01]), X, NO, "normal"),
-    "a face of a mesh": (MESH, np.array([0.01, 0.0, 0.01]), X, NO, "normal"),
     "an edge of a box": (BOX, np.array([0.01, 0.02, 0.0]), U, NO, [Z]),
     "an edge of a mesh": (MESH, np.array([0.01, 0.02, 0.0]), U, NO, [Z]),
     "a blunt edge of a mesh": (TETRAHEDRON, 0.01 * (X + Y), EDGE, NO, [(X - Y) / np.sqrt(2)]),
@@ -38,7 +37,6 @@ FREE = {
     "the side of a capsule": (PILL, 0.01 * U, U, 0.01 * np.outer(AROUND, AROUND), [Z]),
     "an end of a capsule": (PILL, TOP + 0.01 * TILTED, TILTED, BALL, []),
     "the side of a cylinder": (LOG, 0.01 * U, U, 0.01 * np.outer(AROUND, AROUND), [Z]),
-    "a side of a cylinder along y": (LOG, 0.01 * Y, Y, 0.01 * np.outer(X, X), [Z]),
     "the top of a cylinder": (LOG, np.array([0.0, 0.005, 0.02]), Z, NO, "normal"),
     # At half of its height its radius is 0.015, about a normal that is 0.8 outwards.
     "the side of a cone": (
@@ -82,10 +80,7 @@ def test_an_ellipsoid_bends_as_its_farthest_point_moves() -> None:
 
 ENDS = {
     "an edge of a box, along a face": (BOX, np.array([0.01, 0.02, 0.0]), X, [Z], [Y]),
-    "an edge of a mesh, along a face": (MESH, np.array([0.01, 0.02, 0.0]), X, [Z], [Y]),
     "a corner of a box, along a face": (BOX, np.array([0.01, 0.02, 0.03]), X, [], [Y, Z]),
-    "a corner of a mesh, along a face": (MESH, np.array([0.01, 0.02, 0.03]), X, [], [Y, Z]),
-    "a low corner of a mesh": (MESH, -np.array([0.01, 0.02, 0.03]), -X, [], [Y, Z]),
     "an end of a capsule's side": (PILL, TOP + 0.01 * U, U, [], [Z]),
     "the rim of a cylinder's side": (LOG, 0.01 * U + 0.02 * Z, U, [], [Z]),
     "the rim of a cylinder's top": (LOG, 0.01 * U + 0.02 * Z, Z, [], [X, Y]),

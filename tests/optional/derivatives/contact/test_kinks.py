@@ -52,15 +52,11 @@ def test_parallel_edges_have_many_closest_points_and_a_sphere_a_centre() -> None
 
 SWITCHES = {
     "x and y are as far, and x comes nearer": ((0.5, 0.5, HALF), (1, 0, -HALF), False, True),
-    "x and y are as far, and y comes nearer": ((0.5, 0.5, HALF), (0, 1, -HALF), False, True),
     "the normal stays": ((0.5, 0.5, HALF), (0, 0, 0), False, False),
     "x and z are as far from it": ((0.5, HALF, 0.5), (0, -HALF, 1), False, True),
-    "y and z are as far from it": ((HALF, 0.5, -0.5), (-HALF, 1, 0), False, True),
     "all three are": ((3**-0.5,) * 3, (1, -1, 0), False, True),
-    "two are as near": ((0.1, 0.7, 0.7), (0, 1, -1), False, False),
     "it is upright": ((0, 0, 1), (1, 0, 0), False, True),
     "it is upright, and the cone has quarters": ((0, 0, 1), (1, 0, 0), True, False),
-    "tilted, and the cone has quarters": ((0.5, 0.5, HALF), (1, 0, -HALF), True, True),
     "y is farther by TIED and more": ((0.5, 0.5 + 3 * TIED, HALF), (1, 0, -HALF), False, False),
     "y is farther by less than TIED": ((0.5, 0.5 + TIED / 3, HALF), (1, 0, -HALF), False, True),
 }

@@ -1,12 +1,10 @@
 """How the optimum moves with the data of a step, in closed form."""
 
 import numpy as np
-import pytest
 
 from quasistatic_ref.optional.derivatives.step.optimum_rates import (
     DataRates,
     Equations,
-    _complementary,
 )
 from quasistatic_ref.optional.derivatives.step.touching import Touching
 from quasistatic_ref.tolerances import CONSISTENT
@@ -76,10 +74,3 @@ def test_walls_that_are_one_contradict_each_other_if_they_move_apart():
         found = equations.rates(data).contradicts
         assert len(found) == count
         assert all(contacts == {0, 1} for contacts, _ in found)
-
-
-def test_pushes_are_zero_where_none_is_needed_or_none_moves_anything():
-    """Of slack + rows rows'p >= 0 with p >= 0: -1 + 2 * 2 p = 0 at p = 1/4."""
-    assert _complementary(np.zeros((1, 1)), np.array([-1.0])).tolist() == [0.0]
-    assert _complementary(np.array([[2.0]]), np.array([-1.0])) == pytest.approx([0.25])
-    assert _complementary(np.array([[2.0]]), np.array([1.0])).tolist() == [0.0]
