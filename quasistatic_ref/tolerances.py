@@ -46,6 +46,10 @@ RESIDUAL_LIMIT: Final = 1e-6
 Six orders above the default accuracy: an answer beyond it is not a less exact answer but
 a wrong one."""
 
+WORTHLESS: Final = 1.0
+"""The largest error bound [-] that says anything: where no contact penetrates, x = 0 and lam = 0
+have an error bound of 1."""
+
 BOUNDED: Final = 1e-6
 """Largest bound of an answer's error, computed in float64 [-], that is kept as it is.
 

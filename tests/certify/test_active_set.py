@@ -7,8 +7,7 @@ import pytest
 
 from quasistatic_ref.certify import active_set
 from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
-from quasistatic_ref.certify.balls import ball_form
-from quasistatic_ref.certify.point import Point
+from quasistatic_ref.certify.point import Point, ball_form
 from quasistatic_ref.certify.rational import exact_form_of
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.certificate import exact_certificate, in_words, verify
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve.solve import solve_step

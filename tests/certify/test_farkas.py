@@ -5,7 +5,7 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact_step import exact_step, relative_length
+from quasistatic_ref.certify.exact import exact_step, relative_length
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.optimality import (
-    ellipsoid_residuals,
     optimality_residuals,
 )
 from quasistatic_ref.step.data import Extra
@@ -12,6 +11,7 @@ from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import (
     changed,
     contact_row,
+    judged,
     planted_step,
     sphere_on_floor,
 )
@@ -125,10 +125,10 @@ def test_impulses_outside_an_ellipsoid_are_its_dual_residual(mu_omega, tau_n, ex
     """f_n = 2 and tangential impulses of (3, 4) mu_v, in the order (n, d1, d2, spin)."""
     step = sphere_on_floor(mu_v=0.5, mu_omega=mu_omega).replace(cone="ellipsoid")
     lam = np.array([2.0, 0.5 * 3, 0.5 * 4, tau_n])
-    found = ellipsoid_residuals(step, np.zeros(6), lam)
+    found = judged(step, np.zeros(6), lam)
     assert found.dual == pytest.approx(excess, rel=1e-12)
     assert found.primal == 0.0
-    inside = ellipsoid_residuals(step, np.zeros(6), np.array([2.0, 0.5, 0.5, 0.0]))
+    inside = judged(step, np.zeros(6), np.array([2.0, 0.5, 0.5, 0.0]))
     assert inside.dual == 0.0
 
 
@@ -137,7 +137,7 @@ def test_rows_of_the_user_beside_an_ellipsoid_are_judged_one_by_one():
     step = sphere_on_floor().replace(
         cone="ellipsoid", extra=Extra(("x", "y"), np.eye(6)[:2], np.array([0.3, 0.1]))
     )
-    found = ellipsoid_residuals(step, np.zeros(6), np.array([0, 0, 0, 0, -0.7, -0.2]))
+    found = judged(step, np.zeros(6), np.array([0, 0, 0, 0, -0.7, -0.2]))
     near(found.primal, 0.3)
     near(found.dual, 0.7)
     near(found.complementarity, 0.3 * 0.7)

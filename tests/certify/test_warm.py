@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.standard_form import standard_form

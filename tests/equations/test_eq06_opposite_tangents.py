@@ -1,6 +1,6 @@
 """Eq. (6), d~_3 and d~_4. Under test: step.problem.StepProblem.
 
-And step.friction.pyramid, the same cone for other numbers than CVXPY's.
+And step.cones.pyramid, the same cone for other numbers than CVXPY's.
 """
 
 import numpy as np

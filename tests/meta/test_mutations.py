@@ -15,10 +15,10 @@ from validation.tools.mutating.mutants import mutants
 from validation.tools.mutating.mutated import TESTS
 from validation.tools.mutations import PACKAGE, all_mutants
 
-PAGE, CONES, FORM = "step/problem.py", "step/friction.py", "step/standard_form.py"
+PAGE, FORM = "step/problem.py", "step/standard_form.py"
+CONES, FRICTION, ELLIPSOID = "step/cones.py", "step/friction.py", "optional/ellipsoid/cone.py"
 JUDGE = "certify/optimality.py"
-RATIONAL, KKT = "certify/rational.py", "certify/kkt.py"
-DEPENDENCE, BALLS = "certify/dependence.py", "certify/balls.py"
+RATIONAL, DEPENDENCE = "certify/rational.py", "certify/dependence.py"
 POINT, ROUNDING, EXACT = "certify/point.py", "certify/rounding.py", "certify/exact.py"
 FARKAS, CLAIMS = "certify/farkas.py", "certify/certificate.py"
 
@@ -30,26 +30,26 @@ SAMPLE = (
     f"{CONES} pyramid: gap + slip_2 -> gap - slip_2",
     f"{CONES} pyramid: gap - slip_1 -> gap + slip_1",
     f"{CONES} pyramid: gap + spin -> gap - spin",
-    f"{CONES} rows_along: [J_n, J_1, J_2, J_w] -> [J_n, J_2, J_1, J_w]",
-    f"{CONES} contact_wrenches: [mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n] -> "
+    f"{FRICTION} rows_along: mu_omega * J_w -> mu_omega / J_w",
+    f"{FRICTION} _wrenches: [mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n] -> "
     "[mu_v * f_d2, mu_v * f_d1, f_n, mu_omega * tau_n]",
-    f"{CONES} row_gaps: name == ELLIPSOID -> name != ELLIPSOID",
+    f"{FRICTION} row_gaps: cone(name).matrix[:, 0] -> cone(name).matrix[:, 1]",
     f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "
     "row_gaps(step.contacts, step.cone)[step.mask]",
     f"{FORM} load: tau_k + step.tau_a -> tau_k - step.tau_a",
     f"{FORM} standard_form: [A, step.extra.A] -> [step.extra.A, A]",
-    f"{JUDGE} optimality_residuals: -slack -> slack",
-    f"{JUDGE} ellipsoid_residuals: mu * s[:, 1:] -> mu / s[:, 1:]",
-    f"{JUDGE} ellipsoid_residuals: -lam[k:] -> lam[k:]",
-    f"{JUDGE} optimality_residuals: -lam -> lam",
+    f"{CONES} row_violations: -slack -> slack",
+    f"{ELLIPSOID} cone_violations: mu * s[:, 1:] -> mu / s[:, 1:]",
+    f"{ELLIPSOID} cone_violations: -own_lam -> own_lam",
+    f"{CONES} row_violations: -lam -> lam",
     f"{JUDGE} optimality_residuals: A @ delta_q - b -> A @ delta_q + b",
-    f"{RATIONAL} _friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
+    f"{RATIONAL} friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
     f"{RATIONAL} contact_motion: [contacts.n[of], contacts.d1[of], contacts.d2[of]] -> "
     "[contacts.n[of], contacts.d2[of], contacts.d1[of]]",
     f"{RATIONAL} _in_integers: two_to(H.e + e_x) / h -> two_to(H.e + e_x) * h",
-    f"{KKT} rational_solution: -form.A[i, j] -> form.A[i, j]",
+    f"{POINT} rational_solution: -form.A[i, j] -> form.A[i, j]",
     f"{DEPENDENCE} combination: solution[j, 0] -> solution[0, j]",
-    f"{BALLS} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
+    f"{POINT} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
     f"{POINT} Point.zero_coordinates: i == v -> i != v",
     f"{ROUNDING} decimal_string: exponent - digits + 1 -> exponent - digits - 1",
     f"{ROUNDING} nearest_in: low == high -> low != high",

@@ -1,15 +1,16 @@
 """Every field of every kind of solution file, forged.
 
-Files of each kind in ``step.solution_files.CLAIMS`` and ``ELLIPSOID_CLAIMS``, and of an infeasible
-step, are spoilt one field at a time. The fields are those that stand in the file: one that is added
-to the format is attacked without a line here. Each number is moved by one unit in the last place,
-in both directions, and replaced by nonsense; each word, truth, fraction, row and list is replaced,
-left out, lengthened; fields are added. Multipliers are forged with the wrenches that go with them.
+Good files of each kind of certificate in the pyramid and in the ellipsoid, and of an infeasible
+step, are spoilt one field at a time. The fields are those that stand in the file: one
+that is added to the format is attacked without a line here. Each number is moved by one unit in
+the last place, in both directions, and replaced by nonsense; each word, truth, fraction, row and
+list is replaced, left out, lengthened; fields are added. Multipliers are forged with the wrenches
+that go with them, too.
 
 A forged file must be refused, or still be true: a bound may be larger than it need be, and where a
 bound is all that is claimed of numbers they may move within it. What is true is decided by
-fractions, from the equations (``solution_truth.py``): nothing is asked of ``verify`` or of what it
-uses but the optimum itself.
+fractions, from the equations (``solution_truth.py``): ``verify`` and its code give the optimum
+alone.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.certificate import Verdict
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.scenario.scenario import load_scenario

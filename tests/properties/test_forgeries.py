@@ -10,9 +10,9 @@ import pytest
 from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
+from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
 from quasistatic_ref.step.solution import Certificate
-from quasistatic_ref.step.solution_files import claims_in, solution_read, solution_text
+from quasistatic_ref.step.solution_files import solution_read, solution_text
 from quasistatic_ref.tolerances import ENCLOSED
 from tests.helpers import pinch, point_on_floor
 from tests.oracles import forgeries
@@ -69,10 +69,10 @@ def test_no_random_forgery_passes(path, kind, name):
 def test_every_kind_and_every_claim_of_a_certificate_is_forged():
     """A kind without a scene, or a claim that is in no kind of file, would not be attacked."""
     in_files = {"kind"}
-    for cone, label in ((PYRAMID, ""), (ELLIPSOID, " in the ellipsoid")):
-        for kind, names in claims_in(cone).items():
+    for name, label in ((PYRAMID, ""), (ELLIPSOID, " in the ellipsoid")):
+        for kind, names in cone(name).claims.items():
             short = kind in ("none", "enclosure")
-            assert any(kind + label * (not short) == scene for scene, _ in SCENES), (kind, cone)
+            assert any(kind + label * (not short) == scene for scene, _ in SCENES), (kind, name)
             in_files |= set(names)
     in_memory = {"residuals", "step"}
     assert in_files | in_memory == {field.name for field in fields(Certificate)}

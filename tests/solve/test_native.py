@@ -13,7 +13,7 @@ from quasistatic_ref.optional.extensions.extended import extension_rows, with_ro
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import installed
-from quasistatic_ref.solve.cvxpy_problem import cvxpy_problem
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
@@ -38,7 +38,7 @@ def some_limits(symbols):
 
 def by_cvxpy(step, limits):
     """H, g, and (A, b) of the inequalities, then of the equations, as CVXPY compiles them."""
-    problem = cvxpy_problem(step, constraints=limits)
+    problem = CvxpyProblem(step, constraints=limits)
     problem.fill(step)
     data, _, _ = problem.problem.get_problem_data(cp.OSQP, solver_opts={})
     P = data["P"].toarray()
@@ -146,7 +146,7 @@ def test_the_ellipsoid_s_program_is_what_cvxpy_compiles(own, rng):
     solver = solver_for(step, "clarabel", fast=True)
     solver.write(DenseStep(step))
     natural = within_reach(to_natural(step, natural_units(step)))
-    problem = cvxpy_problem(natural)
+    problem = CvxpyProblem(natural)
     problem.fill(natural)
     data, _, _ = problem.problem.get_problem_data(cp.CLARABEL, solver_opts={})
     dims = data["dims"]

@@ -113,8 +113,6 @@ def test_a_call_that_contradicts_itself_cannot_be_written(step):
 @pytest.mark.parametrize(
     ("kind", "name", "says"),
     [
-        (CvxpySolver, "qpsolvers:osqp", "leave out 'qpsolvers:'"),
-        (QpsolversSolver, "osqp", "as 'qpsolvers:osqp'"),
         (NativeSolver, "qpsolvers:daqp", "has no interface of its own"),
         (SparseSolver, "daqp", "takes no sparse matrices"),
     ],

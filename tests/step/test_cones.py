@@ -7,17 +7,11 @@ import numpy as np
 import pytest
 from flint import arb, ctx, fmpq
 
-from quasistatic_ref.certify.dyadic import dyadic
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.rational import dyadic, exact_form
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.cones import cone, direction
-from quasistatic_ref.step.friction import (
-    cone_function,
-    cone_matrix,
-    contact_wrenches,
-    friction_rows,
-)
+from quasistatic_ref.step.cones import cone, cone_function, cone_matrix, direction
+from quasistatic_ref.step.friction import contact_wrenches, friction_rows
 from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_rational import in_si
 from tests.helpers import changed, random_step

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.step.friction import contact_wrenches, friction_rows, pyramid, row_gaps
+from quasistatic_ref.step.cones import pyramid
+from quasistatic_ref.step.friction import contact_wrenches, friction_rows, row_gaps
 from tests.helpers import changed, random_step
 from tests.tolerances import EXACT, ROUNDING
 

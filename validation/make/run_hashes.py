@@ -6,8 +6,8 @@ Runs are taken in processes of their own: with the kernels of OpenBLAS for other
 (``OPENBLAS_CORETYPE``), without the vector code of NumPy and of the C library
 (``NPY_DISABLE_CPU_FEATURES``, ``GLIBC_TUNABLES``), and with the oldest NumPy that the package
 supports, which pip fetches into a temporary folder. ``--python`` names another Python, for which
-pip installs the package with the newest of all that it needs. Takes some five minutes. Exit status 1 if a hash
-differs.
+pip installs the package with the newest of all that it needs. Takes some five minutes.
+Exit status 1 if a hash differs.
 """
 
 from __future__ import annotations

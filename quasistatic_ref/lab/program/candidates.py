@@ -5,6 +5,9 @@ import numpy as np
 from .distance import closest_points
 from .rotation import AXES, unit
 
+REPEATED = 1e-9
+"""[m], and [-] of normals: candidates that differ by less are one."""
+
 
 def selection(case):
     """Layer 2: a stable sort is a tie broken by index; of two solids those about one normal."""
@@ -42,13 +45,24 @@ def candidates(alpha, pose_alpha, beta, pose_beta, k):
     found = [closest_points(*part) for part in parts]
     phi = np.concatenate([np.atleast_1d(one[0]) for one in found])
     a, b, n = (np.concatenate([np.reshape(one[i], (-1, 3)) for one in found]) for i in (1, 2, 3))
-    every = np.column_stack([phi, a, n])
     late = np.zeros(len(phi), dtype=bool)
     if k > 1 and not clouds:
-        near = np.abs(every[:, None] - every).max(axis=2) <= 1e-9
-        late = np.tril(near, -1).any(axis=1)
-        late[-1] |= np.sum(~late[:-1] & (phi[:-1] <= phi[-1] + 1e-9)) >= k
+        late, _ = lateness(phi, a, n, k, REPEATED)
     return phi, a, b, n, late
+
+
+def lateness(phi, alpha, n, k, repeated):
+    """Which candidates of two solids come after all others, and whether k corners will do.
+
+    Late are those that repeat an earlier one, and the closest pair, which is the last, where k
+    corners are as near. What differs by no more than `repeated`, of their kind of number, is one.
+    """
+    every = np.column_stack([phi, alpha, n])
+    same = np.all(np.abs(every[:, None] - every) <= repeated, axis=2)
+    late = np.tril(same, -1).any(axis=1)
+    enough = np.sum(~late[:-1] & (phi[:-1] <= phi[-1] + repeated)) >= k
+    late[-1] |= enough
+    return late, enough
 
 
 def chosen(phi, late, k):

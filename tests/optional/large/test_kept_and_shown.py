@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.rounded_wrench import rounded_wrenches
+from quasistatic_ref.step.friction import rounded_wrenches
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, step_solution
 from quasistatic_ref.step.solution_files import solution_text
 from tests.helpers import point_on_floor, random_step

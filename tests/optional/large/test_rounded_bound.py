@@ -44,7 +44,8 @@ class Judged:
         self.form, self.units = scaled.natural_form, scaled.units
         S, ell, rho = self.units
         self.x, self.y = x, np.maximum(lam, 0.0)
-        self.bound = FloatBound(BallHessian(step), self.form.H, S)
+        hessian = BallHessian(step)
+        self.bound = FloatBound(hessian.inverse, hessian.h, self.form.H, S)
         self.given = step, self.form, (ell, rho), x
         self.at = self.bound.rounded(*self.given, self.y)
         self.error = self.bound.error(*self.given, lam)

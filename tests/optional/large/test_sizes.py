@@ -13,7 +13,7 @@ import pytest
 
 from quasistatic_ref.optional.large import sizes as of
 from quasistatic_ref.optional.large.sizes import ROUNDINGS, TINY, UNIT, rounding, sizes_of
-from quasistatic_ref.step.friction import cone_function
+from quasistatic_ref.step.cones import cone_function
 from tests.helpers import in_blocks, random_step
 
 CONES = ["pyramid", "product", "facets-4", "facets-8", "frictionless"]

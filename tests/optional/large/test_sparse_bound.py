@@ -6,8 +6,8 @@ import numpy as np
 from flint import fmpz_mat
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.certify.balls import positive_definite
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.point import positive_definite
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.large.bound import error_bound
@@ -32,7 +32,8 @@ RIGHT_OR_WRONG = {"least": -17, "balanced": 0.3, "factors": (1.0, 1.0, 0.5, 2.0,
 def bound_of(step, delta_q, lam):
     """The bound of an answer in SI units by the sparse path; infinite where none is known."""
     sparse = in_blocks(step)
-    return SparseSolver(sparse, "clarabel").scaled(sparse).bound(delta_q, lam)
+    solver = SparseSolver(sparse, "clarabel")
+    return solver.error_bound(solver.scaled(sparse), delta_q, lam)
 
 
 def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():

@@ -13,9 +13,8 @@ from quasistatic_ref.lab.vectors.check.compare import number_problem, tolerance_
 from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptable, failure
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
-from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.cones import ELLIPSOID, cone_matrix
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.friction import cone_matrix
 
 EPS: Final = float(np.finfo(np.float64).eps)
 NEGLIGIBLE: Final = 1e-9

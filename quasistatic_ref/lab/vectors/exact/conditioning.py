@@ -17,7 +17,7 @@ from typing import Any, Final, cast
 
 from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
 
-from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.lab.vectors.exact.floor import floors
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, fraction

@@ -28,6 +28,9 @@ from quasistatic_ref.lab.vectors.layers.qp import flags_of, form_of, optimum_of,
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
 
 EPS: Final = 2.0**-52
+SHOWN: Final = ("pair", "index", *FIELDS, "d1", "d2", "J")
+"""What the answer says of a contact."""
+ANSWERED: Final = ("delta_q", "lam", "A_lam")
 ROUNDINGS: Final = 16
 """Units of rounding of a mass, a force or a pose: some products of rotations, deep chains."""
 
@@ -36,13 +39,8 @@ def expected(
     case_input: Json, terms: Callable[[Json], tuple[float, float]] | None = None
 ) -> Expected:
     """All that one step comes to, and q after it; `terms` says how large what makes H and g is."""
-    contacts, friction, found = contacts_of(case_input)
-    place = {key: case_input[key] for key in ("mechanism", "q")}
-    jacobian = layer("jacobian").expected({**place, "contacts": contacts})
-    for contact, J in zip(contacts, jacobian.output["J"], strict=True):
-        contact["J"] = J
-    both = [{**contact, **mu} for contact, mu in zip(contacts, friction, strict=True)]
-    rows = layer("rows").expected({"cone": case_input["cone"], "contacts": both})
+    contacts, found = contacts_of(case_input)
+    contacts, jacobian, rows = with_rows(case_input, contacts)
     H, g, g_size = objective(case_input)
     H_size = max([abs(x) for row in H for x in row], default=0.0)
     if terms:
@@ -50,7 +48,7 @@ def expected(
     program = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
     errors, distances = _errors(case_input, program, found, jacobian, rows, (H_size, g_size))
     solved = _solved(program, errors)
-    base = {**program, "contacts": [_shown(contact) for contact in contacts]}
+    output, wrenches, after = answered(case_input, contacts, program, solved)
     base_tolerance = {
         **{f"contacts.{name}": t for name, t in distances.items()},
         "contacts.J": tolerance(_plus(jacobian.tolerance["J"], 2 * distances["alpha"].absolute),
@@ -62,34 +60,49 @@ def expected(
     }  # fmt: skip
     ties = {"tie": not all(one.clear for one in found)}
     ties["unique"] = all(one.unique for one in found)
-    if "farkas" in solved.output:
-        return Expected(
-            {**base, "farkas": solved.output["farkas"]},
-            flags={**solved.flags, **ties},
-            tolerance={**base_tolerance, **solved.tolerance},
-        )
-    wrenches = _wrenches(case_input, both, solved)
-    after = layer("integrate").expected({**place, "delta_q": solved.output["delta_q"]})
-    step = solved.tolerance["delta_q"].absolute
-    wrench_bound = _wrench_bound(case_input, friction, solved, wrenches)
-    q_bound = _plus(after.tolerance["q"], 4 * step)
-    answered = ("delta_q", "lam", "A_lam")
+    flags = {**solved.flags, **ties}
+    if wrenches is None or after is None:
+        return Expected(output, flags=flags, tolerance={**base_tolerance, **solved.tolerance})
+    wrench_bound = _wrench_bound(case_input, solved, wrenches)
+    q_bound = _plus(after.tolerance["q"], 4 * solved.tolerance["delta_q"].absolute)
     return Expected(
-        output={
-            **base,
-            **{name: solved.output[name] for name in answered},
-            "wrench": wrenches.output["wrench"],
-            "q_next": after.output["q"],
-        },
-        digits=solved.digits,
-        flags={**solved.flags, **ties},
+        output,
+        solved.digits,
+        flags,
         tolerance={
             **base_tolerance,
-            **{name: solved.tolerance[name] for name in answered},
+            **{name: solved.tolerance[name] for name in ANSWERED},
             "wrench": tolerance(wrench_bound, "that of lam, over h"),
             "q_next": tolerance(q_bound, "that of delta_q, and of the layer integrate"),
         },
     )
+
+
+def with_rows(case: Json, contacts: list[Json]) -> tuple[list[Json], Expected, Expected]:
+    """Contacts with their J, and what the layers `jacobian` and `rows` say of them."""
+    place = {key: case[key] for key in ("mechanism", "q")}
+    jacobian = layer("jacobian").expected({**place, "contacts": contacts})
+    blocks = jacobian.output["J"]
+    found = [{**contact, "J": J} for contact, J in zip(contacts, blocks, strict=True)]
+    return found, jacobian, layer("rows").expected({"cone": case["cone"], "contacts": found})
+
+
+def answered(
+    case: Json, contacts: list[Json], program: Json, solved: Expected
+) -> tuple[dict[str, Json], Expected | None, Expected | None]:
+    """The output of a step whose program is solved, and how: by the layers wrench and integrate."""
+    output = {**program, "contacts": [{key: c[key] for key in SHOWN} for c in contacts]}
+    if "farkas" in solved.output:
+        return {**output, "farkas": solved.output["farkas"]}, None, None
+    parts = by_contact(solved.output["lam"], case["cone"], contacts)
+    loaded = [{**contact, "lam": lam} for contact, lam in zip(contacts, parts, strict=True)]
+    loads = {"h": case["h"], "cone": case["cone"], "contacts": loaded, "bodies": {}}
+    wrenches = layer("wrench").expected(loads)
+    moved = {key: case[key] for key in ("mechanism", "q")} | {"delta_q": solved.output["delta_q"]}
+    after = layer("integrate").expected(moved)
+    output |= {name: solved.output[name] for name in ANSWERED}
+    output |= {"wrench": wrenches.output["wrench"], "q_next": after.output["q"]}
+    return output, wrenches, after
 
 
 def own(case_input: Json) -> Json:
@@ -134,17 +147,20 @@ def shape_pose(case: Json, entry: Json) -> Json:
     return rounded(world)[0]
 
 
-def contacts_of(case: Json) -> tuple[list[Json], list[Json], list[Chosen]]:
-    """Contacts of all pairs without J, each one's coefficients of friction, and whence they are."""
-    found = _chosen(case)
-    contacts, friction = [], []
+def contacts_of(case: Json) -> tuple[list[Json], list[Chosen]]:
+    """Contacts of all pairs without J, and whence they are."""
+    found, contacts = _chosen(case), []
     for pair, one in zip(case["pairs"], found, strict=True):
-        bodies = {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
-        for contact in one.contacts:
-            frame = _tangents(contact["n"])
-            contacts.append({"pair": pair["name"], **bodies, **contact, **frame})
-            friction.append({key: pair[key] for key in ("mu_v", "mu_omega", "rows")})
-    return contacts, friction, found
+        given = of_pair(case, pair)
+        contacts += [{**given, **c, **_tangents(c["n"])} for c in one.contacts]
+    return contacts, found
+
+
+def of_pair(case: Json, pair: Json) -> Json:
+    """What all contacts of a pair have in common."""
+    bodies = {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
+    friction = {key: pair[key] for key in ("mu_v", "mu_omega", "rows")}
+    return {"pair": pair["name"], **bodies, **friction}
 
 
 def _tangents(normal: list[float]) -> dict[str, Json]:
@@ -214,24 +230,13 @@ def _solved(program: Json, errors: Errors) -> Expected:
     return Expected(solved.output, solved.digits, flags, tolerances(bound))
 
 
-def _wrenches(case: Json, contacts: list[Json], solved: Expected) -> Expected:
-    parts = by_contact(solved.output["lam"], case["cone"], contacts)
-    entries = [{**contact, "lam": lam} for contact, lam in zip(contacts, parts, strict=True)]
-    loads = {"h": case["h"], "cone": case["cone"], "contacts": entries, "bodies": {}}
-    return layer("wrench").expected(loads)
-
-
-def _wrench_bound(
-    case: Json, friction: list[Json], solved: Expected, wrenches: Expected
-) -> Fraction:
-    rows = len(solved.output["lam"]) // max(len(friction), 1) + 1
-    mu = max([1.0, *(max(one["mu_v"], one["mu_omega"]) for one in friction)])
+def _wrench_bound(case: Json, solved: Expected, wrenches: Expected) -> Fraction:
+    contacts = len(wrenches.output["wrench"])
+    rows = len(solved.output["lam"]) // max(contacts, 1) + 1
+    frictions = [max(p["mu_v"], p["mu_omega"]) for p in case["pairs"]] if contacts else []
     own_error = Fraction(wrenches.tolerance["wrench"].absolute)
-    return own_error + Fraction(rows * mu * solved.tolerance["lam"].absolute) / Fraction(case["h"])
-
-
-def _shown(contact: Json) -> Json:
-    return {key: contact[key] for key in ("pair", "index", *FIELDS, "d1", "d2", "J")}
+    error = rows * max([1.0, *frictions]) * solved.tolerance["lam"].absolute
+    return own_error + Fraction(error) / Fraction(case["h"])
 
 
 def _plus(given: Tolerance, more: float) -> Real:

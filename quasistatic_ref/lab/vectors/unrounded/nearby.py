@@ -9,9 +9,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.program.candidates import lateness
 from quasistatic_ref.lab.vectors.distances.candidates import parts
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness, point_witness
@@ -116,11 +118,12 @@ def ordered(found: Sequence[Near], k: int, *, solids: bool) -> list[tuple[bool, 
     solids : bool
         Whether they are corners and a closest pair, of which some may repeat others.
     """
-    late = [solids and _repeats(found, i) for i in range(len(found))]
-    if solids and len(found) > 1:  # the last is the closest pair
-        level = [one.phi <= found[-1].phi + REPEATS for one in found[:-1]]
-        corners = sum(near and not again for near, again in zip(level, late, strict=False))
-        late[-1] = late[-1] or corners >= k
+    late = [False] * len(found)
+    if solids:
+        phi, alpha, n = (
+            np.array([getattr(one, key) for one in found]) for key in ("phi", "alpha", "n")
+        )
+        late = lateness(phi, alpha, n, k, REPEATS)[0].tolist()
     return sorted((late[i], found[i].phi, i) for i in range(len(found)))
 
 
@@ -146,14 +149,3 @@ def tied(found: Sequence[Near], k: int, *, solids: bool) -> list[int]:
         return []
     return sorted(found[i].index for late, phi, i in order
                   if late == order[k][0] and is_small(phi - edge))  # fmt: skip
-
-
-def _repeats(found: Sequence[Near], i: int) -> bool:
-    """Whether a candidate is an earlier one again."""
-    return any(_same(found[i], found[j]) for j in range(i))
-
-
-def _same(one: Near, other: Near) -> bool:
-    pairs = [(one.phi, other.phi), *zip(one.alpha, other.alpha, strict=True)]
-    pairs += zip(one.n, other.n, strict=True)
-    return all(abs(a - b) <= REPEATS for a, b in pairs)

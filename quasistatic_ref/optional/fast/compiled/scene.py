@@ -13,8 +13,8 @@ from quasistatic_ref.optional.fast.posed import Constants
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker, FollowedCloud
 from quasistatic_ref.shapes import placed_shape as shapes
 from quasistatic_ref.shapes.rounded import Rounded
+from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices
-from quasistatic_ref.step.friction import cone_function, cone_matrix
 
 ROUNDED_BOX, HALF_SPACE, CYLINDER = range(3)
 """Kinds of solids, as scene.h counts them."""

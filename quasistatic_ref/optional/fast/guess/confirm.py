@@ -19,17 +19,19 @@ from collections.abc import Sequence
 
 import numpy as np
 from flint import arb, arb_mat, ctx
+from numpy.typing import NDArray
 
-from quasistatic_ref.certify.balls import PRECISION, inverse
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.norm import energy_norm, rough_inverse
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.point import PRECISION, inverse
 from quasistatic_ref.certify.rational import h_times_hessian, matrix
-from quasistatic_ref.certify.rounding import all_nearest
+from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Violated
 from quasistatic_ref.optional.fast.guess.zeros import zeros_hold
+from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
-from quasistatic_ref.step.friction import cone_function, cone_matrix, row_gaps
+from quasistatic_ref.step.friction import row_gaps
 
 
 class BallHessian:
@@ -43,8 +45,6 @@ class BallHessian:
     ----------
     norm : EnergyNorm
         Of H in float64.
-    rough : ndarray, shape (n_v, n_v)
-        The inverse of H in float64.
 
     Raises
     ------
@@ -61,7 +61,6 @@ class BallHessian:
             self.K_q = arb_mat(step.n_a, step.n_a, step.K_q.ravel().tolist())
             self.M_u = arb_mat(step.n_u, step.n_u, step.M_u.ravel().tolist())
         self.norm = energy_norm(step.H)
-        self.rough: Array = rough_inverse(step.H)
 
     def fits(self, step: StepData) -> bool:
         """Whether a step has the same h, and the same arrays K_q and M_u."""
@@ -166,6 +165,29 @@ class BallStep:
             smallest_active_multiplier=min(lam_w.tolist(), default=None),
             walks=0,
         )
+
+
+def all_nearest(balls: Sequence[arb]) -> tuple[Array, NDArray[np.bool_]]:
+    """The float64 nearest to every number in each ball, and whether it is shown to be.
+
+    Returns
+    -------
+    ndarray, shape (balls,)
+        The float64 numbers [of the unit of the balls].
+    ndarray of bool, shape (balls,)
+    """
+    midpoints = [float(ball) for ball in balls]
+    off = np.array([float((b - x).abs_upper()) for b, x in zip(balls, midpoints, strict=True)])
+    x = np.array(midpoints) + 0.0  # never -0.0
+    with np.errstate(over="ignore", invalid="ignore"):
+        gap = np.minimum(np.nextafter(x, np.inf) - x, x - np.nextafter(x, -np.inf))
+    # gap / 2 is a float64 (0 of the least gap): an error that is not below it is not rounded to a
+    # number below it.
+    shown = (off < gap / 2) | (off == 0) & (x == 0)
+    for i in np.flatnonzero(~shown & (off <= 2 * gap)).tolist():  # a power of two, or subnormal
+        value = nearest_in(balls[i])
+        x[i], shown[i] = (x[i], False) if value is None else (value, True)
+    return x, shown
 
 
 def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:

@@ -5,15 +5,15 @@ import itertools
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.dependence import follow, spanned_in_contacts
-from quasistatic_ref.certify.exact import exact_optimum
-from quasistatic_ref.certify.exact_step import exact_step
-from quasistatic_ref.certify.rational import exact_form, exact_rows
+from quasistatic_ref.certify.dependence import follow
+from quasistatic_ref.certify.exact import exact_optimum, exact_step
+from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step, grasp_step
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Violated
+from quasistatic_ref.optional.fast.guess.zeros import exact_rows, spanned_in_contacts
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import Extra, StepData
