@@ -95,7 +95,13 @@ def add_resume(parser: argparse.ArgumentParser) -> None:
 
 
 def check_at_least_one(options: argparse.Namespace, name: str) -> None:
-    """Refuse an option that counts something, and is given as less than 1."""
+    """Refuse an option that counts something, and is given as less than 1.
+
+    Raises
+    ------
+    InputError
+        If it is.
+    """
     value: int | None = getattr(options, name)
     if value is not None and value < 1:
         raise InputError("must be at least 1", field=f"--{name}", value=value)

@@ -92,12 +92,10 @@ contact/jacobian.py
     CONTACT
 contact/pairs.py
     jacobian
-optional/fast/tracker/tracker.py optional/fast/tracker/cloud_tracker.py
-optional/fast/tracker/batch.py optional/fast/tracker/tracker_bound.py
-optional/fast/tracker/ball_tree.py contact/poses.py
+optional/fast/tracker/tracker.py optional/fast/tracker/tracker_bound.py
+optional/fast/tracker/ball_tree.py
     FOLLOWED
 contact/solids/settle.py contact/solids/faces.py contact/solids/by_coal.py
-contact/solids/curved_pair.py
     CURVED
 optional/ellipsoid/enclosure.py optional/ellipsoid/interior.py optional/ellipsoid/newton.py
 optional/ellipsoid/scaled_blocks.py
@@ -106,15 +104,13 @@ contact/distance.py
     PAIRS
 contact/patch.py
     flat_on_flat PAIRS
-contact/placed.py contact/solids/polytope.py contact/solids/polytope_pair.py
+contact/shape_in_world.py contact/solids/polytope.py contact/solids/polytope_pair.py
 contact/solids/ways_out.py shapes/hull.py shapes/round.py
     SOLIDS
 contact/separations.py
     flat_on_flat depth_ties
 contact/solids/solid_pair.py
     polytope_pair CURVED
-optional/fast/tracker/solid_rows.py
-    step_time FOLLOWED PAIRS
 optional/large/sparse_jacobian.py optional/large/blocks.py optional/large/sparse_contacts.py
 optional/large/sparse_form.py
     SPARSE
