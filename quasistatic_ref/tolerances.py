@@ -63,11 +63,6 @@ The unconstrained step has a length of about one. Solvers lose digits where 1e6 
 together; a row that is put at 100 stays inactive, and the judge, who has the true distance, would
 notice if it did not."""
 
-PROVED: Final = 1e-13
-"""Largest excess of a solid's support over a candidate for the closest point, relative to the
-coordinates [-]: its distance is then too large by no more. Rounding leaves 1e-15; a candidate of
-another feature misses by the size of the shapes, or is as good."""
-
 WITNESS: Final = 1e-10
 """Largest disagreement of a convex pair's closest points with its distance and normal, relative to
 the pair's size [-]. Refined answers are at 1e-15; a wrong one disagrees by the size."""

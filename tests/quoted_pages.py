@@ -13,7 +13,7 @@ from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.examples.grasp_against_mu_omega import physical_limit
 from quasistatic_ref.lab.grasp import TOP
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from quasistatic_ref.optional.fast.tracker import ball_tree, cloud_tracker, tracker_bound
+from quasistatic_ref.optional.fast.tracker import ball_tree, tracker, tracker_bound
 from quasistatic_ref.tolerances import CLOSED_FORM, ILL_POSED, SLOW, UNSEEN
 from tests import quoted_reality as reality
 from tests import quoted_sources as of
@@ -151,8 +151,8 @@ QUOTED = {
         f"Up to {ball_tree.SMALL:,} points all are measured",
         f"leaves of up to {ball_tree.LEAF} points",
         f"the next best up to a width of {tracker_bound.BEAM}",
-        f"lasted for fewer than {cloud_tracker.SHORT} steps are made twice as long, up to "
-        f"{cloud_tracker.WIDE} points",
+        f"lasted for fewer than {tracker.SHORT} steps are made twice as long, up to "
+        f"{tracker.WIDE} points",
     ],
     "docs/exactness.md": lambda: [
         "of `sphere_spin`, and on {:,} random steps".format(*of.steps_with_equal_bits()[-1:]),

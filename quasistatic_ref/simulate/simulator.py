@@ -220,7 +220,7 @@ class Simulator(Shown):
         StepDataError
             If the force has another shape.
         """
-        n_a, tau = self.system.n_a, self.load(q, force)
+        n_a, tau = self.system.n_a, self.generalised_force(q, force)
         return StepData(
             h=self.h,
             K_q=self.K_q,
@@ -232,7 +232,7 @@ class Simulator(Shown):
             cone=self.cone,
         )
 
-    def load(self, q: Array, force: Array | float) -> Array:
+    def generalised_force(self, q: Array, force: Array | float) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
         if np.shape(force) not in {(), self.gravity_acts.shape}:
             problem = f"must have shape {self.gravity_acts.shape}"

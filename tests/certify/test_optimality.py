@@ -141,3 +141,13 @@ def test_rows_of_the_user_beside_an_ellipsoid_are_judged_one_by_one():
     near(found.primal, 0.3)
     near(found.dual, 0.7)
     near(found.complementarity, 0.3 * 0.7)
+
+
+def test_the_work_of_a_contact_in_an_ellipsoid_is_one_sum():
+    """It rises and slips by 1 mm each; 2 N s along the normal and -2 N s along the slip: none."""
+    step = sphere_on_floor().replace(cone="ellipsoid")
+    delta_q = np.array([1e-3, 0.0, 1e-3, 0.0, 0.0, 0.0])
+    found = judged(step, delta_q, np.array([2.0, -2.0, 0.0, 0.0]))
+    near(found.complementarity, 0.0)
+    pressed = judged(step, delta_q, np.array([2.0, 0.0, 0.0, 0.0]))
+    near(pressed.complementarity, 2e-3)

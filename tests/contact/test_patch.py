@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.distance import ClosestPoints, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.convex_mesh import convex_hull
@@ -116,9 +116,9 @@ def test_a_rims_first_corner_is_the_closest_point_and_repeats_it(seed: int) -> N
     R = Rotation.random(random_state=seed).as_matrix()
     way = rng.normal(size=3)
     t = 0.3 * way / np.sqrt(way @ way)
-    here = Placed(one, np.eye(3), np.zeros(3))
+    here = ShapeInWorld(one, np.eye(3), np.zeros(3))
     for _ in range(3):  # along the normal, until they are as near
-        phi, _, _, n = solid_pair("p", here, Placed(other, R, t))
+        phi, _, _, n = solid_pair("p", here, ShapeInWorld(other, R, t))
         t = t - (phi - 1e-5) * n
     points = found(one, other, R, t, 17)
     nearest = points.alpha[points.point == 16]

@@ -1,6 +1,5 @@
 """The profile of a step: what is counted and timed, and when the claim about it fails."""
 
-import numpy as np
 import pytest
 
 from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, finding
@@ -15,27 +14,22 @@ from quasistatic_ref.lab.study.bench.profile import (
     grasp_scenario,
     tracked_distances,
 )
-from quasistatic_ref.optional.fast.tracker import cloud_tracker, tracker_bound
-from quasistatic_ref.optional.fast.tracker.solid_rows import SolidRows
+from quasistatic_ref.optional.fast.tracker import tracker as following
+from quasistatic_ref.optional.fast.tracker import tracker_bound
 
 STEPS = 6
 
 
 def test_the_distances_of_the_tracker_are_those_that_it_really_evaluates(monkeypatch):
     counted = []
-    signed_distance, measure = tracker_bound.signed_distance, SolidRows.__call__
+    signed_distance = tracker_bound.signed_distance
 
     def distances(shape, points):
         counted.append(len(points))
         return signed_distance(shape, points)
 
-    def rows(self, x):
-        counted.append(np.count_nonzero(~np.isnan(x[:, 0])))
-        return measure(self, x)
-
-    for module in (tracker_bound, cloud_tracker):
+    for module in (tracker_bound, following):
         monkeypatch.setattr(module, "signed_distance", distances)
-    monkeypatch.setattr(SolidRows, "__call__", rows)
     found = tracked_distances(grasp_scenario("clarabel", "off"), STEPS)
     assert found.sum() == sum(counted)
     # 3 first lists: a normal out of 992 points, a list out of 992, 32 on it. A later step

@@ -2,10 +2,8 @@
 
 import numpy as np
 
-from tests.oracles.pushes import SHAPES
 from tests.tolerances import DIFFERENCE_OF_STEPS
 
-COUPLES = [(a, b) for a in SHAPES for b in SHAPES if not a == b == "cloud"]
 STEPS = (1e-5, 1e-6, 1e-7, 3e-8)
 """Of differences [m or rad]: the first whose error is small counts, since a kink may be near."""
 

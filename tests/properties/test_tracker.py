@@ -10,7 +10,8 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.optional.fast.tracker import ball_tree, cloud_tracker, solid_rows
+from quasistatic_ref.optional.fast.tracker import ball_tree
+from quasistatic_ref.optional.fast.tracker import tracker as following
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
@@ -128,8 +129,8 @@ def test_followed_contacts_are_those_of_brute_force(names, kinds, moves, N, k, l
         if levels:  # trees of several levels already for these few points
             patch.setattr(ball_tree, "SMALL", 16)
             patch.setattr(ball_tree, "LEAF", 4)
-        patch.setattr(cloud_tracker, "WIDTH", 16)
-        patch.setattr(cloud_tracker, "WIDE", 40)
+        patch.setattr(following, "WIDTH", 16)
+        patch.setattr(following, "WIDE", 40)
         pairs = scene(names, kinds[: len(names)], rng, N, k)
         tracker = ContactTracker(pairs)
         L = 1 + 2 * len(names)
@@ -170,7 +171,7 @@ def test_a_sliding_sheet_brings_new_points_to_the_same_height(name, rng):
 @pytest.mark.parametrize("name", ["sphere", "cylinder"])
 def test_points_from_the_side_are_seen_once_they_are_nearer(name, rng):
     points = rng.uniform(-0.01, 0.01, size=(300, 3))
-    above = cloud_tracker.WIDTH  # so that the first list is these, and the others are far
+    above = following.WIDTH  # so that the first list is these, and the others are far
     points[:above, 2] += 0.4
     points[above:, 0] -= 0.6
     pairs = one_pair(SHAPES[name], points, 5)
@@ -181,7 +182,7 @@ def test_points_from_the_side_are_seen_once_they_are_nearer(name, rng):
         seen.append(tracker.closest_points(R, t).point.min() >= above)
     assert not seen[0]
     assert seen[-1]
-    assert tracker.clouds.lists_made < 26
+    assert tracker.lists_made < 26
 
 
 def test_a_sheet_that_comes_and_goes_above_a_floor_needs_no_new_list(rng):
@@ -191,7 +192,7 @@ def test_a_sheet_that_comes_and_goes_above_a_floor_needs_no_new_list(rng):
     tracker = ContactTracker(pairs)
     for z in rng.uniform(-0.5, 0.5, size=50):
         same_bits(tracker, pairs, *poses((0, 0, 0), (z, 0, z)))
-    assert tracker.clouds.lists_made == 1
+    assert tracker.lists_made == 1
 
 
 def test_pairs_of_solids_and_of_clouds_stay_in_their_order(rng):
@@ -220,10 +221,10 @@ def test_a_pose_that_is_not_finite_is_refused(first, rng):
 
 
 def test_distances_that_are_no_numbers_are_an_error_and_no_endless_search(monkeypatch, rng):
-    def unknown(self, x):
+    def unknown(shape, x):
         return np.full(len(x), np.nan), np.zeros_like(x)
 
     pairs = one_pair(SHAPES["box"], cloud("random", 99, rng), 5)
-    monkeypatch.setattr(solid_rows.SolidRows, "__call__", unknown)
+    monkeypatch.setattr(following, "signed_distance", unknown)
     with pytest.raises(ContactError, match="p: has distances that are not numbers"):
         ContactTracker(pairs).closest_points(*poses((0, 0, 0), (0, 0, 1)))

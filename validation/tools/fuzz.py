@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -26,6 +25,7 @@ from typing import Any
 
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.parallel import Log
+from quasistatic_ref.lab.supervised import Supervised
 from validation.tools.fuzzing.worker import ENDED, SECONDS, content_of
 
 BATCH = 300
@@ -52,13 +52,13 @@ def outcomes(
         Most processor time of one input [s].
     """
     left = [list(job) for job in jobs]
-    threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
+    variables = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
+    variables["PYTHONPATH"] = str(ROOT)
     while left:
-        arguments = json.dumps(left), readers, str(seconds)
-        with subprocess.Popen(
-            [sys.executable, "-m", "validation.tools.fuzzing.worker", *arguments],
-            stdout=subprocess.PIPE, text=True, env=os.environ | threads, cwd=ROOT,
-        ) as process:  # fmt: skip
+        words = [sys.executable, "-m", "validation.tools.fuzzing.worker", json.dumps(left), readers,
+                 str(seconds)]  # fmt: skip
+        one = Supervised(words, subprocess.PIPE, variables, errors=subprocess.DEVNULL)
+        with one.process as process:
             assert process.stdout is not None
             try:
                 for line in process.stdout:
@@ -67,13 +67,14 @@ def outcomes(
                         raise RuntimeError(found["mistake"])
                     yield found
                     _done(left)
-            except GeneratorExit:  # nobody waits for the rest
-                process.kill()
-                raise
+                process.wait()
+            finally:  # also where nobody waits for the rest
+                one.end()
         if left and process.returncode:  # the input that was read then ended it
             name, i, _ = left[0]
-            outcome, words = ENDED.get(-process.returncode, "crash"), f"status {process.returncode}"
-            yield [name, i, outcome, seconds if outcome == "hang" else 0.0, 0.0, words]
+            outcome = ENDED.get(-process.returncode, "crash")
+            lasted = seconds if outcome == "hang" else 0.0
+            yield [name, i, outcome, lasted, 0.0, f"status {process.returncode}"]
             _done(left)
 
 

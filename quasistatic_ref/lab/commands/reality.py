@@ -62,8 +62,7 @@ def run(options: argparse.Namespace) -> int:
     fraction = 1.0 if options.fraction is None else options.fraction
     if not 0 < fraction <= 1:
         raise InputError("must be greater than 0, at most 1", field="--fraction", value=fraction)
-    if options.jobs is not None and options.jobs < 1:
-        raise InputError("must be at least 1", field="--jobs", value=options.jobs)
+    shared.check_at_least_one(options, "jobs")
     try:
         return _measured(options, name, round(1 / fraction))
     except KeyboardInterrupt:

@@ -65,8 +65,7 @@ def run_sequences(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.report.rows import rows_of
     from quasistatic_ref.lab.study.report.tables import sequence_tables
 
-    if options.repetitions < 1:
-        raise InputError("must be at least 1", field="--repetitions", value=options.repetitions)
+    shared.check_at_least_one(options, "repetitions")
     if not 0 < options.accuracy < 1:
         raise InputError("must be between 0 and 1", field="--accuracy", value=options.accuracy)
     for name in ("time_limit", "memory", "budget"):

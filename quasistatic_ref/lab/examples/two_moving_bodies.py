@@ -18,8 +18,7 @@ from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.legible import DRAWING
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Sphere
 from quasistatic_ref.step.data import Array, Contacts

@@ -87,7 +87,7 @@ class FastSimulator(Simulator):
         system, n_a = self.system, self.system.n_a
         contacts = self.geometry.contacts(points, kinematics)
         delta_q_bar_a = system.actuated_difference(q, q_bar_a)
-        tau = self.load(q, force)
+        tau = self.generalised_force(q, force)
         constant = self.constant if system.constant_mass_matrix else self.constant.at(system.M_u(q))
         return constant.kind(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
 

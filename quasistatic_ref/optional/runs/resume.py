@@ -99,7 +99,8 @@ class _Again:
             t = (k + 1) * recorder.h
             goal, pushed = self.target(t, q), self.force(t, q)
             _check("target", k, part["q_bar_a"][i], goal)
-            _check("force", k, part["tau"][i], self._tau(q, pushed))
+            tau = self.simulator.generalised_force(q, pushed)
+            _check("force", k, part["tau"][i], tau)
             if self.record == "full" or k >= self.cold:
                 step, linear = self._step(q, goal, pushed)
                 _check("scene", k, part["phi"][i], step.contacts.phi)
@@ -107,12 +108,6 @@ class _Again:
                 if k >= self.cold:
                     self._ask(step, linear)
         return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
-
-    def _tau(self, q: Array, pushed: Array) -> Array:
-        simulator = self.simulator
-        return (
-            simulator.gravity_acts * simulator.system.gravity_force(q, simulator.gravity) + pushed
-        )
 
     def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, bool]:
         """The step from q, and whether its rows are all there is of an extension."""

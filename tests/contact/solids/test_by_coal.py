@@ -4,7 +4,7 @@ import coal
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids import by_coal
 from quasistatic_ref.contact.solids.by_coal import coal_witness
 from quasistatic_ref.errors import ContactError
@@ -62,7 +62,7 @@ def tips(gap, R=None, at=(0.0, 0.0, 0.0)):
     """Two ellipsoids whose longest axes are in line, along R's first column, tip to tip."""
     R, at = np.eye(3) if R is None else R, np.array(at)
     one, two = Ellipsoid(np.array([0.125, 0.05, 0.04])), Ellipsoid(np.array([0.25, 0.03, 0.06]))
-    return Placed(one, R, at), Placed(two, R, at + (0.375 + gap) * R[:, 0])
+    return ShapeInWorld(one, R, at), ShapeInWorld(two, R, at + (0.375 + gap) * R[:, 0])
 
 
 def without_normals(monkeypatch, answers, phi=None):
@@ -93,7 +93,7 @@ def test_an_answer_does_not_depend_on_where_the_world_has_its_origin(t) -> None:
     found = []
     for origin in (0.0, 2.0**20):
         one, two = tips(0.0, at=(origin, 0, 0))
-        found.append(coal_witness("p", one, Placed(two.shape, SLANTING, one.t + t)))
+        found.append(coal_witness("p", one, ShapeInWorld(two.shape, SLANTING, one.t + t)))
     assert found[0].phi == found[1].phi
     assert found[0].n.tolist() == found[1].n.tolist()
 

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.placed import Placed, Witness
-from quasistatic_ref.contact.solids.curved_pair import curved_witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
@@ -69,16 +68,18 @@ FEATURES = {
 OTHERS = Ellipsoid(np.array([0.03, 0.05, 0.08])), Cone(0.05, 0.08)
 
 
-def put(feature: str, other: Shape, distance: float, scale: float = 1.0) -> tuple[Placed, ...]:
+def put(
+    feature: str, other: Shape, distance: float, scale: float = 1.0
+) -> tuple[ShapeInWorld, ...]:
     """A solid and another next to one of its features."""
     solid, point, own = FEATURES[feature]
     R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix()
     t, n = scale * np.array([0.1, 0.2, 0.3]), R @ own
     alpha = scale * R @ point + t
     beta = alpha + distance * n
-    there = Placed(enlarged(other, scale), S, np.zeros(3))
+    there = ShapeInWorld(enlarged(other, scale), S, np.zeros(3))
     there = there._replace(t=beta - S @ there.shape.support_point(S.T @ -n))
-    return Placed(enlarged(solid, scale), R, t), there, Witness(distance, alpha, beta, n)
+    return ShapeInWorld(enlarged(solid, scale), R, t), there, Witness(distance, alpha, beta, n)
 
 
 @pytest.mark.parametrize("other", OTHERS, ids=["ellipsoid", "cone"])
@@ -86,7 +87,7 @@ def put(feature: str, other: Shape, distance: float, scale: float = 1.0) -> tupl
 def test_closest_points_are_found_at_every_feature(feature, other) -> None:
     for distance in (0.02, 1e-6):
         here, there, expected = put(feature, other, distance)
-        for found in (curved_witness(here, there), curved_witness(there, here).swapped()):
+        for found in (solid_pair("p", here, there), solid_pair("p", there, here).swapped()):
             np.testing.assert_allclose(found.phi, distance, rtol=EXACT, atol=ROUNDING)
             for one, two in zip(found[1:], expected[1:], strict=True):
                 np.testing.assert_allclose(one, two, rtol=EXACT, atol=WAY_OUT)
@@ -98,13 +99,13 @@ def test_an_enlarged_pair_has_the_same_normal_and_a_larger_distance(names) -> No
     answered = 0
     for R, t in closest.poses(4, 23):
         try:
-            one = solid_pair("p", Placed(a, *HERE), Placed(b, R, t))
+            one = solid_pair("p", ShapeInWorld(a, *HERE), ShapeInWorld(b, R, t))
         except ContactError:
             continue
         answered += 1
         for k in SCALES:
             A, B = enlarged(a, k), enlarged(b, k)
-            other = solid_pair("p", Placed(A, *HERE), Placed(B, R, k * t))
+            other = solid_pair("p", ShapeInWorld(A, *HERE), ShapeInWorld(B, R, k * t))
             np.testing.assert_allclose(other.phi / k, one.phi, rtol=EXACT, atol=CURVED_PAIR)
             # Of several normals that are as good, which one is taken may be rounding.
             gap = closest.gap(A, B, R, k * t, other.n[None])[0]
@@ -116,7 +117,9 @@ def test_a_hair_of_penetration_is_not_nothing() -> None:
     # Two ellipsoids tip to tip, 1.6e-10 m deep: along their common axis, whatever their widths.
     a, b = Ellipsoid(np.array([0.1, 0.05, 0.04])), Ellipsoid(np.array([0.2, 0.03, 0.06]))
     phi = -1.6e-10
-    found = solid_pair("p", Placed(a, *HERE), Placed(b, np.eye(3), np.array([0.3 + phi, 0, 0])))
+    found = solid_pair(
+        "p", ShapeInWorld(a, *HERE), ShapeInWorld(b, np.eye(3), np.array([0.3 + phi, 0, 0]))
+    )
     # Two coordinates of 0.3 m are rounded: that of b, and that of its tip.
     np.testing.assert_allclose(found.phi, 0.3 + phi - 0.3, rtol=EXACT, atol=2 * np.spacing(0.3))
     np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)
@@ -126,8 +129,8 @@ def test_faces_that_meet_in_one_point_of_a_rim_have_their_contact_there() -> Non
     # A lying cylinder's lowest line, z = 0.09 - 0.05, runs along the rim of a cap at z = 0.08.
     cylinder = Cylinder(0.05, 0.08)
     lying = np.array([[0.0, 0, 1], [0, -1, 0], [1, 0, 0]])
-    at = Placed(cylinder, lying, np.array([-0.01, 0.05, 0.09]))
-    found = solid_pair("p", Placed(cylinder, *HERE), at)
+    at = ShapeInWorld(cylinder, lying, np.array([-0.01, 0.05, 0.09]))
+    found = solid_pair("p", ShapeInWorld(cylinder, *HERE), at)
     np.testing.assert_allclose(found.phi, 0.04 - 0.08, rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(found.n, [0, 0, 1], rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(found.alpha, [0, 0.05, 0.08], rtol=EXACT, atol=CURVED_PAIR)
@@ -136,7 +139,7 @@ def test_faces_that_meet_in_one_point_of_a_rim_have_their_contact_there() -> Non
 def test_a_cone_upside_down_next_to_a_cylinder_just_touches_it() -> None:
     # Radii of 0.05 each, axes parallel and 0.1 apart: the base's rim meets the side.
     down = np.array([[0.0, -1, 0], [-1, 0, 0], [0, 0, -1]])
-    cone = Placed(Cone(0.05, 0.08), down, np.array([0.1, 0, 0]))
-    found = solid_pair("p", Placed(Cylinder(0.05, 0.08), *HERE), cone)
+    cone = ShapeInWorld(Cone(0.05, 0.08), down, np.array([0.1, 0, 0]))
+    found = solid_pair("p", ShapeInWorld(Cylinder(0.05, 0.08), *HERE), cone)
     np.testing.assert_allclose(found.phi, 0.1 - 0.05 - 0.05, rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.faces import Face, curvature, face, kinks
 from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder
 from tests.oracles import closest
@@ -23,7 +23,7 @@ def directions(count: int) -> np.ndarray:
 @pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "ellipsoid", "box"])
 def test_the_curvature_is_the_derivative_of_the_farthest_point(name) -> None:
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
-    solid, h = Placed(SOLIDS[name], R, np.array([0.1, 0.2, 0.3])), DIFFERENCE_STEP
+    solid, h = ShapeInWorld(SOLIDS[name], R, np.array([0.1, 0.2, 0.3])), DIFFERENCE_STEP
     for n in directions(20):
         T = np.linalg.svd(n[None])[2][1:]
         for way in T:
@@ -54,7 +54,7 @@ def flat_normals(name: str) -> list[np.ndarray]:
 @pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "box", "mesh"])
 def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
-    solid = Placed(SOLIDS[name], R, np.array([0.1, 0.2, 0.3]))
+    solid = ShapeInWorld(SOLIDS[name], R, np.array([0.1, 0.2, 0.3]))
     wide = 0
     for own in flat_normals(name):
         n = R @ own
@@ -77,10 +77,10 @@ def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
 @pytest.mark.parametrize("end", [1.0, -1.0])
 def test_both_caps_of_a_cylinder_are_faces_and_the_base_of_a_cone(end) -> None:
     way = np.array([0.0, 0.0, end])
-    cap = face(Placed(Cylinder(0.1, 0.25), *HERE), way)
+    cap = face(ShapeInWorld(Cylinder(0.1, 0.25), *HERE), way)
     assert cap.radius == 0.1
     np.testing.assert_allclose(cap.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
-    base = face(Placed(Cone(0.1, 0.25), *HERE), way)
+    base = face(ShapeInWorld(Cone(0.1, 0.25), *HERE), way)
     assert base.radius == (0.1 if end < 0 else 0.0)
     np.testing.assert_allclose(base.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
 
@@ -95,11 +95,11 @@ def test_a_square_s_nearest_points_are_those_of_its_clipped_coordinates() -> Non
 
 def test_a_normal_that_is_off_by_a_millionth_is_not_that_of_a_face() -> None:
     n = np.array([np.sin(1e-6), 0, np.cos(1e-6)])
-    cap = face(Placed(Cylinder(0.1, 0.25), *HERE), n)
+    cap = face(ShapeInWorld(Cylinder(0.1, 0.25), *HERE), n)
     assert cap.radius == 0
     np.testing.assert_allclose(cap.corners, [[0.1, 0, 0.25]], rtol=EXACT, atol=CURVED_PAIR)
     for size in (1e-3, 1.0, 1e3):  # an edge along y, twice as long as the box is wide
-        edge = face(Placed(Box(size * np.array([1, 2, 3])), *HERE), n).corners
+        edge = face(ShapeInWorld(Box(size * np.array([1, 2, 3])), *HERE), n).corners
         expected = size * np.array([[1, -2, 3], [1, 2, 3]])
         np.testing.assert_allclose(edge[edge[:, 1].argsort()], expected, rtol=ROUNDING)
 
@@ -107,7 +107,7 @@ def test_a_normal_that_is_off_by_a_millionth_is_not_that_of_a_face() -> None:
 def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding() -> None:
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
     x, _, axis = R.T
-    at = Placed(Cylinder(1.0, 0.5), R, np.zeros(3))
+    at = ShapeInWorld(Cylinder(1.0, 0.5), R, np.zeros(3))
     side = face(at, x + 0.9e-11 * axis).corners
     np.testing.assert_allclose(side @ axis, [-0.5, 0.5], rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(side @ x, [1, 1], rtol=EXACT, atol=CURVED_PAIR)

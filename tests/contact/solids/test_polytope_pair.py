@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Shape
@@ -32,7 +32,7 @@ def moved_pair(
     """The closest points after a motion of both, in the frame before it; a is at the origin."""
     rng = np.random.default_rng(seed)
     S, s = Rotation.random(rng=rng).as_matrix(), np.abs(t_b).max() * rng.normal(size=3)
-    found = solid_pair("p", Placed(a, S @ R_a, s), Placed(b, S @ R_b, S @ t_b + s))
+    found = solid_pair("p", ShapeInWorld(a, S @ R_a, s), ShapeInWorld(b, S @ R_b, S @ t_b + s))
     return Witness(found.phi, S.T @ (found.alpha - s), S.T @ (found.beta - s), S.T @ found.n)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.convex_mesh import convex_hull
@@ -36,17 +36,17 @@ def test_a_pair_is_as_far_apart_as_another_computation_says(names: tuple[str, st
     random = np.random.default_rng(5)
     directions = random.normal(size=(500, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    here, answered = Placed(a, np.eye(3), np.zeros(3)), 0
+    here, answered = ShapeInWorld(a, np.eye(3), np.zeros(3)), 0
     for R, t in closest.poses(8, 11):
         try:
-            phi, alpha, beta, n = solid_pair("p", here, Placed(b, R, t))
-            moved = solid_pair("p", here, Placed(b, R, t + STEP * n)).phi
+            phi, alpha, beta, n = solid_pair("p", here, ShapeInWorld(b, R, t))
+            moved = solid_pair("p", here, ShapeInWorld(b, R, t + STEP * n)).phi
         except ContactError:
             assert by_coal(names)
             continue
         answered += 1
         if answered == 1:
-            back = solid_pair("p", Placed(b, R, t), here).phi
+            back = solid_pair("p", ShapeInWorld(b, R, t), here).phi
             np.testing.assert_allclose(back, phi, rtol=EXACT, atol=2 * atol)
         on_a = signed_distance(a, alpha[None])[0]
         on_b = signed_distance(b, ((beta - t) @ R)[None])[0]
@@ -89,9 +89,12 @@ def test_a_corner_near_the_edge_of_another_solid(beyond: float, up: float) -> No
     tip = np.array([0.1 + beyond, 0.05, 0.2 + up])
     ways = np.array([[0, 0, 0], [0.03, 0.01, 0.05], [-0.02, 0.03, 0.06], [0.01, -0.03, 0.07]])
     here = np.eye(3), np.zeros(3)
-    other = Placed(convex_hull(tip + ways), *here)
+    other = ShapeInWorld(convex_hull(tip + ways), *here)
     for shape in (convex_hull(corners), Box(np.array([0.1, 0.3, 0.2]))):
-        for one, two, sign in ((Placed(shape, *here), other, 1), (other, Placed(shape, *here), -1)):
+        for one, two, sign in (
+            (ShapeInWorld(shape, *here), other, 1),
+            (other, ShapeInWorld(shape, *here), -1),
+        ):
             _, alpha, beta, n = solid_pair("p", one, two)
             np.testing.assert_allclose(sign * n, lean, rtol=0, atol=NORMAL_BESIDE)
             np.testing.assert_allclose(alpha if sign < 0 else beta, tip, rtol=0, atol=CLOSED_FORM)

@@ -27,10 +27,10 @@ from quasistatic_ref.lab.examples import (
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.lab.study.bench import profile
-from quasistatic_ref.optional.show.figures import faults
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import FITTED
+from tests.legible import faults
 from tests.tolerances import DIFFERENCE_OF_STEPS, FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
 
 G = 9.81

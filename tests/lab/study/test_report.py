@@ -22,9 +22,9 @@ from quasistatic_ref.lab.study.report.statistics import (
     shifted_geometric_mean,
 )
 from quasistatic_ref.lab.study.store.store import contents
-from quasistatic_ref.optional.show.figures import faults
 from tests.lab.study import made_store, plain_report
 from tests.lab.study.plain_report import agrees, delivered, number, picked, quantile, rows_of_line
+from tests.legible import faults
 
 TEXT = {"solver", "setting", "its own options", "family", "interface", "tie with the fastest",
         "95 % of bootstraps", "95 % of bootstraps, mean"}  # fmt: skip

@@ -8,7 +8,7 @@ import pytest
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.program.rotation import turn
+from quasistatic_ref.lab.program.rotation import rotation, turn
 from quasistatic_ref.lab.vectors.challenge import fresh
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
@@ -62,16 +62,6 @@ def answer(*args):
     """Expected output and whether it is unique."""
     output, _, unique = distance.answer(case(*args))
     return {key: value[0] for key, value in output.items()}, unique[0]
-
-
-def own_ratios(id_):
-    """Distances of the package's answer from the expected, in tolerances."""
-    expected, own = distance.expected(CASES[id_]), distance.own(CASES[id_])
-    fields = distance.FIELDS if expected.flags["unique"] else ("phi",)
-    pairs = {key: (np.array(expected.output[key]), np.array(own[key])) for key in fields}
-    return {
-        key: np.abs(a - b).max() / expected.tolerance[key].absolute for key, (a, b) in pairs.items()
-    }
 
 
 def test_two_balls_three_four_five_apart():
@@ -165,14 +155,7 @@ def test_two_rims_askew_are_where_a_fine_search_finds_them():
     given = CASES["distance/corner/cylinders_rims"]
     a, pose_a, b, pose_b = (given[key] for key in ("alpha", "pose_alpha", "beta", "pose_beta"))
     found, _ = answer(a, pose_a, b, pose_b)
-    x, y, z, w = np.array(pose_b["quaternion"]) / np.linalg.norm(pose_b["quaternion"])
-    R = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    R = rotation(pose_b["quaternion"])
     angle = np.linspace(0, 2 * np.pi, 2000)
     ring = np.stack([np.cos(angle), np.sin(angle), np.zeros(2000)], axis=1)
     upper = a["radius"] * ring + [0, 0, a["length"] / 2]
@@ -232,12 +215,6 @@ def test_a_corner_that_rounding_chooses_is_not_called_unique():
     assert unique == [True]
     assert found.flags == {"unique": False}
     assert found.tolerance["alpha"].absolute < 1e-13
-
-
-@pytest.mark.parametrize("id_", list(CASES)[::4])
-def test_the_package_meets_the_expected_answer(id_):
-    ratios = own_ratios(id_)
-    assert max(ratios.values()) <= 1, ratios
 
 
 def test_near_contact_a_difference_has_no_normal_and_the_tolerance_says_so():

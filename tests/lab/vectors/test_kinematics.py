@@ -18,7 +18,7 @@ from quasistatic_ref.lab.vectors.families.mechanisms import (
     random_step,
     random_tree,
 )
-from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.own.system import own_system
 from tests.lab.vectors.material import cases, report_on
 from tests.tolerances import ROUNDING
@@ -26,7 +26,7 @@ from tests.tolerances import ROUNDING
 FREE = {"bodies": [free_body()]}
 
 
-@pytest.mark.parametrize("name", ["jacobian", "integrate"])
+@pytest.mark.parametrize("name", ["distance", *LAYERS[1:4], "wrench", "integrate"])
 def test_the_package_meets_every_case(name):
     report = report_on(name, {case.id: layer(name).own(case.input) for case in cases(name)})
     assert report.ok, report.trouble

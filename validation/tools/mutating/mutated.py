@@ -44,7 +44,9 @@ TABLE = """
 step/problem.py
     standard_form PAGE problem
 step/friction.py
-    PAGE cones
+    PAGE cones kept_and_shown wrenches
+step/cones.py
+    PAGE JUDGE completion
 step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
 certify/digits.py model/angles.py step/ordered.py model/rotation.py contact/cloud.py
 model/readers/mesh_files.py simulate/pace.py
@@ -55,9 +57,11 @@ certify/optimality.py
     JUDGE enclosure
 certify/arithmetic.py
     environments
-certify/rational.py certify/dependence.py certify/point.py certify/active_set.py
-certify/degeneracy.py certify/rounding.py certify/exact.py certify/warm.py certify/certificate.py
+certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
+certify/rounding.py certify/exact.py certify/warm.py certify/certificate.py
     EXACT
+certify/point.py
+    balls EXACT
 optional/large/bound.py certify/gap.py optional/ellipsoid/impulses.py optional/large/judged.py
 optional/ellipsoid/apex.py optional/extensions/conic.py
     FORGED
@@ -69,11 +73,13 @@ optional/large/sparse_bound.py
 optional/large/outward.py
     sizes LARGE
 optional/ellipsoid/cone.py
-    apex FORGED
+    apex FORGED optimality standard_form
 certify/verdict.py
     certificate FORGED
-optional/derivatives/step/sensitivity.py optional/derivatives/step/parameters.py
-    step/sensitivity
+optional/derivatives/step/sensitivity.py
+    parameters
+optional/derivatives/step/parameters.py
+    step/sensitivity parameters
 certify/rows.py
     certificate farkas
 certify/norm.py
@@ -86,12 +92,10 @@ contact/jacobian.py
     CONTACT
 contact/pairs.py
     jacobian
-optional/fast/tracker/tracker.py optional/fast/tracker/cloud_tracker.py
-optional/fast/tracker/batch.py optional/fast/tracker/tracker_bound.py
-optional/fast/tracker/ball_tree.py contact/poses.py
+optional/fast/tracker/tracker.py optional/fast/tracker/tracker_bound.py
+optional/fast/tracker/ball_tree.py
     FOLLOWED
 contact/solids/settle.py contact/solids/faces.py contact/solids/by_coal.py
-contact/solids/curved_pair.py
     CURVED
 optional/ellipsoid/enclosure.py optional/ellipsoid/interior.py optional/ellipsoid/newton.py
 optional/ellipsoid/scaled_blocks.py
@@ -100,15 +104,13 @@ contact/distance.py
     PAIRS
 contact/patch.py
     flat_on_flat PAIRS
-contact/placed.py contact/solids/polytope.py contact/solids/polytope_pair.py
+contact/shape_in_world.py contact/solids/polytope.py contact/solids/polytope_pair.py
 contact/solids/ways_out.py shapes/hull.py shapes/round.py
     SOLIDS
 contact/separations.py
     flat_on_flat depth_ties
 contact/solids/solid_pair.py
     polytope_pair CURVED
-optional/fast/tracker/solid_rows.py
-    step_time FOLLOWED PAIRS
 optional/large/sparse_jacobian.py optional/large/blocks.py optional/large/sparse_contacts.py
 optional/large/sparse_form.py
     SPARSE
@@ -172,15 +174,13 @@ solve/native.py
 optional/ellipsoid/second_order.py
     native cones
 solve/solve.py
-    SOLVED native
+    SOLVED native rounded_bound
 solve/solver.py solve/through_cvxpy.py solve/through_qpsolvers.py
     SOLVED
 optional/large/sparse.py
     SPARSE sparse_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA
-step/cones.py
-    completion
 step/contacts.py
     artifacts DATA
 step/data.py

@@ -130,7 +130,7 @@ def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> 
     answers = [layer("distance").expected(candidates[i].case) for i in kept]
     return Chosen(
         contacts=[{"index": i, **candidates[i].numbers} for i in kept],
-        clear=clear,
+        clear=bool(clear),
         unique=all(answer.flags["unique"] for answer in answers),
         tolerance={
             name: max(answer.tolerance[name].absolute for answer in answers) for name in FIELDS

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.rotation import rotation
@@ -43,7 +43,7 @@ def own_shape(shape: dict[str, Any]) -> Shape:
 def own_closest_points(case: dict[str, Any]) -> dict[str, Any]:
     """phi, alpha, beta, n of a case; of a cloud, lists over its points."""
     a, b = (
-        Placed(own_shape(case[side]), rotation(pose["quaternion"]), np.array(pose["xyz"]))
+        ShapeInWorld(own_shape(case[side]), rotation(pose["quaternion"]), np.array(pose["xyz"]))
         for side, pose in (("alpha", case["pose_alpha"]), ("beta", case["pose_beta"]))
     )
     if isinstance(b.shape, PointCloud):
@@ -58,7 +58,7 @@ def own_closest_points(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def _points_on_solid(
-    solid: Placed, cloud: Placed, points: Array
+    solid: ShapeInWorld, cloud: ShapeInWorld, points: Array
 ) -> tuple[Array, Array, Array, Array]:
     """Distances, closest points of the solid, the points themselves and normals, world frame."""
     world = points @ cloud.R.T + cloud.t

@@ -67,8 +67,8 @@ class BallHessian:
         h, K_q, M_u = self.of
         return h == step.h and K_q is step.K_q and M_u is step.M_u
 
-    def load(self, step: StepData) -> arb_mat:
-        """The load h g of Eq. :eq:`eq-13`, shape (n_v, 1)."""
+    def h_times_g(self, step: StepData) -> arb_mat:
+        """H g of Eq. :eq:`eq-13`, shape (n_v, 1)."""
         tau_k = self.K_q * _column(step.delta_q_bar_a)  # Eq. (1)
         tau = (tau_k + _column(step.tau_a)).entries() + step.tau_u.tolist()
         return arb_mat(step.n_v, 1, tau) * (self.h * self.h)  # Eq. (13)
@@ -98,7 +98,7 @@ class BallStep:
         self.step, self.hessian, J = step, hessian, step.contacts.J
         with ctx.workprec(PRECISION):
             self.J = arb_mat(4 * len(J), step.n_v, J.ravel().tolist())
-            self.free = hessian.inverse * hessian.load(step)
+            self.free = hessian.inverse * hessian.h_times_g(step)
 
     def confirmed(self, guess: Sequence[int] | Indices) -> Proof:
         """The exact optimum, if a guess of its working set is right and balls show it.

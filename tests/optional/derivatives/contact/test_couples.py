@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.contact.contact_rates import (
@@ -117,7 +117,7 @@ def test_a_cloud_is_as_large_as_the_longest_side_of_its_box():
 
 def test_a_level_rim_whose_body_turns_has_no_lowest_point():
     z = np.array([0.0, 0.0, 1.0])
-    cylinder = Placed(Cylinder(0.04, 0.06), np.eye(3), np.zeros(3))
+    cylinder = ShapeInWorld(Cylinder(0.04, 0.06), np.eye(3), np.zeros(3))
     about_z = np.cross(z[:, None], z[:, None], axis=0)  # z x z: it does not tilt
     about_x = np.cross(np.array([[1.0], [0], [0]]), z[:, None], axis=0)
     rim = Rim(0, 1, 0.04)

@@ -7,7 +7,7 @@ from matplotlib.patches import Polygon
 from PIL import Image
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.show.figures import animate, draw_scene, faults, moment, panels
+from quasistatic_ref.optional.show.figures import animate, draw_scene, moment, panels
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.draw import LONGEST, force_scale, round_scale
 from quasistatic_ref.optional.show.figures.moments import DrawnContact, Moment, extent
@@ -18,6 +18,7 @@ from quasistatic_ref.shapes.placed_shape import (
     HalfSpace,
     PlacedShape,
 )
+from tests.legible import faults
 from tests.tolerances import EXACT, FILE_FLOAT32, ROUNDING
 
 SLOPE = np.radians(25)

@@ -6,8 +6,9 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.examples import pinch_threshold
-from quasistatic_ref.optional.show.figures import faults, figure_style, panels, style_file
+from quasistatic_ref.optional.show.figures import figure_style, panels, style_file
 from quasistatic_ref.optional.show.figures.style import PAGE, STYLES, scaled, sized
+from tests.legible import faults
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import dot, product, rotated
 
 
-class Placed(NamedTuple):
+class ShapeInWorld(NamedTuple):
     """A shape and its pose in the world: x_world = R x + t."""
 
     shape: Shape

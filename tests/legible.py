@@ -16,7 +16,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Text
 
-from quasistatic_ref.optional.show.figures.style import PAGE, figure_style
+from quasistatic_ref.optional.show.figures.style import DRAWING, PAGE, figure_style
 
 LEAST: Final = 7.0
 """Least size of text where the figure is printed on a page [pt]."""
@@ -29,9 +29,6 @@ INNER: Final = 0.2
 
 GREY: Final = 0.15
 """Least difference in luminance of two fills that grey can tell apart [-]; black to white is 1."""
-
-DRAWING: Final = "drawing"
-"""Mark (gid) of lines that are parts of a picture: not data, so nothing has to tell them apart."""
 
 UNIT = re.compile(r"\[[^\]]+\]$")
 NUMBER = re.compile(
