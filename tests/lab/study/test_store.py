@@ -144,9 +144,9 @@ def test_packed_tables_of_something_else_are_refused(tmp_path, tables):
 
 
 def test_packed_tables_that_unpack_without_end_are_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(stores, "LARGEST_UNPACKED", 2**20)
-    (tmp_path / PACKED).write_bytes(packed_tables({"rows": {"a": [0] * 2**21}}))
-    with pytest.raises(InputError, match="unpacks to more than 1 MiB"):
+    monkeypatch.setattr(stores, "LARGEST_UNPACKED", 2**16)
+    (tmp_path / PACKED).write_bytes(packed_tables({"rows": {"a": [0] * 2**16}}))
+    with pytest.raises(InputError, match=r"unpacks to more than 0\.0625 MiB"):
         contents(tmp_path)
     (tmp_path / PACKED).write_bytes(packed_tables({})[:-4])
     with pytest.raises(InputError, match="is no xz file, or was cut off"):
