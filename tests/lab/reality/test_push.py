@@ -88,6 +88,11 @@ def test_steps_in_polyhedral_cones_are_exact(cone):
     assert found.error_bound == 0.0
 
 
+def test_a_push_whose_steps_have_no_bound_has_none():
+    found = predicted(Settings().pushed(PAIR, RATIO), START, PATH, certify="off")
+    assert found.error_bound == np.inf
+
+
 def test_a_cloud_of_three_points_loads_them_by_the_levers():
     # The load of each of three points is its share of the weight: barycentric coordinates of the
     # centre of mass, here 1/3 each; friction and finger act at the height of the support.
