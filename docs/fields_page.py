@@ -3,17 +3,19 @@
 from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.fields import REQUIRED
 from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.lab.page.markdown import markdown_table
 
 
 def reference_page(tables: Tables) -> str:
     """Every field of a file as Markdown, one table for each kind of table."""
     parts = []
     for kind, fields in tables.items():
-        rows = ["| field | value | unit | default | says |", "|---|---|---|---|---|"]
-        for name, one in fields.items():
-            cells = (f"`{name}`", _values(one), one.unit, _default(one), one.says)
-            rows.append(f"| {' | '.join(cells)} |")
-        parts.append("\n".join([f"## {_heading(kind)}", "", *rows]))
+        rows = [
+            (f"`{name}`", _values(one), one.unit, _default(one), one.says)
+            for name, one in fields.items()
+        ]
+        table = markdown_table(("field", "value", "unit", "default", "says"), rows)
+        parts.append("\n".join([f"## {_heading(kind)}", "", *table]))
     return "\n\n".join(parts) + "\n"
 
 

@@ -46,6 +46,10 @@ RESIDUAL_LIMIT: Final = 1e-6
 Six orders above the default accuracy: an answer beyond it is not a less exact answer but
 a wrong one."""
 
+WORTHLESS: Final = 1.0
+"""The largest error bound [-] that says anything: where no contact penetrates, x = 0 and lam = 0
+have an error bound of 1."""
+
 BOUNDED: Final = 1e-6
 """Largest bound of an answer's error, computed in float64 [-], that is kept as it is.
 
@@ -58,11 +62,6 @@ FAR: Final = 100.0
 The unconstrained step has a length of about one. Solvers lose digits where 1e6 and 1 stand
 together; a row that is put at 100 stays inactive, and the judge, who has the true distance, would
 notice if it did not."""
-
-PROVED: Final = 1e-13
-"""Largest excess of a solid's support over a candidate for the closest point, relative to the
-coordinates [-]: its distance is then too large by no more. Rounding leaves 1e-15; a candidate of
-another feature misses by the size of the shapes, or is as good."""
 
 WITNESS: Final = 1e-10
 """Largest disagreement of a convex pair's closest points with its distance and normal, relative to

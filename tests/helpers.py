@@ -4,13 +4,16 @@ import copy
 
 import numpy as np
 
+from quasistatic_ref.certify.optimality import optimality_residuals
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.optional.fast.backends import sparse_from
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Contacts, StepData
+from quasistatic_ref.step.standard_form import standard_form
 
 REQUIRED = ("clarabel", "osqp", "piqp", "daqp")
 INTERFACES = (*REQUIRED, *(f"qpsolvers:{name}" for name in REQUIRED))
@@ -30,6 +33,12 @@ def changed(contacts, **changes):
     return Contacts(**{name: getattr(contacts, name) for name in ("name", *NUMBERS)} | changes)
 
 
+def changed_blocks(contacts, **changes):
+    """The same of contacts in blocks."""
+    names = ("name", "phi", "n", "d1", "d2", "blocks", "mu_v", "mu_omega", "rows")
+    return SparseContacts(**{name: getattr(contacts, name) for name in names} | changes)
+
+
 def always_in_blocks(patch):
     """Have simulators hand over contacts in blocks, however few, where the backend takes them."""
     where = "quasistatic_ref.optional.fast.simulator.sparse_from"  # which needs more than steps do
@@ -42,6 +51,12 @@ def in_blocks(step):
     blocks = Blocks(np.tile(np.arange(step.n_v), (c.n_c, 1)), c.J, step.n_v)
     own = (c.name, c.phi, c.n, c.d1, c.d2, blocks, c.mu_v, c.mu_omega, c.rows)
     return step.replace(contacts=SparseContacts(*own))
+
+
+def judged(step, delta_q, lam):
+    """The residuals of an answer in the step's own cone."""
+    judge = cone(step.cone).judge(step)
+    return optimality_residuals(standard_form(step), delta_q, lam, judge)
 
 
 def random_frame(rng):

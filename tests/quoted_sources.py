@@ -21,13 +21,6 @@ LIFTING = 137
 """The step of the grasp that the exercises take."""
 BENCH = "validation/results/benchmarks/bench.md"
 SWEEP = "validation/studies/bunny_torsion/report.md"
-EXACT_COST = "validation/results/bench_exact.txt"
-
-
-def compiler(code):
-    """The row of a way to compile: packages [MB], first use [s], later [ms], a call [us]."""
-    (row,) = [row for row in cells("validation/results/compilers.md") if row["code"] == code]
-    return [float(value) for name, value in row.items() if name != "code"]
 
 
 # -- The grasp -----------------------------------------------------------------------------------
@@ -181,31 +174,6 @@ def base():
     whole = float(row["MB"])
     gigabytes = "a" if round(whole / 1000) == 1 else f"{whole / 1000:.0f}"
     return [gigabytes, one_in(float(size) / whole), *(names[name] for name, _ in more)]
-
-
-def exact_cost():
-    """Rows of the committed times of exact certification: family, start, four numbers."""
-    lines = (ROOT / EXACT_COST).read_text().splitlines()[1:]
-    found = [re.match(r"(.+?\d x \d+) +(\S+)((?: +[\d.]+){4})$", line) for line in lines]
-    return [(m[1], m[2], *map(float, m[3].split())) for m in found if m]
-
-
-def exact_rows():
-    """The table of docs/exactness.md."""
-
-    def ms(x):
-        return f"{x:.1f} ms" if x < 9.95 else f"{x:.0f} ms"
-
-    names = {"bunny_grasp, 13 x 80": "`bunny_grasp`, 13 x 80"}
-    names |= {"daqp": "DAQP", "clarabel": "Clarabel"}
-    for family, start, median, p99, *_ in exact_cost():
-        named = (names.get(x, x) for x in (family, start))
-        yield f"| {' | '.join(named)} | {ms(median)} | {ms(p99)} |"
-
-
-def verification(size):
-    """Largest median time of verify [ms]."""
-    return max(row[5] for row in exact_cost() if row[0].endswith(size))
 
 
 def native_gains():

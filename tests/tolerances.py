@@ -20,10 +20,6 @@ MULTIPLIERS: Final = 1e-6
 STICKING: Final = 1e-6
 """A motion that the closed form says is zero, relative to the unconstrained one."""
 
-TIE: Final = 1e-4
-"""As STICKING, but exactly at the limit of friction, where slack and multiplier both vanish: an
-interior point stops with their product at 1e-12, each of them at 1e-6, times the conditioning."""
-
 WRONG: Final = 1e-2
 """A relative residual above this is another equation, not a rounding of the same one."""
 

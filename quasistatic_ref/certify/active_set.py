@@ -23,9 +23,8 @@ from dataclasses import dataclass
 
 from flint import ctx, fmpq
 
-from quasistatic_ref.certify.balls import PRECISION, BallForm, ball_form
 from quasistatic_ref.certify.dependence import combination, independent_rows
-from quasistatic_ref.certify.point import Point
+from quasistatic_ref.certify.point import PRECISION, BallForm, Point, ball_form
 from quasistatic_ref.certify.rational import ExactForm
 
 
@@ -131,7 +130,7 @@ def _start(form: ExactForm, balls: BallForm, warm: Sequence[int]) -> Point:
     working = independent_rows(form, list(dict.fromkeys(warm)))
     while True:
         point = Point(form, balls, working)
-        kept = tuple(i for j, i in enumerate(working) if point.lam_surely_positive(j))
+        kept = point.surely_positive()
         if kept == working:
             return point
         working = kept
@@ -204,6 +203,5 @@ def _ratio_less(point: Point, c: Sequence[fmpq], j: int, k: int) -> bool:
 
 def _without_zeros(point: Point) -> Point:
     """Return the same minimiser on the rows whose multipliers are positive."""
-    working = point.working
-    positive = tuple(i for j, i in enumerate(working) if point.lam_sign(j) > 0)
-    return point if positive == working else Point(point.form, point.ball_form, positive)
+    positive = point.positive()
+    return point if positive == point.working else Point(point.form, point.ball_form, positive)

@@ -14,13 +14,12 @@ import numpy as np
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.dependence import idle_rows
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.kkt import Rational, rational_solution, rounded_solution
+from quasistatic_ref.certify.point import RationalSolution, rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.optional.ellipsoid.ellipsoid import ellipsoid_verdict
-from quasistatic_ref.optional.large.judged import bound_verdict
-from quasistatic_ref.step.cones import ELLIPSOID, cone
+from quasistatic_ref.parts import needed_part
+from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import Certificate
 
@@ -70,8 +69,9 @@ def in_words(certificate: Certificate) -> str:
         return "nothing is certified"
     step = certificate.step
     assert step is not None
-    if step.cone == ELLIPSOID:
-        return "exact: the optimum of the step, correctly rounded; every loaded contact sticks"
+    kind = cone(step.cone)
+    if isinstance(kind, CurvedCone):
+        return kind.in_words(certificate)
     m = int(step.offsets[-1]) + len(step.extra.names)
     words = [
         "exact: the optimum of the step, correctly rounded",
@@ -129,9 +129,12 @@ def verify(
     if claims is not None and claims.kind != "none" and not claims.is_of(step):
         return Verdict(False, "the certificate is of another step")
     if claims is not None and claims.kind == "residual":
-        return bound_verdict(step, delta_q, lam, claims.error_bound)
-    if step.cone == ELLIPSOID:
-        return ellipsoid_verdict(step, delta_q, active, lam, claims)
+        judged = needed_part("large.judged", 'a certificate of kind "residual"')
+        verdict: Verdict = judged.bound_verdict(step, delta_q, lam, claims.error_bound)
+        return verdict
+    kind = cone(step.cone)
+    if isinstance(kind, CurvedCone):
+        return kind.verdict(step, delta_q, active, lam, claims)
     if claims is not None and claims.kind != "exact":
         return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing here")
     form = exact_form(step)
@@ -154,7 +157,7 @@ def verify(
     return Verdict(not reason, reason)
 
 
-def _wrong_sign(step: StepData, working: Sequence[int], solution: Rational) -> str:
+def _wrong_sign(step: StepData, working: Sequence[int], solution: RationalSolution) -> str:
     for i, lam_i in zip(working, solution.lam, strict=True):
         if lam_i <= 0:
             sign = "negative" if lam_i < 0 else "zero"
@@ -168,7 +171,7 @@ def _wrong_sign(step: StepData, working: Sequence[int], solution: Rational) -> s
 def _wrong_claim(
     form: ExactForm,
     working: Sequence[int],
-    solution: Rational,
+    solution: RationalSolution,
     claims: Certificate,
     lam_w: Array,
     slack: Array,

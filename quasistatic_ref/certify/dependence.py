@@ -5,18 +5,12 @@ finitely many primes, so a dependence seen modulo a prime is checked in integers
 and another prime is taken if it was an accident.
 """
 
-from collections.abc import Hashable, Iterator, Sequence
-from functools import cache
+from collections.abc import Iterator, Sequence
 from typing import Final
 
-import numpy as np
 from flint import fmpq, fmpz, fmpz_mat, nmod_mat
 
-from quasistatic_ref.certify.dyadic import dyadic
 from quasistatic_ref.certify.rational import ExactForm
-from quasistatic_ref.certify.rows import places
-from quasistatic_ref.step.data import Indices, StepData
-from quasistatic_ref.step.friction import cone_matrix
 
 PRIME: Final = (1 << 61) - 1
 """The first prime tried; an unlucky one costs a retry, never a wrong answer."""
@@ -98,22 +92,6 @@ def follow(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:
     raise AssertionError("there are infinitely many primes")
 
 
-def all_follow(held: Sequence[Row], rows: Sequence[Row]) -> bool:
-    """Whether all of the `rows` :func:`follow` from `held`; the first that does not ends it.
-
-    Raises
-    ------
-    AssertionError
-        Never: some prime decides.
-    """
-    for guess in _guesses(held, rows):
-        if not all(guess):  # independent modulo a prime is independent
-            return False
-        if fmpz_mat([*held, *rows]).rank() == len(held):
-            return True
-    raise AssertionError("there are infinitely many primes")
-
-
 def _guesses(held: Sequence[Row], rows: Sequence[Row]) -> Iterator[list[bool]]:
     """Which of the rows follow modulo a prime, one prime after another."""
     k = len(held)
@@ -184,56 +162,3 @@ def _primes() -> Iterator[int]:
         if fmpz(candidate).is_prime():
             yield candidate
         candidate -= 2
-
-
-def spanned_in_contacts(step: StepData, working: Sequence[int], rows: Sequence[int]) -> bool:
-    """Whether the coefficients of the rows show that equations of some rows follow from those of W.
-
-    The rows of a contact combine the equations of four generators: of the gap, two slips and the
-    spin. A coefficient of friction that is 0 leaves out its generator, and contacts whose spins
-    are equal, or opposite, have that generator in common. A dependence among the coefficients is
-    one among the rows; the converse does not hold.
-
-    Parameters
-    ----------
-    step : StepData
-        In a polyhedral cone.
-    working : sequence of int
-        W: independent rows.
-    rows : sequence of int
-    """
-    contact, row = places(step, [*working, *rows])
-    table_of_cone, mu = combined(step.cone).tolist(), step.contacts.mu.tolist()
-    spins = step.contacts.J[:, 3] + 0.0
-    columns: dict[Hashable, int] = {}
-    entries: list[tuple[int, int, int]] = []
-
-    def put(k: int, generator: Hashable, coefficient: int) -> None:
-        if coefficient:
-            column = columns.setdefault(generator, len(columns))
-            entries.append((k, column, coefficient))
-
-    for k, (j, i) in enumerate(zip(contact.tolist(), row.tolist(), strict=True)):
-        if j == step.contacts.n_c:
-            put(k, ("own", i), 1)
-            continue
-        gap, slip_1, slip_2, spin = table_of_cone[i]
-        mu_v, _, mu_omega = mu[j]
-        put(k, (j, "gap"), gap)
-        if mu_v:
-            put(k, (j, "slip_1"), slip_1)
-            put(k, (j, "slip_2"), slip_2)
-        if mu_omega:
-            turn, back = spins[j].tobytes(), (0.0 - spins[j]).tobytes()
-            opposite = (mu_omega, back) in columns
-            put(k, (mu_omega, back if opposite else turn), -spin if opposite else spin)
-    table = fmpz_mat(len(contact), len(columns))
-    for k, column, coefficient in entries:
-        table[k, column] = coefficient
-    return bool(table.rank() == len(working))
-
-
-@cache
-def combined(name: str) -> Indices:
-    """How the rows of a cone combine gap, slips and spin: integers (R, 4), times one factor > 0."""
-    return np.array(dyadic(cone_matrix(name)).m.tolist(), dtype=np.int64)

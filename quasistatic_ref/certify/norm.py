@@ -64,7 +64,7 @@ def energy_norm(H: Array) -> EnergyNorm:
     return EnergyNorm(unit, L, np.linalg.inv(L).astype(np.float64))
 
 
-def rough_inverse(H: Array) -> Array:
+def float_inverse(H: Array) -> Array:
     """H^-1 in float64, shape (n_v, n_v) [m^2/(N m s)], roughly where H is nearly singular.
 
     Raises

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.step.arrays import largest
-from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.standard_form import StandardForm, standard_form
+from quasistatic_ref.step.cones import Judge, row_violations
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import StandardForm
 
 
 @dataclass(frozen=True)
@@ -39,24 +40,9 @@ class Residuals:
         return largest(np.array([*vars(self).values()]))
 
 
-def residuals_of(balance: Array, short: Array, pull: Array, work: Array) -> Residuals:
-    """The largest violations among those of every coordinate and row.
-
-    Parameters
-    ----------
-    balance : ndarray, shape (n_v,)
-        Impulses that are not balanced [N s, N m s].
-    short, pull : ndarray, shape (m,)
-        How far each row is violated [m], and how far its multiplier is below 0 [N s]; negative
-        where the condition holds.
-    work : ndarray, shape (m,)
-        Slack times multiplier [N m s].
-    """
-    sizes = np.abs(balance), short, pull, np.abs(work)
-    return Residuals(*map(largest, sizes))
-
-
-def optimality_residuals(form: StandardForm, delta_q: Array, lam: Array) -> Residuals:
+def optimality_residuals(
+    form: StandardForm, delta_q: Array, lam: Array, judge: Judge = row_violations
+) -> Residuals:
     """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at an answer.
 
     Parameters
@@ -66,6 +52,9 @@ def optimality_residuals(form: StandardForm, delta_q: Array, lam: Array) -> Resi
     delta_q : ndarray, shape (n_v,)
     lam : ndarray, shape (m,)
         Multipliers, contact-major, the user's own rows last.
+    judge : callable
+        (slack, lam) -> how far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding: of rows, or of
+        another cone, whose :meth:`~quasistatic_ref.step.cones.Cone.judge` it is.
 
     Returns
     -------
@@ -74,35 +63,5 @@ def optimality_residuals(form: StandardForm, delta_q: Array, lam: Array) -> Resi
     H, g, A, b = form
     balance = H @ delta_q - g - A.T @ lam  # Eq. (9), as (13) has it
     slack = A @ delta_q - b
-    short = -slack  # Eq. (10): slack >= 0
-    pull = -lam  # Eq. (11): lam >= 0
-    work = slack * lam  # Eq. (12): zero, row by row
-    return residuals_of(balance, short, pull, work)
-
-
-def ellipsoid_residuals(step: StepData, delta_q: Array, lam: Array) -> Residuals:
-    """The same at an answer of a step in the ellipsoid.
-
-    There s = A delta_q - b is each contact's motion (n, d1, d2, spin), and lam its impulse. For
-    each contact (10) reads s_n >= ||mu o s_t||, (11) lam_n >= ||lam_t / mu||, (12) lam^T s = 0.
-
-    Parameters
-    ----------
-    step : StepData
-    delta_q : ndarray, shape (n_v,)
-    lam : ndarray, shape (m,)
-
-    Returns
-    -------
-    Residuals
-    """
-    form, k = standard_form(step), int(step.offsets[-1])
-    balance = form.H @ delta_q - form.g - form.A.T @ lam  # Eq. (9), mended
-    slack = form.A @ delta_q - form.b
-    s, f, mu = slack[:k].reshape(-1, 4), lam[:k].reshape(-1, 4), step.contacts.mu
-    scaled = np.divide(f[:, 1:], mu, out=np.zeros_like(mu), where=mu > 0)
-    without = np.abs(np.where(mu > 0, 0.0, f[:, 1:]))  # a force that has no coefficient
-    short = np.concatenate([np.linalg.norm(mu * s[:, 1:], axis=1) - s[:, 0], -slack[k:]])
-    pulls = np.concatenate([np.linalg.norm(scaled, axis=1) - f[:, 0], without.ravel(), -lam[k:]])
-    work = np.concatenate([np.sum(s * f, axis=1), slack[k:] * lam[k:]])
-    return residuals_of(balance, short, pulls, work)  # Eqs. (9)-(12)
+    short, pull, work = judge(slack, lam)  # Eqs. (10)-(12)
+    return Residuals(*map(largest, (np.abs(balance), short, pull, np.abs(work))))

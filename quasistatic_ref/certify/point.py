@@ -1,19 +1,229 @@
 """The minimiser on a working set, with every sign that is needed decided exactly.
 
-A sign is read from balls where they show it, from an exact linear dependence where a row is one,
-and from the rational solution of the KKT system otherwise. That solution takes the
-longest to compute, and is kept for the next sign.
+A sign is read from balls (numbers that carry a rigorous bound of their own error) where they show
+it, from an exact linear dependence where a row is one, and from the rational solution of the KKT
+system otherwise. That solution takes the longest to compute, and is kept for the next sign.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
+from typing import Final, cast
 
-from flint import arb, fmpz
+import numpy as np
+from flint import arb, arb_mat, ctx, fmpq_mat, fmpz, fmpz_mat
 
-from quasistatic_ref.certify.balls import BallForm, Balls, equality_solution
 from quasistatic_ref.certify.dependence import implied
-from quasistatic_ref.certify.kkt import Rational, rational_solution
 from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.certify.rounding import nearest_fraction
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.data import Array
+
+PRECISION: Final = 320
+"""Bits of a ball's midpoint. The data have 53 to 250; 256 is enough on grasps, and what is
+left undecided is decided in rational numbers, so this is a matter of speed alone."""
+
+
+@dataclass(frozen=True, eq=False)
+class BallForm:
+    """An exact form in balls.
+
+    Parameters
+    ----------
+    H_inv : arb_mat
+        H^-1.
+    x_free : arb_mat
+        H^-1 g, the unconstrained minimiser.
+    A, b : arb_mat
+    """
+
+    H_inv: arb_mat
+    x_free: arb_mat
+    A: arb_mat
+    b: arb_mat
+
+    def rows(self, working: Sequence[int]) -> arb_mat:
+        """Return the rows of A in a working set."""
+        n = self.A.ncols()
+        return arb_mat(len(working), n, [self.A[i, v] for i in working for v in range(n)])
+
+
+@dataclass(frozen=True, eq=False)
+class BallSolution:
+    """The minimiser under A_i x = b_i for i in a working set, in balls.
+
+    Parameters
+    ----------
+    x : list of arb, length n_v
+    lam : list of arb
+        Multipliers, in the order of the working set.
+    net : list of arb, length n_v
+        A_w' lam.
+    slack : list of arb, length m
+        A x - b.
+    """
+
+    x: list[arb]
+    lam: list[arb]
+    net: list[arb]
+    slack: list[arb]
+
+
+def ball_form(form: ExactForm) -> BallForm:
+    """An exact form in balls, H proved to be positive definite.
+
+    Raises
+    ------
+    StepDataError
+        If H is not positive definite.
+    """
+    if not positive_definite(form.H):
+        raise StepDataError("must be positive definite without rounding", field="H")
+    H_inv = inverse(form.H)
+    with ctx.workprec(PRECISION):
+        return BallForm(H_inv, H_inv * arb_mat(form.g), arb_mat(form.A), arb_mat(form.b))
+
+
+def inverse(H: fmpz_mat) -> arb_mat:
+    """H^-1 in balls, of an H that is positive definite."""
+    precision = PRECISION
+    while True:  # ends: H is regular, so some precision resolves it
+        with ctx.workprec(precision):
+            try:
+                return arb_mat(H).inv()
+            except ZeroDivisionError:
+                precision *= 2
+
+
+def equality_solution(balls: BallForm, working: Sequence[int]) -> BallSolution | None:
+    """The minimiser under A_i x = b_i for i in the working set, in balls.
+
+    Parameters
+    ----------
+    balls : BallForm
+    working : sequence of int
+        Independent rows.
+
+    Returns
+    -------
+    BallSolution or None
+        None if the precision does not show that the rows are independent.
+    """
+    with ctx.workprec(PRECISION):
+        A_w = balls.rows(working)
+        b_w = arb_mat(len(working), 1, [balls.b[i, 0] for i in working])
+        range_ = A_w * balls.H_inv
+        try:
+            lam = (range_ * A_w.transpose()).solve(b_w - A_w * balls.x_free)
+        except ZeroDivisionError:
+            return None
+        x = balls.x_free + range_.transpose() * lam
+        net, slack = A_w.transpose() * lam, balls.A * x - balls.b
+        return BallSolution(x.entries(), lam.entries(), net.entries(), slack.entries())
+
+
+def positive_definite(H: fmpz_mat) -> bool:
+    """Whether a symmetric H is positive definite, decided exactly.
+
+    By the pivots of H = L D L' in balls; by the leading minors where a pivot stays open.
+    """
+    n = H.nrows()
+    with ctx.workprec(PRECISION):
+        S = [[arb(H[i, j]) for j in range(i + 1)] for i in range(n)]
+        for k in range(n):
+            if not S[k][k] > 0:
+                return not S[k][k] < 0 and _minors_positive(H)
+            for i in range(k + 1, n):
+                if S[i][k].is_zero():
+                    continue
+                factor = S[i][k] / S[k][k]
+                for j in range(k + 1, i + 1):
+                    S[i][j] = S[i][j] - factor * S[j][k]
+    return True
+
+
+def _minors_positive(H: fmpz_mat) -> bool:
+    n = H.nrows()
+    return all(
+        fmpz_mat(k, k, [H[i, j] for i in range(k) for j in range(k)]).det() > 0
+        for k in range(1, n + 1)
+    )
+
+
+def square_root(square: arb) -> arb:
+    """The square root of what is not negative, whatever a ball about it holds."""
+    return square.nonnegative_part().sqrt()
+
+
+@dataclass(frozen=True, eq=False)
+class RationalSolution:
+    """A solution of H x = g + A_w' lam, A_w x = b_w: fractions of one positive denominator.
+
+    Parameters
+    ----------
+    x, lam, net, slack : list of fmpz
+        Numerators; ``net`` is A_w' lam, ``slack`` is A x - b for all m rows.
+    denominator : fmpz
+    """
+
+    x: list[fmpz]
+    lam: list[fmpz]
+    net: list[fmpz]
+    slack: list[fmpz]
+    denominator: fmpz
+
+
+def rational_solution(form: ExactForm, working: tuple[int, ...]) -> RationalSolution:
+    """The minimiser under A_i x = b_i for i in a working set, without rounding.
+
+    Raises
+    ------
+    ZeroDivisionError
+        If the rows are not independent.
+    """
+    n, k = form.n, len(working)
+    K = fmpz_mat(n + k, n + k)
+    right = fmpz_mat(n + k, 1)
+    for i in range(n):
+        right[i, 0] = form.g[i, 0]
+        for j in range(n):
+            K[i, j] = form.H[i, j]
+    for row, i in enumerate(working, start=n):
+        right[row, 0] = form.b[i, 0]
+        for j in range(n):
+            K[row, j] = form.A[i, j]
+            K[j, row] = -form.A[i, j]
+    numerators, denominator = cast("fmpq_mat", K.solve(right)).numer_denom()  # positive
+    entries = numerators.entries()
+    x, lam = fmpz_mat(n, 1, entries[:n]), entries[n:]
+    net, slack = form.H * x - form.g * denominator, form.A * x - form.b * denominator
+    return RationalSolution(x.entries(), lam, net.entries(), slack.entries(), denominator)
+
+
+def rounded_solution(
+    form: ExactForm, solution: RationalSolution
+) -> tuple[Array, Array, Array, Array]:
+    """Float64 numbers, rounded correctly.
+
+    Returns
+    -------
+    delta_q : ndarray, shape (n_v,)
+    lam : ndarray, shape (working,)
+        On the working set [N s].
+    net : ndarray, shape (n_v,)
+        A'lam [N s, N m s].
+    slack : ndarray, shape (m,)
+    """
+    x, lam, net, slack = (
+        np.array([nearest_fraction(unit * v / solution.denominator) for v in values])
+        for unit, values in (
+            (form.x_unit, solution.x),
+            (form.lam_unit, solution.lam),
+            (form.net_unit, solution.net),
+            (form.slack_unit, solution.slack),
+        )
+    )
+    return x, lam, net, slack
 
 
 class Point:
@@ -32,27 +242,29 @@ class Point:
         self._implied: dict[int, bool] = {}
 
     @cached_property
-    def balls(self) -> Balls | None:
+    def balls(self) -> BallSolution | None:
         """Balls around x, the multipliers and the slacks; None if they show nothing."""
         return equality_solution(self.ball_form, self.working)
 
     @cached_property
-    def rational(self) -> Rational:
+    def rational(self) -> RationalSolution:
         """The same without rounding: milliseconds, so only where it is needed."""
         return rational_solution(self.form, self.working)
 
-    def lam_ball(self, j: int) -> arb | None:
-        """Return the ball of a multiplier."""
-        return None if self.balls is None else self.balls.lam[j]
-
     def lam_sign(self, j: int) -> int:
         """Return the exact sign of the multiplier of working[j]."""
-        shown = _ball_sign(self.lam_ball(j))
+        shown = None if self.balls is None else _ball_sign(self.balls.lam[j])
         return _sign(self.rational.lam[j]) if shown is None else shown
 
-    def lam_surely_positive(self, j: int) -> bool:
-        """Return whether its ball shows the multiplier of working[j] to be positive."""
-        return _ball_sign(self.lam_ball(j)) == 1
+    def positive(self) -> tuple[int, ...]:
+        """Return the rows of the working set whose multipliers are positive."""
+        return tuple(i for j, i in enumerate(self.working) if self.lam_sign(j) > 0)
+
+    def surely_positive(self) -> tuple[int, ...]:
+        """Return those of them whose balls show it."""
+        if self.balls is None:
+            return ()
+        return tuple(i for i, ball in zip(self.working, self.balls.lam, strict=True) if ball > 0)
 
     @cached_property
     def slack_signs(self) -> list[int | None]:
@@ -91,10 +303,8 @@ def _sign(x: fmpz) -> int:
     return (x > 0) - (x < 0)
 
 
-def _ball_sign(ball: arb | None) -> int | None:
+def _ball_sign(ball: arb) -> int | None:
     """Return the sign that a ball shows, or None."""
-    if ball is None:
-        return None
     if ball > 0:
         return 1
     if ball < 0:

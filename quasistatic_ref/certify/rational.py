@@ -9,25 +9,105 @@ the order of summation. All quantities are brought to integers by one positive f
 .. math:: \delta q = u_x\,x, \qquad \lambda = u_\lambda\,y, \qquad
           \min \tfrac12 x^T H x - g^T x \quad\text{s.t.}\quad A x \ge b,
 
-so that the exact problem is one in integers, and its answer is scaled back at the end.
+so that the exact problem is one in integers, and its answer is scaled back at the end. A finite
+float64 is an integer times a power of two, and so are sums and products of such numbers: one array
+of Python integers and one common exponent hold them all.
 """
+
+from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from flint import fmpq, fmpz, fmpz_mat
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.certify.dyadic import Dyadic, Integers, dyadic, joined
-from quasistatic_ref.certify.rows import places
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.arrays import positive_definite
-from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Contacts, StepData
-from quasistatic_ref.step.friction import cone_function, row_gaps
+from quasistatic_ref.step.friction import row_gaps
+
+Integers = NDArray[np.object_]
+
+
+@dataclass(frozen=True, eq=False)
+class Dyadic:
+    """The numbers ``m * 2**e``.
+
+    Parameters
+    ----------
+    m : ndarray of int
+        Python integers of any length.
+    e : int
+        Their common exponent.
+    """
+
+    m: Integers
+    e: int
+
+    def __mul__(self, other: Dyadic) -> Dyadic:
+        return Dyadic(self.m * other.m, self.e + other.e)
+
+    def __rmul__(self, number: float) -> Dyadic:
+        return dyadic(number) * self
+
+    def __matmul__(self, other: Dyadic) -> Dyadic:
+        return Dyadic(self.m @ other.m, self.e + other.e)
+
+    def __add__(self, other: Dyadic) -> Dyadic:
+        e = min(self.e, other.e)
+        return Dyadic(self.shifted(e) + other.shifted(e), e)
+
+    def __sub__(self, other: Dyadic) -> Dyadic:
+        return self + -other
+
+    def __neg__(self) -> Dyadic:
+        return Dyadic(-self.m, self.e)
+
+    def __getitem__(self, index: Any) -> Dyadic:
+        return Dyadic(self.m[index], self.e)
+
+    def shifted(self, e: int) -> Integers:
+        """Return the integers of the same numbers at an exponent `e`, at most their own."""
+        return self.m if e == self.e else self.m * (1 << (self.e - e))
+
+
+def dyadic(array: Array | float) -> Dyadic:
+    """The same numbers, without rounding.
+
+    Parameters
+    ----------
+    array : ndarray
+        Finite float64 numbers of any shape and unit [-].
+
+    Returns
+    -------
+    Dyadic
+        With the largest common exponent, so that the integers are short.
+    """
+    fraction, exponent = np.frexp(np.asarray(array, dtype=np.float64))
+    m = (fraction * 2.0**53).astype(np.int64)  # |fraction| < 1: 53 bits, without rounding
+    e = exponent.astype(np.int64) - 53
+    trailing = np.frexp((m & -m).astype(np.float64))[1] - 1  # trailing zero bits; -1 of a zero
+    m, e = m >> np.maximum(trailing, 0), e + trailing
+    least = int(e[m != 0].min()) if m.any() else 0
+    shift = np.where(m == 0, 0, e - least)
+    integers = np.empty(m.shape, dtype=object)
+    flat = [a << s for a, s in zip(m.ravel().tolist(), shift.ravel().tolist(), strict=True)]
+    integers.reshape(-1)[:] = flat
+    return Dyadic(integers, least)
+
+
+def joined(parts: Sequence[Dyadic], axis: int = 0) -> Dyadic:
+    """Arrays of the same numbers, one after the other along an axis that they have."""
+    e = min((p.e for p in parts if p.m.any()), default=0)
+    aligned = [p.shifted(e) if p.m.any() else p.m for p in parts]
+    return Dyadic(np.concatenate(aligned, axis=axis), e)
+
 
 Which: TypeAlias = "slice | NDArray[np.int64]"
 ALL = slice(None)
@@ -42,8 +122,7 @@ class ExactForm:
     ----------
     H, g, A, b : fmpz_mat
         Shapes (n_v, n_v), (n_v, 1), (m, n_v), (m, 1); H symmetric. The rows of A are contact-major,
-        in the order of their cone's table (the ellipsoid: n, d1, d2, spin); the user's own rows
-        come last.
+        in the order of their cone's rows; the user's own rows come last.
     x_unit : fmpq
         delta_q = x_unit * x [m, rad].
     slack_unit : fmpq
@@ -82,18 +161,31 @@ class ExactForm:
         return [*self.row(i), self.b[i, 0]]
 
 
-def exact_form(step: StepData, rows: Sequence[int] | None = None) -> ExactForm:
+def exact_form(step: StepData) -> ExactForm:
     """H, g, A, b of a step, without rounding.
 
     Parameters
     ----------
     step : StepData
-    rows : sequence of int, optional
-        Those of A that are wanted, in a polyhedral cone; all by default.
 
     Returns
     -------
     ExactForm
+
+    Raises
+    ------
+    InputError
+        If nothing can be proved in this thread.
+    """
+    of_contacts = friction_rows(step.contacts, step.cone)[step.mask]
+    gaps = row_gaps(step.contacts, step.cone)[step.mask]
+    A = joined([of_contacts, dyadic(step.extra.A)])  # Eq. (8)
+    b = joined([dyadic(-gaps), dyadic(step.extra.b)])
+    return form_on(step, A, b)
+
+
+def form_on(step: StepData, A: Dyadic, b: Dyadic) -> ExactForm:
+    """H and g of a step without rounding, with any rows A, shape (k, n_v), b, (k,) [of the step].
 
     Raises
     ------
@@ -106,13 +198,6 @@ def exact_form(step: StepData, rows: Sequence[int] | None = None) -> ExactForm:
     # M_u / h is not dyadic, h H and h g are: Eq. (13) times h has the same minimiser.
     H = h_times_hessian(step)
     g = h * h * joined([tau_k + dyadic(step.tau_a), dyadic(step.tau_u)])  # Eq. (13)
-    if rows is None:
-        of_contacts = _friction_rows(step.contacts, step.cone)[step.mask]
-        gaps = row_gaps(step.contacts, step.cone)[step.mask]
-        A = joined([of_contacts, dyadic(step.extra.A)])  # Eq. (8)
-        b = joined([dyadic(-gaps), dyadic(step.extra.b)])
-    else:
-        A, b = _some_rows(step, rows)
     return _in_integers(H, g, A, b, fraction(step.h))
 
 
@@ -127,33 +212,6 @@ def h_times_hessian(step: StepData) -> Dyadic:
     positive_definite("M_u", step.M_u)
     h = dyadic(step.h)
     return _block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
-
-
-def exact_rows(step: StepData, rows: Sequence[int]) -> list[list[int]]:
-    """Rows [a, b] of A x >= b without rounding: one positive factor for every a, one for every b.
-
-    Parameters
-    ----------
-    step : StepData
-        In a polyhedral cone.
-    rows : sequence of int
-        Rows of A; only these are formed.
-    """
-    A, b = _some_rows(step, rows)
-    return [[*A.m[i], b.m[i]] for i in range(len(rows))]
-
-
-def _some_rows(step: StepData, rows: Sequence[int]) -> tuple[Dyadic, Dyadic]:
-    """Some rows of A, and their entries of b."""
-    contact, row = places(step, rows)
-    own = contact == step.contacts.n_c
-    used, at = np.unique(contact[~own], return_inverse=True)
-    gaps = row_gaps(step.contacts, step.cone)[contact[~own], row[~own]]
-    of_contacts = _friction_rows(step.contacts, step.cone, used)[at, row[~own]]
-    A = joined([of_contacts, dyadic(step.extra.A[row[own]])])  # Eq. (8)
-    b = joined([dyadic(-gaps), dyadic(step.extra.b[row[own]])])
-    order = np.argsort(own, kind="stable").argsort()
-    return A[order], b[order]
 
 
 def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
@@ -194,15 +252,13 @@ def contact_motion(contacts: Contacts, of: Which = ALL) -> Dyadic:
     return joined([axes @ J[:, :3], J[:, 3:]], axis=1)
 
 
-def _friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
-    """Return the rows n~' J + d~_i' J of Eq. (4), all of each contact, shape (n_c, R, n_v)."""
-    motion = contact_motion(contacts, of)
-    if name == ELLIPSOID:
-        return motion
-    mu = dyadic(contacts.mu[of])
+def friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
+    """The rows n~' J + d~_i' J of Eq. :eq:`eq-4`, all of each contact, shape (n_c, R, n_v)."""
+    motion, kind = contact_motion(contacts, of), cone(name)
+    mu = dyadic(kind.in_rows(contacts.mu[of]))
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
     mu_v, mu_omega = mu[:, :1, None], mu[:, 2:, None]
-    rows = cone_function(name)(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
+    rows = kind.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
     return joined(rows, axis=1)
 
 

@@ -1,14 +1,9 @@
 """From exact numbers and from balls to float64, rounded correctly (half to even)."""
 
 import math
-from collections.abc import Sequence
 from fractions import Fraction
 
-import numpy as np
 from flint import arb, fmpq
-from numpy.typing import NDArray
-
-from quasistatic_ref.step.arrays import Array
 
 
 def nearest(p: int, q: int) -> float:
@@ -48,29 +43,6 @@ def nearest_in(ball: arb) -> float | None:
         return x
     low, high = _exact(ball.lower()), _exact(ball.upper())
     return low if low == high else None
-
-
-def all_nearest(balls: Sequence[arb]) -> tuple[Array, NDArray[np.bool_]]:
-    """The float64 nearest to every number in each ball, and whether it is shown to be.
-
-    Returns
-    -------
-    ndarray, shape (balls,)
-        The float64 numbers [of the unit of the balls].
-    ndarray of bool, shape (balls,)
-    """
-    midpoints = [float(ball) for ball in balls]
-    off = np.array([float((b - x).abs_upper()) for b, x in zip(balls, midpoints, strict=True)])
-    x = np.array(midpoints) + 0.0  # never -0.0
-    with np.errstate(over="ignore", invalid="ignore"):
-        gap = np.minimum(np.nextafter(x, np.inf) - x, x - np.nextafter(x, -np.inf))
-    # gap / 2 is a float64 (0 of the least gap): an error that is not below it is not rounded to a
-    # number below it.
-    shown = (off < gap / 2) | (off == 0) & (x == 0)
-    for i in np.flatnonzero(~shown & (off <= 2 * gap)).tolist():  # a power of two, or subnormal
-        value = nearest_in(balls[i])
-        x[i], shown[i] = (x[i], False) if value is None else (value, True)
-    return x, shown
 
 
 def nearest_above(ball: arb) -> float:

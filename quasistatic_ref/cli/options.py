@@ -8,7 +8,7 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.parts import part
@@ -92,6 +92,19 @@ def add_resume(parser: argparse.ArgumentParser) -> None:
         metavar="SECONDS",
         help=f"time between two saves of the steps so far{usual}",
     )
+
+
+def check_at_least_one(options: argparse.Namespace, name: str) -> None:
+    """Refuse an option that counts something, and is given as less than 1.
+
+    Raises
+    ------
+    InputError
+        If it is.
+    """
+    value: int | None = getattr(options, name)
+    if value is not None and value < 1:
+        raise InputError("must be at least 1", field=f"--{name}", value=value)
 
 
 def progress_line(options: argparse.Namespace, line: str, end: str = "\n") -> None:

@@ -8,7 +8,7 @@ from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.verdict import wrong_bits
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.rounded_wrench import rounded_wrenches
+from quasistatic_ref.step.friction import rounded_wrenches
 from quasistatic_ref.step.solution_files import SolutionFile, solution_read
 
 

@@ -17,8 +17,8 @@ import numpy as np
 from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
-from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.separations import BISECTOR, OWN, pair_normal, rounding
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
@@ -94,7 +94,7 @@ def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     """The contacts of one pair, in ascending distance; R (L, 3, 3), t (L, 3) are the links'."""
-    a, b = placed(pair.alpha, R, t), placed(pair.beta, R, t)
+    a, b = in_world(pair.alpha, R, t), in_world(pair.beta, R, t)
     if isinstance(b.shape, PointCloud):
         return _cloud_on_solid(pair, a, b, b.shape.points)
     if isinstance(a.shape, PointCloud):
@@ -114,7 +114,7 @@ def filling(pair: ContactPair, nearest: ClosestPoints, count: int) -> list[Close
     return [far._replace(point=np.array([pair.corners + 1 + i])) for i in range(count)]
 
 
-def nearest_of_solids(pair: ContactPair, a: Placed, b: Placed) -> ClosestPoints:
+def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:
     """The closest pair of two solids, numbered after the corners if several contacts are kept."""
     found, tie = pair_normal(pair.name, a, b)
     phi, point = np.array([found.phi]), np.array([pair.corners if pair.n_c > 1 else 0])
@@ -122,7 +122,7 @@ def nearest_of_solids(pair: ContactPair, a: Placed, b: Placed) -> ClosestPoints:
     return ClosestPoints(phi, *ends, found.n[None], point, np.array([tie]))
 
 
-def with_corners(a: Placed, b: Placed, nearest: ClosestPoints) -> ClosestPoints:
+def with_corners(a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints) -> ClosestPoints:
     """All candidates of two solids: alpha's corners on beta, beta's on alpha, the closest pair.
 
     Corners whose normal is not about the pair's are none: they cannot bear with it.
@@ -140,7 +140,7 @@ def with_corners(a: Placed, b: Placed, nearest: ClosestPoints) -> ClosestPoints:
     return every.chosen(np.flatnonzero(dot(every.n, n) >= TURNED))
 
 
-def _towards(body: Placed, nearest: Array, n: Array) -> Array:
+def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
     """Which way the other body is, in this body's frame, shape (3,); the length has no meaning.
 
     Where the closest point is on a rim, the point itself gives this direction more accurately than
@@ -171,34 +171,61 @@ def late(candidates: ClosestPoints, k: int) -> Mask:
 
 
 def _cloud_on_solid(
-    pair: ContactPair, solid: Placed, cloud: Placed, points: Array
+    pair: ContactPair, solid: ShapeInWorld, cloud: ShapeInWorld, points: Array
 ) -> ClosestPoints:
     """The k closest points of a cloud on a solid."""
-    relative = _relative(solid, cloud)
+    relative = relative_pose(solid, cloud)
     x = rotated(relative[:, :3], points) + relative[:, 3]
-    phi, normal = signed_distance(solid.shape, x)
+    return cloud_contacts(pair, solid, cloud, relative, x, *signed_distance(solid.shape, x))
+
+
+def cloud_contacts(
+    pair: ContactPair,
+    solid: ShapeInWorld,
+    cloud: ShapeInWorld,
+    relative: Array,
+    x: Array,
+    phi: Array,
+    normal: Array,
+    index: Indices | None = None,
+) -> ClosestPoints:
+    """The k closest points of a cloud on a solid, from their signed distances.
+
+    Parameters
+    ----------
+    pair : ContactPair
+    solid, cloud : ShapeInWorld
+    relative : ndarray, shape (3, 4)
+        [R, t] from the cloud's frame to the solid's.
+    x, phi, normal : ndarray, shapes (N, 3), (N,) and (N, 3)
+        Points in the solid's frame [m], their signed distances [m] and normals [-].
+    index : ndarray of int, shape (N,), optional
+        Their numbers in the cloud; by default they are all of it.
+    """
+    assert isinstance(cloud.shape, PointCloud)
     some = closest(phi, pair.k)
+    point = some if index is None else index[some]
     found = cloud_surface(pair.name, solid, cloud, relative, x[some], phi[some], normal[some])
-    return _contacts(solid, cloud, points[some], 0.0, found)._replace(point=some)
+    return _contacts(solid, cloud, cloud.shape.points[point], 0.0, found)._replace(point=point)
 
 
 def _corners_on_solid(
-    solid: Placed, other: Placed, corners: Array, radius: float, n: Array
+    solid: ShapeInWorld, other: ShapeInWorld, corners: Array, radius: float, n: Array
 ) -> ClosestPoints:
     """Corners of another solid, each with a ball about it; n is the pair's normal, out of this."""
-    relative = _relative(solid, other)
+    relative = relative_pose(solid, other)
     x = rotated(relative[:, :3], corners) + relative[:, 3]
     found = corner_surface(solid, x, product(solid.R.T, n), rounding(solid, other))
     return _contacts(solid, other, corners, radius, found)
 
 
-def _relative(solid: Placed, other: Placed) -> Array:
-    """[R, t] from another body's frame to a solid's, shape (3, 4)."""
+def relative_pose(solid: ShapeInWorld, other: ShapeInWorld) -> Array:
+    """[R, t] from another body's frame to a solid's, shape (3, 4); R [-], t [m]."""
     return product(solid.R.T, np.column_stack([other.R, other.t - solid.t]))
 
 
 def _contacts(
-    solid: Placed, other: Placed, points: Array, radius: float, found: Surface
+    solid: ShapeInWorld, other: ShapeInWorld, points: Array, radius: float, found: Surface
 ) -> ClosestPoints:
     n = rotated(solid.R, found.normal)
     centre = rotated(other.R, points) + other.t
@@ -212,8 +239,8 @@ def _contacts(
     )
 
 
-def placed(shape: PlacedShape, R: Array, t: Array) -> Placed:
+def in_world(shape: PlacedShape, R: Array, t: Array) -> ShapeInWorld:
     """A shape where its link is; R (L, 3, 3) and t (L, 3) [m] are the links'."""
     R_link, t_link = R[shape.link], t[shape.link]
     world = product(R_link, np.column_stack([shape.R, shape.t]))
-    return Placed(shape.shape, world[:, :3], world[:, 3] + t_link)
+    return ShapeInWorld(shape.shape, world[:, :3], world[:, 3] + t_link)

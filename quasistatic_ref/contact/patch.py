@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed
 from quasistatic_ref.contact.separations import (
     BISECTOR,
     OF_CLOUD,
@@ -23,6 +22,7 @@ from quasistatic_ref.contact.separations import (
     refuse_unless_touching,
     rounding,
 )
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.shapes.hull import CHUNK
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Shape
@@ -74,12 +74,12 @@ def faces_apart(heights: Array, normals: Array, within: float) -> tuple[Indices,
     return highest, level & (away > SAME_NORMAL)
 
 
-def corner_surface(solid: Placed, x: Array, n: Array, within: float) -> Surface:
+def corner_surface(solid: ShapeInWorld, x: Array, n: Array, within: float) -> Surface:
     """What corners of another solid have on a solid.
 
     Parameters
     ----------
-    solid : Placed
+    solid : ShapeInWorld
     x : ndarray, shape (N, 3)
         In its frame [m].
     n : ndarray, shape (3,)
@@ -133,7 +133,13 @@ def _over(shape: Shape, x: Array, height: Array, normal: Array, near: float) -> 
 
 
 def cloud_surface(
-    name: str, solid: Placed, cloud: Placed, relative: Array, x: Array, phi: Array, normal: Array
+    name: str,
+    solid: ShapeInWorld,
+    cloud: ShapeInWorld,
+    relative: Array,
+    x: Array,
+    phi: Array,
+    normal: Array,
 ) -> Surface:
     """What points of a cloud have on a solid.
 
@@ -141,7 +147,7 @@ def cloud_surface(
     ----------
     name : str
         Of the pair, for messages.
-    solid, cloud : Placed
+    solid, cloud : ShapeInWorld
     relative : ndarray, shape (3, 4)
         [R, t] from the cloud's frame to the solid's.
     x : ndarray, shape (k, 3)
@@ -176,7 +182,7 @@ def cloud_surface(
 
 
 def _of_cloud(
-    name: str, solid: Placed, cloud: Placed, relative: Array, ways: Array, within: float
+    name: str, solid: ShapeInWorld, cloud: ShapeInWorld, relative: Array, ways: Array, within: float
 ) -> tuple[Array, int]:
     """The one of several normals along which a cloud is farthest out."""
     assert isinstance(cloud.shape, PointCloud)

@@ -6,7 +6,7 @@ docs/conventions.md states the rule.
 
 import numpy as np
 
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.contact.solids.ways_out import gaps, sharp_directions
 from quasistatic_ref.errors import ContactError
@@ -26,21 +26,21 @@ SAYS = {
 """Each tie in words."""
 
 
-def rounding(solid: Placed, other: Placed) -> float:
+def rounding(solid: ShapeInWorld, other: ShapeInWorld) -> float:
     """Difference of two heights over a solid that is rounding [m]: of sizes and of places."""
     places = float(max(np.abs(solid.t).max(), np.abs(other.t).max()))
     extents = [s.shape.extent for s in (solid, other) if not isinstance(s.shape, PointCloud)]
     return TIED_FACES * max([places, *(x for x in extents if np.isfinite(x))])
 
 
-def pair_normal(name: str, a: Placed, b: Placed) -> tuple[Witness, int]:
+def pair_normal(name: str, a: ShapeInWorld, b: ShapeInWorld) -> tuple[Witness, int]:
     """Closest points of two solids with the normal that the rule gives, and how it was chosen.
 
     Parameters
     ----------
     name : str
         Of the pair, for messages.
-    a, b : Placed
+    a, b : ShapeInWorld
 
     Raises
     ------
@@ -58,8 +58,8 @@ def pair_normal(name: str, a: Placed, b: Placed) -> tuple[Witness, int]:
 
 
 def tied_normals(
-    a: Placed,
-    b: Placed,
+    a: ShapeInWorld,
+    b: ShapeInWorld,
     found: Witness,
     within: float,
     every: tuple[Array, Array] | None = None,
@@ -68,7 +68,7 @@ def tied_normals(
 
     Parameters
     ----------
-    a, b : Placed
+    a, b : ShapeInWorld
     found : Witness
         Their closest points.
     within : float
@@ -92,7 +92,7 @@ def tied_normals(
     return distinct([found.n, *tied])
 
 
-def _of_centre(a: Placed, b: Placed, found: Witness) -> tuple[Array, Array]:
+def _of_centre(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array, Array]:
     """Of a sphere and a solid: heights of its centre over the faces, less the radius."""
     solid, ball, sign = (a, b, 1.0) if isinstance(b.shape, Sphere) else (b, a, -1.0)
     assert isinstance(ball.shape, Sphere)
@@ -100,7 +100,7 @@ def _of_centre(a: Placed, b: Placed, found: Witness) -> tuple[Array, Array]:
     return heights[0] - ball.shape.radius, sign * product(normals[0], solid.R.T)
 
 
-def _of_solids(a: Placed, b: Placed, found: Witness) -> tuple[Array, Array]:
+def _of_solids(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array, Array]:
     """Along the normals of the faces at the closest points, and along the axes."""
     ways = [sharp_directions(a), -sharp_directions(b)]
     for solid, end, sign in ((a, found.alpha, 1.0), (b, found.beta, -1.0)):

@@ -2,8 +2,9 @@
 
 from functools import cache
 
-from quasistatic_ref.lab.grasp import CASES
+from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref.simulate.measures import LinkMotion, link_motion
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 
@@ -24,3 +25,10 @@ def ran(name: str, *settings: str) -> tuple[Scenario, Trajectory]:
 def grasp(case: str) -> tuple[Scenario, Trajectory]:
     """``bunny_grasp``, ``"with torsion"`` or ``"without torsion"``."""
     return ran("bunny_grasp", *CASES[case])
+
+
+def lift(case: str) -> tuple[LinkMotion, slice]:
+    """The bunny's motion in a case of the grasp, and its steps from the closed grip to the top."""
+    scenario, run = grasp(case)
+    motion = link_motion(scenario.system, run, "bunny")
+    return motion, slice(motion.index(CLOSED), motion.index(TOP) + 1)

@@ -100,8 +100,8 @@ def mass_matrix(
     at : Kinematics
         Of any configuration, with their motion.
     n_a : int
-    inertias : tuple of ndarray
-        Masses, centres and inertias of the links, as in :class:`MassMatrix`.
+    inertias : tuple of ndarray, shapes (L,), (L, 3) and (L, 3, 3)
+        Masses, centres and inertias of the links, as in :class:`MassMatrix` [kg, m, kg m^2].
     """
     motion = at.motion
     assert motion is not None

@@ -14,9 +14,9 @@ from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.paths import path_in, shared_folders
-from quasistatic_ref.scenario.scenario_table import BODY, WAYPOINT, WRENCH, value
-from quasistatic_ref.scenario.tables import check_names, pose
+from quasistatic_ref.scenario.scenario_table import BODY, WAYPOINT, WRENCH, pose, value
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
 from quasistatic_ref.step.arrays import Array, keep, positive_definite
 

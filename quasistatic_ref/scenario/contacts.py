@@ -7,18 +7,21 @@ from pathlib import Path
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import ScenarioError, about_field
+from quasistatic_ref.errors import InputError, ScenarioError, about_field
 from quasistatic_ref.formats.fields import REQUIRED, Fields
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.bodies import BodyEntry
-from quasistatic_ref.scenario.scenario_table import CONTACT, value
-from quasistatic_ref.scenario.tables import check_names
-from quasistatic_ref.scenario.world_shapes import WORLD, world_shape
+from quasistatic_ref.scenario.checks import check_names
+from quasistatic_ref.scenario.scenario_table import CONTACT, SHAPE, pose, value
+from quasistatic_ref.scenario.world_solids import SOLIDS
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 Shapes = dict[str, list[PlacedShape]]
+WORLD = 0
+"""Number of the world among the links."""
 
 
 def placed_shapes(
@@ -47,6 +50,37 @@ def placed_shapes(
             cloud = point_cloud(entry.cloud)
             named[name] = [PlacedShape(name, root, np.eye(3), np.zeros(3), cloud)]
     return named
+
+
+def world_shape(name: str, table: Fields, folder: Path) -> PlacedShape:
+    """One ``[shapes.NAME]`` table: exactly one solid, and where it stands.
+
+    Parameters
+    ----------
+    name : str
+    table : Fields
+    folder : Path
+        Of the scenario, which a mesh must not leave.
+
+    Raises
+    ------
+    InputError
+        Naming the field.
+    """
+    t, rpy = pose(value(table, SHAPE, "pose"))
+    kinds = [kind for kind in table.names() if kind in SOLIDS]
+    if len(kinds) != 1:
+        raise table.fail("shape", f"must be exactly one of {', '.join(SOLIDS)}", table.names())
+    kind, sizes = SOLIDS[kinds[0]], table.table(kinds[0])
+    given = {name: field.read(sizes, name) for name, field in kind.fields.items()}
+    try:
+        shape = kind.made(folder, sizes.where, **given)
+    except InputError as error:
+        error.field = error.field if error.field and "." in error.field else sizes.where
+        raise
+    sizes.close()
+    table.close()
+    return PlacedShape(name, WORLD, rotation(rpy), t, shape)
 
 
 def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:

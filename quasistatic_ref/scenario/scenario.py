@@ -17,7 +17,7 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import System
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
-from quasistatic_ref.scenario.checks import check_motion, check_sizes
+from quasistatic_ref.scenario.checks import check_made, check_motion, check_names, check_sizes
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.scenario.overrides import Settings, apply_settings
 from quasistatic_ref.scenario.scenario_table import (
@@ -28,7 +28,6 @@ from quasistatic_ref.scenario.scenario_table import (
     VERSION,
     value,
 )
-from quasistatic_ref.scenario.tables import check_made, check_names
 from quasistatic_ref.simulate.goals import Checked
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.rollout import rollout

@@ -7,7 +7,10 @@ Rules about several fields, such as that rows = 6 needs mu_omega, are checked by
 from collections.abc import Mapping
 from typing import Any
 
+from numpy.typing import ArrayLike
+
 from quasistatic_ref.formats.declared import Field, Tables
+from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.schema import json_schema
 from quasistatic_ref.model.body import BASES
 from quasistatic_ref.scenario.world_solids import SOLIDS
@@ -16,6 +19,7 @@ from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.simulator import GRAVITY
 from quasistatic_ref.solve.backends import CERTIFY
 from quasistatic_ref.step.cones import CONES, PYRAMID
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
 FORMAT, VERSION = "quasistatic-ref/scenario", 1
@@ -23,6 +27,7 @@ MOST_STEPS = 10_000_000
 TOP, SOLVER, LIMITS = "the top of the file", "[solver]", "[limits]"
 BODY, CONTACT, WRENCH = "[bodies.NAME]", "[contacts.NAME]", "[[bodies.NAME.wrenches]]"
 SHAPE, POSE, WAYPOINT = "[shapes.NAME]", "pose", "[[bodies.NAME.targets]]"
+ORIGIN = (0.0, 0.0, 0.0)
 NUMBER, TEXT = {"type": "number"}, {"type": "string"}
 LIST = {"type": "array", "items": NUMBER}
 MATRIX = {"type": "array", "items": LIST}
@@ -110,7 +115,7 @@ TABLES = Tables({
         "wrenches": Field("list of tables", "external forces and torques", default=[], of=WRENCH),
     },
     POSE: {
-        "xyz": Field("three numbers", "origin in the world", "m", (0.0, 0.0, 0.0)),
+        "xyz": Field("three numbers", "origin in the world", "m", ORIGIN),
         "rpy": Field("three numbers", _TURN, "rad", (0.0, 0.0, 0.0)),
     },
     WAYPOINT: {"t": Field("number", "time; next to it any joints and their values", "s")},
@@ -156,6 +161,13 @@ RULES: dict[str, Mapping[str, Any]] = {
 """What a kind of table asks for beyond its fields, in JSON Schema."""
 
 value = TABLES.value
+
+
+def pose(table: Fields, xyz: ArrayLike = ORIGIN) -> tuple[Array, Array]:
+    """Origin [m] and roll, pitch, yaw [rad] of a table of these two, each of shape (3,)."""
+    found = value(table, POSE, "xyz", xyz), value(table, POSE, "rpy")
+    table.close()
+    return found
 
 
 def scenario_schema() -> dict[str, Any]:

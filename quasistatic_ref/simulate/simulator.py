@@ -184,9 +184,10 @@ class Simulator(Shown):
         kinematics = self.system.kinematics(q)
         points = self.closest_points(kinematics)
         lap("distances")
-        step, own = self.extended(self.step_data(q, q_bar_a, force, points, kinematics), q)
+        step = self.step_data(q, q_bar_a, force, points, kinematics)
         lap("rows")
-        solution = self.solution(step, own)  # Eq. (13), certified
+        solution = self.solution(step) if self.extension is None else self.extended(step, q)
+        step = solution.step  # an extension adds rows; Eq. (13), certified
         self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
         lap("solve")
         q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
@@ -219,7 +220,7 @@ class Simulator(Shown):
         StepDataError
             If the force has another shape.
         """
-        n_a, tau = self.system.n_a, self.load(q, force)
+        n_a, tau = self.system.n_a, self.generalised_force(q, force)
         return StepData(
             h=self.h,
             K_q=self.K_q,
@@ -231,7 +232,7 @@ class Simulator(Shown):
             cone=self.cone,
         )
 
-    def load(self, q: Array, force: Array | float) -> Array:
+    def generalised_force(self, q: Array, force: Array | float) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
         if np.shape(force) not in {(), self.gravity_acts.shape}:
             problem = f"must have shape {self.gravity_acts.shape}"
@@ -239,18 +240,12 @@ class Simulator(Shown):
         tau: Array = self.gravity_acts * self.system.gravity_force(q, self.gravity) + force
         return tau
 
-    def extended(self, step: StepData, q: Array) -> tuple[StepData, Extension | None]:
-        """The step with the user's own rows at q, shape (n_q,); and the extension or None.
-
-        An extension that holds costs or nonlinear constraints is returned with the unchanged
-        step; the linear constraints of any other become rows of the step.
-        """
-        if self.extension is None:
-            return step, None
+    def extended(self, step: StepData, q: Array) -> StepSolution:
+        """A step solved with the user's own constraints and costs at q, shape (n_q,)."""
+        assert self.extension is not None
         extended = needed_part("extensions.extended", "extension")  # it needs CVXPY
-        own = self.extension(q)
-        rows = extended.extension_rows(step, own)
-        return (step, own) if rows is None else (extended.with_rows(step, rows), None)
+        solution: StepSolution = extended.simulated_solution(self, step, self.extension(q))
+        return solution
 
     def fitting(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""
@@ -258,9 +253,6 @@ class Simulator(Shown):
             self.solver = solver_for(step, self.backend, self.fast)
         return self.solver
 
-    def solution(self, step: StepData, extension: Extension | None = None) -> StepSolution:
-        """A step solved, perhaps with nonlinear constraints or costs of an extension."""
-        solver = self.fitting(step) if extension is None else self.backend
-        return solve_step(
-            step, solver, accuracy=self.accuracy, certify=self.certify, extension=extension
-        )
+    def solution(self, step: StepData) -> StepSolution:
+        """A step solved, by the solver that is kept."""
+        return solve_step(step, self.fitting(step), accuracy=self.accuracy, certify=self.certify)

@@ -13,6 +13,7 @@ from typing import Any
 
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import SPARSE_FROM, SPARSE_FROM_PIQP
 
@@ -279,6 +280,7 @@ def cone_backend(name: str, what: str) -> None:
                            value=name)  # fmt: skip
 
 
+RESIDUAL = 'certify = "residual"'
 CERTIFY = ("full", "residual", "off")
 """Ways to certify an answer; :func:`~quasistatic_ref.solve.solve.solve_step` says what each is."""
 
@@ -299,7 +301,7 @@ def check_backend(name: str, cone_name: str, certify: str = CERTIFY[0]) -> None:
         If the backend is unknown, not installed, does not take the cone, or gives no answer that
         could be certified so.
     InputError
-        If there is no such way to certify.
+        If there is no such way to certify, or its folder is not there.
     """
     check_certify(name, certify)
     if name != NONE:
@@ -314,12 +316,14 @@ def check_certify(name: str | None, certify: str) -> None:
     Raises
     ------
     InputError
-        If it does not exist.
+        If it does not exist, or its folder is not there.
     BackendError
         If it does not without a backend.
     """
     if certify not in CERTIFY:
         raise InputError(f"must be one of {', '.join(CERTIFY)}", field="certify", value=certify)
+    if certify == "residual":
+        needed_part("large.bound", RESIDUAL)
     if name == NONE and certify != CERTIFY[0]:
         problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
         raise BackendError(problem, field="backend", value=NONE)

@@ -6,17 +6,7 @@ import numpy as np
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Own, none
-from quasistatic_ref.step.friction import cone_function
 from quasistatic_ref.step.problem import StepProblem
-
-
-def cvxpy_problem(like: StepData, constraints: Own = none, costs: Own = none) -> "CvxpyProblem":
-    """The problem of steps like this one; arguments are those of :class:`CvxpyProblem`."""
-    if cone(like.cone).polyhedral:
-        return CvxpyProblem(like, constraints, costs)
-    from quasistatic_ref.optional.ellipsoid.cone_problem import EllipsoidProblem
-
-    return EllipsoidProblem(like, constraints, costs)
 
 
 class CvxpyProblem(StepProblem):
@@ -39,7 +29,7 @@ class CvxpyProblem(StepProblem):
     def __init__(self, like: StepData, constraints: Own = none, costs: Own = none) -> None:
         super().__init__(like)
         if like.cone != PYRAMID:
-            self.contact_rows = self.rows_of_cone()
+            self.contact_rows = cone(like.cone).constraints(self.motion, like.mask)
         A_x = cp.Parameter(like.extra.A.shape, "A_x")
         b_x = cp.Parameter(like.extra.b.shape, "b_x")
         self.parameters |= {"A_x": A_x, "b_x": b_x}
@@ -51,13 +41,6 @@ class CvxpyProblem(StepProblem):
 
     def check_kind(self) -> None:
         """Refuse nothing: each cone, and rows of a user's own, have their problem here."""
-
-    def rows_of_cone(self) -> list[cp.Constraint]:
-        """The rows of the step's cone, in place of the paper's."""
-        sides = cone_function(self.like.cone)(*self.motion)
-        return [
-            side[has] >= 0 for side, has in zip(sides, self.like.mask.T, strict=True) if has.any()
-        ]
 
     def fill(self, step: StepData) -> None:
         """Set every parameter from one step.
@@ -77,8 +60,6 @@ class CvxpyProblem(StepProblem):
 
     def dual(self) -> Array:
         """Multipliers of the last solve, contact-major, the user's own rows last; shape (m,)."""
-        mask = self.like.mask
-        lam = np.zeros(mask.shape)
-        for i, row in zip(np.flatnonzero(mask.any(axis=0)), self.contact_rows, strict=True):
-            lam[mask[:, i], i] = row.dual_value
-        return np.concatenate([lam[mask], *(row.dual_value for row in self.extra)])
+        like = self.like
+        lam = cone(like.cone).multipliers(self.contact_rows, like.mask, like.contacts.mu)
+        return np.concatenate([lam, *(row.dual_value for row in self.extra)])

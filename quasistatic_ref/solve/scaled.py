@@ -1,15 +1,13 @@
 """A step with its natural units."""
 
 import math
-from dataclasses import replace
 from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 
-from quasistatic_ref.certify.optimality import Residuals, ellipsoid_residuals, optimality_residuals
+from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.solve.units import (
     Units,
     metric,
@@ -18,7 +16,7 @@ from quasistatic_ref.solve.units import (
     to_natural,
     units_of,
 )
-from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
@@ -31,12 +29,6 @@ class NaturalStep(Protocol):
 
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of delta_q (n_v,) and lam (m,), all in natural units [-]."""
-
-    def bound(self, delta_q: Array, lam: Array) -> float:
-        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units.
-
-        Infinite where none is known.
-        """
 
 
 class DenseStep:
@@ -85,13 +77,8 @@ class DenseStep:
 
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
-        if self.step.cone == ELLIPSOID:
-            return ellipsoid_residuals(self.natural, delta_q, lam)
-        return optimality_residuals(self.natural_form, delta_q, lam)
-
-    def bound(self, delta_q: Array, lam: Array) -> float:
-        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
-        return error_bound(self.step, delta_q, lam).error
+        judge = cone(self.step.cone).judge(self.step)
+        return optimality_residuals(self.natural_form, delta_q, lam, judge)
 
 
 def check_units(units: Units, step: StepData, usable: bool = True) -> None:
@@ -107,7 +94,7 @@ def check_units(units: Units, step: StepData, usable: bool = True) -> None:
 
 def out_of_range(step: StepData) -> StepDataError:
     """The error about a step whose numbers are finite, but not what is made of them."""
-    step.replace(contacts=replace(step.contacts))  # says so, if they are not
+    step.replace()  # says so, if they are not
     return StepDataError(
         "its numbers are too large, too small or too unlike each other: their products leave the "
         "range of float64; look for a wrong unit"

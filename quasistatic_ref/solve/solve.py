@@ -1,24 +1,22 @@
 """One step, solved: natural units, a solver, the judge, and back to SI units."""
 
+import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.digits import relative_digits
-from quasistatic_ref.certify.exact_step import relative_length
-from quasistatic_ref.errors import BackendError, InputError, StepIllPosed, StepNotSolved
-from quasistatic_ref.optional.ellipsoid.ellipsoid import enclosure_certificate
-from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
-from quasistatic_ref.optional.large.uncertified import uncertified_solution
-from quasistatic_ref.solve.backends import DEFAULT, NONE, check_certify
+from quasistatic_ref.certify.exact import check_length
+from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.parts import needed_part
+from quasistatic_ref.solve.backends import NONE, check_certify
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver, solver_for
 from quasistatic_ref.solve.units import from_natural, in_natural
-from quasistatic_ref.step.arrays import QUIET, finite
-from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.arrays import QUIET, Array, finite
+from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.solution import (
@@ -27,10 +25,11 @@ from quasistatic_ref.step.solution import (
     StepSolution,
     step_solution,
 )
-from quasistatic_ref.tolerances import ACCURACY, ILL_POSED
+from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT, WORTHLESS
 
 LARGE = 2.0**200
 """Three such factors are far from 2^1024, where the range of float64 ends."""
+NOTHING_CLAIMED = Certificate("none")
 
 
 def solve_step(
@@ -81,7 +80,7 @@ def solve_step(
     StepIllPosed
         With ``"full"``, if the exact optimum is more than 1e6 times longer than any step that its
         loads or its penetration ask for alone; see
-        :func:`~quasistatic_ref.certify.exact_step.relative_length`.
+        :func:`~quasistatic_ref.certify.exact.relative_length`.
     StepNotSolved
         With ``"residual"`` and ``"off"``, if the backend claims anything but a full solution; with
         ``"residual"`` also if the judge of residuals refuses its answer. With ``"full"`` only in
@@ -100,20 +99,11 @@ def solve_step(
         raise InputError(problem, field="fast", value=fast)
     check_certify(solver.name if isinstance(solver, Solver) else solver, certify)
     if extension is not None:
-        from quasistatic_ref.optional.extensions import (
-            extended,  # needs CVXPY, which takes its time
+        extended = needed_part("extensions.extended", "extension")
+        solution: StepSolution = extended.extended_step(
+            step, extension, solver, fast, accuracy, certify
         )
-
-        own = extended.extension_rows(step, extension)
-        if own is not None:
-            step = extended.with_rows(step, own)
-        elif isinstance(solver, Solver):
-            problem = "takes linear constraints only; for a cost or a nonlinear constraint pass "
-            problem += "the name of a backend"
-            raise BackendError(problem, field="solver", value=f"{solver.name}, {solver.engine}")
-        else:
-            name = DEFAULT if solver is None else solver
-            return extended.extended_solution(step, extension, name, accuracy, certify)
+        return solution
     if isinstance(solver, Solver):
         solver.check(step)
     else:
@@ -151,11 +141,11 @@ def _solved(
     scaled: NaturalStep, solver: Solver, accuracy: float, certify: str
 ) -> StepSolution | None:
     """The solution, or None if it is not finite."""
-    if certify != "full" or not isinstance(scaled, DenseStep):
-        solution = uncertified_solution(scaled, solver, solver.answer(scaled, accuracy), certify)
+    if certify == "full":
+        assert isinstance(scaled, DenseStep)  # as of every solver that certifies
+        solution = _certified(scaled, solver, accuracy)
     else:
-        certified = _enclosed if scaled.step.cone == ELLIPSOID else _exact
-        solution = certified(scaled, solver, accuracy)
+        solution = uncertified(scaled, solver, solver.answer(scaled, accuracy), certify)
     good = finite(solution.delta_q) and finite(solution.lam)
     if certify != "off" or solution.lam_extra.size:
         residuals = np.array(list(solution.certificate.residuals.values()))
@@ -170,47 +160,30 @@ def _far_from_largest(solution: StepSolution) -> bool:
     return bool(solution.step.h > 1 / LARGE and np.vdot(mu, mu) + np.vdot(lam, lam) < LARGE)
 
 
-def _exact(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
-    """The exact optimum; a backend that fails costs its warm start, not the answer."""
+def _certified(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
+    """The proved optimum; a backend that fails costs its start, not the answer."""
+    step, units, kind = scaled.step, scaled.units, cone(scaled.step.cone)
     answer, statistics = _attempt(scaled, solver, accuracy)
-    optimum = solver.optimum(scaled, answer)
-    return _certified(scaled, solver, answer, statistics, optimum, exact_certificate)
-
-
-def _enclosed(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
-    """The optimum in the ellipsoid with a proved bound; where there is none, a judged answer."""
-    step = scaled.step
-    answer, statistics = _attempt(scaled, solver, accuracy)
-    start = None
+    answered = None
     if answer is not None:
-        start = from_natural(answer.delta_q, answer.lam, scaled.units)
-    found = enclosure(step, start)
-    if found is None:
-        if answer is None:
+        answered = from_natural(answer.delta_q, answer.lam, units)
+    certificate: Callable[..., Certificate]
+    if isinstance(kind, CurvedCone):
+        optimum = kind.optimum(step, answered)
+        if optimum is None:
+            if answer is not None:
+                return uncertified(scaled, solver, answer, "residual")
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, accuracy)
-        return uncertified_solution(scaled, solver, answer, "residual")
-    length = relative_length(step, found.delta_q)
-    if not length <= ILL_POSED:
-        raise StepIllPosed(step, found.delta_q, length)
-    return _certified(scaled, solver, answer, statistics, found, enclosure_certificate)
-
-
-def _certified(
-    scaled: DenseStep,
-    solver: Solver,
-    answer: Answer | None,
-    statistics: SolverStatistics,
-    optimum: Any,
-    certificate: Callable[..., Certificate],
-) -> StepSolution:
-    """A certified optimum with its residuals, and the correct digits of the backend's answer."""
-    step, units = scaled.step, scaled.units
+        check_length(step, optimum.delta_q)
+        certificate = kind.certificate
+    else:
+        optimum = solver.optimum(scaled, answer)
+        certificate = exact_certificate
     delta_q, lam = optimum.delta_q, optimum.lam
-    if answer is not None:
+    if answered is not None:
         norm = solver.norm(scaled)
-        answered, _ = from_natural(answer.delta_q, answer.lam, units)
-        error = norm.displacement(answered - delta_q)
+        error = norm.displacement(answered[0] - delta_q)
         digits = relative_digits(error, norm.impulse(scaled.form.g))
         statistics = statistics._replace(digits=digits)
     residuals = vars(scaled.residuals(*in_natural(delta_q, lam, units)))
@@ -234,3 +207,46 @@ def _attempt(
         statistics = statistics._replace(status=f"failed: {failure.status}", digits=0.0)
     check_arithmetic()  # a backend may have changed it
     return answer, statistics
+
+
+def uncertified(scaled: NaturalStep, solver: Solver, answer: Answer, certify: str) -> StepSolution:
+    """A backend's own answer as a solution in SI units.
+
+    Parameters
+    ----------
+    scaled : NaturalStep
+        Of :meth:`~quasistatic_ref.solve.solver.Solver.scaled`.
+    solver : Solver
+    answer : Answer
+        In the natural units of `scaled` [-].
+    certify : str
+        ``"residual"``: refused if its residuals are not small, and with a bound of its error;
+        ``"off"``: not looked at, with a certificate that claims nothing.
+
+    Raises
+    ------
+    StepNotSolved
+        If a residual is above ``RESIDUAL_LIMIT`` or not a number.
+    """
+    delta_q, lam = from_natural(answer.delta_q, answer.lam, scaled.units)
+    certificate = NOTHING_CLAIMED
+    if certify != "off":
+        certificate = _judged(scaled, solver, answer, delta_q, lam)
+    return step_solution(scaled.step, delta_q, lam, certificate, answer.statistics)
+
+
+def _judged(
+    scaled: NaturalStep, solver: Solver, answer: Answer, delta_q: Array, lam: Array
+) -> Certificate:
+    """The residuals of an answer as it is given, in SI units, and a bound of its error."""
+    check_arithmetic()
+    x, y = in_natural(delta_q, lam, scaled.units)  # SI units may have rounded them: subnormals
+    residuals = scaled.residuals(x, y)
+    if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
+        worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
+        status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
+        accuracy = answer.statistics.accuracy
+        raise StepNotSolved(solver.name, status, scaled.step, accuracy, residuals)
+    error = solver.error_bound(scaled, delta_q, lam)
+    useful = error if error <= WORTHLESS else None
+    return Certificate("residual", dict(vars(residuals)), error_bound=useful, step=scaled.step)

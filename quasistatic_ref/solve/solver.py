@@ -6,6 +6,7 @@ It knows its backend (``name``), the interface by which it reaches that
 chooses among them.
 """
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -13,8 +14,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import ExactOptimum, exact_step
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError, StepNotSolved
@@ -25,19 +25,20 @@ from quasistatic_ref.solve.backends import (
     DEFAULT,
     NONE,
     QPSOLVERS,
+    RESIDUAL,
     UNSAFE,
     Options,
     check_backend,
 )
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.step.arrays import Array, Mask, finite
-from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.solution import SolverStatistics
 from quasistatic_ref.tolerances import ALIKE
 
 RELAXED = (1.0, 1e2, 1e4)
-"""Accuracies tried in the ellipsoid, relative to the one of the call.
+"""Accuracies tried where a backend is given second-order cones, relative to the one of the call.
 
 Second-order cones cost Clarabel digits: of 40 planted steps it solves none at 1e-12, 39 at 1e-10
 and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
@@ -181,8 +182,15 @@ class Solver(ABC):
         return energy_norm(scaled.form.H)
 
     def error_bound(self, scaled: NaturalStep, delta_q: Array, lam: Array) -> float:
-        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
-        return scaled.bound(delta_q, lam)
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units.
+
+        Infinite where none is known, as in a curved cone.
+        """
+        if not cone(scaled.step.cone).polyhedral:
+            return math.inf
+        bounds = needed_part("large.bound", RESIDUAL)
+        bound: float = bounds.error_bound(scaled.step, delta_q, lam).error
+        return bound
 
     @abstractmethod
     def write(self, scaled: Any) -> Mask | None:
@@ -205,7 +213,7 @@ class Solver(ABC):
         if accuracy not in self._attempts:
             entry = BACKENDS[self.name.removeprefix(QPSOLVERS)]
             least = max(accuracy, entry.floor)
-            steps = RELAXED if self.like.cone == ELLIPSOID else (1.0,)
+            steps = (1.0,) if cone(self.like.cone).polyhedral else RELAXED
             tried = [k * least for k in steps]
             self._attempts[accuracy] = [Attempt(a, o) for a in tried for o in entry.attempts(a)]
         return self._attempts[accuracy]

@@ -7,13 +7,12 @@ from typing import Any
 import numpy as np
 import qpsolvers
 
-from quasistatic_ref.errors import BackendError
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import QPSOLVERS, Options, backend
+from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import Attempt, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
-from quasistatic_ref.step.data import Array, Mask, StepData
+from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 
@@ -26,21 +25,10 @@ class QpsolversSolver(Solver):
         A step in the cone of those that are to be solved.
     name : str
         Of the backend, with ``qpsolvers:``.
-
-    Raises
-    ------
-    BackendError
-        If qpsolvers does not reach the backend here.
     """
 
     engine = "qpsolvers"
     fixed = ("cone",)
-
-    def __init__(self, like: StepData, name: str) -> None:
-        if backend(name).name == name:
-            problem = f"is reached through qpsolvers as {QPSOLVERS + name!r}"
-            raise BackendError(problem, field="backend", value=name)
-        super().__init__(like, name)
 
     def write(self, scaled: DenseStep) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import rough_inverse
+from quasistatic_ref.certify.norm import float_inverse
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Extra, Mask, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -78,7 +78,7 @@ def metric(H: Array) -> Metric:
     coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
     natural = H * np.outer(coordinate, coordinate)
-    return Metric(H, coordinate, rough_inverse(H), coordinate * coordinate, natural, usable)
+    return Metric(H, coordinate, float_inverse(H), coordinate * coordinate, natural, usable)
 
 
 def coordinate_units(diagonal: Array) -> Array:

@@ -1,19 +1,49 @@
-"""The friction cones by name: how many rows each gives to a contact, and what they are called.
+r"""The friction cones: each an object by its name, the polyhedral ones made of one function.
 
-What the rows are is in :mod:`~quasistatic_ref.step.friction`. A contact whose ``rows`` is 4 does
-not use mu_omega, and has only the leading rows. The ellipsoid is no polyhedron; a contact in it has
-four multipliers.
+The function takes a contact's gap, slip_1, slip_2 and spin: phi + J_n delta_q, mu_v J_1 delta_q,
+mu_v J_2 delta_q and mu_omega J_w delta_q, that is, the gap after the step; and the sliding along d1
+and d2 and the rotation about n, each multiplied by its coefficient of friction. All four are
+lengths. The function returns what must not be negative, one entry for each of the cone's rows. It
+only adds, subtracts and multiplies by float64 numbers. Therefore it returns
+
+- given numbers, the slacks of Eq. :eq:`eq-10`;
+- given CVXPY expressions, the left sides of the constraints, Eq. :eq:`eq-4`;
+- given the rows J_n, mu_v J_1, mu_v J_2 and mu_omega J_w, the rows of A, Eq. :eq:`eq-8`, in floats
+  or in exact numbers;
+- given n~, mu_v d1, mu_v d2 and [0; mu_omega], the directions n~ + d~_i of Eqs.
+  :eq:`eq-5`-:eq:`eq-7`.
+
+Multipliers >= 0 of the rows combine to a contact force inside of the cone; each function states the
+inequality that these forces satisfy. Where mu_v (or mu_omega) is 0, \|f\|/mu <= f_n means f = 0. A
+contact whose ``rows`` is 4 does not use mu_omega: it has the leading rows only, and a spin of zero.
 """
 
-from dataclasses import dataclass
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from decimal import Decimal, localcontext
-from functools import cache
+from functools import cache, cached_property
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.quoting import nearest_name
-from quasistatic_ref.step.arrays import Indices
+from quasistatic_ref.parts import needed_part
+from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
+
+if TYPE_CHECKING:
+    from quasistatic_ref.certify.verdict import Verdict
+    from quasistatic_ref.solve.solver import Solver
+    from quasistatic_ref.step.data import StepData
+    from quasistatic_ref.step.solution import Certificate
+
+Rows: TypeAlias = "tuple[Any, ...]"
+ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
+Violations: TypeAlias = "tuple[Array, Array, Array]"
+Judge: TypeAlias = "Callable[[Array, Array], Violations]"
 
 PYRAMID, ELLIPSOID = "pyramid", "ellipsoid"
 CONES = (PYRAMID, ELLIPSOID, "product", "facets-K", "frictionless")
@@ -22,10 +52,20 @@ MOST_FACETS = 1024
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")
 
+CLAIMS: dict[str, tuple[str, ...]] = {
+    "exact": (
+        "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
+        "smallest_active_multiplier", "error_bound",
+    ),
+    "residual": ("error_bound",),
+    "none": (),
+}  # fmt: skip
+"""What a certificate of each kind holds, in a polyhedral cone."""
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class Cone:
-    """One friction cone.
+    """A polyhedral friction cone: linear inequalities (rows) describe it.
 
     Parameters
     ----------
@@ -34,20 +74,192 @@ class Cone:
         A name for each number of lam that a contact with torsion has.
     short : int
         How many of these numbers a contact has whose mu_omega is not used.
+    function : callable
+        (gap, slip_1, slip_2, spin) -> the rows.
+    claims : mapping of str to tuple of str
+        The kinds of certificate in it, each with its further fields in a solution file.
+    unproved : tuple of str
+        Fields of a solution file of version 1 that nothing proves in this cone, beyond those that
+        nothing proves in any.
     """
 
     name: str
     row_names: tuple[str, ...]
     short: int
+    function: ConeFunction
+    claims: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: CLAIMS)
+    unproved: tuple[str, ...] = ()
 
     @property
     def polyhedral(self) -> bool:
-        """Whether the cone is described by linear inequalities (rows) alone."""
-        return self.name != ELLIPSOID
+        """Whether linear inequalities alone describe it."""
+        return not isinstance(self, CurvedCone)
+
+    @cached_property
+    def matrix(self) -> Array:
+        """Coefficients of gap, slip_1, slip_2 and spin in each row, shape (R, 4) [-].
+
+        The admissible (f_1, f_2, tau) at f_n = 1, in units of (mu_v, mu_v, mu_omega), are the
+        convex hull of the R rows without their first entries; the limit surface is its boundary.
+        """
+        return read_only(np.stack(self.function(*np.eye(4))))
 
     def counts(self, rows: Indices) -> Indices:
         """How many multipliers each contact has, from its ``rows``, shape (n_c,)."""
         return np.where(rows == 6, len(self.row_names), self.short)
+
+    def in_rows(self, mu: Array) -> Array:
+        """What slips and spin are multiplied by in the rows, (n_c, 3) [-, -, m]: `mu`, (n_c, 3)."""
+        return mu
+
+    def constraints(self, motion: Rows, mask: Mask) -> list[Any]:
+        """The constraints on CVXPY's gap, slip_1, slip_2 and spin [m], each (n_c,).
+
+        One for each row of the cone, of the contacts that have it by `mask`, shape (n_c, R); none
+        where no contact has.
+        """
+        sides = self.function(*motion)
+        return [side[has] >= 0 for side, has in zip(sides, mask.T, strict=True) if has.any()]
+
+    def multipliers(self, constraints: Sequence[Any], mask: Mask, mu: Array) -> Array:
+        """Lam of solved :meth:`constraints`, contact-major, shape (m,); `mu` as of contacts."""
+        lam = np.zeros(mask.shape)
+        for i, row in zip(np.flatnonzero(mask.any(axis=0)), constraints, strict=True):
+            lam[mask[:, i], i] = row.dual_value
+        return lam[mask]
+
+    def judge(self, step: StepData) -> Judge:
+        """How far from holding Eqs. :eq:`eq-10`-:eq:`eq-12` are, at any slacks and multipliers.
+
+        Returns
+        -------
+        callable
+            As :func:`row_violations`, of all rows of A.
+        """
+        return row_violations
+
+
+class CurvedCone(Cone, ABC):
+    """A cone that no rows describe: an optional part, which proves its own answers.
+
+    Each contact has four rows in A, J_n and its slips and spin, and as many multipliers. Everything
+    that :class:`Cone` does by its rows, and the core by exact rows, it does itself.
+    """
+
+    @abstractmethod
+    def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Any | None:
+        """The proved optimum of a step, with attributes ``delta_q`` and ``lam``; None if none is.
+
+        Parameters
+        ----------
+        step : StepData
+        start : (ndarray, ndarray), optional
+            A backend's delta_q and lam, shapes (n_v,) [m, rad] and (m,) [N s].
+        """
+
+    @abstractmethod
+    def certificate(
+        self, step: StepData, optimum: Any, residuals: Mapping[str, float]
+    ) -> Certificate:
+        """The certificate of an :meth:`optimum`, with its residuals in natural units [-]."""
+
+    @abstractmethod
+    def in_words(self, certificate: Certificate) -> str:
+        """What a certificate of kind ``"exact"`` claims, in a sentence."""
+
+    @abstractmethod
+    def verdict(
+        self,
+        step: StepData,
+        delta_q: Array,
+        active: Sequence[tuple[int, int]],
+        lam: Array | None,
+        claims: Certificate | None,
+    ) -> Verdict:
+        """As :func:`~quasistatic_ref.certify.certificate.verify`."""
+
+    @abstractmethod
+    def native_solver(self, like: StepData, name: str) -> Solver:
+        """A solver by the own interface of a backend that takes such cones."""
+
+
+def row_violations(slack: Array, lam: Array) -> Violations:
+    """How far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding, row by row.
+
+    Parameters
+    ----------
+    slack, lam : ndarray, shape (m,)
+        A delta_q - b [m], and the multipliers [N s].
+
+    Returns
+    -------
+    short, pull, work : ndarray
+        How far the conditions on slacks [m] and on multipliers [N s] are violated, negative where
+        they hold; and slack times multiplier [N m s].
+    """
+    short = -slack  # Eq. (10): slack >= 0
+    pull = -lam  # Eq. (11): lam >= 0
+    work = slack * lam  # Eq. (12): zero, row by row
+    return short, pull, work
+
+
+def pyramid(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
+    r"""The paper's cone: :math:`|f_1|/\mu_v + |f_2|/\mu_v + |\tau|/\mu_\omega \le f_n`.
+
+    An octahedron: the rows of a contact share one normal force. The rows are +d1, +d2, -d1, -d2,
+    +spin, -spin, in the unit of the arguments, for example [m].
+    """
+    return (
+        gap + slip_1,  # Eq. (5)
+        gap + slip_2,
+        gap - slip_1,  # Eq. (6)
+        gap - slip_2,
+        gap + spin,  # Eq. (7)
+        gap - spin,
+    )
+
+
+def product(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
+    r""":math:`|f_1|/\mu_v + |f_2|/\mu_v \le f_n` and :math:`|\tau|/\mu_\omega \le f_n`.
+
+    Tangential force and torque do not reduce each other's limit. The rows are +d1, +d2, -d1, -d2,
+    each with +spin, then each with -spin, in the unit [m] of the arguments.
+    """
+    sliding = (slip_1, slip_2, -slip_1, -slip_2)
+    return (*(gap + slip + spin for slip in sliding), *(gap + slip - spin for slip in sliding))
+
+
+def frictionless(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
+    r""":math:`f_1 = f_2 = \tau = 0 \le f_n`: the gap [m] alone."""
+    return (gap,)
+
+
+def facets(K: int) -> ConeFunction:
+    r"""The cone of a K-sided tangential pyramid: ||(f_1, f_2)||_K / mu_v + |tau| / mu_omega <= f_n.
+
+    ||.||_K is the gauge of the regular polygon with corners on the unit circle, the first at d1.
+    The gauge of a vector is at least its length and at most its length over cos(pi / K). K = 4 is
+    the paper's cone, bit for bit. The corners' cosines and sines are data, rounded correctly to
+    float64.
+
+    Parameters
+    ----------
+    K : int
+        Number of sides, even and at least 4.
+
+    Returns
+    -------
+    callable
+        The cone's function. It returns the sides counter-clockwise about n, then +spin, -spin, in
+        the unit [m] of its arguments.
+    """
+    corners = [direction(k, K) for k in range(K)]
+
+    def rows(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
+        sides = (gap + c * slip_1 + s * slip_2 for c, s in corners)
+        return (*sides, gap + spin, gap - spin)
+
+    return rows
 
 
 @cache
@@ -64,23 +276,47 @@ def cone(name: str) -> Cone:
     ------
     StepDataError
         If there is no such cone.
+    InputError
+        If it is that of an optional part whose folder is not there.
     """
     sliding, spin = ("+d1", "+d2", "-d1", "-d2"), ("+spin", "-spin")
-    named = {
-        PYRAMID: (sliding + spin, 4),
-        ELLIPSOID: (("n", "d1", "d2", "spin"), 4),
-        "product": (tuple(d + s for s in spin for d in sliding), 4),
-        "frictionless": (("n",), 1),
-    }
-    if name in named:
-        return Cone(name, *named[name])
+    if name == PYRAMID:
+        return Cone(name, sliding + spin, 4, pyramid)
+    if name == "product":
+        return Cone(name, tuple(d + s for s in spin for d in sliding), 4, product)
+    if name == "frictionless":
+        return Cone(name, ("n",), 1, frictionless)
+    if name == ELLIPSOID:
+        curved: Cone = needed_part("ellipsoid.cone", f'cone = "{name}"').ELLIPSOID_CONE
+        return curved
     prefix, _, sides = str(name).partition("-")
     if prefix == "facets" and sides.isascii() and sides.isdecimal() and str(int(sides)) == sides:
         K = int(sides)
         if K % 2 == 0 and 4 <= K <= MOST_FACETS:
-            return Cone(name, tuple(f"side {k}" for k in range(K)) + spin, K)
+            return Cone(name, tuple(f"side {k}" for k in range(K)) + spin, K, facets(K))
     problem = f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}"
     raise StepDataError(f"{problem}{nearest_name(str(name), CONES)}", field="cone", value=name)
+
+
+def cone_function(name: str) -> ConeFunction:
+    """The function of a polyhedral cone, by its name.
+
+    Raises
+    ------
+    StepDataError
+        If there is no such cone.
+    InputError
+        If it is no polyhedron: it has no rows.
+    """
+    if not cone(name).polyhedral:
+        raise InputError("has no rows", field="cone", value=name)
+    return cone(name).function
+
+
+def cone_matrix(name: str) -> Array:
+    """:attr:`Cone.matrix` of a polyhedral cone, (R, 4) [-]; errors of :func:`cone_function`."""
+    cone_function(name)
+    return cone(name).matrix
 
 
 def direction(k: int, K: int) -> tuple[float, float]:

@@ -1,6 +1,5 @@
 """The contact points of one step."""
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,79 +15,8 @@ AXES = np.eye(3)
 ROWS = {4, 6}
 
 
-class Points(Plain, Shown, ABC):
-    """The fields of contacts other than J, which a step of many bodies keeps in another form."""
-
-    name: tuple[str, ...]
-    phi: Array
-    n: Array
-    d1: Array
-    d2: Array
-    mu_v: Array
-    mu_omega: Array
-    rows: Indices
-
-    def _check(self, **own: tuple[int, ...]) -> None:
-        """Check all fields, and `own` ones of those shapes."""
-        object.__setattr__(self, "name", names(self.name, "contacts.name"))
-        n_c = len(self.name)
-        shapes = {"phi": (n_c,), "mu_v": (n_c,), "mu_omega": (n_c,)}
-        vectors = dict.fromkeys(("n", "d1", "d2"), (n_c, 3))
-        freeze(self, {**shapes, **vectors, **own}, "contacts.")
-        self._check_rows(n_c)
-        self._check_friction()
-        self._check_frames(n_c)
-
-    @property
-    @abstractmethod
-    def n_v(self) -> int:
-        """Number of columns of J."""
-
-    @abstractmethod
-    def motion(self, delta_q: Array) -> Array:
-        """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
-
-    @property
-    def n_c(self) -> int:
-        """Number of contacts."""
-        return len(self.name)
-
-    @cached_property
-    def mu(self) -> Array:
-        """(mu_v, mu_v, mu_omega) of each contact, shape (n_c, 3), 0 where it is not used."""
-        return friction_coefficients(self.mu_v, self.mu_omega, self.rows)
-
-    def _check_rows(self, n_c: int) -> None:
-        whole = isinstance(self.rows, np.ndarray) and self.rows.dtype == np.int64
-        rows = self.rows if whole else numbers(self.rows, "contacts.rows")
-        if rows.shape != (n_c,) or not set(rows.tolist()) <= ROWS:
-            problem = "must be 4 or 6 for each contact"
-            raise StepDataError(problem, field="contacts.rows", value=rows.tolist())
-        if rows.flags.writeable or not whole:
-            object.__setattr__(self, "rows", read_only(rows.astype(np.int64)))
-
-    def _check_friction(self) -> None:
-        for key in ("mu_v", "mu_omega"):
-            mu = getattr(self, key)
-            if mu.min(initial=0.0) < 0:
-                j = int(mu.argmin())
-                field = f"contacts[{self.name[j]}].{key}"
-                raise StepDataError("must be >= 0", field=field, value=float(mu[j]))
-
-    def _check_frames(self, n_c: int) -> None:
-        axes = np.array([self.d1, self.d2, self.n])
-        # Not by matmul, which warns where numbers overflow: such axes are refused below.
-        defect = np.abs(np.einsum("aci,bci->cab", axes, axes) - AXES)
-        right_handed = np.linalg.det(axes.transpose(1, 0, 2)) > 0
-        if n_c and not (defect.max() <= ORTHONORMAL and right_handed.all()):
-            j = int((~(defect.max(axis=(1, 2)) <= ORTHONORMAL) | ~right_handed).argmax())
-            problem, field = "d1, d2, n must be a right-handed orthonormal frame", self.name[j]
-            value = axes[:, j].tolist()
-            raise StepDataError(problem, field=f"contacts[{field}]", value=value)
-
-
 @dataclass(frozen=True, eq=False, repr=False)
-class Contacts(Points):
+class Contacts(Plain, Shown):
     """The contact points of one step.
 
     Parameters
@@ -131,6 +59,21 @@ class Contacts(Points):
     def __post_init__(self) -> None:
         self._check(J=(len(self.name), 4, columns(self.J, "contacts.J", 3)))
 
+    def _check(self, **shapes: tuple[int, ...]) -> None:
+        """Check all fields but J, and those of the `shapes`."""
+        object.__setattr__(self, "name", names(self.name, "contacts.name"))
+        n_c = len(self.name)
+        shapes |= {"phi": (n_c,), "mu_v": (n_c,), "mu_omega": (n_c,)}
+        vectors = dict.fromkeys(("n", "d1", "d2"), (n_c, 3))
+        freeze(self, {**shapes, **vectors}, "contacts.")
+        self._check_rows(n_c)
+        self._check_friction()
+        self._check_frames(n_c)
+
+    def checked(self) -> "Contacts":
+        """Contacts of the same numbers, each of which has been checked: these themselves."""
+        return self
+
     @property
     def n_v(self) -> int:
         """Number of columns of J."""
@@ -140,9 +83,43 @@ class Contacts(Points):
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
         return self.J @ delta_q
 
-    def dense(self) -> "Contacts":
-        """These contacts themselves; others form all of J."""
-        return self
+    @property
+    def n_c(self) -> int:
+        """Number of contacts."""
+        return len(self.name)
+
+    @cached_property
+    def mu(self) -> Array:
+        """(mu_v, mu_v, mu_omega) of each contact, shape (n_c, 3), 0 where it is not used."""
+        return friction_coefficients(self.mu_v, self.mu_omega, self.rows)
+
+    def _check_rows(self, n_c: int) -> None:
+        whole = isinstance(self.rows, np.ndarray) and self.rows.dtype == np.int64
+        rows = self.rows if whole else numbers(self.rows, "contacts.rows")
+        if rows.shape != (n_c,) or not set(rows.tolist()) <= ROWS:
+            problem = "must be 4 or 6 for each contact"
+            raise StepDataError(problem, field="contacts.rows", value=rows.tolist())
+        if rows.flags.writeable or not whole:
+            object.__setattr__(self, "rows", read_only(rows.astype(np.int64)))
+
+    def _check_friction(self) -> None:
+        for key in ("mu_v", "mu_omega"):
+            mu = getattr(self, key)
+            if mu.min(initial=0.0) < 0:
+                j = int(mu.argmin())
+                field = f"contacts[{self.name[j]}].{key}"
+                raise StepDataError("must be >= 0", field=field, value=float(mu[j]))
+
+    def _check_frames(self, n_c: int) -> None:
+        axes = np.array([self.d1, self.d2, self.n])
+        # Not by matmul, which warns where numbers overflow: such axes are refused below.
+        defect = np.abs(np.einsum("aci,bci->cab", axes, axes) - AXES)
+        right_handed = np.linalg.det(axes.transpose(1, 0, 2)) > 0
+        if n_c and not (defect.max() <= ORTHONORMAL and right_handed.all()):
+            j = int((~(defect.max(axis=(1, 2)) <= ORTHONORMAL) | ~right_handed).argmax())
+            problem, field = "d1, d2, n must be a right-handed orthonormal frame", self.name[j]
+            value = axes[:, j].tolist()
+            raise StepDataError(problem, field=f"contacts[{field}]", value=value)
 
 
 def friction_coefficients(mu_v: Array, mu_omega: Array, rows: Indices) -> Array:

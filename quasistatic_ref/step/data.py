@@ -28,7 +28,7 @@ from quasistatic_ref.step.arrays import (
 )
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.cones import cone as cone_of
-from quasistatic_ref.step.contacts import Contacts, Points
+from quasistatic_ref.step.contacts import Contacts
 
 __all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "StepData"]
 
@@ -130,7 +130,7 @@ class StepData(Plain, Shown):
     tau_a: Array
     tau_u: Array
     delta_q_bar_a: Array
-    contacts: Contacts  # or other Points
+    contacts: Contacts
     cone: str
     extra: Extra
 
@@ -142,7 +142,7 @@ class StepData(Plain, Shown):
         tau_a: ArrayLike,
         tau_u: ArrayLike,
         delta_q_bar_a: ArrayLike,
-        contacts: Points,
+        contacts: Contacts,
         cone: str = PYRAMID,
         extra: Extra | None = None,
     ) -> None:
@@ -157,14 +157,12 @@ class StepData(Plain, Shown):
             "tau_a": frozen(tau_a, "tau_a", (n_a,)),
             "tau_u": frozen(tau_u, "tau_u", (n_u,)),
             "delta_q_bar_a": frozen(delta_q_bar_a, "delta_q_bar_a", (n_a,)),
-            "contacts": contacts,
             "cone": cone,
             "extra": extra,
         }
-        if not isinstance(contacts, Points):
+        if not isinstance(contacts, Contacts):
             raise StepDataError("must be Contacts", field="contacts", value=contacts)
-        if type(contacts) is not (checks := contacts.compared_as()):  # posed by a simulator
-            checked["contacts"] = checks(**field_values(contacts))
+        checked["contacts"] = contacts.checked()
         for key, found in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
             if found != n_v:
                 problem = f"must have n_a + n_u = {n_v} columns"

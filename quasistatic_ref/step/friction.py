@@ -1,136 +1,14 @@
-r"""Polyhedral friction cones, each one function of a contact's gap, slip_1, slip_2 and spin.
+"""Rows and wrenches of contacts in their friction cone; the cones: see :mod:`.cones`."""
 
-These are phi + J_n delta_q, mu_v J_1 delta_q, mu_v J_2 delta_q and mu_omega J_w delta_q: the gap
-after the step; and the sliding along d1 and d2 and the rotation about n, each multiplied by its
-coefficient of friction. All four are lengths. A cone's function returns what must not be negative,
-one entry for each of its rows. It only adds, subtracts and multiplies by float64 numbers. Therefore
-it returns
-
-- given numbers, the slacks of Eq. :eq:`eq-10`;
-- given CVXPY expressions, the left sides of the constraints, Eq. :eq:`eq-4`;
-- given the rows J_n, mu_v J_1, mu_v J_2 and mu_omega J_w, the rows of A, Eq. :eq:`eq-8`, in floats
-  or in exact numbers;
-- given n~, mu_v d1, mu_v d2 and [0; mu_omega], the directions n~ + d~_i of Eqs.
-  :eq:`eq-5`-:eq:`eq-7`.
-
-Multipliers >= 0 of the rows combine to a contact force inside of the cone; each function states the
-inequality that these forces satisfy. Where mu_v (or mu_omega) is 0, \|f\|/mu <= f_n means f = 0. A
-contact whose mu_omega is not used has the leading rows only, and a spin of zero. The ellipsoid is
-no polyhedron and has no such function: its four rows are J_n, J_1, J_2 and J_w themselves.
-"""
-
-from collections.abc import Callable
-from functools import cache
-from typing import Any, TypeAlias
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone, direction
+from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import row_layout
-
-Rows: TypeAlias = "tuple[Any, ...]"
-ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
-
-
-def pyramid(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
-    r"""The paper's cone: :math:`|f_1|/\mu_v + |f_2|/\mu_v + |\tau|/\mu_\omega \le f_n`.
-
-    An octahedron: the rows of a contact share one normal force. The rows are +d1, +d2, -d1, -d2,
-    +spin, -spin, in the unit of the arguments, for example [m].
-    """
-    return (
-        gap + slip_1,  # Eq. (5)
-        gap + slip_2,
-        gap - slip_1,  # Eq. (6)
-        gap - slip_2,
-        gap + spin,  # Eq. (7)
-        gap - spin,
-    )
-
-
-def product(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
-    r""":math:`|f_1|/\mu_v + |f_2|/\mu_v \le f_n` and :math:`|\tau|/\mu_\omega \le f_n`.
-
-    Tangential force and torque do not reduce each other's limit. The rows are +d1, +d2, -d1, -d2,
-    each with +spin, then each with -spin, in the unit [m] of the arguments.
-    """
-    sliding = (slip_1, slip_2, -slip_1, -slip_2)
-    return (*(gap + slip + spin for slip in sliding), *(gap + slip - spin for slip in sliding))
-
-
-def frictionless(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
-    r""":math:`f_1 = f_2 = \tau = 0 \le f_n`: the gap [m] alone."""
-    return (gap,)
-
-
-@cache
-def facets(K: int) -> ConeFunction:
-    r"""The cone of a K-sided tangential pyramid: ||(f_1, f_2)||_K / mu_v + |tau| / mu_omega <= f_n.
-
-    ||.||_K is the gauge of the regular polygon with corners on the unit circle, the first at d1.
-    The gauge of a vector is at least its length and at most its length over cos(pi / K). K = 4 is
-    the paper's cone, bit for bit. The corners' cosines and sines are data, rounded correctly to
-    float64.
-
-    Parameters
-    ----------
-    K : int
-        Number of sides, even and at least 4.
-
-    Returns
-    -------
-    callable
-        The cone's function. It returns the sides counter-clockwise about n, then +spin, -spin, in
-        the unit [m] of its arguments.
-    """
-    corners = [direction(k, K) for k in range(K)]
-
-    def rows(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
-        sides = (gap + c * slip_1 + s * slip_2 for c, s in corners)
-        return (*sides, gap + spin, gap - spin)
-
-    return rows
-
-
-CONES: dict[str, ConeFunction] = {
-    PYRAMID: pyramid,
-    "product": product,
-    "frictionless": frictionless,
-}
-
-
-def cone_function(name: str) -> ConeFunction:
-    """The function of a polyhedral cone, by its name.
-
-    Raises
-    ------
-    StepDataError
-        If there is no such cone.
-    InputError
-        For the ellipsoid: one second-order cone, gap >= ||(slip_1, slip_2, spin)||, has no rows.
-    """
-    if not cone(name).polyhedral:
-        raise InputError("has no rows", field="cone", value=name)
-    return CONES[name] if name in CONES else facets(int(name.removeprefix("facets-")))
-
-
-@cache
-def cone_matrix(name: str) -> Array:
-    """Coefficients of the rows of a polyhedral cone: what its function makes of unit vectors.
-
-    Returns
-    -------
-    ndarray, shape (R, 4)
-        Of gap, slip_1, slip_2 and spin [-]. The admissible (f_1, f_2, tau) at f_n = 1, in units of
-        (mu_v, mu_v, mu_omega), are the convex hull of the R rows without their first entries; the
-        limit surface is its boundary.
-    """
-    matrix = np.stack(cone_function(name)(*np.eye(4)))
-    matrix.setflags(write=False)
-    return matrix
 
 
 def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, Array]:
@@ -161,7 +39,7 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
     ----------
     contacts : Contacts
     name : str
-        The cone. For the ellipsoid, which has no inequality rows: J_n, J_1, J_2 and J_w.
+        The cone. A curved one has no inequality rows: J_n, J_1, J_2 and J_w.
 
     Returns
     -------
@@ -175,22 +53,20 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
 def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
     """Eq. :eq:`eq-4` for any columns of J, shape (n_c, 4, w): all of them, or those of blocks."""
     J_n, J_1, J_2, J_w = frame_jacobian(contacts, J)
-    if name == ELLIPSOID:
-        return np.stack([J_n, J_1, J_2, J_w], axis=1)
-    mu_v, _, mu_omega = contacts.mu.T[:, :, None]
-    rows = cone_function(name)(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
+    kind = cone(name)
+    mu_v, _, mu_omega = kind.in_rows(contacts.mu).T[:, :, None]
+    rows = kind.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
     return np.array(rows).swapaxes(0, 1)
 
 
 def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
-    """The constant term of each row [m]: phi; in the ellipsoid phi in the row J_n, 0 in the others.
+    """The constant term of each row [m]: phi; in a curved cone phi in the row J_n, otherwise 0.
 
     Returns
     -------
     ndarray, shape (n_c, R)
     """
-    of_gap = np.eye(4)[0] if name == ELLIPSOID else cone_matrix(name)[:, 0]
-    return np.asarray(contacts.phi[:, None] * of_gap)
+    return np.asarray(contacts.phi[:, None] * cone(name).matrix[:, 0])
 
 
 def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
@@ -200,7 +76,7 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     ----------
     contacts : Contacts
     lam : ndarray, shape (m,)
-        Multipliers, contact-major [N s]; in the ellipsoid each contact's impulse (n, d1, d2, spin).
+        Multipliers, contact-major [N s]; in a curved cone each contact's impulse (n, d1, d2, spin).
     h : float
         Time step [s].
     name : str
@@ -212,12 +88,51 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
         (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m]: a force at the point beta, and a torque
         about n.
     """
-    if name == ELLIPSOID:
-        return lam.reshape(-1, 4)[:, [1, 2, 0, 3]] / h
+    kind = cone(name)
+    wrench: Array = _wrenches(
+        _impulses(contacts, lam, name), kind.matrix, kind.in_rows(contacts.mu)
+    )
+    return wrench / h
+
+
+def rounded_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
+    """The combination of :func:`contact_wrenches`, each number rounded once, as files have it.
+
+    Parameters
+    ----------
+    contacts, lam, h, name
+        As in :func:`contact_wrenches`; lam is finite.
+
+    Returns
+    -------
+    ndarray, shape (n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) [N, N m]: each the float64 nearest to the exact combination, which
+        ``contact_wrenches`` may miss by the rounding of its sums; infinite beyond float64's range.
+    """
+    kind = cone(name)
+    exact = np.frompyfunc(Fraction, 1, 1)
+    impulses, mu = _impulses(contacts, lam, name), kind.in_rows(contacts.mu)
+    wrench = _wrenches(exact(impulses), exact(kind.matrix), exact(mu)) / Fraction(h)
+    return np.array([_nearest(x) for x in wrench.ravel()]).reshape(-1, 4) + 0.0
+
+
+def _impulses(contacts: Contacts, lam: Array, name: str) -> Array:
+    """The multiplier of each row of the cone, shape (n_c, R) [N s]; 0 where a contact lacks it."""
     mask = row_layout(name, contacts.rows.tobytes()).mask
     impulses = np.zeros(mask.shape)
     impulses[mask] = lam
-    f_n, f_d1, f_d2, tau_n = (impulses @ cone_matrix(name)).T
-    mu_v, _, mu_omega = contacts.mu.T
-    wrench = np.array([mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n])
-    return wrench.T / h
+    return impulses
+
+
+def _wrenches(impulses: Any, matrix: Any, mu: Any) -> Any:
+    """Wrenches times h, shape (n_c, 4) [N s, N m s], of `impulses` (n_c, R), in any numbers."""
+    f_n, f_d1, f_d2, tau_n = (impulses @ matrix).T
+    mu_v, _, mu_omega = mu.T
+    return np.array([mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n]).T
+
+
+def _nearest(x: Fraction) -> float:
+    try:
+        return float(x)
+    except OverflowError:
+        return float("inf") if x > 0 else float("-inf")

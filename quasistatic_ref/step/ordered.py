@@ -20,7 +20,17 @@ ZXY = np.array([2, 0, 1])
 
 
 def total(terms: Iterable[Array]) -> Array:
-    """The sum of arrays of one shape, at least one, from the first to the last [their unit]."""
+    """The sum of arrays, from the first to the last.
+
+    Parameters
+    ----------
+    terms : iterable of ndarray
+        At least one, all of one shape [one unit].
+
+    Returns
+    -------
+    ndarray, of their shape
+    """
     return np.asarray(reduce(add, terms))
 
 
@@ -32,6 +42,7 @@ def product(A: Array, B: Array) -> Array:
     A : ndarray, shape (..., m, k) or (k,)
         [any unit].
     B : ndarray, shape (..., k, n) or (k,)
+        [any unit].
 
     Returns
     -------

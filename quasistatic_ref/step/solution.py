@@ -99,7 +99,7 @@ class SolverStatistics(NamedTuple):
     engine: str = "cvxpy"
 
 
-@dataclass(frozen=True, eq=False, init=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class StepSolution(Plain, Shown):
     """The optimum of Eq. :eq:`eq-13`.
 
@@ -132,20 +132,9 @@ class StepSolution(Plain, Shown):
     certificate: Certificate
     statistics: SolverStatistics = field(compare=False)
 
-    def __init__(
-        self,
-        delta_q: Array,
-        lam: Array,
-        lam_extra: Array,
-        step: StepData,
-        backend: str,
-        certificate: Certificate,
-        statistics: SolverStatistics,
-    ) -> None:
-        for array in (delta_q, lam, lam_extra):
+    def __post_init__(self) -> None:
+        for array in (self.delta_q, self.lam, self.lam_extra):
             array.setflags(write=False)
-        vars(self).update(delta_q=delta_q, lam=lam, lam_extra=lam_extra, step=step)
-        vars(self).update(backend=backend, certificate=certificate, statistics=statistics)
 
     @cached_property
     def wrench(self) -> Array:

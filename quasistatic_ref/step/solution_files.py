@@ -15,30 +15,14 @@ import numpy as np
 from quasistatic_ref.errors import StepDataError, about_file
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import json_read, json_text
-from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
+from quasistatic_ref.step.cones import CLAIMS, PYRAMID, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
-from quasistatic_ref.step.rounded_wrench import rounded_wrenches
+from quasistatic_ref.step.friction import rounded_wrenches
 from quasistatic_ref.step.solution import Certificate, StepSolution
 
 SOLUTION_FORMAT = "quasistatic-ref/solution"
 VERSION = 2
-CLAIMS: dict[str, tuple[str, ...]] = {
-    "exact": (
-        "active", "multipliers_unique", "differentiable", "smallest_inactive_slack",
-        "smallest_active_multiplier", "error_bound",
-    ),
-    "residual": ("error_bound",),
-    "none": (),
-}  # fmt: skip
-"""What a certificate of each kind holds, in a polyhedral cone."""
-ELLIPSOID_CLAIMS: dict[str, tuple[str, ...]] = {
-    "exact": ("active", "error_bound", "gap"),
-    "enclosure": ("error_bound", "gap"),
-    "residual": (),
-    "none": (),
-}
-"""What a certificate of each kind holds in the ellipsoid."""
 MAY_BE_NULL = {
     ("exact", "smallest_inactive_slack"),
     ("exact", "smallest_active_multiplier"),
@@ -47,11 +31,7 @@ MAY_BE_NULL = {
 """Numbers that may be missing: of a step without idle rows, or without active rows, or of an answer
 without a bound."""
 VERSION_1_UNCHECKED = ("backend", "wrench", "certificate.residuals")
-"""Fields of a file of version 1 that nothing proves; in the ellipsoid the next ones as well."""
-VERSION_1_ELLIPSOID = (
-    "lam", "lam_extra", "certificate.multipliers_unique", "certificate.differentiable",
-    "certificate.smallest_inactive_slack", "certificate.smallest_active_multiplier",
-)  # fmt: skip
+"""Fields of a file of version 1 that nothing proves; in some cones there are more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,11 +60,6 @@ class SolutionFile:
     unchecked: tuple[str, ...] = ()
 
 
-def claims_in(cone: str) -> dict[str, tuple[str, ...]]:
-    """The kinds of certificate in a cone, each with the names of its further fields."""
-    return ELLIPSOID_CLAIMS if cone == ELLIPSOID else CLAIMS
-
-
 def solution_text(solution: StepSolution) -> str:
     """The solution of a step as one line of JSON.
 
@@ -102,7 +77,7 @@ def solution_text(solution: StepSolution) -> str:
         "lam_extra": lam_extra,
         "wrench": rounded_wrenches(step.contacts, lam, step.h, step.cone),
         "certificate": {"kind": kind}
-        | {name: getattr(certificate, name) for name in claims_in(step.cone)[kind]},
+        | {name: getattr(certificate, name) for name in cone(step.cone).claims[kind]},
     }
     return json_text(record) + "\n"
 
@@ -152,13 +127,12 @@ def _solution(top: Fields, step: StepData) -> SolutionFile:
         return SolutionFile(farkas=tuple(farkas), unchecked=("backend",) if first else ())
     lam = _nested(top, step)
     claims = top.table("certificate")
-    more = VERSION_1_ELLIPSOID if step.cone == ELLIPSOID else ()
     solution = SolutionFile(
         delta_q=top.array("delta_q", (step.n_v,)),
         lam=np.concatenate([lam, top.array("lam_extra", (len(step.extra.names),))]),
         wrench=top.array("wrench", (step.contacts.n_c, 4)),
         certificate=(_first_certificate if first else _certificate)(claims, step),
-        unchecked=(*VERSION_1_UNCHECKED, *more) if first else (),
+        unchecked=(*VERSION_1_UNCHECKED, *cone(step.cone).unproved) if first else (),
     )
     top.close()
     return solution
@@ -174,7 +148,7 @@ def _nested(top: Fields, step: StepData) -> Array:
 
 
 def _certificate(table: Fields, step: StepData) -> Certificate:
-    known = claims_in(step.cone)
+    known = cone(step.cone).claims
     kind = table.text("kind", choices=tuple(known))
     claims: dict[str, Any] = {
         name: _claim(table, name, (kind, name) in MAY_BE_NULL) for name in known[kind]

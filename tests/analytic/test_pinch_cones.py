@@ -24,7 +24,7 @@ THRESHOLDS = {
         slide / np.cos(np.pi / 6) + spin
     ),  # (R24): d2 is a side's middle
 }
-OFFSETS = (0.0, 0.005, 0.02, 0.05)
+OFFSETS = (0.0, 0.02)
 
 
 def threshold(name, d):
@@ -44,14 +44,9 @@ def slipped(name, d, grip):
 
 @pytest.mark.parametrize("name", THRESHOLDS)
 @pytest.mark.parametrize("d", OFFSETS)
-def test_above_the_threshold_nothing_slips_at_all(name, d):
+def test_it_slips_below_the_threshold_and_not_at_all_above_it(name, d):
     still = slipped(name, d, threshold(name, d) * (1 + THRESHOLD))
     np.testing.assert_allclose(still, 0.0, rtol=EXACT, atol=EXACT)
-
-
-@pytest.mark.parametrize("name", THRESHOLDS)
-@pytest.mark.parametrize("d", OFFSETS)
-def test_below_the_threshold_it_slips(name, d):
     assert np.abs(slipped(name, d, threshold(name, d) * (1 - THRESHOLD))).max() > 1e-12
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from flint import fmpz_mat
 
-from quasistatic_ref.certify import balls
+from quasistatic_ref.certify import point
 
 
 def determinant(H):
@@ -36,7 +36,7 @@ def test_definiteness_is_what_the_leading_minors_say():
     said = []
     for _ in range(300):
         H = symmetric(rng, int(rng.integers(1, 5)), -4, 5)
-        said.append(balls.positive_definite(fmpz_mat(H)))
+        said.append(point.positive_definite(fmpz_mat(H)))
         assert said[-1] == by_minors(H)
     assert {True, False} == set(said)
 
@@ -56,13 +56,13 @@ def test_definiteness_is_what_the_leading_minors_say():
     ],
 )
 def test_pivots_that_balls_leave_open_are_decided_by_minors(H, definite):
-    assert balls.positive_definite(fmpz_mat(H)) == definite
+    assert point.positive_definite(fmpz_mat(H)) == definite
 
 
 def test_pivots_that_balls_decide_need_no_minors(monkeypatch):
     def refused(H):
         raise AssertionError("the minors were formed")
 
-    monkeypatch.setattr(balls, "_minors_positive", refused)
-    assert balls.positive_definite(fmpz_mat([[4, 2], [2, 2]]))
-    assert not balls.positive_definite(fmpz_mat([[1, 2], [2, 1]]))
+    monkeypatch.setattr(point, "_minors_positive", refused)
+    assert point.positive_definite(fmpz_mat([[4, 2], [2, 2]]))
+    assert not point.positive_definite(fmpz_mat([[1, 2], [2, 1]]))

@@ -1,17 +1,15 @@
 """Contradictory steps: the proof, its words, and steps that are only nearly contradictory."""
 
-from dataclasses import replace
 from fractions import Fraction as F
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact_step import exact_step, relative_length, well_posed
+from quasistatic_ref.certify.exact import exact_step, relative_length
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
-from quasistatic_ref.lab.scenes.rigid import actuated_step, free_step
+from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import ILL_POSED
 
@@ -52,19 +50,6 @@ def test_single_row_that_nothing_satisfies_is_named_alone():
     step = point_between_walls([EAST], [1.0]).replace(extra=extra)
     with pytest.raises(StepInfeasible, match=r"extra \(my limit\) cannot be satisfied"):
         exact_step(step)
-
-
-@pytest.mark.parametrize("factor", [0.25, 4.0])
-def test_largest_entry_of_a_proof_is_one(factor):
-    """Of x >= 1 and -f x >= 0, the proof is y = (f, 1) but for a factor."""
-    extra = Extra(("one", "two"), np.array([[1.0, 0, 0], [-factor, 0, 0]]), np.array([1.0, 0.0]))
-    step = point_between_walls([NORTH], [1.0]).replace(extra=extra)
-    with pytest.raises(StepInfeasible) as failure:
-        exact_step(step)
-    y = [F(text) for text in failure.value.farkas.exact[-2:]]
-    assert max(y) == 1
-    assert y[0] == F(factor) * y[1]
-    assert failure.value.farkas.contradiction == float(y[0])
 
 
 def test_false_proofs_are_refused_with_a_reason():
@@ -119,26 +104,7 @@ def test_length_counts_from_the_push_that_the_step_wants(k, is_refused):
         assert exact_step(step).delta_q.tolist() == [0.0, b / e, b]
 
 
-def test_a_step_exactly_as_long_as_allowed_is_certified():
-    """H = h = 1, and the force 1 moves by 1: 1e6 is a million times as long."""
-    step = free_step(np.eye(1), [1.0], no_contacts(1), 1.0)
-    optimum, norm = exact_step(step), energy_norm(np.eye(1))
-    assert optimum.delta_q.tolist() == [1.0]
-    longest = replace(optimum, delta_q=np.array([ILL_POSED]))
-    assert well_posed(step, longest, norm, 0.0) is longest
-    longer = replace(optimum, delta_q=np.nextafter(longest.delta_q, np.inf))
-    with pytest.raises(StepIllPosed):
-        well_posed(step, longer, norm, 0.0)
-
-
-def test_a_row_without_coefficients_asks_for_nothing():
-    """0 x >= 0 holds; out of the wall it is 1 mm, the length that counts."""
-    nothing = Extra(("nothing",), np.zeros((1, 3)), np.zeros(1))
-    step = point_between_walls([EAST], [-1e-3]).replace(extra=nothing)
-    assert exact_step(step).delta_q.tolist() == [1e-3, 0.0, 0.0]
-
-
-@pytest.mark.parametrize("force", [0.0, 1e-12, 1e-300])
+@pytest.mark.parametrize("force", [0.0, 1e-300])
 def test_push_out_is_not_ill_posed_however_small_the_forces(force):
     step = point_between_walls([EAST], [-1e-3], force=(0.0, 0.0, force))
     optimum = exact_step(step)
@@ -178,12 +144,3 @@ def test_length_is_relative_to_the_largest_of_the_loads(target, tau_a, tau_u):
     largest = np.sqrt(2) * max(target, tau_a, tau_u)
     delta_q = np.array([5.0, 0.0])
     assert relative_length(step, delta_q) == pytest.approx(np.sqrt(2) * 5 / largest, rel=1e-12)
-
-
-@pytest.mark.parametrize("target", [(3.0, 4.0), (0.0, 3.0)])
-def test_all_coordinates_of_the_target_count(target):
-    """K_q = 4, h = 1/2, so H = 2 in both: the target alone moves to itself."""
-    none = np.zeros(2)
-    step = actuated_step(4 * np.eye(2), none, target, no_contacts(2), 0.5)
-    found = relative_length(step, np.array([0.0, 10.0]))
-    assert found == pytest.approx(10 / np.hypot(*target), rel=1e-12)

@@ -5,12 +5,11 @@ import subprocess
 
 import pytest
 
-from quasistatic_ref.cli import options
 from quasistatic_ref.cli.main import COMMANDS, command_parser, main
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.study.file.study_file import study_names
-from quasistatic_ref.solve.backends import CERTIFY, installed_backends
+from quasistatic_ref.solve.backends import installed_backends
 from quasistatic_ref.step.cones import CONES, cone
 
 
@@ -83,7 +82,3 @@ def test_other_shells_get_the_same_words(capsys, shell):
     assert main(["completion", shell]) == 0
     script = capsys.readouterr().out
     assert all(word in script for word in (*COMMANDS, *scenario_names(), "resume", "daqp"))
-
-
-def test_what_the_command_line_says_of_certificates_is_so():
-    assert options.CERTIFY == CERTIFY

@@ -11,14 +11,15 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.placed_shape import (
     Box,
     Capsule,
+    Cone,
     Cylinder,
+    Ellipsoid,
     HalfSpace,
     PointCloud,
     Sphere,
 )
 from tests.tolerances import (
-    BRUTE_FORCE,
-    COAL,
+    CLOSED_FORM,
     DIFFERENCE,
     DIFFERENCE_STEP,
     EXACT,
@@ -62,19 +63,6 @@ def cylinder_distance(shape, point):
     return max(beyond_side, beyond_cap)
 
 
-def cylinder_surface(shape, spacing):
-    """Points of a cylinder's surface, no more than `spacing` apart."""
-    turns = np.arange(0, 2 * np.pi, spacing / shape.radius)
-    z = np.arange(-shape.half_length, shape.half_length + spacing / 2, spacing)
-    t, side = np.meshgrid(turns, z)
-    points = [np.stack([shape.radius * np.cos(t), shape.radius * np.sin(t), side], -1)]
-    t, r = np.meshgrid(turns, np.append(np.arange(0, shape.radius, spacing), shape.radius))
-    for end in (-1, 1):
-        cap = np.full(t.shape, end * shape.half_length)
-        points.append(np.stack([r * np.cos(t), r * np.sin(t), cap], -1))
-    return np.concatenate([p.reshape(-1, 3) for p in points])
-
-
 @pytest.mark.parametrize("name", BY_COAL)
 def test_a_distance_is_coal_s_point_by_point(name, rng):
     shape, points = SHAPES[name], rng.uniform(-0.8, 0.8, size=(400, 3))
@@ -89,34 +77,12 @@ def test_a_distance_is_coal_s_point_by_point(name, rng):
         )
 
 
-def test_outside_a_cylinder_a_distance_is_coal_s(rng):
-    shape, points = SHAPES["cylinder"], rng.uniform(-0.8, 0.8, size=(400, 3))
-    phi, _ = signed_distance(shape, points)
-    for i in np.flatnonzero(phi > 0):
-        expected_phi, _ = asked_of_coal(shape, points[i])
-        np.testing.assert_allclose(phi[i], expected_phi, rtol=EXACT, atol=COAL)
-
-
 def test_a_cylinder_s_distance_is_that_in_the_plane_of_radius_and_height(rng):
     shape, points = SHAPES["cylinder"], rng.uniform(-0.5, 0.5, size=(2000, 3))
     phi, _ = signed_distance(shape, points)
     expected = [cylinder_distance(shape, point) for point in points.tolist()]
     assert min(expected) < -0.1
     np.testing.assert_allclose(phi, expected, rtol=EXACT, atol=SIGNED_DISTANCE)
-
-
-def test_inside_a_cylinder_no_point_of_its_surface_is_nearer(rng):
-    shape = Cylinder(0.05, 0.04)
-    surface = cylinder_surface(shape, spacing=1e-3)
-    polar, z = rng.uniform(0, 1, size=(60, 2)), rng.uniform(-0.04, 0.04, size=60)
-    r, turn = 0.05 * np.sqrt(polar[:, 0]), 2 * np.pi * polar[:, 1]
-    points = np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
-    phi, _ = signed_distance(shape, points)
-    assert (phi < 0).all()
-    for i, point in enumerate(points):
-        nearest = min(np.linalg.norm(surface - point, axis=1))
-        assert -phi[i] <= nearest + SIGNED_DISTANCE
-        np.testing.assert_allclose(-phi[i], nearest, rtol=EXACT, atol=BRUTE_FORCE)
 
 
 @pytest.mark.parametrize("name", SHAPES)
@@ -137,13 +103,6 @@ def test_the_normal_is_the_gradient_where_phi_is_smooth(name, rng):
     )
 
 
-@given(name=SHAPE, one=POINT, two=POINT)
-def test_phi_is_one_lipschitz(name, one, two):
-    phi, _ = signed_distance(SHAPES[name], np.array([one, two]))
-    apart = sum((a - b) ** 2 for a, b in zip(one, two, strict=True)) ** 0.5
-    assert abs(phi[0] - phi[1]) <= apart + SIGNED_DISTANCE
-
-
 @given(name=SHAPE, point=POINT)
 def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
     shape, points = SHAPES[name], np.array([point])
@@ -156,22 +115,15 @@ def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
 DEGENERATE = {
     "centre of a sphere": ("sphere", (0, 0, 0), -0.3, (1, 0, 0)),
     "centre of a sphere, by -0.0": ("sphere", (-0.0, -0.0, -0.0), -0.3, (1, 0, 0)),
-    "centre of a box, by -0.0": ("box", (-0.0, -0.0, -0.0), -0.2, (1, 0, 0)),
-    "on a sphere": ("sphere", (0, 0.3, 0), 0.0, (0, 1, 0)),
     "middle of a capsule": ("capsule", (0, 0, 0), -0.2, (1, 0, 0)),
-    "end of a capsule's segment": ("capsule", (0, 0, 0.3), -0.2, (1, 0, 0)),
-    "a capsule's pole": ("capsule", (0, 0, -0.5), 0.0, (0, 0, -1)),
     "centre of a box": ("box", (0, 0, 0), -0.2, (1, 0, 0)),
     "on a face of a box": ("box", (0.1, -0.3, 0.2), 0.0, (0, -1, 0)),
     "on an edge of a box": ("box", (0.2, -0.3, 0.1), 0.0, (1, 0, 0)),
-    "on a corner of a box": ("box", (-0.2, -0.3, -0.4), 0.0, (-1, 0, 0)),
     "off an edge of a box": ("box", (0.5, 0.7, 0.0), 0.5, (0.6, 0.8, 0)),
     "off a corner of a box": ("box", (-0.3, 0.5, 0.6), 0.3, (-1 / 3, 2 / 3, 2 / 3)),
     "centre of a cylinder": ("cylinder", (0, 0, 0), -0.25, (1, 0, 0)),
     "high on a cylinder's axis": ("cylinder", (0, 0, 0.2), -0.1, (0, 0, 1)),
-    "above a cylinder": ("cylinder", (0, 0, -0.7), 0.4, (0, 0, -1)),
     "on a cylinder's rim": ("cylinder", (0, 0.25, 0.3), 0.0, (0, 1, 0)),
-    "on a cylinder's cap": ("cylinder", (0.1, 0, 0.3), 0.0, (0, 0, 1)),
     "off a cylinder's rim": ("cylinder", (0, 0.55, 0.7), 0.5, (0, 0.6, 0.8)),
     "inside a half-space": ("half-space", (0, 0, 0), -0.1, (1 / 3, -2 / 3, 2 / 3)),
 }
@@ -208,14 +160,6 @@ def test_a_point_s_distance_does_not_depend_on_its_batch(name, rng):
         np.testing.assert_allclose(alone_normal[0], normal[i], rtol=EXACT, atol=EXACT)
 
 
-@pytest.mark.parametrize("name", SHAPES)
-def test_the_points_given_are_left_as_they_are(name, rng):
-    points = rng.normal(size=(5, 3))
-    before = points.copy()
-    signed_distance(SHAPES[name], points)
-    np.testing.assert_allclose(points, before, rtol=EXACT, atol=EXACT)
-
-
 def test_a_cloud_is_no_shape_to_measure_against():
     cloud = PointCloud(np.zeros((1, 3)))
     with pytest.raises(ContactError, match=r"shape: a cloud touches .* \(got 'PointCloud'\)"):
@@ -231,10 +175,57 @@ def test_the_closest_are_those_of_a_full_stable_sort(phi, k):
     assert closest(np.array(phi), k).tolist() == expected
 
 
-def test_all_points_are_returned_where_fewer_than_k_exist():
-    assert closest(np.array([0.3, -0.1, 0.2]), 3).tolist() == [1, 2, 0]
-    assert closest(np.array([0.3, -0.1, 0.2]), 99).tolist() == [1, 2, 0]
+# In the half-plane (r, z) the side of this cone leads from the rim (0.3, -0.2) to the tip (0, 0.2):
+# a triangle of sides 3, 4 and 5, so that the side's normal is (4, 3) / 5.
+CONE = Cone(0.3, 0.2)
+BY_CONE = {
+    "off the side": ((0.15, 0.0), 0.1, (0.8, 0.6)),
+    "within the side": ((0.15, 0.0), -0.02, (0.8, 0.6)),
+    "off the tip": ((0.0, 0.2), 0.1, (0.6, 0.8)),
+    "above the tip": ((0.0, 0.2), 0.1, (0.0, 1.0)),
+    "off the rim": ((0.3, -0.2), 0.1, (0.6, -0.8)),
+    "below the middle of the base": ((0.1, -0.2), 0.7, (0.0, -1.0)),
+    "below the base, next to the rim": ((0.2, -0.2), 0.2, (0.0, -1.0)),
+    "within the base": ((0.1, -0.2), -0.01, (0.0, -1.0)),
+}
+"""The nearest point of the cone (r, z), the signed distance along the normal, and the normal."""
 
 
-def test_equal_distances_are_taken_in_order_of_index():
-    assert closest(np.zeros(1000), 5).tolist() == [0, 1, 2, 3, 4]
+@pytest.mark.parametrize(("foot", "distance", "normal"), BY_CONE.values(), ids=BY_CONE)
+def test_a_point_put_off_a_feature_of_a_cone_has_that_distance(foot, distance, normal) -> None:
+    r, z = np.add(foot, np.multiply(distance, normal))
+    for x, y in ((1.0, 0.0), (-0.6, 0.8)):  # half-planes about the axis
+        phi, n = signed_distance(CONE, np.array([[r * x, r * y, z]]))
+        np.testing.assert_allclose(phi, [distance], rtol=EXACT, atol=CLOSED_FORM)
+        turned = [normal[0] * x, normal[0] * y, normal[1]]
+        if r > 0:
+            np.testing.assert_allclose(n, [turned], rtol=EXACT, atol=CLOSED_FORM)
+        else:
+            np.testing.assert_allclose(n[0, 2], normal[1], rtol=EXACT, atol=CLOSED_FORM)
+
+
+def test_the_normal_at_a_tip_is_one_of_the_tip_whatever_is_rounded(rng) -> None:
+    """Along all generators from the tip, (radius, -2 half_length), n may not point into the cone.
+
+    So n_r radius <= 2 half_length n_z; of the side's normal the two are equal.
+    """
+    for radius, half_length in rng.uniform(0.01, 1.0, size=(500, 2)):
+        phi, n = signed_distance(Cone(radius, half_length), np.array([[0.0, 0.0, half_length]]))
+        np.testing.assert_allclose(phi, [0.0], rtol=EXACT, atol=CLOSED_FORM)
+        np.testing.assert_allclose(np.sum(n * n), 1.0, rtol=ROUNDING)
+        n_r = np.hypot(n[0, 0], n[0, 1])
+        assert n_r * radius <= 2 * half_length * n[0, 2] + CLOSED_FORM
+
+
+@pytest.mark.parametrize("z", [0.0, -0.0])
+@pytest.mark.parametrize("x", [0.0, 0.1, -0.1])
+def test_half_way_through_an_ellipsoid_the_upper_side_is_the_nearest(x, z) -> None:
+    # Near the middle of the plane z = 0 the nearest points are two, one above and one below. Of
+    # (x, 0, 0) they are at x' = a^2 x / (a^2 - c^2): there the gradient (x' / a^2, 0, z' / c^2) is
+    # parallel to the way (x' - x, 0, z').
+    a, b, c = 0.3, 0.2, 0.1
+    foot_x = a**2 * x / (a**2 - c**2)
+    way = np.array([foot_x - x, 0.0, c * np.sqrt(1 - (foot_x / a) ** 2)])
+    phi, n = signed_distance(Ellipsoid(np.array([a, b, c])), np.array([[x, 0.0, z]]))
+    np.testing.assert_allclose(phi, [-np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)
+    np.testing.assert_allclose(n, [way / np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)

@@ -1,12 +1,13 @@
 """Closest points of pairs in the world frame: methods, signs, placements, the guard on coal."""
 
-import coal
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import (
     Box,
     Capsule,
@@ -29,11 +30,6 @@ CONVEX = {
 
 
 SOLIDS = CONVEX | {"half-space": HalfSpace(np.array([1.0, 2.0, 2.0]), 0.3)}
-HARD = [
-    (a, b)
-    for a in ("box", "capsule", "cylinder", "half-space")
-    for b in ("box", "capsule", "cylinder")
-]
 
 
 def random_pose(rng, distance):
@@ -46,14 +42,6 @@ def consistent(found, atol):
     gap = found.beta - found.alpha
     np.testing.assert_allclose(gap, found.phi[:, None] * found.n, rtol=EXACT, atol=atol)
     np.testing.assert_allclose(np.linalg.norm(found.n, axis=1), 1.0, rtol=EXACT, atol=atol)
-
-
-def exchanged(one, two, atol):
-    """Two results are the same with alpha and beta exchanged."""
-    np.testing.assert_allclose(two.phi, one.phi, rtol=EXACT, atol=atol)
-    np.testing.assert_allclose(two.n, -one.n, rtol=EXACT, atol=atol)
-    np.testing.assert_allclose(two.alpha, one.beta, rtol=EXACT, atol=atol)
-    np.testing.assert_allclose(two.beta, one.alpha, rtol=EXACT, atol=atol)
 
 
 @pytest.mark.parametrize("name", SOLIDS)
@@ -79,89 +67,6 @@ def test_a_cloud_s_contacts_are_its_nearest_points_by_brute_force(name, rng):
     consistent(found, SIGNED_DISTANCE)
 
 
-@pytest.mark.parametrize("name", SOLIDS)
-def test_a_cloud_as_alpha_has_the_same_contacts_the_other_way_round(name, rng):
-    solid = placed(SOLIDS[name], 1)
-    cloud = placed(PointCloud(rng.uniform(-0.4, 0.4, size=(30, 3))), 2)
-    kinematics = standing(random_pose(rng, 0.2), random_pose(rng, 0.3))
-    one, two = (found_for(*sides, kinematics, k=5) for sides in ((solid, cloud), (cloud, solid)))
-    exchanged(one, two, EXACT)
-    assert one.point.tolist() == two.point.tolist()
-
-
-@pytest.mark.parametrize("gap", [0.2, 0.0, -0.05, -0.25])
-def test_two_spheres_have_their_closed_form_inside_one_another_too(gap, rng):
-    turned, direction = random_pose(rng, 1.0)
-    alpha, beta = placed(Sphere(0.1), 1), placed(Sphere(0.2), 2)
-    t = (0.3 + gap) * direction  # centres r1 + r2 + gap apart
-    found = found_for(alpha, beta, standing((turned, np.zeros(3)), (np.eye(3), t)))
-    np.testing.assert_allclose(found.phi, [gap], rtol=EXACT, atol=SIGNED_DISTANCE)
-    np.testing.assert_allclose(found.n, [direction], rtol=EXACT, atol=SIGNED_DISTANCE)
-    np.testing.assert_allclose(found.alpha, [0.1 * direction], rtol=EXACT, atol=SIGNED_DISTANCE)
-    np.testing.assert_allclose(found.beta, [t - 0.2 * direction], rtol=EXACT, atol=SIGNED_DISTANCE)
-
-
-@pytest.mark.parametrize("name", SOLIDS)
-def test_a_sphere_is_a_point_a_radius_away_from_every_shape(name, rng):
-    solid, radius = SOLIDS[name], 0.07
-    for distance in np.linspace(0.0, 0.6, 13):
-        R, t = random_pose(rng, distance)
-        centre, turned = random_pose(rng, 0.3)[::-1]
-        kinematics = standing((R, t), (turned, centre))
-        found = found_for(placed(solid, 1), placed(Sphere(radius), 2), kinematics)
-        to_centre, n = signed_distance(solid, (R.T @ (centre - t))[None])
-        np.testing.assert_allclose(found.phi, to_centre - radius, rtol=EXACT, atol=SIGNED_DISTANCE)
-        np.testing.assert_allclose(found.n, [R @ n[0]], rtol=EXACT, atol=SIGNED_DISTANCE)
-        expected = [centre - radius * (R @ n[0])]
-        np.testing.assert_allclose(found.beta, expected, rtol=EXACT, atol=SIGNED_DISTANCE)
-        consistent(found, SIGNED_DISTANCE)
-        swapped = found_for(placed(Sphere(radius), 2), placed(solid, 1), kinematics)
-        # Two spheres exchange which one is measured against: equal up to rounding.
-        exchanged(found, swapped, SIGNED_DISTANCE)
-        assert found.point.tolist() == [0]
-
-
-@pytest.mark.parametrize("name", ["sphere", "box", "capsule", "half-space"])
-def test_a_sphere_s_distance_is_coal_s(name, rng):
-    solid, ball = SOLIDS[name], Sphere(0.07)
-    for _ in range(50):
-        (R, t), (turned, centre) = random_pose(rng, 0.2), random_pose(rng, 0.4)
-        found = found_for(placed(solid, 1), placed(ball, 2), standing((R, t), (turned, centre)))
-        request, result = coal.DistanceRequest(), coal.DistanceResult()
-        there, here = coal.Transform3s(turned, centre), coal.Transform3s(R, t)
-        expected = coal.distance(solid.coal, here, ball.coal, there, request, result)
-        np.testing.assert_allclose(found.phi, [expected], rtol=EXACT, atol=SIGNED_DISTANCE)
-
-
-@pytest.mark.parametrize(("a", "b"), HARD, ids=[f"{a}-{b}" for a, b in HARD])
-def test_convex_pairs_are_consistent_from_either_side(a, b, rng):
-    for _ in range(20):
-        kinematics = standing(random_pose(rng, 0.0), random_pose(rng, 0.6))
-        alpha, beta = placed(SOLIDS[a], 1), placed(SOLIDS[b], 2)
-        one = found_for(alpha, beta, kinematics)
-        consistent(one, CURVED_PAIR)
-        two = found_for(beta, alpha, kinematics)
-        np.testing.assert_allclose(two.phi, one.phi, rtol=EXACT, atol=2 * CURVED_PAIR)
-
-
-def segment_distance(p, d, q, e, half_p, half_q):
-    """Least distance of two segments p + s d, q + u e by alternating exact projections."""
-    s = u = 0.0
-    for _ in range(2000):
-        s = min(max((q + u * e - p) @ d, -half_p), half_p)
-        u = min(max((p + s * d - q) @ e, -half_q), half_q)
-    return np.linalg.norm(p + s * d - q - u * e)
-
-
-def test_two_capsules_are_as_far_apart_as_their_segments_less_both_radii(rng):
-    one, two = Capsule(0.08, 0.15), Capsule(0.05, 0.1)
-    for _ in range(30):
-        (R, t), (S, u) = random_pose(rng, 0.0), random_pose(rng, 0.4)
-        found = found_for(placed(one, 1), placed(two, 2), standing((R, t), (S, u)))
-        expected = segment_distance(t, R[:, 2], u, S[:, 2], 0.15, 0.1) - 0.13
-        np.testing.assert_allclose(found.phi, [expected], rtol=EXACT, atol=CURVED_PAIR)
-
-
 STACKED = {
     "box on box": (Box(np.array([0.1, 0.1, 0.2])), 0.2),
     "capsule on box": (Capsule(0.05, 0.1), 0.15),
@@ -173,7 +78,7 @@ STACKED = {
 @pytest.mark.parametrize(("shape", "height"), STACKED.values(), ids=STACKED)
 def test_the_normal_on_a_box_is_upwards_apart_touching_or_sunk(shape, height, gap):
     table = placed(Box(np.array([1.0, 1.0, 0.5])))
-    for turn in np.linspace(0, 3, 7):
+    for turn in (0.0, 0.5, 2.0):
         R = Rotation.from_rotvec(turn * Z).as_matrix()
         pose = (R, np.array([0.1, -0.2, 0.5 + height + gap]))
         found = found_for(table, placed(shape, 1), standing(pose))
@@ -216,18 +121,6 @@ def test_a_rotated_shape_of_the_world_is_rotated():
     np.testing.assert_allclose(found.alpha, [[0.4, 0.2, 0.3]], rtol=ROUNDING)
 
 
-def test_a_point_of_a_cloud_has_the_same_bits_in_any_company(rng):
-    solid, points = placed(SOLIDS["box"], 1), rng.uniform(-0.4, 0.4, size=(20, 3))
-    kinematics = standing(random_pose(rng, 0.2), random_pose(rng, 0.3))
-    together = found_for(solid, placed(PointCloud(points), 2), kinematics, k=20)
-    for j, i in enumerate(together.point):
-        alone = found_for(solid, placed(PointCloud(points[i : i + 1]), 2), kinematics)
-        for key in ("phi", "alpha", "beta", "n"):
-            np.testing.assert_allclose(
-                getattr(alone, key)[0], getattr(together, key)[j], rtol=EXACT, atol=EXACT
-            )
-
-
 def test_pairs_follow_one_another_each_nearest_first(rng):
     floor, ball = placed(HalfSpace(Z, 0.0)), placed(Sphere(0.1), 2)
     cloud = placed(PointCloud(rng.uniform(-0.4, 0.4, size=(20, 3))), 1)
@@ -251,3 +144,9 @@ def test_no_pairs_have_no_closest_points():
     found = closest_points([], standing())
     assert found.phi.shape == found.point.shape == (0,)
     assert found.alpha.shape == found.beta.shape == found.n.shape == (0, 3)
+
+
+def test_a_pose_that_is_not_finite_is_refused() -> None:
+    still = Kinematics(np.full((1, 3, 3), np.nan), np.zeros((1, 3)), np.zeros((6, 0)))
+    with pytest.raises(ContactError, match="poses: must be finite"):
+        closest_points([], still)

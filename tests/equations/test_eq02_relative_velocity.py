@@ -74,20 +74,6 @@ def test_the_jacobian_times_a_velocity_is_the_relative_velocity(system, rng, alp
         np.testing.assert_allclose(J[0] @ v, expected, rtol=DIFFERENCE, atol=10 * DIFFERENCE)
 
 
-def test_the_sign_is_beta_minus_alpha(system):
-    q, box = system.q_start, system.link("box/box")
-    base, v = system.joint("box/base"), np.zeros(system.n_v)
-    v[base.v] = [0.3, 0.0, 0.0, 0.0, 0.0, 0.0]  # along the box's own x axis
-    kinematics = system.kinematics(q)
-    at, n = kinematics.t[[box]], np.array([[0.0, 0.0, 1.0]])
-    world, own = np.array([0]), np.array([box])
-    expected = [0.3 * kinematics.R[box][i][0] for i in range(3)]
-    as_beta = contact_jacobian(kinematics, world, own, at, at, n)[0] @ v
-    as_alpha = contact_jacobian(kinematics, own, world, at, at, n)[0] @ v
-    np.testing.assert_allclose(as_beta[:3], expected, rtol=ROUNDING, atol=ROUNDING)
-    np.testing.assert_allclose(as_alpha[:3], -as_beta[:3], rtol=ROUNDING, atol=ROUNDING)
-
-
 def test_alpha_and_beta_are_two_points_where_there_is_a_gap(system):
     # Turning at rate 1 about its own z, the box carries a point at R [r, 0, 0] along R [0, r, 0].
     q, box = system.q_start, system.link("box/box")

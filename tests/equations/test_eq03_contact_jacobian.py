@@ -6,19 +6,7 @@ import pytest
 from quasistatic_ref.contact.jacobian import contact_jacobian
 from tests.equations.test_eq02_relative_velocity import LINKS, relative_velocity
 from tests.scenes import chain_scene
-from tests.tolerances import DIFFERENCE, EXACT
-
-MOVES = {
-    "box/box": ("box/base",),
-    "arm/lower": ("arm/base", "arm/swing", "arm/spin"),
-    "arm/upper": ("arm/base", "arm/swing"),
-    "arm/follower": ("arm/base", "arm/swing", "arm/spin", "arm/slide"),
-    "arm/tool": ("arm/base", "arm/swing", "arm/spin", "arm/slide"),
-    "desk/slider": ("desk/swing", "desk/spin", "desk/slide"),
-    "desk/tool": ("desk/swing", "desk/spin", "desk/slide"),
-    "world": (),
-}
-"""Which joints move which link; a mimic moves with the joint that it follows."""
+from tests.tolerances import DIFFERENCE
 
 
 def contacts_in(system, q, rng):
@@ -65,39 +53,3 @@ def test_erratum_the_transpose_of_J_maps_wrenches_to_joint_forces(system, rng):
         np.testing.assert_allclose(
             (J[j].T @ wrench) @ v, work, rtol=DIFFERENCE, atol=10 * DIFFERENCE
         )
-
-
-def test_every_kind_of_joint_is_seen_to_move_something(system, rng):
-    q = system.integrate(system.neutral(), rng.normal(size=system.n_v))
-    J = contact_jacobian(system.kinematics(q), *contacts_in(system, q, rng))
-    assert (np.abs(J[:, :3]).max(axis=(0, 1)) > 0.05).all()
-    assert {joint.kind for joint in system.joints} == {
-        "floating", "revolute", "continuous", "prismatic",
-    }  # fmt: skip
-
-
-def test_joints_that_carry_neither_point_have_zero_columns(system, rng):
-    q = system.integrate(system.neutral(), rng.normal(size=system.n_v))
-    J = contact_jacobian(system.kinematics(q), *contacts_in(system, q, rng))
-    for j, (alpha_link, beta_link) in enumerate(LINKS.values()):
-        carried = {*MOVES[alpha_link], *MOVES[beta_link]}
-        for k, coordinate in enumerate(system.coordinates):
-            if coordinate.joint not in carried:
-                np.testing.assert_allclose(J[j, :, k], np.zeros(4), rtol=EXACT, atol=EXACT)
-
-
-def test_a_contact_does_not_depend_on_its_company(system, rng):
-    q = system.integrate(system.neutral(), rng.normal(size=system.n_v))
-    a, b, alpha, beta, n = contacts_in(system, q, rng)
-    kinematics = system.kinematics(q)
-    together = contact_jacobian(kinematics, a, b, alpha, beta, n)
-    for j in range(len(a)):
-        one = slice(j, j + 1)
-        alone = contact_jacobian(kinematics, a[one], b[one], alpha[one], beta[one], n[one])
-        np.testing.assert_allclose(alone[0], together[j], rtol=EXACT, atol=EXACT)
-
-
-def test_no_contacts_make_an_empty_jacobian(system):
-    nowhere, empty = np.zeros(0, dtype=np.int64), np.zeros((0, 3))
-    J = contact_jacobian(system.kinematics(system.q_start), nowhere, nowhere, empty, empty, empty)
-    assert J.shape == (0, 4, system.n_v)

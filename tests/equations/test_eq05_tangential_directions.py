@@ -1,11 +1,11 @@
 """Eq. (5), d~_1 and d~_2. Under test: step.problem.StepProblem.
 
-And step.friction.pyramid, the same cone for other numbers than CVXPY's.
+And step.cones.pyramid, the same cone for other numbers than CVXPY's.
 """
 
 import numpy as np
 
-from quasistatic_ref.step.friction import pyramid
+from quasistatic_ref.step.cones import pyramid
 from quasistatic_ref.step.problem import StepProblem
 from tests.helpers import random_step
 from tests.tolerances import EXACT, ROUNDING

@@ -1,12 +1,10 @@
 """Eq. (6), d~_3 and d~_4. Under test: step.problem.StepProblem.
 
-And step.friction.pyramid, the same cone for other numbers than CVXPY's.
+And step.cones.pyramid, the same cone for other numbers than CVXPY's.
 """
 
 import numpy as np
 
-from quasistatic_ref.step.friction import pyramid
-from quasistatic_ref.step.problem import StepProblem
 from tests.equations.test_eq05_tangential_directions import (
     directions_of_the_pyramid,
     shares_by_loops,
@@ -38,8 +36,3 @@ def test_they_are_what_the_third_and_fourth_constraint_add_to_the_gap(rng):
     for i, directions in enumerate(zip(*printed(step.contacts), strict=True), start=2):
         expected = shares_by_loops(step, delta_q, directions)
         np.testing.assert_allclose(shares[i], expected, rtol=ROUNDING, atol=ROUNDING)
-
-
-def test_a_contact_without_torsion_ends_with_them(rng):
-    assert len(StepProblem(random_step(rng, rows=(4, 4))).contact_rows) == 4
-    assert pyramid(1.0, 0.25, 0.5, 0.0)[:4] == (1.25, 1.5, 0.75, 0.5)

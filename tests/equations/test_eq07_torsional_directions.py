@@ -1,11 +1,11 @@
 """Eq. (7), d~_5 and d~_6. Under test: step.problem.StepProblem.
 
-And step.friction.pyramid, the same cone for other numbers than CVXPY's.
+And step.cones.pyramid, the same cone for other numbers than CVXPY's.
 """
 
 import numpy as np
 
-from quasistatic_ref.step.friction import pyramid
+from quasistatic_ref.step.cones import pyramid
 from quasistatic_ref.step.problem import StepProblem
 from tests.equations.test_eq05_tangential_directions import (
     directions_of_the_pyramid,

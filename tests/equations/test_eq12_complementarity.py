@@ -24,7 +24,7 @@ def products(step, delta_q, lam):
     return left
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_the_residual_is_the_largest_product(seed):
     rng = np.random.default_rng(seed)
     step, delta_q, lam = random_step(rng), rng.normal(size=7), rng.normal(size=16)
@@ -33,7 +33,7 @@ def test_the_residual_is_the_largest_product(seed):
     np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_slack_and_multiplier_exclude_each_other_at_the_optimum(seed):
     step, _, _ = planted_step(np.random.default_rng(seed))
     optimum = solve_step(step)

@@ -5,7 +5,7 @@ import os
 import numpy as np
 import pytest
 
-from tests.errors.scene import BALL, SCENE, scene_written, toml_text
+from tests.errors.scene import SCENE, scene_written, toml_text
 from tests.helpers import planted_step
 
 READERS = ("scene.toml", "step.json", "ball.urdf", "run.npz", "cloud.xyz")
@@ -20,33 +20,22 @@ CAUSES = {
     # name: file, content, words of the sentence
     "empty TOML": ("scene.toml", b"", "format: is missing"),
     "empty JSON": ("step.json", b"", "is not JSON: Expecting value: line 1"),
-    "empty XML": ("ball.urdf", b"", XML + "no element found"),
     "empty trajectory": ("run.npz", b"", NO_TRAJECTORY),
     "empty cloud": ("cloud.xyz", b"", "points: must hold at least one point"),
-    "binary TOML": ("scene.toml", bytes(range(128, 256)), NOT_UTF8),
     "binary JSON": ("step.json", bytes(range(128, 256)), NOT_UTF8),
-    "binary XML": ("ball.urdf", bytes(range(128, 256)), NOT_UTF8),
     "binary trajectory": ("run.npz", bytes(range(128, 256)), NO_TRAJECTORY),
     "binary cloud": ("cloud.xyz", bytes(range(128, 256)), NOT_UTF8),
-    "UTF-16 TOML": ("scene.toml", toml_text(SCENE).encode("utf-16"), NOT_UTF8),
     "UTF-16 JSON": ("step.json", "{}".encode("utf-16"), NOT_UTF8),
-    "UTF-16 XML": ("ball.urdf", BALL.encode("utf-16"), NOT_UTF8),
     "Latin-1 TOML": ("scene.toml", "# f = µ N".encode("latin-1"), NOT_UTF8),
-    "Latin-1 JSON": ("step.json", '{"µ": 1}'.encode("latin-1"), NOT_UTF8),
     "Latin-1 XML": ("ball.urdf", '<robot name="Jürgen"/>'.encode("latin-1"), NOT_UTF8),
     "NUL in TOML": ("scene.toml", b"h = 1\x00", "is not TOML: "),
     "NUL in JSON": ("step.json", b'{"h": 1\x00}', "is not JSON: "),
-    "NUL in XML": ("ball.urdf", b"<robot\x00/>", XML),
     "NUL in a cloud": ("cloud.xyz", b"0 0 \x00", "line 1: must be a finite decimal number"),
     "half of a TOML": ("scene.toml", toml_text(SCENE).encode()[:-20], "is not TOML: "),
     "half of a JSON": ("step.json", b'{"format": "quasi', "is not JSON: Unterminated string"),
-    "half of an XML": ("ball.urdf", BALL.encode()[:-20], XML),
     "TOML without end": ("scene.toml", b"a = " + b"[" * DEEP, "is nested too deeply"),
     "a key without end": ("scene.toml", b"a" + b".a" * DEEP + b" = 1", "line 1: holds a key of"),
     "a word without end": ("scene.toml", b"a" * 2**20, "is not TOML: "),
-    "blanks without end": ("scene.toml", b"a " + b" " * (2**20 - 2), "is not TOML: "),
-    "quotes without end": ("scene.toml", b"'" * 2**20, "is not TOML: "),
-    "points without end": ("scene.toml", b". " * 2**19, "is not TOML: "),
     "a list without end": ("scene.toml", b"h = [" + b"1," * 500_000 + b"]", "format: is missing"),
     "very many keys": (
         "scene.toml", b"".join(b"a%d=1\n" % i for i in range(90_000)),
@@ -64,15 +53,11 @@ CAUSES = {
         "a DOCTYPE is not allowed",
     ),
     "a field twice in TOML": ("scene.toml", b"h = 1\nh = 2\n", "is not TOML: Cannot overwrite"),
-    "a table twice in TOML": ("scene.toml", b"[solver]\n[solver]\n", "is not TOML: Cannot declare"),
     "a field twice in JSON": ("step.json", b'{"h": 1, "h": 2}', "h: is given twice (got 2)"),
     "an attribute twice in XML": ("ball.urdf", b'<robot name="a" name="b"/>', "duplicate attr"),
     "half a character": ("step.json", b'{"format": "\\ud800"}', "holds half of a character"),
     "a list for a step": ("step.json", b"[]", "must be a table of named fields (got [])"),
-    "a number for a step": ("step.json", b"1", "must be a table of named fields (got 1)"),
     "another XML": ("ball.urdf", b"<svg/>", "root element: must be <robot> (got 'svg')"),
-    "an array alone": ("run.npz", b"\x93NUMPY\x01\x00", NO_TRAJECTORY),
-    "words in a cloud": ("cloud.xyz", b"1 2 3\n1 2 x\n", "line 2: must be a finite decimal number"),
     "two numbers a point": ("cloud.xyz", b"1 2 3\n1 2\n", "line 2: must be three numbers, x y z"),
     "a point out of this world": ("cloud.xyz", b"1 2 3\n0 0 1e154\n", "point 1: its coordinates"),
     "NaN in a cloud": ("cloud.xyz", b"1 2 nan\n", "line 1: must be a finite decimal number"),

@@ -1,6 +1,5 @@
 """Paths that leave their folder, outputs that cannot be written, options that mean nothing."""
 
-import io
 import json
 import os
 import resource
@@ -69,20 +68,14 @@ def test_a_path_with_a_nul_character_is_none(tmp_path, refused):
 
 SETTINGS = {
     "h": "must read dotted.key=value (got 'h')",
-    "=1": "must read dotted.key=value (got '=1')",
-    "a..b=1": "must read dotted.key=value (got 'a..b=1')",
     "h.x=1": "--set: does not lead to a table (got 'h.x=1')",
     "bodies.rail.targets.0.t=1": "--set: does not lead to a table",
-    "hh=1": "hh: is unknown; did you mean 'h'?",
-    "h=fast": "h: must be a number (got 'fast')",
-    "h=nan": "h: must be a finite number (got nan)",
     "h=0.01\nsteps=9": "h: must be a number (got '0.01 steps=9')",
     "h=" + "1" * 5000: "h: must be a number",
     "h=" + "[" * 5000: "h: must be a number",
     "h=" + "0x" + "f" * 5000: "h: must be at most 1e+15 (got of type int, too long to show)",
     "gravity=[0, 0": "gravity: must be 3 numbers, with commas between them and brackets around",
     "bodies.ball=3": "bodies.ball: must be a table of named fields (got 3)",
-    "contacts.push.mu_v=-1": "contacts.push.mu_v: must be at least 0 (got -1)",
     "x." * 2000 + "x=1": "--set: names a key of more than 32 parts",
 }
 
@@ -106,11 +99,6 @@ def test_an_unknown_backend_is_refused_before_anything_is_done(tmp_path, refused
     assert "backend: is not a backend" in sentence
     assert "known: " in sentence
     assert "did you mean 'clarabel'" in sentence or name != "clarable"
-
-
-def test_a_certificate_that_does_not_exist_is_refused(tmp_path, refused):
-    path = step_written(tmp_path / "step.json", planted_step(np.random.default_rng(0))[0])
-    assert "certify: must be one of full" in refused("solve", path, "--certify", "ful")
 
 
 @pytest.mark.parametrize("name", ["bunny_gras", "a" * 5000, "\x00", "", " "])
@@ -251,13 +239,3 @@ def test_a_closed_stream_takes_what_is_printed_without_a_traceback(tmp_path, str
     )  # fmt: skip
     assert (ended.returncode, ended.stderr) == (0, "")
     assert ended.stdout == "" or stream == "stderr"
-
-
-def test_a_closed_pipe_is_no_error(monkeypatch):
-    class Closed(io.StringIO):
-        def write(self, text):
-            raise BrokenPipeError
-
-    monkeypatch.setattr(sys, "stdout", Closed())
-    monkeypatch.setattr(sys, "stderr", io.StringIO())
-    assert main(["backends", "--json"]) == 0

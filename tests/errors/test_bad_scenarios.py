@@ -11,13 +11,9 @@ RAIL = "bodies/rail/"
 CAUSES = {
     # name: (changes to the scene, the field named, words of the sentence)
     "another format": (("format", "quasistatic-ref/step"), "format", "must be 'quasistatic-ref"),
-    "a later version": (("version", 2), "version", "this program reads 1 (got 2)"),
     "h zero": (("h", 0), "h", "must be greater than 0 (got 0)"),
-    "h negative": (("h", -0.01), "h", "must be greater than 0 (got -0.01)"),
     "no h": (("h", ...), "h", "is missing"),
-    "half a step": (("steps", 2.5), "steps", "must be a whole number (got 2.5)"),
     "negative steps": (("steps", -3), "steps", "must be at least 0 (got -3)"),
-    "steps without end": (("steps", 10**30), "steps", "must be at most 1e+15"),
     "very many steps": (("steps", 10**8), "steps", "must be at most 10000000 (got 100000000)"),
     "a flat gravity": (("gravity", [0, -9.81]), "gravity", "must be 3 numbers (got [0, -9.81])"),
     "an unknown cone": (("cone", "piramid"), "cone", "did you mean 'pyramid'"),
@@ -41,20 +37,6 @@ CAUSES = {
     "accuracy by another name": (
         ("solver/tol", 1e-9), "solver.tol", "is unknown; did you mean 'accuracy'?",
     ),
-    "a step in a contact": (
-        ("contacts/push/steps", 3), "contacts.push.steps", "mean 'steps' of the top of the file?",
-    ),
-    "misspelt friction": (
-        ("contacts/push/mu_v", ...), ("contacts/push/mu", 0.5),
-        "contacts.push.mu", "is unknown; did you mean 'mu_v'? known: alpha",
-    ),
-    "a misspelt side": (
-        ("contacts/push/alpha", ...), ("contacts/push/alhpa", "rail/plate"),
-        "contacts.push.alhpa", "is unknown; did you mean 'alpha'?",
-    ),
-    "a misspelt URDF": (
-        (BALL + "urdf", ...), (BALL + "udrf", "ball.urdf"), "bodies.ball.udrf", "mean 'urdf'?",
-    ),
     "stiffness of a misspelt joint": (
         (RAIL + "K_q", {"slid": 5}), "bodies.rail.K_q.slid", "did you mean 'slide'? known: slide",
     ),
@@ -62,26 +44,18 @@ CAUSES = {
         (RAIL + "targets/0", {"time": 0.0, "slide": 0.0}),
         "bodies.rail.targets[0].time", "did you mean 't'? known: slide, t",
     ),
-    "a misspelt format": (("format", ...), ("fromat", 1), "fromat", "did you mean 'format'"),
-    "an unknown record": (("record", "ful"), "record", "did you mean 'full'"),
     "an unknown backend": (("solver/backend", "clarable"), "solver.backend", "mean 'clarabel'"),
-    "an unknown certificate": (("solver/certify", "fully"), "solver.certify", "mean 'full'"),
     "no backend, no certificate": (
         ("solver", {"backend": "none", "certify": "off"}),
         "solver.backend", "gives no answer of its own; use certify = 'full' (got 'none')",
     ),
-    "a solver's own option": (("solver/eps_abs", 1e-9), "solver.eps_abs", "is unknown"),
-    "accuracy zero": (("solver/accuracy", 0), "solver.accuracy", "must be greater than 0"),
     "no depth at all": (("limits/penetration", 0), "limits.penetration", "greater than 0 (got 0)"),
-    "no reach": (("limits/reach", -1), "limits.reach", "must be greater than 0 (got -1)"),
-    "an unknown limit": (("limits/depth", 1), "limits.depth", "is unknown; known: pene"),
     "a body out of the scene": (
         (BALL + "pose/xyz/0", 200.0), "bodies", "at the start, link ball/ball is 200 m",
     ),
     "a shape out of this world": (
         ("shapes/wall/pose/xyz/0", 1e154), "shapes.wall.pose.xyz", "must be at most 1e+15 (got 1e",
     ),
-    "no bodies": (("bodies", {}), "bodies", "holds no body; give at least one"),
     "bodies a list": (("bodies", [1]), "bodies", "must be a table of named fields (got [1])"),
     "a body called world": (("bodies/world", {"urdf": "ball.urdf"}), "body.name", "than 'world'"),
     "a body with a slash": (
@@ -92,17 +66,11 @@ CAUSES = {
         ("bodies/rail", ...), ("bodies/ball", {"urdf": "ball.urdf"}), ("contacts", {}),
         "bodies", "nothing here can move",
     ),
-    "no URDF": ((BALL + "urdf", ...), "bodies.ball.urdf", "is missing"),
     "a blank URDF": ((BALL + "urdf", " "), "bodies.ball.urdf", "must name a file (got ' ')"),
-    "an unknown base": ((BALL + "base", "floatng"), "bodies.ball.base", "mean 'floating'"),
     "an unknown joint": ((RAIL + "actuated", ["slid"]), "rail.actuated", "did you mean 'slide'"),
-    "a joint twice": ((RAIL + "actuated", ["slide"] * 2), "rail.actuated", "names a joint twice"),
     "actuated a number": ((RAIL + "actuated", 1), "bodies.rail.actuated", "a list of joint names"),
-    "an unknown start": ((RAIL + "positions/slid", 0), "rail.positions", "did you mean 'slide'"),
     "the base in positions": ((BALL + "positions", {"base": 0}), "ball.positions", "placed by xyz"),
     "a joint with no stiffness": ((RAIL + "K_q", ...), "bodies.rail.K_q", "is missing for slide"),
-    "stiffness of no joint": ((RAIL + "K_q/turn", 1), "bodies.rail.K_q.turn", "is unknown; known"),
-    "stiffness zero": ((RAIL + "K_q/slide", 0), "bodies.rail.K_q.slide", "greater than 0 (got 0)"),
     "stiffness not definite": (
         (RAIL + "K_q", [[-5.0]]), "bodies.rail.K_q", "must be positive definite",
     ),
@@ -123,12 +91,10 @@ CAUSES = {
         (BALL + "targets", [{"t": 0, "base": {}}]),
         "bodies.ball.targets[0].base", "is not an actuated joint of this body; known: none",
     ),
-    "a target for no joint": ((RAIL + "targets/0/slid", 1), "targets[0].slid", "mean 'slide'"),
     "a waypoint of nothing": (
         (RAIL + "targets/0/slide", ...), "bodies.rail.targets[0]", "names no joint (got {'t'",
     ),
     "waypoints that stand still": ((RAIL + "targets/1/t", 0.0), "rail/slide", "must increase"),
-    "waypoints backwards": ((RAIL + "targets/1/t", -1.0), "rail/slide", "times must increase"),
     "a wrench on what is fixed": (
         (RAIL + "wrenches", [{"t": 0, "force": [1, 0, 0]}]),
         "bodies.rail.wrenches", 'do nothing to a body with base = "fixed"',
@@ -143,11 +109,9 @@ CAUSES = {
     "two shapes in one": (
         ("shapes/wall/sphere", {"radius": 1}), "shapes.wall.shape", "must be exactly one of",
     ),
-    "an unknown shape": (("shapes/wall", {"ball": {}}), "shapes.wall.shape", "must be exactly one"),
     "a normal of zero": (
         ("shapes/floor/halfspace/normal", [0, 0, 0]), "shapes.floor.halfspace", "must not be zero",
     ),
-    "a flat box": (("shapes/wall/box/size", [1, 0, 1]), "shapes.wall.box", "three positive len"),
     "a negative radius": (
         ("shapes/post/capsule/radius", -1), "shapes.post.capsule.radius", "greater than 0 (got -1)",
     ),
@@ -171,16 +135,12 @@ CAUSES = {
         (BALL + "cloud", "cloud.xyz"), (RAIL + "cloud", "cloud.xyz"),
         ("contacts/push/alpha", "rail"), "contacts.push", "two clouds cannot touch",
     ),
-    "friction missing": (("contacts/push/mu_v", ...), "contacts.push.mu_v", "is missing"),
     "negative friction": (("contacts/push/mu_v", -0.5), "contacts.push.mu_v", "at least 0 (got"),
-    "negative torsion": (("contacts/floor/mu_omega", -1), "contacts.floor.mu_omega", "least 0"),
     "torsion missing": (("contacts/floor/mu_omega", ...), "contacts.floor.mu_omega", "is missing"),
     "torsion without rows": (
         ("contacts/push/mu_omega", 0.01), "contacts.push.mu_omega", "does nothing with rows = 4",
     ),
-    "five rows": (("contacts/push/rows", 5), "contacts.push.rows", "must be 4 or 6 (got 5)"),
     "no points": (("contacts/push/k", 0), "contacts.push.k", "must be at least 1 (got 0)"),
-    "an unknown field of a contact": (("contacts/push/mu", 1), "contacts.push.mu", "mean 'mu_v'"),
 }  # fmt: skip
 
 
@@ -200,19 +160,17 @@ def test_the_scene_is_good_before_it_is_spoilt(tmp_path):
     assert load_scenario(scene_written(tmp_path)).run(progress=False).steps == 3
 
 
-NO_NUMBERS = {
-    "NaN": "nan", "infinity": "-inf", "a date": "2020-01-01", "beyond decimal": hex(16**5000),
-}  # fmt: skip
+NO_NUMBERS = ("nan", "-inf", "2020-01-01", hex(16**5000))
+"""Also a date, and more digits than Python reads in decimal."""
 
 
-@pytest.mark.parametrize("kind", NO_NUMBERS)
 @pytest.mark.parametrize("field", list(numeric_fields(SCENE)))
-def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field, kind):
+def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field):
     text = toml_text(changed(SCENE, (field, "MARK")))
     path = scene_written(tmp_path)
-    path.write_text(text.replace('"MARK"', NO_NUMBERS[kind]))
-    sentence = refused("inspect", path)
-    assert sentence.startswith(f"{path}: {dotted(SCENE, field)}")
+    for number in NO_NUMBERS:
+        path.write_text(text.replace('"MARK"', number))
+        assert refused("inspect", path).startswith(f"{path}: {dotted(SCENE, field)}")
 
 
 ROUND = changed(
@@ -226,9 +184,8 @@ ROUND = changed(
                       "mu_v": 0.2, "mu_omega": 0.1}),
 )  # fmt: skip
 """The same scene with a shape of every other kind in reach of the ball's contacts."""
-AT_THE_ENDS = (5e-324, 1e-310, 2.3e-308, 1e-160, 1e-16, 1e15, 1.7e308)
-"""Subnormal numbers, the least normal one, one whose square is 0, one unit in the last place of 1,
-the largest that a scenario takes, the largest."""
+AT_THE_ENDS = (5e-324, 1e-160, 1e15, 1.7e308)
+"""A subnormal number, one whose square is 0, the largest that a scenario takes, the largest."""
 
 
 @pytest.mark.parametrize("field", list(numeric_fields(ROUND)))

@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.files import plain
-from quasistatic_ref.step.files import step_record, step_written
+from quasistatic_ref.step.files import step_record
 from tests.errors.scene import changed, dotted, numeric_fields
 from tests.helpers import planted_step
 
@@ -19,50 +19,32 @@ CAUSES = {
     # name: (changes to the step, the field named, words of the sentence)
     "another format": (("format", "quasistatic-ref/solution"), "format", "must be 'quasi"),
     "a later version": (("version", 2), "version", "this program reads 1 (got 2)"),
-    "version true": (("version", True), "version", "must be a whole number (got True)"),
     "no h": (("h", ...), "h", "is missing"),
     "h zero": (("h", 0), "h", "must be greater than 0 (got 0)"),
-    "h negative": (("h", -0.01), "h", "must be greater than 0 (got -0.01)"),
-    "h null": (("h", None), "h", "must be a number"),
     "h a word": (("h", "0.01"), "h", "must be a number (got '0.01')"),
     "n_a too large": (("n_a", 4), "K_q", "must be 4 x 4 numbers"),
-    "n_a negative": (("n_a", -1), "n_a", "must be at least 0 (got -1)"),
     "n_a without end": (("n_a", 10**12), "K_q", "must be 1000000000000 x 1000000000000 numbers"),
-    "n_u half": (("n_u", 3.5), "n_u", "must be a whole number (got 3.5)"),
     "K_q flat": (("K_q", [1, 2, 3]), "K_q", "must be 3 x 3 numbers (got [1, 2, 3])"),
     "K_q ragged": (("K_q", [[1, 0], [0], [0]]), "K_q", "must be 3 x 3 numbers, in lists of equal"),
     "K_q zero": (("K_q", np.zeros((3, 3)).tolist()), "K_q", "must be positive definite"),
     "K_q indefinite": (("K_q", np.diag([1.0, -1, 1]).tolist()), "K_q", "positive definite (no"),
-    "K_q singular": (("K_q", np.ones((3, 3)).tolist()), "K_q", "must be positive definite"),
     "K_q not symmetric": (("K_q", np.triu(np.ones((3, 3))).tolist()), "K_q", "must be symmetric"),
     "M_u massless": (("M_u", np.diag([1.0, 1, 0, 1]).tolist()), "M_u", "no massless link"),
-    "M_u missing": (("M_u", ...), "M_u", "is missing"),
     "tau_a short": (("tau_a", [1, 2]), "tau_a", "must be 3 numbers (got [1, 2])"),
     "tau_u of words": (("tau_u", ["1", "2", "3", "4"]), "tau_u", "must hold numbers only (4)"),
-    "tau_u of truths": (("tau_u", [True] * 4), "tau_u", "must hold numbers only (4)"),
-    "targets deep": (("delta_q_bar_a", [[[0]]] * 3), "delta_q_bar_a", "must be 3 numbers"),
     "an unknown cone": (("cone", "pyramide"), "cone", "did you mean 'pyramid'"),
     "contacts a table": (("contacts", {}), "contacts", "must be a list (got {})"),
-    "a contact a number": (("contacts", [1]), "contacts[0]", "must be a table of named fields"),
-    "phi missing": ((ONE + "phi", ...), "contacts[1].phi", "is missing"),
-    "a name missing": ((ONE + "name", ...), "contacts[1].name", "is missing"),
     "a name a number": ((ONE + "name", 3), "contacts[1].name", "must be a string (got 3)"),
     "n flat": ((ONE + "n", [0, 1]), "contacts[1].n", "must be 3 numbers (got [0, 1])"),
     "n not unit": ((ONE + "n", [0, 0, 2]), "contacts[c1]", "a right-handed orthonormal frame"),
-    "n zero": ((ONE + "n", [0, 0, 0]), "contacts[c1]", "right-handed orthonormal frame"),
     "a left-handed frame": (
         (ONE + "d1", EYE[1]), (ONE + "d2", EYE[0]), (ONE + "n", EYE[2]),
         "contacts[c1]", "a right-handed orthonormal frame",
     ),
     "J of another size": ((ONE + "J", EYE), "contacts[1].J", "must be 4 x 7 numbers"),
     "negative friction": ((ONE + "mu_v", -0.5), "contacts[1].mu_v", "at least 0 (got -0.5)"),
-    "negative torsion": ((ONE + "mu_omega", -1), "contacts[1].mu_omega", "at least 0 (got -1)"),
-    "friction missing": ((ONE + "mu_v", ...), "contacts[1].mu_v", "is missing"),
     "five rows": ((ONE + "rows", 5), "contacts[1].rows", "must be 4 or 6 (got 5)"),
-    "rows missing": ((ONE + "rows", ...), "contacts[1].rows", "is missing"),
     "a misspelt field": ((ONE + "mu_w", 0.1), "contacts[1].mu_w", "did you mean 'mu_v'"),
-    "an unknown field": (("taua", 1), "taua", "is unknown; did you mean 'tau_a'"),
-    "extra without A": (("extra", {"names": ["a"], "b": [0]}), "extra.A", "is missing"),
     "extra of another size": (
         ("extra", {"names": ["a"], "A": [[1, 2]], "b": [0]}), "extra.A", "must be 1 x 7 numbers",
     ),
@@ -85,33 +67,27 @@ def test_a_step_that_cannot_be_used_is_refused(tmp_path, refused, cause):
     assert words in sentence
 
 
-NO_NUMBERS = {"NaN": "NaN", "infinity": "-Infinity", "overflow": "1e999", "digits": "1" * 400}
+NO_NUMBERS = ("NaN", "-Infinity", "1e999", "1" * 400)
 
 
-@pytest.mark.parametrize("kind", NO_NUMBERS)
 @pytest.mark.parametrize("field", list(numeric_fields(STEP)))
-def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field, kind):
-    text = json.dumps(changed(STEP, (field, "MARK"))).replace('"MARK"', NO_NUMBERS[kind])
-    name = dotted(STEP, field)
-    sentence = refused("solve", written(tmp_path, text))
+def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field):
+    text, name = json.dumps(changed(STEP, (field, "MARK"))), dotted(STEP, field)
     # A count of many digits is a whole number: it is the matrix that cannot have that size.
     known = {"n_a": ("n_a", "K_q"), "n_u": ("n_u", "M_u")}.get(name, (name,))
-    assert sentence.startswith(tuple(f"{tmp_path / 'step.json'}: {field}: " for field in known))
+    for number in NO_NUMBERS:
+        sentence = refused("solve", written(tmp_path, text.replace('"MARK"', number)))
+        assert sentence.startswith(tuple(f"{tmp_path / 'step.json'}: {field}: " for field in known))
 
 
 BEYOND = {
     # Found by fuzzing: products of these leave the range of float64, or come near its ends.
     "J": ("contacts/1/J/0/0", 1.34e154),
-    "a normal": ("contacts/1/n/0", 1.34e154),
     "a tiny J": ("contacts/1/J/2/2", 5e-324),
     "friction": ("contacts/1/mu_v", 4.3e151),
-    "torsion": ("contacts/0/mu_omega", 5.6e306),
     "a force": ("tau_u/0", 7.4e156),
-    "a target": ("delta_q_bar_a/1", 1e300),
     "a stiffness": ("K_q/1/1", 1e300),
-    "a mass": ("M_u/2/2", 1e300),
     "a gap": ("contacts/1/phi", 1.7e308),
-    "a long step": ("h", 2.7e307),
     "a short step": ("h", 5e-324),
 }
 
@@ -159,10 +135,6 @@ BAD_SOLUTIONS = {
     "delta_q short": (("delta_q", [0.0]), "delta_q", "must be 7 numbers (got [0.0])"),
     "lam flat": (("lam", [0.0] * 16), "lam", "must have one list for each of 3 contacts"),
     "lam of another contact": (("lam/0", [0.0] * 4), "lam[0]", "must be 6 numbers"),
-    "wrench flat": (("wrench", [0.0] * 12), "wrench", "must be 3 x 4 numbers"),
-    "lam_extra missing": (("lam_extra", ...), "lam_extra", "is missing"),
-    "certificate missing": (("certificate", ...), "certificate", "is missing"),
-    "an unknown kind": (("certificate/kind", "exct"), "certificate.kind", "mean 'exact'"),
     "active of words": (("certificate/active", ["a"]), "certificate.active", "[contact, row]"),
     "unique a number": (
         ("certificate/multipliers_unique", 1), "certificate.multipliers_unique", "true or false",
@@ -187,8 +159,8 @@ def test_a_solution_that_cannot_be_used_is_refused(tmp_path, refused, solved, ca
     assert words in sentence
 
 
-@pytest.mark.parametrize("kind", ["NaN", "-Infinity", "1e999"])
-@pytest.mark.parametrize("field", ["delta_q/3", "lam/0/2", "wrench/1/2", "certificate/error_bound"])
+@pytest.mark.parametrize("kind", ["NaN", "1e999"])
+@pytest.mark.parametrize("field", ["delta_q/3", "certificate/error_bound"])
 def test_what_is_no_number_is_refused_in_a_solution(tmp_path, refused, solved, field, kind):
     step, solution = solved
     text = json.dumps(changed(solution, (field, "MARK"))).replace('"MARK"', kind)
@@ -197,7 +169,7 @@ def test_what_is_no_number_is_refused_in_a_solution(tmp_path, refused, solved, f
     assert "finite" in sentence
 
 
-NO_FRACTIONS = ("0.5", "1e9", "1e999999999", "1/0", "1/-1", "", " 1", "١", "nan", "1/2/3", "--1")
+NO_FRACTIONS = ("0.5", "1e999999999", "1/0", "1/-1", "", " 1", "١", "1/2/3")
 PROOF = (("status", "infeasible"), *((key, ...) for key in (
     "delta_q", "lam", "lam_extra", "wrench", "certificate",
 )))  # fmt: skip
@@ -205,17 +177,11 @@ FALSE = {
     "another step's": (("step_sha256", "0" * 64), "belongs to another step"),
     "one digit off": (("delta_q/0", 0.125), "delta_q[0] is 0.125; the exact one rounds to"),
     "a contact that does not exist": (("certificate/active", [[9, 0]]), "9"),
-    "a negative contact": (("certificate/active", [[-1, 0]]), "-1"),
-    "a row without end": (("certificate/active", [[0, 10**30]]), "10"),
     "all rows": (("certificate/active", [[0, i] for i in range(6)]), "not independent"),
     "no rows": (("certificate/active", []), "violated"),
-    "wrong wrenches": (("wrench/0", [0, 0, 9, 0]), "wrench[0][1] is 0.0; the exact one rounds to"),
     "nothing certified": (("certificate", {"kind": "none"}), "proves nothing; solve with full"),
     "a bound that is none": (
         ("certificate", {"kind": "residual", "error_bound": None}), "without a bound proves",
-    ),
-    "a bound of zero": (
-        ("certificate", {"kind": "residual", "error_bound": 0.0}), "the error is larger",
     ),
     "a proof too short": (*PROOF, ("farkas", ["1"]), "has 1 entries, the step 16 rows"),
     "a proof of nothing": (*PROOF, ("farkas", ["0"] * 16), "b'y is not positive"),
@@ -237,12 +203,3 @@ def test_an_answer_that_is_wrong_is_refuted_with_status_1(tmp_path, solved, caps
     assert captured.out.startswith("refuted: ")
     assert words in captured.out
     assert captured.err == ""
-
-
-def test_a_solution_of_a_step_of_another_size_belongs_to_another_step(tmp_path, solved, capsys):
-    step, _, _ = planted_step(np.random.default_rng(1), rows=(4,))
-    other = step_written(tmp_path / "other.json", step)
-    assert main(["verify", str(other), str(written(tmp_path, solved[1]))]) == 1
-    assert capsys.readouterr().out == (
-        "refuted: the solution belongs to another step: step_sha256 differs\n"
-    )

@@ -90,9 +90,7 @@ CAUSES = {
     # name: (the file from the good one, words of the sentence)
     "nothing": (lambda run: b"", NOT_ONE),
     "truncated": (lambda run: run[:-50], NOT_ONE),
-    "half": (lambda run: run[: len(run) // 2], NOT_ONE),
     "a bit flipped": (lambda run: run[:200] + b"\xff" + run[201:], NOT_ONE),
-    "an array alone": (lambda run: npy(ZEROS), NOT_ONE),
     "a ZIP of something else": (
         lambda run: rewritten(rewritten(run), {"readme.txt": b"hello"}),
         f"{NOT_ONE}: EOF: reading magic string",
@@ -117,40 +115,21 @@ CAUSES = {
         lambda run: rewritten(run, {"t": npy(ZEROS, "(99999999999,)")}),
         f"{NOT_ONE}: t.npy does not have the size that it says",
     ),
-    "a shape below zero": (
-        lambda run: rewritten(run, {"t": npy(ZEROS, "(-3,)")}),
-        f"{NOT_ONE}: t.npy does not have the size that it says",
-    ),
     "a header of code": (
         lambda run: rewritten(run, {"t": npy(ZEROS, "open('x','w')")}), NOT_ONE,
     ),
-    "a header with an open bracket": (
-        lambda run: rewritten(run, {"t": npy(ZEROS, "(3, (   ")}), NOT_ONE,
-    ),
     "no header": (lambda run: rewritten(run, {"header": None}), f"{NOT_ONE}: it has no header"),
-    "a header of numbers": (
-        lambda run: rewritten(run, {"header": npy(ZEROS)}), f"{NOT_ONE}: it has no header",
-    ),
     "a header without end": (
         lambda run: rewritten(run, {"header": npy(np.full(100_000, 91, dtype=np.uint8))}),
         f"{NOT_ONE}: its header is not JSON",
     ),
     "another format": (lambda run: rewritten(run, header={"format": "x"}), "format: must be 'quas"),
-    "warnings that are none": (
-        lambda run: rewritten(run, header={"warnings": [3]}), "warnings: must be a list of strings",
-    ),
     "a later version": (lambda run: rewritten(run, header={"version": 2}), "reads 1 (got 2)"),
-    "no version": (lambda run: rewritten(run, header={"version": ...}), "version: is missing"),
     "an unknown record": (
         lambda run: rewritten(run, header={"record": "ful"}), "record: is not a choice; did you",
     ),
-    "h NaN": (lambda run: rewritten(run, header={"h": float("nan")}), "h: must be a finite number"),
     "more steps than there are": (
         lambda run: rewritten(run, header={"steps": 4}), "t: must have 4 entries, as the header",
-    ),
-    "no names": (lambda run: rewritten(run, header={"contacts": []}), "contacts: must have 3 ent"),
-    "names that are numbers": (
-        lambda run: rewritten(run, header={"contacts": [1, 2, 3]}), "contacts: must be lists of n",
     ),
     "names of numbers": (
         lambda run: rewritten(run, header={"contacts": [[1, 2]] * 3}),
@@ -160,17 +139,8 @@ CAUSES = {
     "rows of an extension that are not there": (
         lambda run: rewritten(run, header={"extra": ["a"]}), "holds no array named 'extra_A'",
     ),
-    "names of an extension that are none": (
-        lambda run: rewritten(run, header={"extra": 3}), "extra: must be a list",
-    ),
-    "an array of words": (
-        lambda run: rewritten(run, {"phi": npy(np.array(["a"] * 3))}), "phi: must hold numbers",
-    ),
     "an array too short": (
         lambda run: rewritten(run, {"phi": npy(np.zeros((2, 2)))}), "phi: must have 3 entries",
-    ),
-    "an array without axes": (
-        lambda run: rewritten(run, {"phi": npy(np.array(1.0))}), "phi: must have 3 entries",
     ),
     "an array of another shape": (
         lambda run: rewritten(run, {"phi": npy(np.zeros((3, 5)))}), "contacts.phi: must have shape",

@@ -8,15 +8,12 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.bench.acceptance import promises
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
-from quasistatic_ref.lab.study.bench.clouds import sampled, with_cloud
 from quasistatic_ref.lab.study.bench.grasp import (
     bare_daqp,
-    by_compiled_code,
     places,
-    residual_over_off,
 )
-from quasistatic_ref.lab.study.bench.report import page, promise_rows
-from quasistatic_ref.lab.study.bench.timing import in_turn, ratio
+from quasistatic_ref.lab.study.bench.report import promise_rows
+from quasistatic_ref.lab.study.bench.timing import in_turn
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.units import from_natural
 from tests.helpers import error
@@ -69,14 +66,6 @@ def test_the_interfaces_lead_to_the_same_step(at):
         assert error(step, alone, delta_q) <= ACTIVE_SET
 
 
-def test_a_sampled_cloud_lies_on_the_bunny_and_is_grasped_like_it(at):
-    points = sampled(500)
-    assert points.shape == (500, 3)
-    other = with_cloud(at.scenario, points).simulator().step(at.q[0], at.goals[0])
-    own = at.scenario.simulator().step(at.q[0], at.goals[0])
-    np.testing.assert_allclose(other.points.phi, own.points.phi, rtol=0.0, atol=0.01)
-
-
 def test_times_are_taken_in_turn_and_the_least_is_kept():
     calls = []
     rounds = [{"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}] * 2
@@ -84,11 +73,6 @@ def test_times_are_taken_in_turn_and_the_least_is_kept():
     assert "".join(calls) == "abab" * 2
     assert times["a"].shape == (2,)
     assert (times["a"] > 0).all()
-
-
-def test_ratios_are_of_pairs():
-    # 2/1, 9/3, 8/2: the median is 3.
-    np.testing.assert_allclose(ratio(np.array([2.0, 9, 8]), np.array([1.0, 3, 2])), 3.0)
 
 
 INTERFACES = {
@@ -121,31 +105,3 @@ def test_each_promise_is_judged_by_its_limit():
     }
     rows = promise_rows(promises(tables))
     assert rows[1] == ("step over the bare solver", "16.5", "at most 16 (stretch 8)", "FAILS")
-
-
-def test_compiled_steps_are_judged_where_there_are_any(at):
-    compiled = {"step": 91.0, "over_solver": 3.9, "certified": 249.0, "certified, p99": 351.0}
-    found = promises({"interfaces": INTERFACES, "compiled": compiled})[-4:]
-    assert [p["holds"] for p in found] == [True, False, True, False]
-    assert promises({"interfaces": INTERFACES, "compiled": None}) == promises(
-        {"interfaces": INTERFACES}
-    )
-    measured = by_compiled_code(at, 1)
-    assert measured is None or set(measured) == set(compiled)
-
-
-def test_a_step_with_a_bound_costs_more_than_one_without(at):
-    assert residual_over_off(at, 2) > 1
-
-
-def test_the_page_says_why_mujoco_was_not_run(tmp_path):
-    part = {"engine": "native", "backend": "daqp", "unsolved": 0, "distances": 1.0, "rows": 1.0,
-            "selection": 1.0, "solve": 1.0, "integrate": 1.0, "step": 4.0}  # fmt: skip
-    tables = {
-        "machine": dict.fromkeys(("processor", "cores", "system", "python", "numpy", "load"), "x"),
-        "interfaces": INTERFACES,
-        "promises": [], "times_paper": 2.0, "mujoco": {"not run": "MuJoCo is not installed"},
-        "parts": [part], "certification": {"off": 1.0, "full": 2.0}, "clouds": [],
-        "chains": [], "contacts": [], "heaps": [],
-    }  # fmt: skip
-    assert "| not run | MuJoCo is not installed |" in page(tables)

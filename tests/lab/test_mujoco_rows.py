@@ -5,11 +5,11 @@ import numpy as np
 from quasistatic_ref.contact.jacobian import contact_jacobian
 from quasistatic_ref.lab.claims.claim import FAILS, HOLDS, finding
 from quasistatic_ref.lab.claims.engines import mujoco_rows
-from quasistatic_ref.lab.claims.engines.mujoco_rows import rows_of, tangent_map
+from quasistatic_ref.lab.claims.engines.mujoco_rows import rows_of
 from quasistatic_ref.lab.claims.engines.mujoco_scenes import heap
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.step.friction import friction_rows
-from tests.helpers import changed, random_frame
+from tests.helpers import random_frame
 from tests.tolerances import ROUNDING
 
 
@@ -34,21 +34,6 @@ def test_one_point_midway_changes_tangential_rows_by_the_formula(rng):
     np.testing.assert_allclose(difference, expected, rtol=0.0, atol=ROUNDING)
 
 
-def test_the_tangent_map_keeps_lengths_and_moves_the_hinge_last():
-    scene = heap(5)
-    T = tangent_map(scene.system, scene.bodies)
-    np.testing.assert_allclose(T.T @ T, np.eye(len(T)), rtol=0.0, atol=ROUNDING)
-    assert scene.system.coordinates[0].name == "arm/hinge"
-    assert T[-1, 0] == 1.0
-
-
-def test_every_scene_has_several_bodies_and_contacts():
-    scenes = [heap(seed) for seed in range(mujoco_rows.SCENES)]
-    assert len(scenes) >= 10
-    assert all(len(scene.bodies) >= 3 for scene in scenes)
-    assert all(len(rows_of(scene)["ours"]) >= 1 for scene in scenes)
-
-
 def test_without_the_formula_the_rows_do_not_agree(monkeypatch):
     def without(scene):
         rows = rows_of(scene)
@@ -62,11 +47,3 @@ def test_without_the_formula_the_rows_do_not_agree(monkeypatch):
     holds = {c.what.split()[0]: c.holds for c in found.evidence.comparisons}
     assert not holds["tangential"]
     assert holds["torsional"]
-
-
-def test_a_wrong_coefficient_is_noticed(monkeypatch):
-    def wrong(contacts):
-        return friction_rows(changed(contacts, mu_omega=2 * contacts.mu_omega))
-
-    monkeypatch.setattr(mujoco_rows, "friction_rows", wrong)
-    assert finding(mujoco_rows.CLAIM).verdict == FAILS

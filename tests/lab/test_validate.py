@@ -19,14 +19,13 @@ from quasistatic_ref.lab.claims.claim import (
     comparison,
     finding,
     sum_of_terms,
-    within,
 )
-from quasistatic_ref.lab.claims.closed_forms import planar_push, pushed_block
+from quasistatic_ref.lab.claims.closed_forms import planar_push
 from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS
-from quasistatic_ref.lab.claims.report import claims_page, finding_record, summary
+from quasistatic_ref.lab.claims.report import claims_page, summary
 from quasistatic_ref.lab.commands import validate as command
 from quasistatic_ref.lab.figures.validation import PICTURES
-from quasistatic_ref.lab.measures import grid, slope, threshold
+from quasistatic_ref.lab.measures import grid, threshold
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -45,8 +44,6 @@ def claim_of(*comparisons, **changes):
         ([1.0 + 1e-9], [1.0], 1.0, 1e-8, True),
         ([1.0 + 1e-9], [1.0], 1e-3, 1e-8, False),
         ([np.nan], [1.0], 1.0, 1e300, False),
-        ([1.0], [np.nan], 1.0, 1e300, False),
-        ([0.0], [0.0], 0.0, 0.0, True),
         ([1e-30], [0.0], 0.0, 1e-12, False),
         ([], [], 1.0, 1.0, False),
     ],
@@ -61,18 +58,6 @@ def test_the_scale_of_a_sum_is_its_largest_term():
     # 1 - 1 + 1e-3: relative to the sum 1e-9 would be 1e-6, relative to the largest term 1e-9.
     assert sum_of_terms("x", 1e-3 + 1e-9, [1.0, -1.0, 1e-3], 2e-9).holds
     assert not sum_of_terms("x", 1e-3 + 1e-9, [1.0, -1.0, 1e-3], 5e-10).holds
-
-
-@pytest.mark.parametrize(("x", "holds"), [(0.5, True), (0.0, True), (1.01, False), (np.nan, False)])
-def test_an_interval_holds_its_ends(x, holds):
-    assert within("x", x, 0.0, 1.0).holds is holds
-
-
-def test_the_worst_point_is_the_one_that_is_shown():
-    one = comparison("x", [1.0, 2.5, 3.0], [1.0, 2.0, 3.0], 1.0)
-    assert one.worst == 1
-    assert comparison("x", [1.0, np.nan], [1.0, 1.0], 1.0).worst == 1
-    assert comparison("x", [1.0, 7.0], [1.0, 7.0], 0.0).worst == 1  # a tie: the largest
 
 
 def test_a_claim_without_its_engine_is_not_run_and_says_so():
@@ -100,18 +85,6 @@ def test_bisection_finds_a_threshold_and_refuses_an_interval_without_one():
     np.testing.assert_allclose(found, 0.3, rtol=1e-11, atol=0.0)
     assert np.isnan(threshold(lambda share: True, 0.0, 1.0, 1e-12))
     assert np.isnan(threshold(lambda share: False, 0.0, 1.0, 1e-12))
-
-
-def test_slopes_are_exponents():
-    x = np.array([1.0, 2.0, 5.0])
-    np.testing.assert_allclose(slope(x, 3 * x**1.5), 1.5, rtol=1e-12, atol=0.0)
-
-
-def test_there_are_fifteen_closed_forms_and_each_figure_has_a_claim():
-    assert len(CLAIMS["Closed forms"]) >= 15
-    assert sum(map(len, CLAIMS.values())) == len(BY_NAME)
-    assert set(PICTURES) <= set(BY_NAME)
-    assert {"grasp", "contact_geometry", "boundary_layer", "step_time"} <= set(PICTURES)
 
 
 def test_closed_forms_and_derivations_cite_each_other():
@@ -147,13 +120,6 @@ def test_the_command_prints_a_table_and_writes_the_page(tmp_path, capsys):
     assert (tmp_path / "figures" / "flat_patch.png").stat().st_size > 0
 
 
-def test_the_command_prints_one_json_object(tmp_path, capsys):
-    assert main(["validate", "approach", "--json", "--out", str(tmp_path)]) == 0
-    printed = json.loads(capsys.readouterr().out)
-    assert printed["failed"] == []
-    assert printed["claims"][0]["comparisons"][0]["holds"] is True
-
-
 def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, capsys, monkeypatch):
     bad = claim_of(comparison("weight [N]", [1.0, np.nan], 2.0, 0.1))
     monkeypatch.setattr(command, "BY_NAME", {"planted": bad})
@@ -166,42 +132,21 @@ def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, capsys
     assert json.loads(capsys.readouterr().out)["failed"] == ["planted"]
 
 
-def test_an_engine_that_is_missing_is_in_the_table_and_does_not_fail(tmp_path, capsys, monkeypatch):
-    absent = claim_of(engine="no_such_engine")
-    monkeypatch.setattr(command, "BY_NAME", {"planted": absent})
-    monkeypatch.setattr(command, "CLAIMS", {"Planted": {"planted": absent}})
-    assert main(["validate", "--out", str(tmp_path)]) == 0
-    assert "1 not run (engine not installed)" in capsys.readouterr().out
-
-
 def test_an_unknown_claim_is_bad_input(tmp_path, capsys):
     assert main(["validate", "aproach", "--out", str(tmp_path)]) == 2
     assert "did you mean 'approach'" in capsys.readouterr().err
-
-
-def test_a_record_holds_what_the_page_shows():
-    record = finding_record(finding(claim_of(comparison("x", [1.0], [2.0], 0.1))))
-    assert record["comparisons"] == [
-        {
-            "what": "x", "points": 1, "measured": 1.0, "expected": 2.0, "error": 1.0,
-            "tolerance": 0.1, "holds": False,
-        }
-    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(
     ("name", "cone"),
     [
         ("flat_patch", "pyramid"),
-        ("pushed_block", "pyramid"),
-        ("mujoco_friction", "pyramid"),
         ("planar_push", "ellipsoid"),
     ],
 )
 def test_a_figure_says_its_quantities_its_time_step_and_the_cone(name, cone, monkeypatch):
     # What a figure says does not depend on how many points and steps its claim has.
     monkeypatch.setattr(planar_push, "grid", lambda *axes: grid(*axes)[::9])
-    monkeypatch.setattr(pushed_block, "STEPS", 5)
     figure = PICTURES[name](BY_NAME[name].measure().picture)
     titles = [axes.get_title(loc="right") for axes in figure.axes]
     labels = [label for axes in figure.axes for label in axes.get_legend_handles_labels()[1]]

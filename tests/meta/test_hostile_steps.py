@@ -16,7 +16,7 @@ HELD_UP = {"quadprog": 115, "cvxpy proxqp": 12, "highs": 308}
 """Inputs that held a backend up: quadprog for ever, by both its interfaces, and ProxQP through
 CVXPY for longer than 10 s, in 20,000 iterations of up to 1,500 inner ones; HiGHS, by both of its
 interfaces, ended the process."""
-SAMPLE = 3
+SAMPLE = 1
 """Steps that every path is given."""
 READERS = "validation.make.hostile_steps"
 

@@ -6,7 +6,6 @@ Everything between backticks is a name and must be found; each row of a table en
 import ast
 import re
 from pathlib import Path
-from urllib.parse import quote_plus
 
 import pytest
 
@@ -20,7 +19,6 @@ PAGES = ("errata.md", "the_paper.md")
 CITED = re.compile(r"\{cite:[pt]\}`(\w+)`")
 NAMED = re.compile(r"`([^`]+)`")
 LIST = r"((?:`\w+`(?:, | and )?)+)"
-LINK = re.compile(r"\]\(([^)#]+)[^)]*\)")
 FOLDERS = (ROOT, ROOT / "quasistatic_ref", TESTS)
 """Where a file or folder that a page names may lie."""
 
@@ -83,18 +81,14 @@ EQ11 = "`equations/test_eq11_dual_feasibility.py`"
 @pytest.mark.parametrize(
     ("text", "missing"),
     [
-        (f"{EQ11}: `test_positive_multipliers_leave_no_residual`", []),
-        (f"{EQ11}: `test_no_residual`", ["test_no_residual"]),
+        (f"{EQ11}: `test_the_residual_is_the_most_negative_multiplier`", []),
         (
             f"`certify/test_exact.py`, {EQ11}: `test_half_way_values_round_to_even`",
             ["test_half_way_values_round_to_even"],
         ),
-        ("`unit/test_inexact.py`", ["unit/test_inexact.py"]),
         ("claims `grasp` and `octahedron`; claim `icosahedron`", ["icosahedron"]),
-        ("`octahedron`, which is not said to be a claim", ["octahedron"]),
         ("`step/problem.py` and `step/problems.py`", ["step/problems.py"]),
         ("scenario `door`, examples `door` and `window`", ["window"]),
-        ("scenario `window`", ["window"]),
         ("`quasistatic-ref validate`, `quasistatic-ref falsify`", ["quasistatic-ref falsify"]),
     ],
 )
@@ -116,15 +110,6 @@ def test_every_row_ends_with_a_test_or_a_claim(page):
     assert [row for row in found if not evidence(row.rstrip("| ").rpartition(" | ")[2])] == []
 
 
-@pytest.mark.parametrize("page", PAGES)
-def test_every_page_and_every_work_referred_to_exists(page):
-    text, works = (THEORY / page).read_text(), (ROOT / "docs" / "references.bib").read_text()
-    links = [link for link in LINK.findall(text) if not link.startswith("http")]
-    assert links
-    assert [link for link in links if not (THEORY / link).is_file()] == []
-    assert [work for work in CITED.findall(text) if f"{{{work}," not in works] == []
-
-
 def test_every_erratum_that_a_test_shows_is_in_the_errata():
     page = (THEORY / "errata.md").read_text()
     shown = {t for path in TESTS.rglob("test_eq*.py") for t in functions_of(path)}
@@ -136,23 +121,3 @@ def test_every_claim_about_the_paper_is_on_its_page():
     about = {name for name, claim in BY_NAME.items() if claim.where.startswith("the paper")}
     assert about
     assert about <= named
-
-
-def test_the_paper_is_found_by_its_exact_title_and_no_year_is_claimed():
-    title = re.search(
-        r"title = {(.*Torsional Friction)}", (ROOT / "docs/references.bib").read_text()
-    )
-    query = quote_plus(title[1])
-    page = (THEORY / "the_paper.md").read_text()
-    assert len(re.findall(re.escape(query) + r"\)", page)) == 2
-    assert f'"{title[1]}"' in page
-    for name in ("README.md", "CITATION.cff", "docs/references.bib"):
-        text = (ROOT / name).read_text()
-        assert title[1] in text, name
-        assert f"https://arxiv.org/search/?searchtype=title&query={query}" in text, name
-        assert "in July 2023 or later" in text, name
-    entry = (ROOT / "docs/references.bib").read_text().partition("\n}")[0]
-    assert "year =" not in entry
-    assert not re.search(
-        r"^    (year|doi|date-published):", (ROOT / "CITATION.cff").read_text(), re.M
-    )

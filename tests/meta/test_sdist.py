@@ -1,12 +1,10 @@
 """The sdist has everything, and the program that checks an sdist notices what lacks."""
 
-import io
 import re
-import tarfile
 import tomllib
 from pathlib import Path
 
-from validation.tools.check_sdist import TESTS, differences, members
+from validation.tools.check_sdist import TESTS
 
 ROOT = Path(__file__).parents[2]
 TARGETS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]
@@ -25,19 +23,3 @@ def test_the_sdist_takes_all_that_the_tests_read():
 
 def test_the_tests_that_run_in_an_sdist_exist():
     assert [name for name in TESTS if not (ROOT / name).exists()] == []
-
-
-def test_a_file_that_only_one_side_has_is_named(tmp_path):
-    sdist = tmp_path / "one-1.0.tar.gz"
-    with tarfile.open(sdist, "w:gz") as archive:
-        for name in ("one-1.0/README.md", "one-1.0/models/scene.toml"):
-            archive.addfile(tarfile.TarInfo(name), io.BytesIO())
-        folder = tarfile.TarInfo("one-1.0/models")
-        folder.type = tarfile.DIRTYPE
-        archive.addfile(folder)
-    found = members(sdist)
-    assert found == {"README.md", "models/scene.toml"}
-    assert differences({"README.md", "LICENSE"}, found, "lacks", "is more") == [
-        "LICENSE lacks",
-        "models/scene.toml is more",
-    ]

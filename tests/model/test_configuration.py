@@ -1,7 +1,6 @@
 """Configurations from outside: unit parts of length one, zeros without a sign."""
 
 import numpy as np
-import pytest
 
 from quasistatic_ref.model.configuration import configuration, normalised
 from quasistatic_ref.model.coordinates import Joint
@@ -24,13 +23,6 @@ def test_quaternions_and_cosine_sine_pairs_are_divided_by_their_lengths() -> Non
     q = Q.copy()
     assert normalised(JOINTS, q).tolist() == expected
     assert np.array_equal(q, Q)
-
-
-@pytest.mark.parametrize("part", UNITS.values(), ids=UNITS)
-def test_a_unit_part_of_length_zero_stays(part: slice) -> None:
-    q = normalised(JOINTS, Q)
-    q[part] = 0.0
-    assert np.array_equal(normalised(JOINTS, q), q)
 
 
 def test_lengths_off_by_rounding_alone_keep_their_bits() -> None:

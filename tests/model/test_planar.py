@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.model.system import Body, System
 from tests.model.urdf.urdf_texts import BOX, written
-from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, EXACT, ROUNDING
+from tests.tolerances import EXACT, ROUNDING
 
 
 def slider(folder: Path) -> System:
@@ -36,19 +36,6 @@ def test_a_planar_base_moves_along_its_own_axes(tmp_path: Path) -> None:
     np.testing.assert_allclose(q[:2], [1, 1], rtol=EXACT, atol=ROUNDING)
     back = system.difference(system.neutral(), q)
     np.testing.assert_allclose(back, [np.pi / 2, 0, np.pi / 2], rtol=EXACT, atol=ROUNDING)
-
-
-def test_the_jacobian_of_a_planar_base_is_that_of_central_differences(tmp_path: Path) -> None:
-    system = slider(tmp_path)
-    q, d = system.q_start, DIFFERENCE_STEP
-    for k in range(3):
-        poses = [system.kinematics(system.integrate(q, s * d * np.eye(3)[k])) for s in (1, -1)]
-        linear = (poses[0].t[1] - poses[1].t[1]) / (2 * d)
-        spin = (poses[0].R[1] - poses[1].R[1]) / (2 * d) @ system.kinematics(q).R[1].T
-        column = system.kinematics(q).J[1, :, k]
-        np.testing.assert_allclose(column[:3], linear, rtol=EXACT, atol=DIFFERENCE)
-        found = [spin[2, 1], spin[0, 2], spin[1, 0]]
-        np.testing.assert_allclose(column[3:], found, rtol=EXACT, atol=DIFFERENCE)
 
 
 def test_the_mass_matrix_of_a_planar_base_is_that_of_a_plate(tmp_path: Path) -> None:

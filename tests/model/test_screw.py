@@ -9,7 +9,7 @@ from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.screw import change, dot, linear_part, moved, translation
 from tests.tolerances import ROUNDING
 
-ANGLES = (0.0, 1e-13, 1e-9, 2e-4, 0.3, 1.5, 3.0)
+ANGLES = (0.0, 1e-9, 0.3, 3.0)
 LINEAR = (0.3, -0.7, 1.1)
 AXIS = np.array([2.0, -3.0, 6.0]) / 7
 FLOATING = Joint("base", "floating", False, slice(1, 8), slice(1, 7))

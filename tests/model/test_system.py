@@ -28,22 +28,6 @@ def test_coordinates_are_actuated_first_then_in_order_of_the_bodies(scene: Syste
     assert units["arm/base.rx"] == units["arm/spin"] == units["arm/swing"] == "rad"
 
 
-def test_slices_of_joints_tile_q_and_delta_q(scene: System) -> None:
-    kinds = {joint.name: joint.kind for joint in scene.joints}
-    assert kinds["arm/base"] == "floating"
-    assert kinds["arm/spin"] == "continuous"
-    assert kinds["arm/swing"] == "revolute"
-    assert kinds["desk/slide"] == "prismatic"
-    widths = {"floating": (7, 6), "continuous": (2, 1), "revolute": (1, 1), "prismatic": (1, 1)}
-    at_q = at_v = 0
-    for each in scene.joints:
-        n_q, n_v = widths[each.kind]
-        assert (each.q, each.v) == (slice(at_q, at_q + n_q), slice(at_v, at_v + n_v))
-        at_q, at_v = at_q + n_q, at_v + n_v
-    assert (at_q, at_v) == (scene.n_q, scene.n_v)
-    assert scene.n_q_a == 7 + 2 + 1
-
-
 def test_a_mimic_has_no_coordinate_and_is_listed(scene: System) -> None:
     first = scene.mimics[0]
     assert (first.name, first.of) == ("arm/swing_mimic", "arm/swing")
@@ -73,14 +57,6 @@ def test_moving_one_coordinate_moves_the_links_behind_it_and_no_other(scene: Sys
         there = scene.kinematics(scene.integrate(scene.q_start, delta_q))
         off = np.abs(there.t - here.t).max(axis=1) + np.abs(there.R - here.R).max(axis=(1, 2))
         assert {scene.links[k] for k in np.flatnonzero(off > ROUNDING)} == moved
-
-
-def test_the_world_is_link_zero_and_stands_still(scene: System, q: np.ndarray) -> None:
-    kinematics = scene.kinematics(q)
-    assert scene.link("world") == 0
-    assert np.array_equal(kinematics.R[0], np.eye(3))
-    assert not kinematics.t[0].any()
-    assert not kinematics.J[0].any()
 
 
 def test_a_fixed_base_stands_where_it_was_placed(scene: System) -> None:
@@ -126,15 +102,6 @@ def test_a_floating_base_moves_by_the_screw_of_its_body_frame_twist(
     assert np.abs(q_next - q)[others].max() < ROUNDING
 
 
-def test_a_continuous_joint_turns_past_pi(scene: System) -> None:
-    spin, q = scene.joint("arm/spin"), scene.q_start  # at 2 rad
-    delta_q = np.zeros(scene.n_v)
-    delta_q[spin.v] = 2.5
-    q_next = scene.integrate(q, delta_q)
-    assert q_next[spin.q] == pytest.approx([np.cos(4.5), np.sin(4.5)], abs=ROUNDING)
-    assert scene.difference(q, q_next)[spin.v] == pytest.approx(2.5, abs=ROUNDING)
-
-
 def test_difference_is_the_inverse_of_integrate(
     scene: System, q: np.ndarray, rng: np.random.Generator
 ) -> None:
@@ -166,21 +133,6 @@ def test_masses_are_those_of_the_files(scene: System) -> None:
     assert scene.masses[scene.link("arm/upper")] == 2.0
 
 
-def test_shapes_sit_on_the_links_that_they_are_named_after(scene: System) -> None:
-    names = {shape.name: scene.links[shape.link] for shape in scene.shapes}
-    assert names == {
-        f"{body}/{at}#0": f"{body}/{at}"
-        for body, links in (("box", ["box"]), ("arm", ["base_link", "upper", "tool"]))
-        for at in links
-    } | {f"desk/{at}#0": f"desk/{at}" for at in ["base_link", "upper", "tool"]}
-    upper = next(shape for shape in scene.shapes if shape.name == "desk/upper#0")
-    assert upper.t == pytest.approx([0, 0.1, 0.2], abs=ROUNDING)
-
-
-def test_what_is_ignored_says_whose_it_is(scene: System) -> None:
-    assert "arm: joint[swing].limit" in scene.ignored
-
-
 def test_everything_actuated_leaves_an_empty_block(tmp_path: Path) -> None:
     system = System([Body("c", written(tmp_path, CHAIN), "floating", "all")])
     assert (system.n_a, system.n_u) == (9, 0)
@@ -193,17 +145,6 @@ def test_a_world_without_joints_is_a_system(tmp_path: Path) -> None:
     assert (system.n_v, system.n_q, system.links) == (0, 0, ("world", "stone/box"))
     assert system.kinematics(system.q_start).t[1] == pytest.approx([1, 0, 0], abs=ROUNDING)
     assert system.gravity_force(system.q_start, [0, 0, -9.81]).shape == (0,)
-
-
-def test_two_joints_are_exchanged_where_the_second_alone_is_actuated(tmp_path: Path) -> None:
-    joints = link("a"), link("b"), joint("j", "a", "b", "prismatic", "1 0 0")
-    path = written(tmp_path, robot(*joints))
-    system = System([Body("first", path), Body("second", path, actuated=("j",))])
-    q = np.array([0.2, 0.5])  # [q_a; q_u]
-    t = system.kinematics(q).t
-    assert t[system.link("second/b")] == pytest.approx([0.2, 0, 0], abs=ROUNDING)
-    assert t[system.link("first/b")] == pytest.approx([0.5, 0, 0], abs=ROUNDING)
-    assert system.integrate(q, np.array([0.01, 0.04])) == pytest.approx([0.21, 0.54], abs=ROUNDING)
 
 
 def test_m_u_of_free_bodies_alone_is_one_array_without_negative_zeros(
@@ -221,11 +162,6 @@ def test_m_u_of_free_bodies_alone_is_one_array_without_negative_zeros(
     assert np.abs(scene.M_u(q) - scene.M_u(scene.q_start)).max() > 0.1
 
 
-def test_the_kinematics_that_were_computed_last_are_kept(scene: System, q: np.ndarray) -> None:
-    assert scene.kinematics(q) is scene.kinematics(q.copy())
-    assert scene.kinematics(scene.q_start) is not scene.kinematics(q)
-
-
 def test_many_bodies_of_one_file_do_not_meet(tmp_path: Path) -> None:
     path = written(tmp_path, robot(
         link("a"), link("b"), link("c"), joint("j", "a", "b", "prismatic", "1 0 0"),
@@ -240,29 +176,3 @@ def test_many_bodies_of_one_file_do_not_meet(tmp_path: Path) -> None:
     for k, name in enumerate(names):
         assert t[system.link(f"{name}/b")] == pytest.approx([k, 0, 0], abs=ROUNDING)
         assert t[system.link(f"{name}/c")] == pytest.approx([-k, 0, 0], abs=ROUNDING)
-
-
-SINGLE = {
-    "revolute": ("1 2 2", (0, 0, 0, 1 / 3, 2 / 3, 2 / 3)),
-    "continuous": ("0 1 0", (0, 0, 0, 0, 1, 0)),
-    "prismatic": ("1 2 2", (1 / 3, 2 / 3, 2 / 3, 0, 0, 0)),
-}
-
-
-@pytest.mark.parametrize("actuated", [True, False])
-@pytest.mark.parametrize(("kind", "axis", "column"), [(k, *v) for k, v in SINGLE.items()])
-def test_a_world_of_one_coordinate_has_its_axis_as_jacobian(
-    tmp_path: Path, kind: str, axis: str, column: tuple[float, ...], actuated: bool
-) -> None:
-    path = written(tmp_path, robot(link("a"), link("b"), joint("j", "a", "b", kind, axis)))
-    system = System([Body("one", path, actuated=("j",) if actuated else ())])
-    kinematics = system.kinematics(system.q_start)
-    assert kinematics.J.shape == (3, 6, 1)
-    expected = np.array([np.zeros(6), np.zeros(6), column])
-    np.testing.assert_allclose(kinematics.J[:, :, 0], expected, rtol=ROUNDING, atol=ROUNDING)
-    assert system.M_u(system.q_start).shape == ((0, 0) if actuated else (1, 1))
-    moved = system.integrate(system.q_start, np.array([0.3]))
-    np.testing.assert_allclose(
-        system.difference(system.q_start, moved), [0.3], rtol=ROUNDING, atol=ROUNDING
-    )
-    assert system.gravity_force(system.q_start, [0, 0, -9.81]).shape == (1,)

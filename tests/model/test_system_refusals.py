@@ -8,9 +8,7 @@ import pytest
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.tolerances import UNIT_QUATERNION
 from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, written
-from tests.tolerances import ROUNDING
 
 
 def test_a_configuration_keeps_its_bits_when_checked(
@@ -19,17 +17,6 @@ def test_a_configuration_keeps_its_bits_when_checked(
     for _ in range(100):
         q = scene.integrate(q, rng.normal(size=scene.n_v))
         assert np.array_equal(scene.checked(q), q)
-
-
-def test_a_quaternion_off_by_the_rounding_of_a_file_is_normalised(
-    scene: System, q: np.ndarray
-) -> None:
-    off = q.copy()
-    off[scene.joint("box/base").q.start + 3 :][:4] *= 1 + UNIT_QUATERNION / 2
-    off[scene.joint("arm/spin").q] *= 1 - UNIT_QUATERNION / 2
-    assert not np.array_equal(off, q)
-    assert np.abs(scene.checked(off) - q).max() < ROUNDING
-    assert np.array_equal(scene.checked(scene.checked(off)), scene.checked(off))
 
 
 BAD_Q: dict[str, tuple[str, int, float, str]] = {
@@ -79,24 +66,16 @@ def test_unknown_names_are_answered_with_the_nearest(scene: System) -> None:
 BAD_BODY: dict[str, tuple[dict[str, Any], str]] = {
     "no name": ({"name": ""}, "body.name: must be a name"),
     "world": ({"name": "world"}, "body.name: must be a name other than 'world'"),
-    "slash": ({"name": "a/b"}, "body.name: must not contain"),
-    "hash": ({"name": "a#0"}, "body.name: must not contain"),
-    "star": ({"name": "a*"}, "body.name: must not contain"),
     "space": ({"name": "a b"}, "body.name: must not contain"),
     "spherical": ({"base": "spherical"}, r"c.base: is not a base; .* \(got 'spherical"),
     "tilted": ({"base": "planar", "rpy": (0.1, 0, 0)}, r"c.rpy: must be \[0, 0, yaw\]"),
     "bare string": ({"actuated": "swing"}, 'c.actuated: must be "all" or a sequence'),
     "unknown joint": ({"actuated": ("swong",)}, "c.actuated: has no such joint; did you mean 'swi"),
-    "link as a joint": ({"actuated": ("tool",)}, "c.actuated: has no such joint"),
     "mimic joint": ({"actuated": ("swing_mimic",)}, "c.actuated: mimics 'swing' and has no coord"),
-    "welded joint": ({"actuated": ("weld",)}, "c.actuated: has no such joint"),
     "fixed base": ({"actuated": ("base",)}, 'c.actuated: is fixed; say base = "floating"'),
     "twice": ({"actuated": ("swing", "swing")}, "c.actuated: names a joint twice"),
-    "xyz": ({"xyz": (1, 2)}, "c.xyz: must have shape .3,."),
     "rpy": ({"rpy": (0, np.nan, 0)}, "c.rpy: must hold finite numbers only"),
     "unknown position": ({"positions": {"swin": 1}}, "c.positions: has no such joint; did you"),
-    "nan position": ({"positions": {"swing": np.nan}}, "c.positions.swing: must be a finite"),
-    "mimic position": ({"positions": {"swing_mimic": 1}}, "c.positions: mimics 'swing' and has no"),
     "base position": (
         {"base": "floating", "positions": {"base": 1}},
         "c.positions: is placed by xyz and rpy",

@@ -22,7 +22,7 @@ from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_sha256, step_text
 from quasistatic_ref.step.solution_files import infeasible_text, solution_text
 from tests.oracles.forged_scenes import facing, scenes
-from validation.make.forgeries import MISSING, good_file, put, with_its_wrenches
+from tests.oracles.forgeries import MISSING, good_file, put, with_its_wrenches
 
 Fault = tuple[str, str, str]
 """Texts of a step and of a solution, and what the second checker says first."""

@@ -12,9 +12,8 @@ from quasistatic_ref.errors import QuasistaticError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import solver as fast_solvers
-from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.files import step_text
 from quasistatic_ref.step.solution_files import infeasible_text, solution_text
 from tests.oracles.attacked_steps import steps
@@ -43,7 +42,7 @@ def test_no_nearly_singular_matrix_is_judged_wrongly(attack):
 
 
 def test_bounds_that_are_too_small_are_found(attack, monkeypatch):
-    monkeypatch.setattr(DenseStep, "bound", lambda *_: 0.0)
+    monkeypatch.setattr(Solver, "error_bound", lambda *_: 0.0)
     monkeypatch.setattr(fast_solvers, "BOUNDED", -1.0)
     bounds(attack, "all scales", 2)
     assert len(attack.wrong) == 2
@@ -53,8 +52,6 @@ def test_bounds_that_are_too_small_are_found(attack, monkeypatch):
     ("family", "cone"),
     [
         ("ordinary", "ellipsoid"),
-        ("ordinary", "pyramid"),
-        ("all scales", "facets-6"),
         ("all scales", "product"),
     ],
 )
@@ -78,7 +75,7 @@ def test_what_is_written_is_verified_in_every_mode(attack, family, cone):
             assert refusal is None if claimed else PROVES_NOTHING in refusal
 
 
-@pytest.mark.parametrize("tau", [1e-323, 1e-320, 1e-312])
+@pytest.mark.parametrize("tau", [1e-323, 1e-312])
 def test_the_bound_of_a_subnormal_answer_is_of_the_answer_as_given(attack, tau):
     """A mass of 3 kg in a second: x* = tau / 3, of which delta_q has few digits."""
     step = free_step(np.array([[3.0]]), np.array([tau]), no_contacts(1), 1.0)
@@ -92,7 +89,7 @@ def test_a_bound_above_one_is_no_useful_bound(monkeypatch):
     step = free_step(np.eye(1), np.ones(1), no_contacts(1), 1.0)
     monkeypatch.setattr(fast_solvers, "BOUNDED", -1.0)
     for bound, said in ((1.0, 1.0), (np.nextafter(1.0, 2.0), None), (3e276, None), (np.inf, None)):
-        monkeypatch.setattr(DenseStep, "bound", lambda *_, bound=bound: bound)
+        monkeypatch.setattr(Solver, "error_bound", lambda *_, bound=bound: bound)
         solver = solver_for(step, "daqp", fast=True)
         certificate = solve_step(step, solver, certify="residual").certificate
         assert certificate.error_bound == said

@@ -5,17 +5,17 @@ Every subset of independent rows is solved in `fractions`; one whose multipliers
 """
 
 import random
+from collections import Counter
 from fractions import Fraction
 from itertools import combinations
 
 import numpy as np
-import pytest
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import decimal_strings, exact_optimum
+from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.rational import exact_form_of
 
-PROBLEMS = 800
+PROBLEMS = 320
 
 
 def eliminated(M, right):
@@ -137,11 +137,14 @@ def enumeration_of(H, g, A, b):
     )
 
 
-@pytest.mark.parametrize("block", range(8))
-def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets(block):
-    for seed in range(block, PROBLEMS, 8):
+def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
+    kinds = Counter()
+    for seed in range(PROBLEMS):
         H, g, A, b = small_problem(seed)
         form, truth = exact_form_of(H, g, A, b), enumeration_of(H, g, A, b)
+        kinds["infeasible"] += truth.x is None
+        kinds["ambiguous"] += truth.x is not None and not truth.unique
+        kinds["kink"] += truth.x is not None and not truth.differentiable
         rng = random.Random(seed)
         warm = [[], list(range(len(b))), [rng.randrange(len(b)) for _ in b]]
         for rows in warm:
@@ -169,15 +172,16 @@ def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets(block):
             active = [v for v in found.lam.tolist() if v]
             assert found.smallest_active_multiplier == min(active, default=None), seed
             assert found.working_set == tuple(np.flatnonzero(found.lam).tolist()), seed
+    assert min(kinds.values()) >= 10
+    assert kinds["infeasible"] <= PROBLEMS / 2
 
 
-@pytest.mark.parametrize("bits", [2, 30])
-def test_bits_do_not_depend_on_the_precision_of_the_balls(monkeypatch, bits):
+def test_bits_do_not_depend_on_the_precision_of_the_balls(monkeypatch):
     """With balls that decide next to nothing every sign is taken from rational numbers."""
     problems = [small_problem(seed) for seed in range(0, PROBLEMS, 5)]
     expected = [exact_optimum(exact_form_of(*problem)) for problem in problems]
-    for module in ("active_set", "balls", "exact"):
-        monkeypatch.setattr(f"quasistatic_ref.certify.{module}.PRECISION", bits)
+    for module in ("active_set", "point", "exact"):
+        monkeypatch.setattr(f"quasistatic_ref.certify.{module}.PRECISION", 2)
     for problem, right in zip(problems, expected, strict=True):
         found = exact_optimum(exact_form_of(*problem))
         assert isinstance(found, Farkas) == isinstance(right, Farkas)
@@ -186,27 +190,3 @@ def test_bits_do_not_depend_on_the_precision_of_the_balls(monkeypatch, bits):
                 assert getattr(found, name).tobytes() == getattr(right, name).tobytes()
             assert found.multipliers_unique == right.multipliers_unique
             assert found.differentiable == right.differentiable
-
-
-def test_the_family_holds_every_kind_of_problem():
-    infeasible = ambiguous = kinks = degenerate = 0
-    for seed in range(PROBLEMS):
-        truth = enumeration_of(*small_problem(seed))
-        if truth.x is None:
-            infeasible += 1
-            continue
-        ambiguous += not truth.unique
-        kinks += not truth.differentiable
-        degenerate += not truth.unique and truth.differentiable
-    assert min(infeasible, ambiguous, kinks, degenerate) >= 10
-    assert PROBLEMS - infeasible >= 150
-
-
-def test_thirty_digits_are_those_of_the_fraction():
-    H, g = np.diag([3.0, 7.0, 1.0]), np.array([1.0, -5.0, 0.0])
-    one_third, minus_five_sevenths, zero = decimal_strings(
-        exact_form_of(H, g, np.zeros((0, 3)), np.zeros(0)), ()
-    )
-    assert one_third == "3." + "3" * 29 + "e-01"
-    assert minus_five_sevenths == "-7.14285714285714285714285714286e-01"
-    assert zero == "0." + "0" * 29 + "e+00"

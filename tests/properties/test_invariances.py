@@ -9,15 +9,13 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import (
-    JUDGE,
     changed,
     error,
-    hessian,
     planted_step,
     random_frame,
     random_step,
 )
-from tests.tolerances import ACTIVE_SET, EXACT, MULTIPLIERS, ROUNDING
+from tests.tolerances import ACTIVE_SET, MULTIPLIERS, ROUNDING
 
 
 @st.composite
@@ -45,7 +43,7 @@ seeds = st.integers(0, 2**32 - 1)
 
 
 def solved(step):
-    return solve_step(step, JUDGE)
+    return solve_step(step, "none")
 
 
 def assert_same_motion(step, actual, expected):
@@ -55,13 +53,6 @@ def assert_same_motion(step, actual, expected):
 def push(step, lam):
     """A' lam: what the multipliers do to the coordinates; lam itself need not be unique."""
     return standard_form(step).A.T @ lam
-
-
-@given(steps(), st.integers(0, 4))
-def test_a_contact_given_twice_leaves_delta_q(step, which):
-    n_c = step.contacts.n_c
-    twice = step.replace(contacts=repeated(step.contacts, [*range(n_c), which % n_c]))
-    assert_same_motion(step, solved(twice).delta_q, solved(step).delta_q)
 
 
 @given(steps(), seeds)
@@ -74,16 +65,6 @@ def test_the_order_of_contacts_leaves_delta_q_and_each_push(step, seed):
     np.testing.assert_allclose(
         push(moved, two.lam), push(step, one.lam), rtol=0.0, atol=MULTIPLIERS * scale
     )
-
-
-@given(steps(), st.integers(1, 3))
-def test_a_quarter_turn_of_the_tangents_leaves_delta_q(step, quarters):
-    contacts = step.contacts
-    d1, d2 = contacts.d1, contacts.d2
-    for _ in range(quarters):
-        d1, d2 = d2, -d1
-    turned = step.replace(contacts=changed(contacts, d1=d1, d2=d2))
-    assert_same_motion(step, solved(turned).delta_q, solved(step).delta_q)
 
 
 @given(steps(), seeds)
@@ -149,29 +130,6 @@ def test_without_penetration_the_optimum_is_not_above_zero(seed, shape):
     assert value <= ROUNDING * abs(form.g @ np.linalg.solve(form.H, form.g))
 
 
-@given(steps())
-def test_contacts_only_push_and_only_where_they_touch(step):
-    answer, form = solved(step), standard_form(step)
-    gap = form.A @ answer.delta_q - form.b
-    # Scales of the sums that must cancel: in a row of (10), and of the impulses of (9).
-    far = (np.abs(form.A) @ np.abs(answer.delta_q) + np.abs(form.b)).max()
-    hard = max(answer.lam.max(), np.abs(form.g).max())
-    assert answer.lam.min() >= -MULTIPLIERS * hard
-    assert gap.min() >= -ACTIVE_SET * far
-    assert np.abs(gap * answer.lam).max() <= MULTIPLIERS * far * hard
-
-
-@given(steps())
-def test_the_unconstrained_step_is_never_nearer_than_the_optimum(step):
-    # x* is the projection of x0 = H^-1 g in the norm of H: <x0 - x*, y - x*>_H <= 0, so with
-    # y = 0, feasible for phi >= 0, ||x*||_H <= ||x0||_H.
-    if step.contacts.phi.min() < 0:
-        return
-    H, delta_q = hessian(step), solved(step).delta_q
-    free = np.linalg.solve(H, standard_form(step).g)
-    assert delta_q @ H @ delta_q <= free @ H @ free * (1 + ROUNDING)
-
-
 @given(seeds, shapes())
 def test_six_rows_without_torsion_equal_four(seed, shape):
     step = random_step(np.random.default_rng(seed), *shape)
@@ -180,10 +138,3 @@ def test_six_rows_without_torsion_equal_four(seed, shape):
         step.replace(contacts=changed(contacts, rows=np.full(contacts.n_c, k))) for k in (4, 6)
     )
     assert_same_motion(step, solved(six).delta_q, solved(four).delta_q)
-
-
-@given(steps())
-def test_the_same_step_gives_the_same_bits(step):
-    one, two = solved(step), solved(step)
-    np.testing.assert_allclose(two.delta_q, one.delta_q, rtol=EXACT, atol=EXACT)
-    np.testing.assert_allclose(two.lam, one.lam, rtol=EXACT, atol=EXACT)

@@ -12,7 +12,7 @@ from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.faces import kinks
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
@@ -21,7 +21,7 @@ from quasistatic_ref.optional.derivatives.contact.features import feature
 from quasistatic_ref.optional.show.figures import draw_scene, moment, panels
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.scenario.world_solids import SOLIDS, Kind
-from quasistatic_ref.shapes.placed_shape import Box, HalfSpace
+from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, Sphere
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import lengths
 from tests.errors.scene import SCENE, changed, scene_written
@@ -81,20 +81,20 @@ def test_its_distances_of_points_are_those_of_the_formula():
     assert PAD.extent == pytest.approx(2 * (HALF.max() + RADIUS), rel=ROUNDING)
 
 
-@pytest.mark.parametrize("other", [Box(np.full(3, 0.05)), HalfSpace(np.array([0, 0, -1.0]), 0.05)])
+@pytest.mark.parametrize("other", [Sphere(0.05), HalfSpace(np.array([0, 0, -1.0]), 0.05)])
 def test_its_distance_to_other_solids_is_that_of_the_faces(other):
-    # The lower face of the box, and the plane of the half-space, are 0.05 from their frame.
+    # The ball's lowest point, and the plane of the half-space, are 0.05 from their frame.
     gap = 0.02
-    above = Placed(other, np.eye(3), np.array([0.01, 0.02, HALF[2] + RADIUS + gap + 0.05]))
-    found = solid_pair("pad", Placed(PAD, np.eye(3), np.zeros(3)), above)
+    above = ShapeInWorld(other, np.eye(3), np.array([0.01, 0.02, HALF[2] + RADIUS + gap + 0.05]))
+    found = solid_pair("pad", ShapeInWorld(PAD, np.eye(3), np.zeros(3)), above)
     np.testing.assert_allclose(found.phi, gap, atol=ROUNDING)
     np.testing.assert_allclose(found.n, [0, 0, 1], atol=ROUNDING)
 
 
 def test_what_it_has_not_said_is_refused_in_a_sentence():
-    box = Placed(Box(np.full(3, 0.05)), np.eye(3), np.zeros(3))
+    box = ShapeInWorld(Box(np.full(3, 0.05)), np.eye(3), np.zeros(3))
     with pytest.raises(ContactError, match="shape: has no coal object of another size"):
-        solid_pair("pad", Placed(PAD, np.eye(3), np.zeros(3)), box)
+        solid_pair("pad", ShapeInWorld(PAD, np.eye(3), np.zeros(3)), box)
     with pytest.raises(ContactError, match="shape: has no known faces"):
         kinks(PAD)
     with pytest.raises(ContactError, match="shape: has no derivatives"):

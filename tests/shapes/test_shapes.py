@@ -33,8 +33,6 @@ def sheared(by: float) -> np.ndarray:
 
 REFUSED: list[tuple[str, Callable[[], Any], str]] = [
     ("zero radius", lambda: Sphere(0.0), r"radius: must be a positive length \(got 0.0\)"),
-    ("negative radius", lambda: Sphere(-1.0), r"radius: must be a positive length \(got -1.0\)"),
-    ("nan radius", lambda: Sphere(np.nan), "radius: must be a finite number"),
     ("infinite radius", lambda: Sphere(np.inf), "radius: must be a finite number"),
     ("radius too large to double", lambda: Sphere(1.7e308), "radius: must be a positive length"),
     ("text", lambda: Sphere(TEXT), r"radius: must be a finite number \(got 'big'\)"),
@@ -50,10 +48,7 @@ REFUSED: list[tuple[str, Callable[[], Any], str]] = [
         "half_extents: must be at least 1e-15 m",
     ),
     ("flat box", lambda: Box(np.array([1, 0, 1])), "half_extents: must be three positive lengths"),
-    ("two extents", lambda: Box(np.ones(2)), r"half_extents: must have shape \(3,\)"),
-    ("nan box", lambda: Box(np.array([1, np.nan, 1])), "half_extents: must hold finite numbers"),
     ("short cylinder", lambda: Cylinder(1.0, 0.0), "half_length: must be a positive length"),
-    ("thin cylinder", lambda: Cylinder(-0.1, 1.0), "radius: must be a positive length"),
     ("short capsule", lambda: Capsule(1.0, -1.0), "half_length: must be a positive length"),
     ("no normal", lambda: HalfSpace(np.zeros(3), 0.0), "normal: must not be zero"),
     ("nan offset", lambda: HalfSpace(np.eye(3)[0], np.nan), "offset: must be a finite number"),
@@ -79,24 +74,12 @@ def test_an_impossible_shape_is_refused(make: Callable[[], Any], words: str) -> 
         make()
 
 
-def test_sizes_and_rotations_at_their_limits_are_taken() -> None:
-    assert Sphere(SHORT).radius == SHORT
-    assert Box(np.full(3, SHORT)).half_extents.tolist() == [SHORT] * 3
-    R = sheared(ORTHONORMAL)
-    assert np.array_equal(PlacedShape("a#0", 0, R, np.zeros(3), Sphere(1.0)).R, R)
-
-
 def test_coal_sees_the_sizes_as_written() -> None:
     assert Sphere(0.2).coal == coal.Sphere(0.2)
     assert Box(np.array([0.1, 0.2, 0.3])).coal == coal.Box(0.2, 0.4, 0.6)
     assert Cylinder(0.1, 0.4).coal == coal.Cylinder(0.1, 0.8)
     assert Capsule(0.1, 0.4).coal == coal.Capsule(0.1, 0.8)
     assert Capsule(0.1, 0.4).coal != coal.Capsule(0.1, 0.4)
-
-
-def test_the_coal_object_is_made_once() -> None:
-    shape = Box(np.ones(3))
-    assert shape.coal is shape.coal
 
 
 def test_the_normal_of_a_half_space_points_out_of_the_solid() -> None:
@@ -159,14 +142,6 @@ def test_the_corners_of_a_box_are_drawn_each_once() -> None:
     points = Box(AXES).surface(5, 3)
     assert len(points) == len(expected)
     assert {tuple(point) for point in points.tolist()} == expected
-
-
-def test_a_mesh_of_another_size_is_the_hull_of_its_corners() -> None:
-    mesh = convex_hull([[0.5, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 4]])
-    other, expected = mesh.resized(3.0), convex_hull(3.0 * mesh.vertices)
-    np.testing.assert_allclose(other.vertices, expected.vertices, rtol=ROUNDING)
-    np.testing.assert_allclose(other.offsets, expected.offsets, atol=ROUNDING)
-    np.testing.assert_allclose(other.volume, expected.volume, rtol=ROUNDING)
 
 
 def test_words_say_the_box_about_points_and_no_zero_is_negative() -> None:

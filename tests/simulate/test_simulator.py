@@ -73,14 +73,6 @@ def test_the_target_is_a_change_from_where_the_joints_are(scenario):
     np.testing.assert_allclose(step.delta_q_bar_a, [0.006, 0.4], rtol=ROUNDING)
 
 
-def test_a_constant_a_table_and_a_function_are_the_same_target(scenario):
-    q, goal = scenario.system.q_start, np.array([0.01, np.cos(0.3), np.sin(0.3)])
-    targets = (goal, goal.tolist(), np.tile(goal, (4, 1)), lambda t: goal)
-    runs = [rollout(scenario.simulator(), q, target, 4, progress=False) for target in targets]
-    for run in runs[1:]:
-        np.testing.assert_allclose(run["q"], runs[0]["q"], rtol=EXACT, atol=EXACT)
-
-
 def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
     steps = 100
     table = np.stack([np.linspace(0, -0.1, steps), np.ones(steps), np.zeros(steps)], axis=1)
@@ -107,9 +99,7 @@ def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):
 TARGETS = {
     "too short": np.zeros(2),
     "too few steps": np.zeros((3, 3)),
-    "a cube": np.zeros((4, 3, 1)),
     "NaN": np.array([np.nan, 1.0, 0.0]),
-    "infinite": np.full((4, 3), np.inf),
 }
 
 
@@ -132,12 +122,6 @@ def test_a_start_that_is_no_configuration_is_refused(scenario):
     q[-1] = 0.0
     with pytest.raises(ModelError, match=r"q\[ball/base\]: its quaternion must have length one"):
         rollout(scenario.simulator(), q, scenario.targets, 1, progress=False)
-
-
-def test_an_unknown_record_is_refused(scenario):
-    q = scenario.system.q_start
-    with pytest.raises(InputError, match="record: must be one of full, light"):
-        rollout(scenario.simulator(), q, scenario.targets, 1, record="half", progress=False)
 
 
 def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):
@@ -167,23 +151,14 @@ def test_a_compensated_joint_does_not_feel_gravity(lift):
     np.testing.assert_allclose(run["q"], np.zeros((4, 1)), rtol=EXACT, atol=ROUNDING)
 
 
-@pytest.mark.parametrize("certify", ["residual", "full"])
-def test_an_uncompensated_joint_sags_by_its_weight_over_its_stiffness(lift, certify):
+def test_an_uncompensated_joint_sags_by_its_weight_over_its_stiffness(lift):
     feels = np.array([True])
     K_q = np.array([[400.0]])
-    simulator = Simulator(lift, [], h=0.01, K_q=K_q, gravity_acts=feels, certify=certify)
+    simulator = Simulator(lift, [], h=0.01, K_q=K_q, gravity_acts=feels)
     run = rollout(simulator, lift.q_start, lift.q_start, 3, progress=False)
     sag = 2 * GRAVITY / 400
     np.testing.assert_allclose(run["tau_a"], [[-2 * GRAVITY]] * 3, rtol=ROUNDING)
     np.testing.assert_allclose(run["q"][:, 0], [0, -sag, -sag, -sag], rtol=STICKING, atol=ROUNDING)
-
-
-def test_gravity_may_point_anywhere(tmp_path):
-    system = System([Body("ball", written(tmp_path, BALL), "floating")])
-    simulator = Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(1.0, -2.0, 3.0))
-    run = rollout(simulator, system.q_start, np.zeros(0), 1, progress=False)
-    expected = [0.01**2 * a for a in (1.0, -2.0, 3.0)]
-    np.testing.assert_allclose(run["q"][1, :3], expected, rtol=ROUNDING)
 
 
 def test_the_problem_is_compiled_once(scenario):
@@ -195,10 +170,3 @@ def test_the_problem_is_compiled_once(scenario):
         q = result.q
     assert compiled[0] is not None
     assert all(program is compiled[0] for program in compiled)
-
-
-def test_a_simulator_used_twice_gives_the_same_bits(scenario):
-    simulator, q = scenario.simulator(), scenario.system.q_start
-    one, two = (rollout(simulator, q, scenario.targets, 3, progress=False) for _ in range(2))
-    np.testing.assert_allclose(one["q"], two["q"], rtol=EXACT, atol=EXACT)
-    np.testing.assert_allclose(one["lam"], two["lam"], rtol=EXACT, atol=EXACT)

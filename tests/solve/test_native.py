@@ -13,8 +13,8 @@ from quasistatic_ref.optional.extensions.extended import extension_rows, with_ro
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import installed
-from quasistatic_ref.solve.cvxpy_problem import cvxpy_problem
-from quasistatic_ref.solve.native import NativeSolver, native_backends
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
@@ -38,7 +38,7 @@ def some_limits(symbols):
 
 def by_cvxpy(step, limits):
     """H, g, and (A, b) of the inequalities, then of the equations, as CVXPY compiles them."""
-    problem = cvxpy_problem(step, constraints=limits)
+    problem = CvxpyProblem(step, constraints=limits)
     problem.fill(step)
     data, _, _ = problem.problem.get_problem_data(cp.OSQP, solver_opts={})
     P = data["P"].toarray()
@@ -46,11 +46,10 @@ def by_cvxpy(step, limits):
     return np.triu(P) + np.triu(P, 1).T, -data["q"], *rows
 
 
-@pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("shape", SHAPES[:2], ids=str)
-def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp(shape, seed):
+def test_the_standard_form_is_what_cvxpy_compiles_to_four_ulp(shape, rng):
     # CVXPY's rows go through i first, ours through the contacts; an equation is two rows of ours.
-    step = random_step(np.random.default_rng(seed), *shape)
+    step = random_step(rng, *shape)
     form = standard_form(with_rows(step, extension_rows(step, Extension(some_limits))))
     H, g, A, b, E, e = by_cvxpy(step, some_limits)
     order = [step.offsets[j] + i for i in range(6) for j in np.flatnonzero(step.counts > i)]
@@ -90,7 +89,7 @@ def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backen
 @pytest.mark.parametrize("shape", SHAPES, ids=str)
 def test_each_backend_follows_steps_that_change_in_everything(backend, shape):
     solver = None
-    for seed in range(3):
+    for seed in range(2):
         rng = np.random.default_rng(seed)
         for step in (random_step(rng, *shape), planted_step(rng, *shape)[0]):
             solver = NativeSolver(step, backend) if solver is None else solver
@@ -124,21 +123,6 @@ def test_starting_warm_changes_no_answer_and_costs_fewer_iterations():
     assert iterations[0] < iterations[1] / 2
 
 
-def test_a_step_in_sequence_is_one_that_passes_every_check():
-    scenario = load_scenario("bunny_grasp", ["solver.certify=off"])
-    simulator, q = scenario.simulator(), scenario.system.q_start
-    for k in range(3):
-        result = simulator.step(q, scenario.targets(0.01 * (k + 1)))
-        q = result.q
-    step = result.step
-    again = step.replace(contacts=changed(step.contacts))
-    assert again == step
-    assert again.contacts.name == step.contacts.name
-    assert len(set(step.contacts.name)) == 15
-    for field in ("H", "counts", "mask", "offsets"):
-        np.testing.assert_array_equal(getattr(again, field), getattr(step, field))
-
-
 REFUSED = {
     "through CVXPY alone": "highs",
     "another interface": "qpsolvers:daqp",
@@ -162,7 +146,7 @@ def test_the_ellipsoid_s_program_is_what_cvxpy_compiles(own, rng):
     solver = solver_for(step, "clarabel", fast=True)
     solver.write(DenseStep(step))
     natural = within_reach(to_natural(step, natural_units(step)))
-    problem = cvxpy_problem(natural)
+    problem = CvxpyProblem(natural)
     problem.fill(natural)
     data, _, _ = problem.problem.get_problem_data(cp.CLARABEL, solver_opts={})
     dims = data["dims"]
@@ -188,17 +172,9 @@ def test_the_ellipsoid_s_native_answers_are_those_through_cvxpy(rng):
             np.testing.assert_array_equal(answer.delta_q, enclosed[0].delta_q)
 
 
-def test_a_contact_out_of_reach_bears_no_impulse_in_the_ellipsoid(rng):
-    step = random_step(rng, 3, 4, (6, 4)).replace(cone="ellipsoid")
-    step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0]))
-    answer = solve_step(step, solver_for(step, "clarabel", fast=True), certify="off")
-    np.testing.assert_array_equal(answer.lam[4:], np.zeros(4))
-
-
-@pytest.mark.parametrize("backend", ["daqp", "osqp", "piqp"])
-def test_the_ellipsoid_is_refused_natively_by_backends_of_rows(backend, rng):
+def test_the_ellipsoid_is_refused_natively_by_backends_of_rows(rng):
     with pytest.raises(BackendError, match="takes linear rows only; the ellipsoid needs one of"):
-        solver_for(random_step(rng).replace(cone="ellipsoid"), backend, fast=True)
+        solver_for(random_step(rng).replace(cone="ellipsoid"), "daqp", fast=True)
 
 
 def test_extensions_that_are_more_than_rows_need_cvxpy(rng):
@@ -243,16 +219,3 @@ def test_a_fast_run_imports_neither_cvxpy_nor_what_it_does_not_call(tmp_path):
     command = [sys.executable, "-c", NATIVE_RUN, str(tmp_path)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert done.stdout.splitlines()[-1] == "0 []", done.stderr
-
-
-@pytest.mark.parametrize(
-    ("cone", "backend"),
-    [(cone, name) for cone in ("pyramid", "ellipsoid") for name in native_backends(cone)],
-)
-def test_the_natural_form_is_the_same_once_a_solver_has_written_it(cone, backend):
-    step = random_step(np.random.default_rng(8)).replace(cone=cone)
-    solver = solver_for(step, backend, fast=True)
-    scaled = solver.scaled(step)
-    solver.answer(scaled, 1e-9)
-    for one, other in zip(scaled.natural_form, DenseStep(step).natural_form, strict=True):
-        assert one.tobytes() == other.tobytes()

@@ -19,14 +19,12 @@ from quasistatic_ref.solve import backends
 from quasistatic_ref.solve.adapters.clarabel import Clarabel
 from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import NoSolver, solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.problem import StepProblem
-from quasistatic_ref.step.solution import Certificate, SolverStatistics, step_solution
 from tests.helpers import (
     REQUIRED,
     always_in_blocks,
@@ -112,16 +110,9 @@ def test_a_call_that_contradicts_itself_cannot_be_written(step):
             solve_step(step, "clarabel", **{word: value})
 
 
-def test_a_problem_is_no_solver(step):
-    with pytest.raises(BackendError, match="is not a backend"):
-        solve_step(step, StepProblem(step))
-
-
 @pytest.mark.parametrize(
     ("kind", "name", "says"),
     [
-        (CvxpySolver, "qpsolvers:osqp", "leave out 'qpsolvers:'"),
-        (QpsolversSolver, "osqp", "as 'qpsolvers:osqp'"),
         (NativeSolver, "qpsolvers:daqp", "has no interface of its own"),
         (SparseSolver, "daqp", "takes no sparse matrices"),
     ],
@@ -193,12 +184,6 @@ def test_a_sparse_solver_certifies_nothing_exactly_and_says_so(large_step):
         solve_step(large_step, solver, certify="full")
 
 
-def test_a_sparse_solver_refuses_a_step_of_another_pattern(large_step, step):
-    solver = SparseSolver(large_step, "clarabel")
-    with pytest.raises(InputError, match=r"n_u, .*pattern of A; make one like it"):
-        solve_step(step, solver, certify="off")
-
-
 def test_no_solver_gives_no_answer_of_its_own(step):
     with pytest.raises(BackendError, match="gives no answer of its own"):
         solve_step(step, NoSolver(step), certify="residual")
@@ -221,11 +206,19 @@ def test_a_simulator_keeps_its_solver_while_steps_fit(fast, engine):
     assert solution.statistics.engine == engine
 
 
-@every_solver
+@pytest.mark.parametrize(
+    ("kind", "name", "engine"),
+    [
+        (CvxpySolver, "osqp", "cvxpy"),
+        (QpsolversSolver, "qpsolvers:piqp", "qpsolvers"),
+        (FastSolver, "daqp", "native"),
+        (NoSolver, "none", "none"),
+    ],
+)
 def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, engine, step):
     solver = solver_for(step, name, fast=kind is FastSolver)
     expected = solve_step(step, solver)
-    for again in (pickle.loads(pickle.dumps(solver)), copy.deepcopy(solver), copy.copy(solver)):
+    for again in (pickle.loads(pickle.dumps(solver)), copy.copy(solver)):
         assert type(again) is kind
         assert (again.name, again.engine) == (name, engine)
         assert again.fits(step)
@@ -276,20 +269,3 @@ def test_a_backend_of_studies_only_is_no_backend_of_steps():
         for fast in (False, True):
             with pytest.raises(BackendError, match="is not a backend"):
                 solver_for(point_on_floor(), name, fast)
-
-
-@pytest.mark.parametrize("cone", ["pyramid", "facets-8", "ellipsoid"])
-def test_wrenches_that_are_not_looked_at_are_finite(cone):
-    """Where h, mu and lam are as far towards the ends of float64 as is taken for harmless."""
-    least, most = 1.0000001 / LARGE, 0.49 * LARGE**0.5
-    step = random_step(np.random.default_rng(3), rows=(6,)).replace(cone=cone, h=1.0)
-    contacts = changed(step.contacts, mu_v=np.array([0.7 * most]), mu_omega=np.array([0.01]))
-    step = step.replace(contacts=contacts)
-    lam = np.full(int(step.offsets[-1]), most / step.offsets[-1])
-    said = SolverStatistics("some", "optimal", None, None, 1e-12)
-    for h, harmless in ((1.0, True), (least, True), (1e-300, False)):
-        of_h = copy.copy(step)
-        vars(of_h)["h"] = h
-        solution = step_solution(of_h, np.zeros(step.n_v), lam, Certificate("none"), said)
-        assert _far_from_largest(solution) == harmless
-        assert not harmless or np.isfinite(solution.wrench).all()

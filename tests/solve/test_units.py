@@ -6,20 +6,16 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.solve.scaled import DenseStep, check_units
+from quasistatic_ref.solve.scaled import check_units
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import (
     STANDSTILL,
     Units,
-    _power_of_two,
-    _typical,
     from_natural,
-    metric,
     natural_form,
     natural_units,
     out_of_reach,
     to_natural,
-    units_from,
     within_reach,
 )
 from quasistatic_ref.step.data import Extra
@@ -31,7 +27,6 @@ from tests.helpers import (
     hessian,
     pinch,
     planted_step,
-    point_on_floor,
     random_step,
     sphere_on_floor,
     unconstrained,
@@ -104,17 +99,7 @@ def test_natural_units_keep_the_form_of_13_and_4(step):
     np.testing.assert_allclose(natural.g, given.g * S / rho, rtol=ROUNDING, atol=EXACT)
 
 
-def test_mu_omega_and_the_frames_are_left_alone():
-    step = STEPS["random"]
-    natural = to_natural(step, natural_units(step))
-    assert natural.h == step.h
-    for name in ("n", "d1", "d2", "mu_v", "mu_omega", "rows"):
-        np.testing.assert_allclose(
-            getattr(natural.contacts, name), getattr(step.contacts, name), rtol=EXACT, atol=EXACT
-        )
-
-
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_the_answer_does_not_depend_on_the_units(seed):
     # Solve in natural units, and in units spoilt by powers of two per coordinate; compare in SI.
     rng = np.random.default_rng(seed)
@@ -161,18 +146,6 @@ def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
     assert NATURAL_LOW <= abs(natural.contacts.phi[0]) <= NATURAL_HIGH
 
 
-@pytest.mark.parametrize("backend_name", ["clarabel", "osqp", "piqp"])
-def test_a_body_that_nothing_drives_stays_where_it_is(backend_name):
-    delta_q = solve_step(sphere_on_floor(phi=0.0), backend_name).delta_q
-    np.testing.assert_allclose(delta_q, 0.0, rtol=0.0, atol=ROUNDING)
-
-
-def test_a_gap_sets_the_size_where_nothing_else_does():
-    step = sphere_on_floor(phi=0.02)
-    natural = to_natural(step, natural_units(step))
-    assert NATURAL_LOW <= natural.contacts.phi[0] <= NATURAL_HIGH
-
-
 def test_contacts_out_of_reach_are_moved_nearer_and_the_others_are_not():
     step = sphere_on_floor(phi=0.0, wrench=(0, 0, -1.0, 0, 0, 0))
     natural = to_natural(step, natural_units(step))
@@ -193,27 +166,6 @@ def test_the_natural_form_is_that_of_the_natural_step_bit_for_bit(step):
     assert natural_form(form, units, H := np.eye(step.n_v)).H is H
 
 
-@pytest.mark.parametrize(
-    ("lengths", "median"),
-    [([], 1), ([0, 0], 1), ([3], 3), ([0, 0, 2, 4, 9], 4), ([0, 2, 4], 3), ([2, 4, 9], 4)],
-)
-def test_the_typical_length_is_the_median_of_rows_that_are_not_zero(lengths, median):
-    assert _typical(np.square(np.array(lengths, float))) == median
-
-
-def test_sizes_that_are_no_positive_finite_number_have_no_unit():
-    """Of a step without penetration the size is the power of two nearest to its length, here 3."""
-    for x in (0.0, np.inf, np.nan, -1.0):
-        assert np.isnan(_power_of_two(x))
-    assert _power_of_two(1.7e308) == np.inf  # the nearest power is 2^1024
-    assert _power_of_two(3.0) == 4.0
-    with np.errstate(all="ignore"):
-        assert not metric(np.diag([1.0, np.inf])).usable
-    S, b = np.ones(1), np.zeros(2)
-    assert units_from(S, np.array([1.0, 1.0]), 3.0, b).size == 4.0
-    assert np.isnan(units_from(S, np.array([1.0, 1.0, np.inf]), 3.0, b).size)
-
-
 def test_units_that_are_not_finite_and_positive_are_refused():
     step, units = STEPS["sphere"], natural_units(STEPS["sphere"])
     check_units(units, step)
@@ -221,15 +173,3 @@ def test_units_that_are_not_finite_and_positive_are_refused():
         for bad in (0.0, np.inf, np.nan):
             with pytest.raises(StepDataError, match="range of float64"):
                 check_units(units._replace(**{name: bad}), step)
-
-
-def test_rows_are_as_unlike_as_the_longest_and_the_shortest_not_of_zeros():
-    """H is a multiple of the identity. Without friction the rows of a contact are n, of length 1.
-
-    Own rows have lengths 5, 0.5 and 0.
-    """
-    own = Extra(("a", "b", "c"), [[0.0, 3, 4], [0.3, 0.4, 0], [0, 0, 0]], [0.0] * 3)
-    step = point_on_floor(mu_v=0.0)
-    assert DenseStep(step).unlike == 1.0
-    assert DenseStep(step.replace(extra=own)).unlike == pytest.approx(5 / 0.5, rel=ROUNDING)
-    assert DenseStep(STEPS["no contacts"]).unlike == 1.0

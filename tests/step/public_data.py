@@ -26,8 +26,7 @@ from quasistatic_ref.step.data import Extra, StepData
 from tests.helpers import always_in_blocks, contacts_of, random_step
 from tests.scenes import written_scenario
 
-NAN, INF = np.nan, np.inf
-DOWN = np.array([0.0, 0.0, -9.81])
+NAN = np.nan
 
 
 def squeezed():

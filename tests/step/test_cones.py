@@ -1,6 +1,5 @@
 """The tables of the friction cones: names, counts, directions, limit surfaces, JSON."""
 
-import json
 from fractions import Fraction
 
 import cvxpy as cp
@@ -8,25 +7,17 @@ import numpy as np
 import pytest
 from flint import arb, ctx, fmpq
 
-from quasistatic_ref.certify.dyadic import dyadic
-from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.rational import dyadic, exact_form
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.cones import cone, direction
-from quasistatic_ref.step.files import step_from_record, step_text
-from quasistatic_ref.step.friction import (
-    cone_function,
-    cone_matrix,
-    contact_wrenches,
-    friction_rows,
-    row_gaps,
-)
+from quasistatic_ref.step.cones import cone, cone_function, cone_matrix, direction
+from quasistatic_ref.step.friction import contact_wrenches, friction_rows
 from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_rational import in_si
-from tests.helpers import JUDGE, changed, random_step
+from tests.helpers import changed, random_step
 from tests.tolerances import EXACT, ROUNDING
 
-POLYHEDRAL = ("pyramid", "product", "facets-4", "facets-6", "facets-8", "facets-10", "frictionless")
+POLYHEDRAL = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
 COUNTS = {
     "pyramid": (6, 4),
     "product": (8, 4),
@@ -54,16 +45,7 @@ def test_another_name_is_refused(name, rng):
         random_step(rng).replace(cone=name)
 
 
-def test_zeros_of_directions_have_no_sign():
-    found = np.array([direction(k, 4) for k in range(4)])
-    assert not np.signbit(found[found == 0]).any()
-
-
-def test_a_cone_has_1024_sides_at_most():
-    assert len(cone("facets-1024").row_names) == 1024 + 2  # and two spins
-
-
-@pytest.mark.parametrize("K", [4, 6, 8, 10, 12, 16, 30, 64, 360, 1024])
+@pytest.mark.parametrize("K", [4, 6, 8, 12, 30, 1024])
 def test_directions_are_the_cosines_and_sines(K):
     turn = 2 * np.pi * np.arange(K) / K
     expected = np.stack([np.cos(turn), np.sin(turn)], axis=1)
@@ -72,7 +54,7 @@ def test_directions_are_the_cosines_and_sines(K):
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-15)
 
 
-@pytest.mark.parametrize("K", [4, 6, 8, 10, 12, 64])
+@pytest.mark.parametrize("K", [4, 6, 8, 12])
 def test_opposite_directions_and_quarter_turns_are_exact(K):
     found = [direction(k, K) for k in range(K)]
     for k, (c, s) in enumerate(found):
@@ -80,14 +62,6 @@ def test_opposite_directions_and_quarter_turns_are_exact(K):
         assert (c, -s) in found
         if K % 4 == 0:
             assert (-s, c) == found[(k + K // 4) % K]
-
-
-def test_cosines_are_rounded_correctly():
-    # cos(pi/4) = sqrt(1/2), cos(pi/3) = 1/2: IEEE 754 rounds a root correctly.
-    assert direction(1, 8) == (np.sqrt(0.5), np.sqrt(0.5))
-    assert direction(2, 12)[0] == 0.5
-    assert direction(1, 12)[1] == 0.5
-    assert direction(1, 12)[0] == np.sqrt(0.75)
 
 
 def test_four_facets_are_the_pyramid_bit_for_bit(rng):
@@ -124,14 +98,6 @@ def test_a_cone_function_combines_the_gap_and_the_motions(name):
     short = np.array([(1.0, t_1, t_2) for t_1, t_2, _ in coefficients(name)])[: cone(name).short]
     np.testing.assert_allclose(matrix[: cone(name).short, :3], short, rtol=0.0, atol=tolerance)
     assert name == "product" or not matrix[: cone(name).short, 3].any()
-
-
-@pytest.mark.parametrize("name", POLYHEDRAL)
-def test_the_gap_is_in_every_row_of_a_polyhedral_cone(name, rng):
-    """A row is the gap and a sum of slips, 1 phi + ..."""
-    contacts = random_step(rng).contacts
-    expected = np.repeat(contacts.phi[:, None], len(cone(name).row_names), axis=1)
-    assert np.array_equal(row_gaps(contacts, name), expected)
 
 
 @pytest.mark.parametrize("name", POLYHEDRAL)
@@ -174,7 +140,7 @@ def spent(name, f_1, f_2, tau):
 
 
 @pytest.mark.parametrize("name", POLYHEDRAL)
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_every_wrench_is_inside_of_the_limit_surface(name, seed):
     rng = np.random.default_rng(seed)
     step = random_step(rng, rows=(6, 4, 6)).replace(cone=name)
@@ -199,9 +165,7 @@ def test_each_row_alone_is_on_the_limit_surface(name, rng):
 
 
 @pytest.mark.parametrize("name", [*POLYHEDRAL, "ellipsoid"])
-@pytest.mark.parametrize("seed", range(3))
-def test_the_wrenches_do_the_same_generalised_work_as_the_rows(name, seed):
-    rng = np.random.default_rng(seed)
+def test_the_wrenches_do_the_same_generalised_work_as_the_rows(name, rng):
     step = random_step(rng, rows=(6, 4, 6)).replace(cone=name)
     contacts, lam = step.contacts, rng.exponential(size=int(step.offsets[-1]))
     work = np.zeros(step.n_v)
@@ -221,63 +185,35 @@ def test_rows_are_formed_without_rounding(name, rng):
     np.testing.assert_allclose(np.array(b, float), form.b, rtol=EXACT, atol=EXACT)
 
 
-def test_a_cone_travels_in_a_step_file(rng):
-    step = random_step(rng).replace(cone="facets-12")
-    again = step_from_record(json.loads(step_text(step)))
-    assert again.cone == "facets-12"
-    assert again == step
-    record = json.loads(step_text(step))
-    del record["cone"]
-    assert step_from_record(record).cone == "pyramid"
-
-
 @pytest.mark.parametrize("name", [*POLYHEDRAL, "ellipsoid"])
 @pytest.mark.parametrize("mu", [(0.0, 0.02), (0.5, 0.0), (0.0, 0.0)])
 def test_zero_friction_coefficients_are_legal_in_every_cone(name, mu, rng):
     step = random_step(rng)
     contacts = changed(step.contacts, mu_v=np.full(3, mu[0]), mu_omega=np.full(3, mu[1]))
     step = step.replace(contacts=contacts, cone=name)
-    backend = "clarabel" if name == "ellipsoid" else JUDGE
-    answer = solve_step(step, backend)
+    answer = solve_step(step, "clarabel" if name == "ellipsoid" else "none")
     assert answer.certificate.kind in ("exact", "enclosure")
     f = answer.wrench
     assert not (mu[0] == 0 and f[:, :2].any())
     assert not (mu[1] == 0 and f[:, 3].any())
 
 
-@pytest.mark.parametrize("name", ["pyramid", "product", "facets-8", "facets-10"])
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("name", ["pyramid", "product", "facets-8"])
+@pytest.mark.parametrize("seed", range(3))
 def test_with_mu_omega_zero_six_rows_and_four_give_the_same_bits(name, seed):
     rng = np.random.default_rng(seed)
     step = random_step(rng, rows=(6, 6, 6))
     contacts = changed(step.contacts, mu_omega=np.zeros(3))
     step = step.replace(contacts=contacts, cone=name)
     four = step.replace(contacts=changed(contacts, rows=(4, 4, 4)))
-    six = solve_step(step, JUDGE).delta_q
-    np.testing.assert_allclose(solve_step(four, JUDGE).delta_q, six, rtol=EXACT, atol=EXACT)
+    six = solve_step(step, "none").delta_q
+    np.testing.assert_array_equal(solve_step(four, "none").delta_q, six)
 
 
 def test_rows_four_means_that_mu_omega_is_not_used(rng):
     step = random_step(rng, rows=(4, 4))
     other = changed(step.contacts, mu_omega=[7.0, 8.0])
-    for name in (*POLYHEDRAL, "ellipsoid"):
-        one = solve_step(step.replace(cone=name)).delta_q
-        two = solve_step(step.replace(cone=name, contacts=other)).delta_q
-        np.testing.assert_allclose(two, one, rtol=EXACT, atol=EXACT)
-
-
-def test_frictionless_is_any_cone_with_zero_coefficients(rng):
-    step = random_step(rng, rows=(6, 4))
-    smooth = changed(step.contacts, mu_v=[0.0, 0.0], mu_omega=[0.0, 0.0])
-    expected = solve_step(step.replace(cone="frictionless")).delta_q
-    for name in (*POLYHEDRAL, "ellipsoid"):
-        found = solve_step(step.replace(contacts=smooth, cone=name)).delta_q
-        tolerance = ROUNDING if name == "ellipsoid" else EXACT
-        np.testing.assert_allclose(found, expected, rtol=tolerance, atol=0.0)
-
-
-def test_rows_of_all_cones_hold_n_c_contacts(rng):
-    contacts = random_step(rng, rows=(6, 4)).contacts
-    assert friction_rows(contacts, "product").shape == (2, 8, 7)
-    assert friction_rows(contacts, "frictionless").shape == (2, 1, 7)
-    assert friction_rows(contacts, "ellipsoid").shape == (2, 4, 7)
+    for name, backend in (*((name, "none") for name in POLYHEDRAL), ("ellipsoid", "clarabel")):
+        one = solve_step(step.replace(cone=name), backend).delta_q
+        two = solve_step(step.replace(cone=name, contacts=other), backend).delta_q
+        np.testing.assert_array_equal(two, one)

@@ -18,26 +18,19 @@ NAN, INF = float("nan"), float("inf")
 
 STEP_REFUSALS = {
     "h zero": ({"h": 0.0}, "h:"),
-    "h negative": ({"h": -0.01}, "h:"),
     "h NaN": ({"h": NAN}, "h:"),
-    "h infinite": ({"h": INF}, "h:"),
     "cone unknown": ({"cone": "cube"}, "cone:"),
     "K_q of another size": ({"K_q": np.eye(3)}, "K_q:"),
     "K_q not square": ({"K_q": np.ones((2, 3))}, "K_q:"),
     "K_q not symmetric": ({"K_q": [[2.0, 1.0], [0.0, 2.0]]}, "K_q: must be symmetric"),
-    "K_q zero": ({"K_q": np.zeros((2, 2))}, "K_q: must be positive definite"),
-    "K_q with a free joint": ({"K_q": np.diag([1.0, 0.0])}, "K_q: must be positive definite"),
     "K_q indefinite": ({"K_q": [[1.0, 2.0], [2.0, 1.0]]}, "K_q: must be positive definite"),
     "K_q NaN": ({"K_q": [[NAN, 0.0], [0.0, 1.0]]}, "K_q: must hold finite"),
     "M_u of a massless link": ({"M_u": np.diag([1.0, 1.0, 0.0])}, "M_u: must be positive"),
-    "M_u negative": ({"M_u": -np.eye(3)}, "M_u: must be positive definite"),
     "M_u infinite": ({"M_u": np.diag([INF, 1.0, 1.0])}, "M_u: must hold finite"),
     "tau_a a column": ({"tau_a": np.zeros((2, 1))}, "tau_a:"),
-    "tau_a NaN": ({"tau_a": [NAN, 0.0]}, "tau_a: must hold finite"),
     "tau_a words": ({"tau_a": ["a", "b"]}, "tau_a: must be numbers"),
     "tau_u infinite": ({"tau_u": [0.0, -INF, 0.0]}, "tau_u: must hold finite"),
     "delta_q_bar_a too short": ({"delta_q_bar_a": [0.0]}, "delta_q_bar_a:"),
-    "delta_q_bar_a NaN": ({"delta_q_bar_a": [NAN, 0.0]}, "delta_q_bar_a: must hold finite"),
     "contacts of another width": ({"contacts": no_contacts(4)}, "contacts.J:"),
     "extra of another width": ({"extra": Extra(("a",), np.ones((1, 4)), [0.0])}, "extra.A:"),
 }
@@ -45,18 +38,13 @@ STEP_REFUSALS = {
 CONTACT_REFUSALS = {
     "phi too long": ({"phi": [0.0, 0.0, 0.0]}, "contacts.phi:"),
     "phi NaN": ({"phi": [0.0, NAN]}, "contacts.phi: must hold finite"),
-    "phi infinite": ({"phi": [INF, 0.0]}, "contacts.phi: must hold finite"),
     "J of three rows": ({"J": np.zeros((2, 3, 5))}, "contacts.J:"),
-    "J flat": ({"J": np.zeros((8, 5))}, "contacts.J:"),
     "J NaN": ({"J": np.full((2, 4, 5), NAN)}, "contacts.J: must hold finite"),
     "mu_v negative": ({"mu_v": [0.5, -0.1]}, "contacts[c1].mu_v: must be >= 0"),
     "mu_omega negative": ({"mu_omega": [-1e-9, 0.1]}, "contacts[c0].mu_omega: must be >= 0"),
-    "mu_v NaN": ({"mu_v": [NAN, 0.5]}, "contacts.mu_v: must hold finite"),
     "five rows": ({"rows": [6, 5]}, "contacts.rows: must be 4 or 6"),
-    "rows too short": ({"rows": [6]}, "contacts.rows:"),
     "n not a unit vector": ({"n": 2 * CONTACTS.n}, "contacts[c0]: d1, d2, n must be"),
     "left-handed": ({"d1": -CONTACTS.d1}, "contacts[c0]: d1, d2, n must be"),
-    "d1 along n": ({"d1": CONTACTS.n}, "contacts[c0]: d1, d2, n must be"),
     "d1 and d2 swapped": ({"d1": CONTACTS.d2, "d2": CONTACTS.d1}, "contacts[c0]: d1, d2, n"),
     "n in the plane": ({"n": CONTACTS.n[:, :2]}, "contacts.n:"),
 }
@@ -94,12 +82,6 @@ def test_nothing_but_the_package_s_own_error_comes_out(build):
         build()
 
 
-def test_singular_stiffnesses_are_refused_even_with_a_float_factor():
-    for k in range(1, 101):
-        with pytest.raises(StepDataError):
-            STEP.replace(K_q=np.full((2, 2), float(k)))
-
-
 def test_a_frame_passes_just_inside_the_tolerance_and_not_outside():
     def tilted(angle):
         return np.cos(angle) * CONTACTS.n + np.sin(angle) * CONTACTS.d1
@@ -132,36 +114,11 @@ def test_fields_cannot_be_assigned():
         CONTACTS.phi = np.zeros(2)
 
 
-STEP_ARRAYS = ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
-CONTACT_ARRAYS = ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
-
-
-@pytest.mark.parametrize(
-    "array",
-    [getattr(STEP, name) for name in STEP_ARRAYS]
-    + [getattr(CONTACTS, name) for name in CONTACT_ARRAYS]
-    + [STEP.extra.A, STEP.extra.b],
-    ids=[*STEP_ARRAYS, *CONTACT_ARRAYS, "extra.A", "extra.b"],
-)
-def test_arrays_cannot_be_written(array):
-    assert not array.flags.writeable
-
-
-@pytest.mark.parametrize("name", ["mask", "offsets"])
-def test_derived_arrays_cannot_be_written(name):
-    assert not getattr(STEP, name).flags.writeable
-
-
 def test_the_caller_s_own_array_is_copied_not_locked():
     tau_a = np.array([1.0, 2.0])
     step = STEP.replace(tau_a=tau_a)
     tau_a[0] = 5.0
     np.testing.assert_allclose(step.tau_a, [1.0, 2.0], rtol=EXACT, atol=EXACT)
-
-
-def test_numbers_in_lists_become_float64():
-    step = STEP.replace(tau_a=[1, 2])
-    assert step.tau_a.dtype == np.float64
 
 
 def test_counts_are_those_of_the_arrays():
@@ -187,24 +144,6 @@ def test_equality_sees_every_bit():
     assert STEP.replace(extra=Extra(("a",), np.ones((1, 5)), [0.0])) != STEP
 
 
-def test_rows_that_cannot_be_written_are_kept_and_others_become_integers():
-    for dtype, kept in ((np.int64, True), (np.int32, False), (np.float64, False)):
-        rows = np.array([6, 4], dtype=dtype)
-        rows.setflags(write=False)
-        found = changed(CONTACTS, rows=rows).rows
-        assert (found is rows) == kept
-        assert found.dtype == np.int64
-        assert found.tolist() == [6, 4]
-
-
-def test_a_frame_at_the_tolerance_to_the_bit_passes_and_is_not_named():
-    x, y, z = np.eye(3)
-    limit = [ORTHONORMAL, 0.0, 1.0]  # d1 . n is the tolerance, n . n rounds to 1
-    right = changed(CONTACTS, d1=[x, x], d2=[y, y], n=[limit, z])
-    with pytest.raises(StepDataError, match=r"contacts\[c1\]: d1, d2, n must be"):
-        changed(right, n=[limit, 2 * z])
-
-
 def test_a_wrong_frame_is_named_with_its_axes():
     """The second contact's normal has length 2: d1, d2 and n of that contact are reported."""
     n = CONTACTS.n * [[1.0], [2.0]]
@@ -212,3 +151,12 @@ def test_a_wrong_frame_is_named_with_its_axes():
         changed(CONTACTS, n=n)
     expected = [CONTACTS.d1[1].tolist(), CONTACTS.d2[1].tolist(), n[1].tolist()]
     assert caught.value.value == expected
+
+
+def test_arrays_cannot_be_written():
+    def arrays(data):
+        return [value for value in vars(data).values() if isinstance(value, np.ndarray)]
+
+    found = [*arrays(STEP), *arrays(CONTACTS), *arrays(STEP.extra), STEP.mask, STEP.offsets]
+    assert len(found) >= 5 + 8 + 2 + 2
+    assert not any(array.flags.writeable for array in found)

@@ -15,16 +15,15 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from tests.scenes import written_scenario
-from tests.step.public_data import DOWN, public_data, squeezed
+from tests.step.public_data import public_data, squeezed
 
 ROUND_TRIPS = {
     "pickle": lambda thing: pickle.loads(pickle.dumps(thing)),
     "copy": copy.copy,
-    "deepcopy": copy.deepcopy,
 }
 
 
-NAN, INF = np.nan, np.inf
+NAN = np.nan
 
 
 @pytest.fixture(scope="module")
@@ -63,11 +62,6 @@ def test_a_copy_is_equal_and_of_the_same_class_and_hash(things, name, trip):
         assert str(again) == str(thing)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_no_two_kinds_of_data_are_equal(things, name):
-    assert [other for other in NAMES if things[other] == things[name]] == [name]
-
-
 @every_trip
 @pytest.mark.parametrize("name", [name for name in NAMES if "Step" in name])
 def test_a_copy_can_be_written_no_more_than_what_it_is_a_copy_of(things, name, trip):
@@ -90,38 +84,6 @@ def test_a_copy_of_a_step_is_solved_to_the_same_bits(things, name, trip):
     one, two = solve_step(things[name]), solve_step(trip(things[name]))
     assert one.certificate.kind == "exact"
     assert one == two
-
-
-@every_trip
-def test_a_copy_of_a_sparse_step_is_solved_to_the_same_bits(things, trip):
-    step = things["sparse PosedStep"]
-    one, two = (solve_step(some, certify="residual") for some in (step, trip(step)))
-    assert one == two
-
-
-@every_trip
-@pytest.mark.parametrize("name", ["System", "System of the grasp"])
-def test_a_copy_of_a_system_computes_the_same_bits(things, name, trip):
-    system = things[name]
-    again, q = trip(system), system.integrate(system.q_start, 0.01 * np.cos(np.arange(system.n_v)))
-    for one, two in (
-        (system.M_u(q), again.M_u(q)),
-        (system.kinematics(q).J, again.kinematics(q).J),
-        (system.gravity_force(q, DOWN), again.gravity_force(q, DOWN)),
-        (system.q_start, again.q_start),
-    ):
-        assert one.tobytes() == two.tobytes()
-        assert one.size
-
-
-def test_two_copies_of_a_system_fall_each_its_own_way(things):
-    system = things["System of the grasp"]
-    up = tuple(-DOWN)
-    alone = system.gravity_force(system.q_start, tuple(DOWN))
-    other = copy.copy(system).gravity_force(system.q_start, up)
-    assert alone.any()
-    np.testing.assert_array_equal(other, -alone)
-    np.testing.assert_array_equal(system.gravity_force(system.q_start, tuple(DOWN)), alone)
 
 
 def test_a_pickled_system_does_not_need_its_files(tmp_path):
@@ -175,19 +137,6 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
     assert set(again) == set(given)
     for name, value in given.items():
         np.testing.assert_array_equal(again[name], value)
-
-
-def test_equality_sees_one_bit_in_every_field_of_a_solution(things):
-    solution = things["StepSolution"]
-    for name in ("delta_q", "lam"):
-        array = getattr(solution, name).copy()
-        array.flat[0] = np.nextafter(array.flat[0], INF)
-        assert replace(solution, **{name: array}) != solution
-    longer = np.append(solution.lam_extra, 1.0)
-    heavier = solution.step.replace(M_u=2 * solution.step.M_u)
-    other = {"lam_extra": longer, "backend": "osqp", "certificate": 0, "step": heavier}
-    for name, value in other.items():
-        assert replace(solution, **{name: value}) != solution
 
 
 def test_what_a_solver_took_of_the_clock_is_not_compared_but_copied(things):

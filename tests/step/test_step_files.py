@@ -17,7 +17,6 @@ from quasistatic_ref.step.files import (
     step_written,
 )
 from tests.helpers import point_on_floor, random_step, record_changed
-from tests.tolerances import EXACT
 
 RNG = np.random.default_rng(11)
 PLAIN = random_step(RNG, n_a=2, n_u=3, rows=(6, 4))
@@ -64,11 +63,6 @@ def test_the_file_has_the_documented_fields_in_order():
     )  # fmt: skip
 
 
-def test_the_text_is_one_line():
-    assert step_text(PLAIN).count("\n") == 1
-    assert step_text(PLAIN).endswith("}\n")
-
-
 BY_HAND = (
     '{"format": "quasistatic-ref/step", "version": 1, "cone": "pyramid", "h": 0.01, "n_a": 0, '
     '"n_u": 3, "K_q": [], "M_u": [[0.3, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0, 0.0, 0.3]], '
@@ -85,29 +79,12 @@ def test_a_step_is_written_as_by_hand_and_hashed_by_its_text():
     assert step_sha256(step) == hashlib.sha256(BY_HAND.encode()).hexdigest()
 
 
-def test_the_hash_tells_steps_apart_by_their_bits():
-    step = point_on_floor(force=(0.5, 0.0, -2.0))
-    assert step_sha256(step.replace(tau_u=[0.5, -0.0, -2.0])) == step_sha256(step)
-    nudged = np.nextafter(0.5, 1.0)
-    assert step_sha256(step.replace(tau_u=[nudged, 0.0, -2.0])) != step_sha256(step)
-
-
 def test_cone_and_extra_may_be_left_out():
     record = record_changed(record_of(PLAIN), ["cone"])
     assert step_from_record(record) == PLAIN
 
 
-def test_whole_numbers_are_read_as_floats():
-    record = record_changed(record_of(PLAIN), ["contacts", 0, "phi"], 1)
-    np.testing.assert_allclose(step_from_record(record).contacts.phi[0], 1.0, rtol=EXACT)
-
-
-MISSING = [[f] for f in STEP_FIELDS if f != "cone"]
-
-
-MISSING += [["contacts", 1, f] for f in CONTACT_FIELDS] + [
-    ["extra", f] for f in ("names", "A", "b")
-]
+MISSING = (["h"], ["contacts"], ["contacts", 1, "rows"], ["extra", "b"])
 
 
 @pytest.mark.parametrize("path", MISSING, ids=[".".join(map(str, p)) for p in MISSING])
@@ -140,36 +117,18 @@ REFUSED = {
     "another format": (["format"], "ref/solution", "format: must be 'quasistatic-ref/step' (got "),
     "a later version": (["version"], 2, "version: is not known here; this program reads 1 (got 2)"),
     "a version in words": (["version"], "1", "version: must be a whole number"),
-    "an unknown cone": (["cone"], "cube", "cone: must be one of pyramid, ellipsoid"),
-    "h zero": (["h"], 0.0, "h: must be greater than 0"),
     "h a word": (["h"], "0.01", "h: must be a number (got '0.01')"),
-    "h NaN": (["h"], float("nan"), "h: must be a finite number"),
     "n_a negative": (["n_a"], -1, "n_a: must be at least 0"),
     "n_a wrong": (["n_a"], 3, "K_q: must be 3 x 3 numbers"),
     "n_u wrong": (["n_u"], 2, "M_u: must be 2 x 2 numbers"),
     "K_q flat": (["K_q"], [1.0, 2.0, 3.0, 4.0], "K_q: must be 2 x 2 numbers"),
-    "K_q ragged": (["K_q"], [[1.0, 0.0], [0.0]], "K_q: must"),
-    "K_q zero": (["K_q"], [[1.0, 0.0], [0.0, 0.0]], "K_q: must be positive definite"),
-    "tau_u too long": (["tau_u"], [0.0] * 4, "tau_u: must be 3 numbers"),
     "tau_a true": (["tau_a"], [True, 0.0], "tau_a: must hold numbers only"),
     "contacts a table": (["contacts"], {"a": 1}, "contacts: must be a list"),
     "a contact a list": (["contacts", 1], [1], "contacts[1]: must be a table of named fields"),
     "name a number": (["contacts", 0, "name"], 3, "contacts[0].name: must be a string"),
-    "five rows": (["contacts", 0, "rows"], 5, "contacts[0].rows: must be 4 or 6 (got 5)"),
-    "mu_v negative": (["contacts", 1, "mu_v"], -0.1, "contacts[1].mu_v: must be at least 0"),
-    "mu_omega negative": (
-        ["contacts", 1, "mu_omega"],
-        -1,
-        "contacts[1].mu_omega: must be at least",
-    ),
-    "phi infinite": (["contacts", 0, "phi"], float("inf"), "contacts[0].phi: must be a finite"),
-    "n of two numbers": (["contacts", 0, "n"], [0.0, 1.0], "contacts[0].n: must be 3 numbers"),
-    "n not a unit vector": (["contacts", 0, "n"], [0.0, 0.0, 2.0], "contacts[c0]: d1, d2, n must"),
     "J too narrow": (["contacts", 0, "J"], [[0.0] * 4] * 4, "contacts[0].J: must be 4 x 5"),
     "extra a list": (["extra"], [1], "extra: must be a table"),
     "extra names a number": (["extra", "names"], [1, 2], "extra.names: must be a list of strings"),
-    "extra A too narrow": (["extra", "A"], [[0.0] * 4] * 2, "extra.A: must be 2 x 5"),
-    "extra b too short": (["extra", "b"], [0.0], "extra.b: must be 2 numbers"),
 }
 
 

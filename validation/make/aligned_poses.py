@@ -22,6 +22,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError, QuasistaticError
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
@@ -278,10 +279,10 @@ def main() -> None:
     count = parser.parse_args().count
     tried, wrong = tries(range(count or COUNT))
     broke = Counter(name for name, _ in wrong)
-    rows = [f"| {name} | {tried[name]} | {broke[name]} |" for name in sorted(tried)]
-    table = ["| family | scenes | wrong |", "|---|---|---|", *rows]
-    total = f"| all | {sum(tried.values())} | {len(wrong)} |"
-    page = "\n".join([INTRODUCTION, *table, total, ""])
+    rows = [(name, tried[name], broke[name]) for name in sorted(tried)]
+    total = ("all", sum(tried.values()), len(wrong))
+    table = markdown_table(("family", "scenes", "wrong"), [*rows, total])
+    page = "\n".join([INTRODUCTION, *table, ""])
     print(page)
     if count is None:
         PAGE.write_text(page, encoding="utf-8")

@@ -33,6 +33,7 @@ from tqdm import tqdm
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
 from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
@@ -253,12 +254,13 @@ def main() -> int:
     jobs = [("bounds", family, 2 * once) for family in FAMILIES]
     jobs += [("exact answers", family, once) for family in FAMILIES]
     jobs += [("nearly singular", key, of_two) for key in ("K_q", "M_u")]
-    lines, wrong = ["| what | what came of it | cases |", "|-|-|-:|"], list[str]()
+    rows, wrong = list[tuple[str, str, str]](), list[str]()
     with ProcessPoolExecutor(2) as pool:
         for attack in tqdm(pool.map(attacked, *zip(*jobs, strict=True)), total=len(jobs)):
-            rows = sorted(attack.counts.items())
-            lines += [f"| {attack.name} | {outcome} | {n:,} |" for outcome, n in rows]
+            counts = sorted(attack.counts.items())
+            rows += [(attack.name, outcome, f"{n:,}") for outcome, n in counts]
             wrong += attack.wrong
+    lines = markdown_table(("what", "what came of it", "cases"), rows, left=2)
     lines.append(f"\n{len(wrong)} are wrong.")
     print(*lines, *wrong[:20], sep="\n")
     if options.out:

@@ -18,8 +18,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.vectors.challenge.live import challenge
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.vectors.challenge.program import Program
+from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from validation.make.planted_bugs import COMMANDS
@@ -88,13 +89,14 @@ KINDS = ("passed", "acceptable", "failed", "unsupported")
 def page(found: dict[str, list[Json]]) -> Iterator[str]:
     """The committed page."""
     yield HEAD
-    yield "| runner | layer | cases | passed | acceptable | failed | not supported | other |"
-    yield "|---|---|---|---|---|---|---|---|"
+    names = ("runner", "layer", "cases", "passed", "acceptable", "failed", "not supported", "other")
+    rows = []
     for runner, pieces in found.items():
         for layer, verdicts in counted(pieces).items():
             counts = [verdicts[kind] for kind in KINDS]
             cells = [verdicts.total(), *counts, verdicts.total() - sum(counts)]
-            yield f"| {runner} | {layer} | {' | '.join(f'{n:,}' for n in cells)} |"
+            rows.append((runner, layer, *(f"{n:,}" for n in cells)))
+    yield from markdown_table(names, rows)
     yield ""
     for runner, pieces in found.items():
         findings = [title for one in pieces for title in one["findings"]]

@@ -28,6 +28,7 @@ from tqdm import tqdm
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.norm import float_inverse
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.plain import bits
@@ -113,7 +114,7 @@ def nearby_answer(
     """What is proved on a guess or near it, in balls or by compiled code."""
     rows = np.array(sorted(set(guess)), dtype=np.int64)
     prove = partial(proof, step) if by_code else BallStep(step, hessian).confirmed
-    return proved_nearby(prove, rows, standard_form(step), hessian.rough)
+    return proved_nearby(prove, rows, standard_form(step), float_inverse(step.H))
 
 
 def checked(seed: int) -> tuple[str, Counter[str], list[str]]:

@@ -25,7 +25,8 @@ from scipy.sparse.linalg import spsolve
 
 from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.formats.resources import problem_set_folder
-from quasistatic_ref.lab.figures.study_pens import pens
+from quasistatic_ref.lab.figures.line_styles import pens
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.calling.calls import tried
 from quasistatic_ref.lab.study.calling.sessions import Native
 from quasistatic_ref.lab.study.problems.folder import manifest, set_read
@@ -126,11 +127,7 @@ def summary(rows: Sequence[dict[str, Any]], families: dict[str, Any]) -> list[di
 
 def table(lines: Sequence[dict[str, Any]], families: dict[str, Any]) -> str:
     """Both ends of every dial, side by side."""
-    text = [
-        "| family | dial | solver | digits of nine in ten, easy fifth | hard fifth "
-        "| solved, easy fifth | hard fifth | iterations, easy fifth | hard fifth |",
-        "|---|---|---|---:|---:|---:|---:|---:|---:|",
-    ]
+    rows = []
     names = ("digits_of_nine_in_ten", "solved", "iterations_median")
     for easy, hard in zip(lines[::PARTS], lines[PARTS - 1 :: PARTS], strict=True):
         family, own = easy["family"], families[easy["family"]]["dial"]
@@ -138,8 +135,10 @@ def table(lines: Sequence[dict[str, Any]], families: dict[str, Any]) -> str:
         cells = [end[name] for name in names for end in (easy, hard)]
         if family == "infeasible":
             cells[:2] = "", ""
-        text.append(f"| `{family}` | {dial} | {easy['solver']} | {' | '.join(cells)} |")
-    return "\n".join(text) + "\n"
+        rows.append((f"`{family}`", dial, easy["solver"], *cells))
+    head = ("family", "dial", "solver", "digits of nine in ten, easy fifth", "hard fifth",
+            "solved, easy fifth", "hard fifth", "iterations, easy fifth", "hard fifth")  # fmt: skip
+    return "\n".join(markdown_table(head, rows, left=3)) + "\n"
 
 
 def figure(lines: Sequence[dict[str, Any]], families: dict[str, Any], path: Path) -> None:

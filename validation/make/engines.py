@@ -2,10 +2,9 @@
 
 For each engine of engines.toml, or those named: makes an environment with its pinned versions in a
 temporary folder (``--environments`` keeps them in a folder of yours, and takes what is there), asks
-its adapter for the layers of the reference vectors and for the phenomena, writes
-``NAME.json`` in the folder ``--out`` (validation/results/engines unless it is said), and runs the
-engine's reproductions in its environment. At the end the two tables, layers.md and phenomena.md,
-are written again from all results that are there.
+its adapter for the phenomena, writes ``NAME.json`` in the folder ``--out``
+(validation/results/engines unless it is said), and runs the engine's reproductions in its
+environment. At the end the page, phenomena.md, is written again from all results that are there.
 
 Settings that are named as causes of a red cell are changed, and the cell is measured again
 (``tried``). It takes an hour on two busy cores, seven minutes of it computing, and three
@@ -23,7 +22,7 @@ from pathlib import Path
 from quasistatic_ref.formats.files import text_written
 from validation.programs.engines.judge import ENGINES, RESULTS, judged, python_of
 from validation.programs.engines.reproduce import missing, reproduced, unlike
-from validation.programs.engines.tables import layers_page, phenomena_page
+from validation.programs.engines.tables import phenomena_page
 
 
 def main() -> int:
@@ -52,7 +51,6 @@ def main() -> int:
         for name in ENGINES
         if (path := results / f"{name}.json").exists()
     }
-    text_written(results / "layers.md", layers_page(records))
     text_written(results / "phenomena.md", phenomena_page(records))
     for cell in missing(records):
         wrong += 1

@@ -26,7 +26,7 @@ import numpy as np
 from tqdm import tqdm
 
 from quasistatic_ref.certify.certificate import verify
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible

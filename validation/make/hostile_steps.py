@@ -18,9 +18,8 @@ from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve.backends import NONE, QPSOLVERS, installed, installed_backends
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
-from quasistatic_ref.step.data import Contacts, StepData
 from quasistatic_ref.step.files import step_read, step_text
-from tests.oracles.random_steps import any_step
+from tests.oracles.attacked_steps import hostile_step
 from validation.tools.fuzzing.worker import Reader
 
 PAGE = """# Steps at all scales, and what holds them up
@@ -35,46 +34,6 @@ a traceback or a warning, the end of the process, or more than 10 s of processor
 include the exact method's own and that of the comparison.
 
 """
-SCALES = 12.0
-"""Largest power of ten by which a number of a step is multiplied."""
-
-
-def hostile_step(rng: random.Random) -> StepData:
-    """A step of :func:`any_step` whose numbers are multiplied by powers of ten, one to all of them.
-
-    Raises
-    ------
-    InputError
-        If the numbers are no step.
-    """
-    draw = np.random.default_rng(rng.getrandbits(64))
-    n_a, n_u, n_c = draw.integers(0, 7), draw.integers(0, 7), draw.integers(1, 9)
-    n_u += n_a + n_u == 0
-    step = any_step(draw, int(n_a), int(n_u), int(n_c), draw.choice([1.0, 1e4, 1e9]))
-    often = draw.choice([0.15, 0.5, 1.0])
-
-    def scale(*shape: int) -> np.ndarray:
-        """Powers of ten, of shape `shape`, most of them 1."""
-        powers = draw.uniform(-SCALES, SCALES, shape) * (draw.random(shape) < often)
-        return np.asarray(10.0 ** (powers if draw.random() < 0.5 else powers.round()))
-
-    c = step.contacts
-    S = scale(n_a + n_u) if draw.random() < 0.3 else scale()  # one for each coordinate, or for all
-    S = np.broadcast_to(S, n_a + n_u)
-    contacts = Contacts(
-        c.name, c.phi * scale(n_c) * scale(), c.n, c.d1, c.d2,
-        c.J * S * (scale(n_c)[:, None, None] if draw.random() < 0.3 else scale()),
-        np.minimum(c.mu_v * scale(n_c), 1e12), c.mu_omega * scale(), c.rows,
-    )  # fmt: skip
-    return step.replace(
-        h=step.h * float(scale()),
-        K_q=step.K_q * scale() * np.outer(S[:n_a], S[:n_a]),
-        M_u=step.M_u * scale() * np.outer(S[n_a:], S[n_a:]),
-        tau_a=step.tau_a * scale() * S[:n_a],
-        tau_u=step.tau_u * scale() * S[n_a:],
-        delta_q_bar_a=step.delta_q_bar_a * scale() / S[:n_a],
-        contacts=contacts,
-    )
 
 
 def hostile_text(rng: random.Random, good: bytes) -> bytes:

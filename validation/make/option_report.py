@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import Any
 
-from quasistatic_ref.lab.study.report.numbers import digits, milliseconds, options_words, percent
+from quasistatic_ref.lab.study.report.words import milliseconds, options_words, tenths
 from validation.make.study_advice import table_text
 
 Line = dict[str, Any]
@@ -56,7 +56,7 @@ def report(spaces: Spaces, log: Log) -> str:
 
 def _judged(solvers: Sequence[str], log: Log) -> str:
     lines = [
-        (solver, setting, *map(percent, (one["six"], one["nine"])), digits(one["median"]),
+        (solver, setting, *map(tenths, (one["six"], one["nine"])), tenths(one["median"]),
          str(one["false_optimal"]), str(one["false_infeasible"]), milliseconds(one["time_to_6"]))
         for solver in solvers
         for setting, one in zip(SETTINGS, of(log, solver, "judging"), strict=True)
@@ -86,9 +86,9 @@ def _bullet(solver: str, log: Log) -> str:
     plain, start, best = of(log, solver, "judging")
     words = (
         f"- **{solver}** at `{options_words(best['options'])}` delivers 6 digits on "
-        f"{percent(best['six'])} % and 9 digits on {percent(best['nine'])} % of "
-        f"{best['problems']} problems, at its defaults on {percent(plain['six'])} % and "
-        f"{percent(plain['nine'])} %."
+        f"{tenths(best['six'])} % and 9 digits on {tenths(best['nine'])} % of "
+        f"{best['problems']} problems, at its defaults on {tenths(plain['six'])} % and "
+        f"{tenths(plain['nine'])} %."
     )
     first, *others = of(log, solver, "training")
     alone = [one for one in others if len(_change(first, one)) == 1]
@@ -105,8 +105,8 @@ def _bullet(solver: str, log: Log) -> str:
     if most is not first:
         words += (
             f" 9 digits are most frequent with `{options_words(_change(first, most))}`: on "
-            f"{percent(most['nine'])} % of the problems searched on, with the start on "
-            f"{percent(first['nine'])} %."
+            f"{tenths(most['nine'])} % of the problems searched on, with the start on "
+            f"{tenths(first['nine'])} %."
         )
     return words
 
@@ -141,6 +141,6 @@ def _measured(every: Log, finding: Mapping[str, Any]) -> Iterator[tuple[Line, Li
 
 
 def _cells(before: Line, after: Line) -> Iterator[str]:
-    for name, written in (("six", percent), ("nine", percent), ("median", digits)):
-        yield f"{written(before[name])} to {written(after[name])}"
+    for name in ("six", "nine", "median"):
+        yield f"{tenths(before[name])} to {tenths(after[name])}"
     yield f"{before['false_infeasible']} to {after['false_infeasible']}"

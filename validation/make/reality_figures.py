@@ -1,13 +1,128 @@
-"""Figures of docs/reality.md from its results: ``python -m validation.make.reality_figures``."""
+"""Figures of docs/md from its results: ``python -m validation.make.reality_figures``."""
 
 import argparse
 import json
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
 from quasistatic_ref.lab.examples.gallery import figure_of
-from quasistatic_ref.lab.figures import reality
-from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
+from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.optional.show.figures.style import figure_style, figure_written, panels, scaled
+
+Record = Mapping[str, Any]
+
+
+def _named(axes: Axes, names: Sequence[str]) -> None:
+    """Names at the left, the first at the top."""
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.4, -0.6)
+    axes.grid(False, axis="y")
+
+
+def _marks(axes: Axes, x: Any, y: Any, mark: str, size: float, label: str) -> None:
+    axes.plot(x, y, linestyle="", marker=mark, markersize=scaled(size), color="black",
+              markerfacecolor="none", label=label)  # fmt: skip
+
+
+def _spans(axes: Axes, entries: Sequence[Record], k: int, aside: float, **pen: Any) -> None:
+    """Means and their intervals of column k, one entry a line."""
+    rows = np.arange(len(entries)) + aside
+    low, mean, high = (np.array([e[key][k] for e in entries]) for key in ("low", "mean", "high"))
+    axes.errorbar(mean, rows, xerr=[mean - low, high - mean], linestyle="", color="black",
+                  markersize=scaled(3.5), elinewidth=scaled(0.8), **pen)  # fmt: skip
+
+
+def identified_ratios(record: Record, within: Any = None) -> Figure:
+    """mu_omega / mu_v of each pair: interval, the reverse, published, uniform pressure."""
+    figure, (axes,) = panels(5.2, 4.6, within=within)
+    rows = np.arange(len(record))
+    own = [entry["cones"]["ellipsoid"] for entry in record.values()]
+    ratio = 1e3 * np.array([e["ratio"] for e in own])
+    ends = 1e3 * np.array([[e["low"], e["high"]] for e in own]).T
+    axes.errorbar(ratio, rows, xerr=np.abs(ends - ratio), fmt="o", color="black",
+                  markersize=scaled(3.5), label="from loads, 95 %")  # fmt: skip
+    _marks(axes, 1e3 * np.array([e["reverse"] for e in own]), rows, "<", 4, "loads from motions")
+    _marks(axes, 1e3 * np.array([e["published"] for e in record.values()]), rows, "s", 5.5,
+           "published ellipsoid")  # fmt: skip
+    _marks(axes, 1e3 * np.array([e["uniform"] for e in record.values()]), rows, "|", 8,
+           "uniform pressure")  # fmt: skip
+    _named(axes, list(record))
+    axes.set_xlim(left=0)
+    labelled(axes, r"$\mu_\omega / \mu_v$ [mm]")
+    return figure
+
+
+def lost_shares(record: Record, within: Any = None) -> Figure:
+    """The share of dissipation that each cone loses on measured loads and motions, each pair."""
+    figure, (axes,) = panels(4.6, 2.4, within=within)
+    cones = list(next(iter(record.values()))["cones"])
+    for row, cone in enumerate(cones):
+        lost = 100 * np.array([entry["cones"][cone]["misfit"] for entry in record.values()])
+        _marks(axes, lost, np.full(len(lost), row), "o", 4, "a pair" if row == 0 else "")
+        axes.plot([lost.mean()] * 2, [row - 0.3, row + 0.3], color="black", linewidth=scaled(1.6),
+                  label="mean" if row == 0 else "")  # fmt: skip
+    _named(axes, cones)
+    axes.set_xlim(left=0)
+    labelled(axes, "share of the dissipation that is lost [%]")
+    return figure
+
+
+def errors_by_pair(record: Record, within: Any = None) -> Figure:
+    """Errors of each pair with intervals: this package, and the published simulator."""
+    figure, both = panels(6.3, 4.8, columns=2, within=within)
+    names = list(record["pairs"])
+    entries = [record["pairs"][name] for name in names]
+    for k, (axes, unit) in enumerate(zip(both, ("place [mm]", "angle [deg]"), strict=True)):
+        _spans(axes, [e["error"] for e in entries], k, -0.15, marker="o", label="ellipsoid, 95 %")
+        _spans(axes, [e["published"] for e in entries], k, 0.15, marker="s", markerfacecolor="none",
+               label="published simulator")  # fmt: skip
+        shown = ["mean over pairs" if name == "all" else name for name in names]
+        _named(axes, [""] * len(shown) if k else shown)
+        axes.set_xlim(left=0)
+        labelled(axes, f"mean error of the {unit}", key=False)
+    legend_below(both, both[0].get_legend_handles_labels()[0])
+    return figure
+
+
+def ablations(record: Record, names: Sequence[str], within: Any = None) -> Figure:
+    """Mean errors over pairs of some variants, with intervals."""
+    figure, both = panels(6.3, 0.9 + 0.24 * len(names), columns=2, within=within)
+    entries = [record["variants"][name]["error"] for name in names]
+    for k, (axes, unit) in enumerate(zip(both, ("place [mm]", "angle [deg]"), strict=True)):
+        _spans(axes, entries, k, 0.0, marker="o")
+        _named(axes, [""] * len(names) if k else names)
+        axes.set_xlim(left=0)
+        labelled(axes, f"error of the {unit}", key=False)
+    return figure
+
+
+def tripods(record: Record, within: Any = None) -> Figure:
+    """Median error of the turn over the median turn, by set of supports and by cone."""
+    figure, (axes,) = panels(6.3, 2.8, within=within)
+    variants = {
+        "ellipsoid": ["ellipsoid"],
+        "facets-16": ["facets-16"],
+        "pyramid, three angles": [
+            name for name in record["variants"] if name.startswith("pyramid")
+        ],
+    }
+    sets = list(record["variants"]["ellipsoid"])
+    for (label, own), mark in zip(variants.items(), ("o", "^", "x"), strict=True):
+        for name in own:
+            shares = [100 * record["variants"][name][s]["median error over median turn"]
+                      for s in sets]  # fmt: skip
+            _marks(axes, shares, range(len(sets)), mark, 5, label if name == own[0] else "")
+    axes.axvline(100 / 3, color="black", linestyle=":", linewidth=scaled(1))
+    _named(axes, [f"{name}{', calibrated' if k == 0 else ''}" for k, name in enumerate(sets)])
+    axes.set_xlim(left=0)
+    labelled(axes, "median error of the turn over the median turn [%]")
+    return figure
+
 
 ROOT = Path(__file__).parents[2]
 RESULTS = ROOT / "validation" / "results"
@@ -28,16 +143,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=Path("reality_figures"))
     options = parser.parse_args()
-    identified, ablations = result("reality_identified"), result("reality_ablations")
-    shown = [name for name in SHOWN if name in ablations["variants"]]
+    identified, variants = result("reality_identified"), result("reality_ablations")
+    shown = [name for name in SHOWN if name in variants["variants"]]
     with figure_style():
         figures = {
             "reality_pushes": figure_of("which_cone_is_real"),
-            "reality_identified": reality.identified_ratios(identified),
-            "reality_loads": reality.lost_shares(identified),
-            "reality_errors": reality.errors_by_pair(result("reality")),
-            "reality_ablations": reality.ablations(ablations, shown),
-            "reality_tripods": reality.tripods(result("reality_tripods")),
+            "reality_identified": identified_ratios(identified),
+            "reality_loads": lost_shares(identified),
+            "reality_errors": errors_by_pair(result("reality")),
+            "reality_ablations": ablations(variants, shown),
+            "reality_tripods": tripods(result("reality_tripods")),
         }
     for name, figure in figures.items():
         figure_written(figure, options.out, name)

@@ -6,21 +6,202 @@ these all five sets are predicted. The other cones and frictions of the finger a
 
 import argparse
 import json
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
+from scipy.optimize import least_squares
 
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, text_written
 from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.reality.errors import bootstrapped, pose_errors
-from quasistatic_ref.lab.reality.tripods import (
-    FINGER,
-    calibration,
-    tripod,
-    tripod_prediction,
-    tripods_read,
-)
+from quasistatic_ref.lab.reality.outline import Outline
+from quasistatic_ref.lab.reality.predict import Prediction, predicted, rotation
+from quasistatic_ref.lab.reality.push import Pushed
+from quasistatic_ref.lab.reality.settings import ADVANCE
+from quasistatic_ref.lab.reality.tables import table_read
+from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.data import Array
+
+LEG, MASS = 0.15, 1.518
+"""Of the right triangle, the corner at the origin of its frame [m], [kg]."""
+TRIANGLE: Final = Outline(LEG * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
+
+FINGER: Final = 0.25
+"""Friction of the finger on the object [-]: not measured; that of the other pushes is taken."""
+
+PLACES: Final = 40
+"""Places of the finger along its path."""
+SUPPORTS: Final = ("support_x1", "support_y1", "support_x2", "support_y2", "support_x3",
+                   "support_y3")  # fmt: skip
+PATH: Final = tuple(f"finger_{axis}{k}" for k in range(PLACES) for axis in "xy")
+COLUMNS: Final[Mapping[str, str]] = {
+    **dict.fromkeys(SUPPORTS, "[m] place of a support, object frame"),
+    "push": "[-] number of the push in its set",
+    "x0": "[m] origin of the object's frame before, world frame",
+    "y0": "[m]",
+    "theta0": "[rad]",
+    "x1": "[m] after",
+    "y1": "[m]",
+    "theta1": "[rad]",
+    **dict.fromkeys(PATH, "[m] place of the finger along its path"),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class TripodSet:
+    """Pushes on one surface and one triple of supports.
+
+    Parameters
+    ----------
+    name : str
+        Surface and places [mm].
+    supports : ndarray, shape (3, 2)
+        Object frame [m].
+    before, after : ndarray, shape (n, 3)
+        Measured poses: x, y [m], angle [rad].
+    path : ndarray, shape (n, 40, 2)
+        Of the finger [m].
+    """
+
+    name: str
+    supports: Array
+    before: Array
+    after: Array
+    path: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration:
+    """What is frozen after one set.
+
+    Parameters
+    ----------
+    offset : ndarray, shape (2,)
+        Of the object's frame in the measured one [m].
+    angle : float
+        Between them [rad].
+    radius : float
+        Of the finger [m].
+    residual : float
+        Median distance of the finger from the outline at the end of a push [m].
+    """
+
+    offset: Array
+    angle: float
+    radius: float
+    residual: float
+
+    def object_pose(self, measured: Array) -> Array:
+        """The object's frame, shape (3,) [m, rad], where the measured one is known."""
+        origin = measured[:2] + rotation(measured[2]) @ self.offset
+        return np.append(origin, measured[2] + self.angle)
+
+    def measured_pose(self, of: Array) -> Array:
+        """The measured frame, shape (3,), where the object's is `of`, shape (3,) [m, rad]."""
+        angle = of[2] - self.angle
+        return np.append(of[:2] - rotation(angle) @ self.offset, angle)
+
+
+def tripods_read(folder: Path) -> list[TripodSet]:
+    """The sets of ``tripods.csv`` in the order of the file.
+
+    Raises
+    ------
+    InputError
+        If the file is missing or not as it must be.
+    """
+    table = table_read(folder / "tripods.csv", COLUMNS, {}, ("surface",))
+    every = np.arange(len(table.pairs))
+    places = table.array(every, *SUPPORTS)
+    sets: dict[str, list[int]] = {}
+    for k, surface in enumerate(table.pairs):
+        points = " ".join(f"({x:.0f}, {y:.0f})" for x, y in 1e3 * places[k].reshape(3, 2))
+        sets.setdefault(f"{surface} {points}", []).append(k)
+    found = []
+    for name, rows in sets.items():
+        own = np.array(rows)
+        path = table.array(own, *PATH).reshape(-1, PLACES, 2)
+        before = table.array(own, "x0", "y0", "theta0")
+        after = table.array(own, "x1", "y1", "theta1")
+        found.append(TripodSet(name, places[own[0]].reshape(3, 2), before, after, path))
+    return found
+
+
+def calibration(of: TripodSet) -> Calibration:
+    """Offset, angle and radius with which the finger touches the outline at the ends of pushes.
+
+    Least squares of the distances, those beyond a millimetre counted by their size (soft L1).
+
+    Raises
+    ------
+    InputError
+        If the set has fewer pushes than there are unknowns.
+    """
+    if len(of.after) < 5:
+        raise InputError("has too few pushes to calibrate on", field=of.name, value=len(of.after))
+    ends = zip(of.after, of.path[:, -1], strict=True)
+    tips = np.array([rotation(pose[2]).T @ (tip - pose[:2]) for pose, tip in ends])
+
+    def gaps(x: Array) -> Array:
+        own = (tips - 1e-3 * x[:2]) @ rotation(1e-3 * x[3])
+        return np.array([1e3 * TRIANGLE.closest(tip)[0] - x[2] for tip in own])
+
+    found = least_squares(gaps, np.zeros(4), loss="soft_l1").x
+    residual = float(1e-3 * np.median(np.abs(gaps(found))))
+    # A radius below zero is none: the recorded places are those of the finger's surface.
+    return Calibration(1e-3 * found[:2], 1e-3 * found[3], max(1e-3 * found[2], 0.0), residual)
+
+
+def tripod(
+    of: TripodSet,
+    frozen: Calibration,
+    cone: str = ELLIPSOID,
+    axes: float = 0.0,
+    finger: float = FINGER,
+    advance: float = ADVANCE,
+) -> Pushed:
+    """The scene of a set.
+
+    Parameters
+    ----------
+    of : TripodSet
+    frozen : Calibration
+    cone : str
+    axes : float
+        Angle of d1 of the supports from the world's x [rad].
+    finger : float
+        Friction [-].
+    advance : float
+        Of the finger in a step [m].
+    """
+    centre = TRIANGLE.centre
+    points = tuple((float(x), float(y)) for x, y in of.supports - centre)
+    return Pushed(TRIANGLE, centre, frozen.radius, finger, 0.0, cone, points, advance, axes,
+                  m=MASS)  # fmt: skip
+
+
+def tripod_prediction(
+    scene: Pushed, frozen: Calibration, before: Array, path: Array, certify: str = "full"
+) -> tuple[Array, Prediction]:
+    """The measured pose, shape (3,) [m, rad], that is predicted after a push.
+
+    Parameters
+    ----------
+    scene : Pushed
+    frozen : Calibration
+    before : ndarray, shape (3,)
+        Measured pose [m, rad].
+    path : ndarray, shape (n, 2)
+        Of the finger [m].
+    certify : str
+    """
+    found = predicted(scene, frozen.object_pose(before), path, certify)
+    return frozen.measured_pose(found.pose), found
+
 
 OUT = Path(__file__).parents[1] / "results" / "reality_tripods.json"
 VARIANTS: dict[str, dict[str, Any]] = {

@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.resources import scenario_names, vectors_folder
 from quasistatic_ref.lab.claims.claim import finding

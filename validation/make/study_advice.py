@@ -1,6 +1,6 @@
 """What the committed study of solvers says to a user who chooses one, sentence by sentence.
 
-``advice(folder)`` is the text that docs/solver_study.md shows: every number in it, and every
+``advice(found)`` is the text that docs/solver_study.md shows: every number in it, and every
 solver, setting and family that it names, comes from the rows.
 ``python -m validation.make.study_reports`` writes it next to the report.
 """
@@ -8,7 +8,6 @@ solver, setting and family that it names, comes from the rows.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 
@@ -17,19 +16,12 @@ from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Report, Section, Table
 from quasistatic_ref.lab.study.file.study_file import solver_study, study_path
 from quasistatic_ref.lab.study.measuring.environment import UNKNOWN
-from quasistatic_ref.lab.study.report.columns import (
-    Columns,
-    chosen,
-    columns_of,
-    common,
-    groups,
-    size,
-)
-from quasistatic_ref.lab.study.report.comparison import Comparison, comparison_of
-from quasistatic_ref.lab.study.report.headline import LIMITS, WANTED, Soonest, soonest_table
-from quasistatic_ref.lab.study.report.numbers import digits, milliseconds, options_words, percent
+from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, Soonest, comparison_of
+from quasistatic_ref.lab.study.report.rows import Rows, rows_of
 from quasistatic_ref.lab.study.report.statistics import success
-from quasistatic_ref.lab.study.store.store import contents
+from quasistatic_ref.lab.study.report.tables import LIMITS, soonest_table
+from quasistatic_ref.lab.study.report.words import milliseconds, options_words, tenths
+from quasistatic_ref.lab.study.store.store import Contents
 
 NAME = "advice.md"
 HARDEST = 2
@@ -38,13 +30,12 @@ FALSE = 1.0
 """Share of false claims from which a solver's own setting is advised against [%]."""
 
 
-def advice(folder: Path) -> str:
-    """The text, in Markdown, of a store that is packed or not."""
-    found = contents(folder)
+def advice(found: Contents) -> str:
+    """The text, in Markdown, of what a store holds."""
     study, rows = found.study, found.rows
-    every = columns_of(rows, study["time_limit"])
+    every = rows_of(rows, study["time_limit"])
     comparison = comparison_of(study, every)
-    first = chosen(every, {"repetition": 0})
+    first = every.at(repetition=0)
     parts = [
         " ".join(_extent(comparison, study)),
         "## What to use",
@@ -59,15 +50,15 @@ def advice(folder: Path) -> str:
 
 
 def _extent(comparison: Comparison, study: dict) -> Iterator[str]:
-    problems, own = study["problems"], comparison.columns
+    problems, own = study["problems"], comparison.rows
     yield f"{problems['count']:,} problems of {len(problems['families'])} families,"
     yield f"{problems['exact']:,} of them with exact answers."
     names = {"qpsolvers": "called directly", "cvxpy": "through CVXPY", "native": "natively"}
     counts = [
         f"{len(set(part['solver'])):,} {names.get(interface, 'as ' + interface)}"
-        for (interface,), part in groups(own, ["interface"])
+        for (interface,), part in own.groups("interface").items()
     ]
-    yield f"Solvers: {', '.join(counts)}; {len(comparison.settings)} settings; {size(own):,} calls."
+    yield f"Solvers: {', '.join(counts)}; {len(comparison.settings)} settings; {len(own):,} calls."
     path = study_path("default")
     if solver_study(path, toml_read(path)).problems.families != problems["families"]:
         yield "The problems of these rows are an earlier selection than that of today's study file."
@@ -75,8 +66,7 @@ def _extent(comparison: Comparison, study: dict) -> Iterator[str]:
 
 def _headline(comparison: Comparison) -> str:
     """The solvers of the report's table, each by the interface with the soonest 6 digits."""
-    options = {f"{s['interface']}:{s['name']}": s["options"] for s in comparison.study["solvers"]}
-    table = soonest_table(comparison.fastest(), comparison.base, comparison.noise, options)
+    table = soonest_table(comparison.fastest(), comparison, comparison.options)
     page = markdown_page(Report("", (Section("", (table,)),)))
     return page[page.index("**Time") :].strip()
 
@@ -84,33 +74,30 @@ def _headline(comparison: Comparison) -> str:
 def _bullet(one: Soonest, comparison: Comparison) -> str:
     """A solver: what to set, what that delivers, what not to do, what is hard for it."""
     own, label = one.rows, one.label
-    options = next(
-        s["options"] for s in comparison.study["solvers"]
-        if f"{s['interface']}:{s['name']}" == str(own["way"][0])
-    )  # fmt: skip
+    options = comparison.options[own.first("way")]
     words = [
         f"- **{label}** at `{one.setting}` (`{options_words(options[one.setting], LIMITS)}`) "
-        f"delivers 6 digits on {percent(success(own['digits'], 6.0))} % and 9 digits on "
-        f"{percent(success(own['digits'], 9.0))} % of {size(own):,} problems, in "
+        f"delivers 6 digits on {tenths(success(own['digits'], 6.0))} % and 9 digits on "
+        f"{tenths(success(own['digits'], 9.0))} % of {len(own):,} problems, in "
         f"{milliseconds(float(np.median(own['seconds'])))} ms (median); {_false(own)}."
     ]
-    plain = chosen(comparison.columns, {**comparison.at("default"), "label": label})
-    if one.setting != "default" and size(plain):
+    plain = comparison.rows.at(comparison.at("default"), label=label)
+    if one.setting != "default" and plain:
         wrong, said = plain["wrong"] & plain["said_optimal"], plain["said_optimal"]
         much = 100 * int(wrong.sum()) > FALSE * int(said.sum())
         advised = "is not advised: it delivers" if much else "delivers"
         words.append(
-            f"Its own setting {advised} 6 digits on {percent(success(plain['digits'], 6.0))} % of "
+            f"Its own setting {advised} 6 digits on {tenths(success(plain['digits'], 6.0))} % of "
             f"the problems; {_false(plain)}."
         )
-    bad = {name: column[own["digits"] < WANTED[0]] for name, column in own.items()}
-    if size(bad):
+    bad = own.kept(lambda row: row["digits"] < WANTED[0])
+    if bad:
         families, counts = np.unique(bad["family"], return_counts=True)
         order = np.lexsort((families, -counts))[:HARDEST]
         named = " and ".join(f"{counts[i]} of `{families[i]}`" for i in order)
-        noun = "problem" if size(bad) == 1 else "problems"
+        noun = "problem" if len(bad) == 1 else "problems"
         words.append(
-            f"At `{one.setting}` the solver misses 6 digits on {size(bad):,} {noun}, among them "
+            f"At `{one.setting}` the solver misses 6 digits on {len(bad):,} {noun}, among them "
             f"{named}."
         )
     if missing := int((~own["called"]).sum()):
@@ -118,14 +105,14 @@ def _bullet(one: Soonest, comparison: Comparison) -> str:
     return " ".join(words)
 
 
-def _false(part: Columns) -> str:
+def _false(part: Rows) -> str:
     said, wrong = part["said_optimal"], part["wrong"]
     none = int((wrong & part["said_infeasible"]).sum())
     words = f"{int((said & wrong).sum()):,} of {int(said.sum()):,} claims of success are false"
     return words + (f", and the solver calls {none:,} solvable problems infeasible" if none else "")
 
 
-def _others(comparison: Comparison, first: Columns) -> Iterator[str]:
+def _others(comparison: Comparison, first: Rows) -> Iterator[str]:
     said, none, wrong = (first[n] for n in ("said_optimal", "said_infeasible", "wrong"))
     yield (
         f"**A status is not evidence.** Of {int(said.sum()):,} claims of success, "
@@ -147,40 +134,40 @@ def _others(comparison: Comparison, first: Columns) -> Iterator[str]:
 
 def _units_table(comparison: Comparison) -> str:
     lines = []
-    cold = chosen(comparison.columns, {"warm": False, "interface": "qpsolvers"})
-    for (solver, setting), part in groups(cold, ["solver", "setting"]):
-        own = common(part, ["units"])
-        parts = [chosen(own, {"units": units}) for units in ("raw", "natural")]
-        if setting in ("default", "high") and all(map(size, parts)):
-            shares = [percent(success(p["digits"], 6.0)) for p in parts]
-            lines.append((solver, setting, str(size(parts[0])), *shares))
+    cold = comparison.rows.at(warm=False, interface="qpsolvers")
+    for (solver, setting), part in cold.groups("solver", "setting").items():
+        own = part.common("units")
+        parts = [own.at(units=units) for units in ("raw", "natural")]
+        if setting in ("default", "high") and all(parts):
+            shares = [tenths(success(p["digits"], 6.0)) for p in parts]
+            lines.append((solver, setting, str(len(parts[0])), *shares))
     names = ("solver", "setting", "problems", "raw [%]", "natural [%]")
     return table_text(names, sorted(lines), 2)
 
 
 def _accuracy_table(comparison: Comparison) -> str:
-    own = chosen(comparison.columns, {"warm": False, "interface": "qpsolvers", "units": "natural"})
-    own, settings = common(own, ["label", "setting"]), comparison.settings
+    direct = comparison.rows.at(warm=False, interface="qpsolvers", units="natural")
+    own, settings = direct.common("label", "setting"), comparison.settings
     lines = []
-    for (solver,), part in groups(own, ["solver"]):
-        parts = [chosen(part, {"setting": setting}) for setting in settings]
-        cells = [digits(float(np.median(p["digits"]))) if size(p) else "-" for p in parts]
+    for (solver,), part in own.groups("solver").items():
+        parts = [part.at(setting=setting) for setting in settings]
+        cells = [tenths(float(np.median(p["digits"]))) if p else "-" for p in parts]
         lines.append((solver, *cells))
     return table_text(("solver", *settings), sorted(lines), 1)
 
 
 def _cvxpy(comparison: Comparison) -> str:
     """Least and largest difference of medians at 1e-9, and the shares at the solvers' own."""
-    cold, costs, shares = chosen(comparison.columns, {"warm": False, "units": "natural"}), [], []
-    for (solver, setting), part in groups(cold, ["solver", "setting"]):
-        own = common(part, ["interface"])
-        here, there = (chosen(own, {"interface": name}) for name in ("qpsolvers", "cvxpy"))
-        if not size(here) or not size(there):
+    cold, costs, shares = comparison.rows.at(warm=False, units="natural"), [], []
+    for (solver, setting), part in cold.groups("solver", "setting").items():
+        own = part.common("interface")
+        here, there = (own.at(interface=name) for name in ("qpsolvers", "cvxpy"))
+        if not here or not there:
             continue
         if setting == "high":
             costs.append(np.median(there["seconds"]) - np.median(here["seconds"]))
         if setting == "default":
-            pair = [percent(success(p["digits"], 6.0)) for p in (here, there)]
+            pair = [tenths(success(p["digits"], 6.0)) for p in (here, there)]
             shares.append(f"{solver} {pair[0]} and {pair[1]}")
     if not costs:
         return ""
@@ -198,7 +185,7 @@ def table_text(names: tuple[str, ...], lines: list[tuple[str, ...]], left: int) 
     return markdown_page(Report("", (Section("", (table,)),))).partition("**-**")[2].strip()
 
 
-def _trust(first: Columns, rows: list[dict], study: dict) -> Iterator[str]:
+def _trust(first: Rows, rows: list[dict], study: dict) -> Iterator[str]:
     spent: dict[str, float] = {}
     for row in rows:
         label, seconds = f"{row['interface']}:{row['solver']}", row["seconds"]

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from quasistatic_ref.cli.main import main as command
 from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.study.store.store import contents
 from validation.make.study_advice import NAME as ADVICE
 from validation.make.study_advice import advice
 
@@ -32,7 +33,7 @@ def made(name: str) -> None:
                 sys.exit(f"study {step[0]} of {name} failed")
             print(f"{name}: {step[0]} ended after {time.perf_counter() - begun:.0f} s")
     if name == "default":
-        text_written(FOLDER / name / ADVICE, advice(FOLDER / name))
+        text_written(FOLDER / name / ADVICE, advice(contents(FOLDER / name)))
     for ending in ("html", "csv", "parquet"):  # the same as Markdown and PNG; made at will
         (FOLDER / name / f"report.{ending}").unlink(missing_ok=True)
 

@@ -23,8 +23,9 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.page.markdown import markdown_table
 from tests.oracles.forged_scenes import scenes
-from validation.make.forgeries import good_file
+from tests.oracles.forgeries import good_file
 from validation.tools.browser import Browser
 from validation.tools.verifier_files import Case, Cases, all_cases
 
@@ -127,10 +128,9 @@ def main() -> int:
             faults.append((case, said))
     columns = [f"{ours}, {js}" for ours in ("verified", "refused")
                for js in ("verified", "not checked", "refused")] + ["disagree"]  # fmt: skip
-    lines = [f"| files | {' | '.join(columns)} |", "|-" * (len(columns) + 1) + "|"]
     rows["all"] = sum(rows.values(), Counter())
-    for family, counts in rows.items():
-        lines.append(f"| {family} | {' | '.join(str(counts[c]) for c in columns)} |")
+    cells = [(family, *(counts[c] for c in columns)) for family, counts in rows.items()]
+    lines = markdown_table(("files", *columns), cells)
     print("\n".join(lines))
     for case, said in faults[:20]:
         print(case.family, sorted(case.forged), case.refusal, said, case.solution[:300], sep="\n  ")

@@ -24,8 +24,9 @@ from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, figure_of
 from quasistatic_ref.lab.figures.digits import digits_of_backends
 from quasistatic_ref.lab.figures.validation import PICTURES
-from quasistatic_ref.optional.show.figures import faults, figure_style
+from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import STYLES
+from tests.legible import faults
 from validation.make.digits_of_backends import SUBJECT, records_read
 
 COLUMNS, CELL, HEADING = 4, (630, 470), 24

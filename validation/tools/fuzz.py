@@ -13,22 +13,26 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from importlib import import_module
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.parallel import Log
+from quasistatic_ref.lab.supervised import Supervised
 from validation.tools.fuzzing.worker import ENDED, SECONDS, content_of
 
 BATCH = 300
 """Inputs of one reader before those of the next."""
 ROOT = Path(__file__).parents[2]
-COLUMNS = "| reader | inputs | accepted | refused | failures | longest [s] | most memory [MiB] |"
+COLUMNS = ("reader", "inputs", "accepted", "refused", "failures", "longest [s]",
+           "most memory [MiB]")  # fmt: skip
 READERS = "validation.tools.fuzzing.readers"
 Job = tuple[str, int, int]
 
@@ -48,13 +52,13 @@ def outcomes(
         Most processor time of one input [s].
     """
     left = [list(job) for job in jobs]
-    threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
+    variables = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
+    variables["PYTHONPATH"] = str(ROOT)
     while left:
-        arguments = json.dumps(left), readers, str(seconds)
-        with subprocess.Popen(
-            [sys.executable, "-m", "validation.tools.fuzzing.worker", *arguments],
-            stdout=subprocess.PIPE, text=True, env=os.environ | threads, cwd=ROOT,
-        ) as process:  # fmt: skip
+        words = [sys.executable, "-m", "validation.tools.fuzzing.worker", json.dumps(left), readers,
+                 str(seconds)]  # fmt: skip
+        one = Supervised(words, subprocess.PIPE, variables, errors=subprocess.DEVNULL)
+        with one.process as process:
             assert process.stdout is not None
             try:
                 for line in process.stdout:
@@ -63,13 +67,14 @@ def outcomes(
                         raise RuntimeError(found["mistake"])
                     yield found
                     _done(left)
-            except GeneratorExit:  # nobody waits for the rest
-                process.kill()
-                raise
+                process.wait()
+            finally:  # also where nobody waits for the rest
+                one.end()
         if left and process.returncode:  # the input that was read then ended it
             name, i, _ = left[0]
-            outcome, words = ENDED.get(-process.returncode, "crash"), f"status {process.returncode}"
-            yield [name, i, outcome, seconds if outcome == "hang" else 0.0, 0.0, words]
+            outcome = ENDED.get(-process.returncode, "crash")
+            lasted = seconds if outcome == "hang" else 0.0
+            yield [name, i, outcome, lasted, 0.0, f"status {process.returncode}"]
             _done(left)
 
 
@@ -114,7 +119,7 @@ def kept(readers: str, name: str, inputs: list[int], folder: Path) -> None:
 
 def table(records: list[dict[str, Any]]) -> list[str]:
     """Lines of the table, one a reader."""
-    lines = [COLUMNS, "|---|---:|---:|---:|---:|---:|---:|"]
+    lines = []
     readers = sorted({record["reader"] for record in records})
     for name in [*readers, "all"]:
         own = [record for record in records if name in (record["reader"], "all")]
@@ -122,8 +127,8 @@ def table(records: list[dict[str, Any]]) -> list[str]:
         failures = sum(len(record["failures"]) for record in own)
         cells = [f"{n:,}" for n in (*sums, failures)]
         cells += [f"{max(r['seconds'] for r in own):.2f}", f"{max(r['mebibytes'] for r in own)}"]
-        lines.append(f"| {name} | {' | '.join(cells)} |")
-    return lines
+        lines.append((name, *cells))
+    return markdown_table(COLUMNS, lines, left=1)
 
 
 def main() -> int:
@@ -137,26 +142,23 @@ def main() -> int:
     parser.add_argument("--table", type=Path, metavar="FILE.md")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
-    path = options.out / "outcomes.jsonl"
-    records = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+    log = Log(options.out / "outcomes.jsonl", itemgetter("reader", "start"))
     module = import_module(options.readers)
     readers = options.reader or module.names()
     begun, each = time.monotonic(), -(-options.inputs // len(readers))
-    there = {(record["reader"], record["start"]) for record in records}
     jobs = [
         (name, start, min(BATCH, each - start))
-        for start in range(0, each, BATCH) for name in readers if (name, start) not in there
+        for start in range(0, each, BATCH) for name in readers if (name, start) not in log.found
     ]  # fmt: skip
     for number, record in enumerate(batches(jobs, options.out, options.readers), start=1):
-        records.append(record)
-        with path.open("a") as file:
-            file.write(json.dumps(record) + "\n")
+        log.add(record)
         said = f"{record['accepted']} accepted, {record['refused']} refused"
         print(f"{number}/{len(jobs)} {record['reader']}: {said}", flush=True)
         for failure in record["failures"]:
             print(f"  {failure['outcome']} of input {failure['input']}: {failure['words']}")
         if time.monotonic() - begun > options.seconds:
             break
+    records = list(log.found.values())
     if options.table:
         options.table.write_text(module.PAGE + "\n".join(table(records)) + "\n")
     print(*table(records), sep="\n")

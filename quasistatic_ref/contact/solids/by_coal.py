@@ -15,7 +15,7 @@ from typing import NamedTuple
 import coal
 import numpy as np
 
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.settle import settled
 from quasistatic_ref.contact.solids.ways_out import gaps, rival_directions
 from quasistatic_ref.errors import ContactError
@@ -58,7 +58,7 @@ class Judged(NamedTuple):
     defect: float
 
 
-def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
+def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     """Signed distance, closest points and normal of two bounded convex solids, world frame.
 
     Raises
@@ -68,8 +68,8 @@ def coal_witness(name: str, a: Placed, b: Placed) -> Witness:
     """
     size = a.shape.extent + b.shape.extent + float(np.abs(b.t - a.t).max())
     scale = 2.0 ** -np.round(np.log2(size))
-    here = Placed(_resized(a.shape, scale), a.R, np.zeros(3))
-    there = Placed(_resized(b.shape, scale), b.R, scale * (b.t - a.t))
+    here = ShapeInWorld(_resized(a.shape, scale), a.R, np.zeros(3))
+    there = ShapeInWorld(_resized(b.shape, scale), b.R, scale * (b.t - a.t))
     best = _best(here, there, _by_coal(here, there))
     # Where they just touch, what is proved is right: no gap is wider than that of a contact.
     touching = best.phi >= -ENOUGH and best.defect <= WITNESS
@@ -92,17 +92,21 @@ def _resized(shape: Shape, scale: float) -> Shape:
     return shape.resized(scale)
 
 
-def _best(a: Placed, b: Placed, start: Judged) -> Judged:
-    """Of an answer and the maxima near it, the widest gap that is proved, or the least defect."""
+def _best(a: ShapeInWorld, b: ShapeInWorld, start: Judged) -> Judged:
+    """Of an answer and the maxima near it, the widest gap that is proved."""
     every = [start]
     if np.isfinite(start.n).all():
         every += [judged(a, b, *way) for way in settled(a, b, Witness(*start[:4]))]
-    widest = max((found.phi for found in every if found.defect <= WITNESS), default=-np.inf)
-    level = [found for found in every if found.phi >= widest - WITNESS]
-    return min(level, key=lambda found: found.defect)
+    for room in (ENOUGH, WITNESS):
+        proved = [found for found in every if found.defect <= room]
+        if proved:  # no gap exceeds the distance
+            widest = max(found.phi for found in proved)
+            level = [found for found in proved if found.phi >= widest - room]
+            return min(level, key=lambda found: found.defect)
+    return min(every, key=lambda found: found.defect)
 
 
-def _by_coal(a: Placed, b: Placed) -> Judged:
+def _by_coal(a: ShapeInWorld, b: ShapeInWorld) -> Judged:
     """The best of coal's answers, with its defect."""
     best: Judged | None = None
     for accuracy in ACCURACIES:
@@ -125,12 +129,14 @@ def _by_coal(a: Placed, b: Placed) -> Judged:
     return best
 
 
-def judged(a: Placed, b: Placed, phi: float, alpha: Array, beta: Array, n: Array) -> Judged:
+def judged(
+    a: ShapeInWorld, b: ShapeInWorld, phi: float, alpha: Array, beta: Array, n: Array
+) -> Judged:
     """An answer, with its defect: what phi n misses the gap along n and the points' distance by.
 
     Parameters
     ----------
-    a, b : Placed
+    a, b : ShapeInWorld
     phi, alpha, beta, n : float, ndarray, ndarray, ndarray
         In whatever length unit the solids have.
     """
@@ -141,7 +147,7 @@ def judged(a: Placed, b: Placed, phi: float, alpha: Array, beta: Array, n: Array
     return Judged(phi, alpha, beta, n, float(max(abs(gap - phi), apart)))
 
 
-def _shallowest(a: Placed, b: Placed, first: Judged) -> Judged:
+def _shallowest(a: ShapeInWorld, b: ShapeInWorld, first: Judged) -> Judged:
     """The least depth: coal's way out made exact, and every other that may be shorter."""
     n = first.n if np.isfinite(first.n).all() and first.n.any() else np.array([1.0, 0.0, 0.0])
     n = n / np.sqrt(n @ n)
@@ -163,7 +169,7 @@ def _shallowest(a: Placed, b: Placed, first: Judged) -> Judged:
     return best
 
 
-def _refined(a: Placed, b: Placed, n: Array, size: float) -> Judged:
+def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
     """A maximum of the gap, followed from a direction.
 
     Parted along n by a little more than the depth, the solids have a distance and a normal that

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder, Ellipsoid, Shape
 from quasistatic_ref.step.data import Array
@@ -83,12 +83,12 @@ def kinks(shape: Shape) -> Kinks:
     return Kinks(ways, np.zeros(len(ways)), flat.normals)
 
 
-def placed_kinks(solid: Placed, n: Array, within: float) -> Kinks:
+def placed_kinks(solid: ShapeInWorld, n: Array, within: float) -> Kinks:
     """The kinks near a direction, in the world frame.
 
     Parameters
     ----------
-    solid : Placed
+    solid : ShapeInWorld
         Bounded, and no sphere.
     n : ndarray, shape (3,)
         Unit vector in the world frame [-].
@@ -99,12 +99,12 @@ def placed_kinks(solid: Placed, n: Array, within: float) -> Kinks:
     return near._replace(axes=near.axes @ solid.R.T, normals=near.normals @ solid.R.T)
 
 
-def curvature(solid: Placed, n: Array) -> Array:
+def curvature(solid: ShapeInWorld, n: Array) -> Array:
     """D(n), the Hessian of the reach where it is smooth, shape (3, 3) [m], world frame.
 
     Parameters
     ----------
-    solid : Placed
+    solid : ShapeInWorld
         Bounded, and no sphere.
     n : ndarray, shape (3,)
         Unit vector in the world frame [-].
@@ -171,12 +171,12 @@ class Face(NamedTuple):
         return np.asarray(points[np.sum((points - x) ** 2, axis=1).argmin()])
 
 
-def face(solid: Placed, n: Array) -> Face:
+def face(solid: ShapeInWorld, n: Array) -> Face:
     """What a solid has farthest along a direction.
 
     Parameters
     ----------
-    solid : Placed
+    solid : ShapeInWorld
         Bounded, and no sphere.
     n : ndarray, shape (3,)
         Unit vector in the world frame [-].
@@ -205,7 +205,7 @@ def face(solid: Placed, n: Array) -> Face:
     return Face(corners, radius, n)
 
 
-def _polygon(solid: Placed, n: Array) -> Array:
+def _polygon(solid: ShapeInWorld, n: Array) -> Array:
     """The farthest corners of a polytope, in counter-clockwise order about n."""
     flat = polytope(solid.shape)
     assert flat is not None

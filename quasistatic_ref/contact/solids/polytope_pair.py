@@ -9,7 +9,7 @@ between two corners, or a corner and an edge.
 
 import numpy as np
 
-from quasistatic_ref.contact.placed import Witness
+from quasistatic_ref.contact.shape_in_world import Witness
 from quasistatic_ref.contact.solids.polytope import Polytope
 from quasistatic_ref.shapes.placed_shape import Capsule
 from quasistatic_ref.step.data import Array

@@ -12,7 +12,7 @@ from itertools import combinations
 
 import numpy as np
 
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.faces import Face, curvature, face, placed_kinks
 from quasistatic_ref.step.data import Array
 
@@ -35,12 +35,12 @@ NOTHING = 1e-14
 """What rounding leaves of a slope, a curvature or a length, relative to the pair's size."""
 
 
-def settled(a: Placed, b: Placed, start: Witness) -> Iterator[Witness]:
+def settled(a: ShapeInWorld, b: ShapeInWorld, start: Witness) -> Iterator[Witness]:
     """Maxima of the gap near an approximate one, one for each kink that is near.
 
     Parameters
     ----------
-    a, b : Placed
+    a, b : ShapeInWorld
         Bounded, and no spheres.
     start : Witness
         Its normal right to about NEAR; its points say which of several are taken where two faces
@@ -53,7 +53,7 @@ def settled(a: Placed, b: Placed, start: Witness) -> Iterator[Witness]:
         yield Witness(phi, alpha, on_b.nearest(alpha), n)
 
 
-def _normals(a: Placed, b: Placed, n: Array) -> Iterator[Array]:
+def _normals(a: ShapeInWorld, b: ShapeInWorld, n: Array) -> Iterator[Array]:
     of_a, of_b = placed_kinks(a, n, NEAR), placed_kinks(b, -n, NEAR)
     yield from of_a.normals
     yield from -of_b.normals
@@ -89,7 +89,7 @@ def _newton(n: Array, step: Callable[[Array], tuple[Array, float] | None]) -> It
     yield n
 
 
-def _on_sphere(a: Placed, b: Placed, n: Array) -> tuple[Array, float] | None:
+def _on_sphere(a: ShapeInWorld, b: ShapeInWorld, n: Array) -> tuple[Array, float] | None:
     w = b.farthest(-n) - a.farthest(n)
     T = np.linalg.svd(n[None])[2][1:].T
     bends, ways = np.linalg.eigh(T.T @ (curvature(a, n) + curvature(b, -n)) @ T + n @ w * np.eye(2))
@@ -100,7 +100,9 @@ def _on_sphere(a: Placed, b: Placed, n: Array) -> tuple[Array, float] | None:
     return _unit(n + T @ ways @ turn), float(np.abs(turn).max())
 
 
-def _on_circle(a: Placed, b: Placed, u: Array, c: float, n: Array) -> tuple[Array, float] | None:
+def _on_circle(
+    a: ShapeInWorld, b: ShapeInWorld, u: Array, c: float, n: Array
+) -> tuple[Array, float] | None:
     """Along n = c u + s m, with m a unit vector across u that turns."""
     m = _unit(n - (n @ u) * u)
     s, t = np.sqrt(1 - c * c), np.cross(u, m)

@@ -1,18 +1,16 @@
 """Signed distance, closest points and normal of two solids, each pair by its own method.
 
 A sphere on anything, anything on a half-space, and every pair of box, convex mesh and capsule
-have closed forms, right to rounding (a sphere on an ellipsoid: Newton's method, as accurate). A
-polytope or a cylinder and a cylinder, cone or ellipsoid that are apart have candidates, one for
-each face, edge, rim and vertex. For all others, curved solids that meet, and cones and ellipsoids
-among themselves, coal's answer is refined, and then checked.
+have closed forms, right to rounding (a sphere on an ellipsoid: Newton's method, as accurate). For
+all others, a cylinder, cone or ellipsoid and any of these or of those, coal's answer is refined,
+and then checked.
 """
 
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.by_coal import coal_witness
-from quasistatic_ref.contact.solids.curved_pair import curved_witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
@@ -20,7 +18,7 @@ from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import dot, product, rotated
 
 
-def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
+def solid_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     """Closest points of two solids in the world frame.
 
     Where the normal is not unique, it is any one; a contact's is chosen by
@@ -30,7 +28,7 @@ def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
     ----------
     name : str
         Of the pair, for messages.
-    a, b : Placed
+    a, b : ShapeInWorld
         Not two half-spaces.
 
     Raises
@@ -41,7 +39,9 @@ def solid_pair(name: str, a: Placed, b: Placed) -> Witness:
     return pair_and_gaps(name, a, b)[0]
 
 
-def pair_and_gaps(name: str, a: Placed, b: Placed) -> tuple[Witness, tuple[Array, Array] | None]:
+def pair_and_gaps(
+    name: str, a: ShapeInWorld, b: ShapeInWorld
+) -> tuple[Witness, tuple[Array, Array] | None]:
     """The same, and of two polytopes the gaps (N,) [m] along all their normals (N, 3) [-]."""
     P, Q = polytope(a.shape), polytope(b.shape)
     if P is None or Q is None:
@@ -54,7 +54,7 @@ def pair_and_gaps(name: str, a: Placed, b: Placed) -> tuple[Witness, tuple[Array
     return points, (every - P.margin - Q.margin, rotated(a.R, normals))
 
 
-def _curved_pair(name: str, a: Placed, b: Placed) -> Witness:
+def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     if isinstance(b.shape, Sphere):
         return _sphere_on_solid(a, b, b.shape.radius)
     if isinstance(a.shape, Sphere):
@@ -63,18 +63,17 @@ def _curved_pair(name: str, a: Placed, b: Placed) -> Witness:
         return _solid_on_plane(a, a.shape, b)
     if isinstance(b.shape, HalfSpace):
         return _solid_on_plane(b, b.shape, a).swapped()
-    apart = curved_witness(a, b)
-    return coal_witness(name, a, b) if apart is None else apart
+    return coal_witness(name, a, b)
 
 
-def _sphere_on_solid(solid: Placed, sphere: Placed, radius: float) -> Witness:
+def _sphere_on_solid(solid: ShapeInWorld, sphere: ShapeInWorld, radius: float) -> Witness:
     distance, normal = signed_distance(solid.shape, product(sphere.t - solid.t, solid.R)[None])
     n = product(solid.R, normal[0])
     phi = float(distance[0])
     return Witness(phi - radius, sphere.t - phi * n, sphere.t - radius * n, n)
 
 
-def _solid_on_plane(plane: Placed, half_space: HalfSpace, solid: Placed) -> Witness:
+def _solid_on_plane(plane: ShapeInWorld, half_space: HalfSpace, solid: ShapeInWorld) -> Witness:
     n = product(plane.R, half_space.normal)
     lowest = solid.farthest(-n)
     phi = float(dot(n, lowest - plane.t) - half_space.offset)

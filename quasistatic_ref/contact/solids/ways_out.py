@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.step.data import Array, Indices
 
@@ -29,17 +29,19 @@ APART = 0.985
 """Cosine above which two directions are taken to lead to the same maximum."""
 
 
-def gaps(a: Placed, b: Placed, directions: Array) -> Array:
+def gaps(a: ShapeInWorld, b: ShapeInWorld, directions: Array) -> Array:
     """Gap from a to b along unit vectors (N, 3) of the world frame, shape (N,) [m]."""
     return -b.reach(-directions) - a.reach(directions)
 
 
-def rival_directions(a: Placed, b: Placed, first: Array, phi: float, size: float) -> list[Array]:
+def rival_directions(
+    a: ShapeInWorld, b: ShapeInWorld, first: Array, phi: float, size: float
+) -> list[Array]:
     """Directions of other maxima of the gap, in whose neighbourhood it may exceed phi.
 
     Parameters
     ----------
-    a, b : Placed
+    a, b : ShapeInWorld
     first : ndarray, shape (3,)
         The known direction, a unit vector in the world frame [-].
     phi : float
@@ -69,7 +71,7 @@ def rival_directions(a: Placed, b: Placed, first: Array, phi: float, size: float
     return chosen[1:]
 
 
-def sharp_directions(solid: Placed) -> Array:
+def sharp_directions(solid: ShapeInWorld) -> Array:
     """Normals of the faces, or the axes of a curved solid, in the world frame, shape (N, 3)."""
     flat = polytope(solid.shape)
     own = np.concatenate([np.eye(3), -np.eye(3)]) if flat is None else flat.normals

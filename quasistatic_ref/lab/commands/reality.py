@@ -62,8 +62,7 @@ def run(options: argparse.Namespace) -> int:
     fraction = 1.0 if options.fraction is None else options.fraction
     if not 0 < fraction <= 1:
         raise InputError("must be greater than 0, at most 1", field="--fraction", value=fraction)
-    if options.jobs is not None and options.jobs < 1:
-        raise InputError("must be at least 1", field="--jobs", value=options.jobs)
+    shared.check_at_least_one(options, "jobs")
     try:
         return _measured(options, name, round(1 / fraction))
     except KeyboardInterrupt:
@@ -73,10 +72,10 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _measured(options: argparse.Namespace, name: str, step: int) -> int:
-    from quasistatic_ref.lab.reality.conduct import predicted_pushes
     from quasistatic_ref.lab.reality.identify import identified
     from quasistatic_ref.lab.reality.loads import loads_read
     from quasistatic_ref.lab.reality.pairs import pairs_read
+    from quasistatic_ref.lab.reality.predictions import predicted_pushes
     from quasistatic_ref.lab.reality.pushes import pushes_read
     from quasistatic_ref.lab.reality.report import (
         certified_words,

@@ -83,8 +83,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    if options.jobs is not None and options.jobs < 1:
-        raise InputError("must be at least 1", field="--jobs", value=options.jobs)
+    shared.check_at_least_one(options, "jobs")
     shared.progress_line(options, "loads solvers")  # said at once: to import them takes seconds
     from quasistatic_ref.lab.study.file.study_file import study_kind, study_path
 
@@ -169,8 +168,7 @@ def _export(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.folder import set_read
     from quasistatic_ref.lab.study.problems.for_study import FOLDER
 
-    if options.every < 1:
-        raise InputError("must be at least 1", field="--every", value=options.every)
+    shared.check_at_least_one(options, "every")
     raw = set_read(options.store / FOLDER)[:: options.every]
     for name, problems in {"raw": raw, "natural": [one.natural for one in raw]}.items():
         for path in exported(f"contact_{name}", problems, PARQUET, options.out):

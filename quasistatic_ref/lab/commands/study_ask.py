@@ -41,7 +41,7 @@ def run_ask(options: argparse.Namespace) -> int:
 
 
 def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
-    from quasistatic_ref.lab.study.report.numbers import milliseconds, options_words
+    from quasistatic_ref.lab.study.report.words import milliseconds, options_words
 
     form, facts, seconds = one.problem.form, one.problem.facts, row["seconds"]
     options = options_words(one.solver.settings_of(one.setting, one.limits.call))

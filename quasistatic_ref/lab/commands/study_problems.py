@@ -7,7 +7,6 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.resources import problem_set_folder
 
 ACTIONS = {
@@ -78,8 +77,7 @@ def _export(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.exports import exported, for_qpbenchmark
     from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 
-    if options.every < 1:
-        raise InputError("must be at least 1", field="--every", value=options.every)
+    shared.check_at_least_one(options, "every")
     folder = _folder(options)
     families = options.families.split(",") if options.families else None
     found = set_read(folder, families, [options.id] if options.id else None)

@@ -14,7 +14,6 @@ from typing import Any
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.page.parts import Table
 from quasistatic_ref.lab.study.store.rows import Row, label_of
 
 MODES = ("cold", "updates", "primal", "primal-dual", "active set")
@@ -63,10 +62,10 @@ def run_sequences(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.measuring.run import run_study
     from quasistatic_ref.lab.study.problems.folder import set_read
     from quasistatic_ref.lab.study.problems.for_study import TestSet, fact_of
-    from quasistatic_ref.lab.study.report.sequences import sequence_tables
+    from quasistatic_ref.lab.study.report.rows import rows_of
+    from quasistatic_ref.lab.study.report.tables import sequence_tables
 
-    if options.repetitions < 1:
-        raise InputError("must be at least 1", field="--repetitions", value=options.repetitions)
+    shared.check_at_least_one(options, "repetitions")
     if not 0 < options.accuracy < 1:
         raise InputError("must be between 0 and 1", field="--accuracy", value=options.accuracy)
     for name in ("time_limit", "memory", "budget"):
@@ -100,8 +99,8 @@ def run_sequences(options: argparse.Namespace) -> int:
     if options.json:
         shared.print_json(rows)
         return 0
-    for table in sequence_tables(rows, list(facts.values())):
-        assert isinstance(table, Table)
+    every = rows_of(rows, options.time_limit)
+    for table in sequence_tables(every, list(facts.values())):
         shared.print_rows([table.columns, *table.rows])
     ends = Counter((label_of(r), r["mode"], r["outcome"]) for r in rows)
     for (solver, mode, outcome), count in ends.items():

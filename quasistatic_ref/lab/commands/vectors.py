@@ -17,7 +17,7 @@ ACTIONS = {
     "own": "write this package's own float64 answers, as anybody else's",
     "pack": "write the vectors as one archive to be kept, with its SHA-256",
     "export": "write the quadratic programs for qpbenchmark (Parquet) and as one .npz bundle",
-    "harvest": "collect the inputs again: for a release of the vectors",
+    "harvest": "collect the steps of scenarios again: for a release of the vectors",
 }
 OUT = {"own": "answers", "report": "conformance", "pack": "."}
 """Where an action writes; ``vectors`` otherwise."""
@@ -29,13 +29,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         if name == "challenge":
             _add_challenge(action)
             continue
-        if name != "harvest":
-            action.add_argument(
-                "--vectors",
-                type=Path,
-                metavar="FOLDER",
-                help="folder of vectors; by default those that come along",
-            )
+        words = "folder of vectors; by default those that come along"
+        action.add_argument("--vectors", type=Path, metavar="FOLDER", help=words)
         if name in ("check", "report"):
             action.add_argument("answers", type=Path, metavar="ANSWERS", help="folder of answers")
             shared.add(action, "--json")
@@ -137,7 +132,8 @@ def _generate(options: argparse.Namespace) -> int:
 def _harvest(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.harvest import harvested
 
-    counts = harvested(options.out, lambda said: shared.progress_line(options, said))
+    source = vectors_given(options)
+    counts = harvested(source, options.out, lambda said: shared.progress_line(options, said))
     return _counted(counts, options.out)
 
 

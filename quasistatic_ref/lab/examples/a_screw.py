@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.optional.show.figures import Figure, panels

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.cones import SHOWN, limit_surfaces
 from quasistatic_ref.optional.show.figures import Figure
-from quasistatic_ref.step.friction import cone_matrix
+from quasistatic_ref.step.cones import cone_matrix
 
 
 def main() -> Numbers:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step
@@ -40,7 +40,8 @@ def slips(push: float, angle: float, mu_v: float, h: float, cone: str, steps: in
     psi, F, phi = np.radians(angle), push * mu_v * M * GRAVITY, 0.0
     for _ in range(steps):
         force = (F * np.cos(psi), F * np.sin(psi), -M * GRAVITY)
-        slip = solve_step(point_step(M, force, mu_v, phi, h).replace(cone=cone)).delta_q
+        step = point_step(M, force, mu_v, phi, h).replace(cone=cone)
+        slip = solve_step(step, fast=True).delta_q
         phi += float(slip[2])
     return slip[:2]
 

@@ -11,12 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of
 from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.legible import DRAWING
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 

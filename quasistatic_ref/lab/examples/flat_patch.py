@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.measures import threshold
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
@@ -74,7 +74,8 @@ def held(angle: float, precision: float, cone: str = "pyramid", mu_v: float = MU
     """
 
     def turns(torque: float) -> bool:
-        return bool(abs(solve_step(patch(torque, angle, cone, mu_v)).delta_q[5]) > STILL)
+        answer = solve_step(patch(torque, angle, cone, mu_v), fast=True)
+        return bool(abs(answer.delta_q[5]) > STILL)
 
     return threshold(turns, 0.5, 1.5, precision)
 

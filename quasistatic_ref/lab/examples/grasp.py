@@ -7,22 +7,20 @@ about the points by which the two fingers hold it, and the bunny hangs down.
 from collections.abc import Sequence
 from typing import Any
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.grasp import grasp_strip
-from quasistatic_ref.lab.grasp import CASES, CLOSED, INSTANTS, TOP
-from quasistatic_ref.lab.runs import grasp
+from quasistatic_ref.lab.grasp import CASES, INSTANTS
+from quasistatic_ref.lab.runs import grasp, lift
 from quasistatic_ref.optional.show.figures import Figure
-from quasistatic_ref.simulate.measures import link_motion
 
 
 def main() -> Numbers:
     """How high the bunny was lifted, and the shape of the problem of a step."""
     found: Numbers = {}
     for case in CASES:
-        scenario, run = grasp(case)
-        motion = link_motion(scenario.system, run, "bunny")
-        rise = motion.t[motion.index(TOP), 2] - motion.t[motion.index(CLOSED), 2]
-        found[f"lift {case} [mm]"] = 1e3 * rise
+        motion, steps = lift(case)
+        run = grasp(case)[1]
+        found[f"lift {case} [mm]"] = 1e3 * (motion.t[steps][-1, 2] - motion.t[steps][0, 2])
         found[f"steps certified exactly {case} [-]"] = float(sum(run["certificate"] == "exact"))
     rows, variables = run["A"].shape[1:]
     return found | {"variables of a step [-]": variables, "rows of a step [-]": rows}

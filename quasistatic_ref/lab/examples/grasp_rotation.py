@@ -4,22 +4,19 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.grasp import rotation_plot
-from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
-from quasistatic_ref.lab.runs import grasp
+from quasistatic_ref.lab.grasp import CASES, CLOSED
+from quasistatic_ref.lab.runs import grasp, lift
 from quasistatic_ref.optional.show.figures import Figure
-from quasistatic_ref.simulate.measures import link_motion
 
 
 def main() -> Numbers:
     """The largest rotation during the lift."""
     found: Numbers = {}
     for case in CASES:
-        scenario, run = grasp(case)
-        motion = link_motion(scenario.system, run, "bunny")
-        lift = slice(motion.index(CLOSED), motion.index(TOP) + 1)
-        angle = np.degrees(motion.rotation_since(CLOSED)[lift])
+        motion, steps = lift(case)
+        angle = np.degrees(motion.rotation_since(CLOSED)[steps])
         found[f"rotation {case} [deg]"] = float(angle.max())
     return found
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, only, script
+from quasistatic_ref.lab.examples.shared import Numbers, only, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels

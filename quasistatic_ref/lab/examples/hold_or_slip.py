@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.study.measuring.many import simulate_many

@@ -10,14 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.legible import DRAWING
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import cross_matrix
 

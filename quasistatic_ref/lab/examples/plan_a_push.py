@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
 from quasistatic_ref.lab.scenes.pushed_block import MU_OMEGA, OFFSET, RADIUS, SIDE, pushed_block
 from quasistatic_ref.optional.derivatives.step_jax import jax_package, smoothed_jax

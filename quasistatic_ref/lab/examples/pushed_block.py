@@ -7,7 +7,7 @@ is; here it is a quarter of friction, on purpose.
 
 from typing import Any
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.runs import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
 from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, points, resting
 from quasistatic_ref.optional.derivatives.derivatives import derivatives

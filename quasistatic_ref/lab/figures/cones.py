@@ -10,8 +10,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 from quasistatic_ref.optional.show.figures.style import panels, scaled
 from quasistatic_ref.optional.show.figures.surfaces import faces
-from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID
-from quasistatic_ref.step.friction import cone_matrix
+from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone_matrix
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
 SURFACE: Final[dict[str, Any]] = {"alpha": 0.5, "edgecolor": "k"}

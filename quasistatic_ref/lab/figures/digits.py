@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
-from quasistatic_ref.lab.figures.study_pens import COLOURS, DASHES, MARKS
+from quasistatic_ref.lab.figures.line_styles import COLOURS, DASHES, MARKS
 from quasistatic_ref.optional.show.figures.style import panels, scaled
 
 SPREAD = 0.17

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from quasistatic_ref.lab.figures.study_pens import pens, short
+from quasistatic_ref.lab.figures.line_styles import pens, short
 from quasistatic_ref.optional.show.figures.style import PAGE
 
 FURTHEST: Final = 1e4

@@ -6,7 +6,7 @@ from typing import Any
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.lab.figures.study_pens import pens
+from quasistatic_ref.lab.figures.line_styles import pens
 from quasistatic_ref.optional.show.figures.style import PAGE
 
 PANELS = ("largest rotation [deg]", r"boundary layer [$\mu$m]")

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
-from quasistatic_ref.lab.figures.study_pens import MARKS
+from quasistatic_ref.lab.figures.line_styles import MARKS
 from quasistatic_ref.optional.show.figures.style import panels, scaled
 
 Picture = Mapping[str, Any]

@@ -1,6 +1,6 @@
 """A report as Markdown, its figures in the folder ``figures`` next to it; and any table."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Table
 
@@ -34,7 +34,7 @@ def _table(table: Table) -> list[str]:
 
 
 def markdown_table(
-    columns: Sequence[str], rows: Sequence[Sequence[str]], left: int | None = None
+    columns: Sequence[str], rows: Iterable[Sequence[object]], left: int | None = None
 ) -> list[str]:
     """The lines of a table.
 
@@ -50,8 +50,8 @@ def markdown_table(
     return [_line(cells) for cells in (columns, rule, *rows)]
 
 
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
+def _line(cells: Sequence[object]) -> str:
+    return f"| {' | '.join(str(cell).replace('|', chr(92) + '|') for cell in cells)} |"
 
 
 def _rows(where: str) -> str:

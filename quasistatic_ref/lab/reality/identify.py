@@ -18,9 +18,8 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from quasistatic_ref.lab.reality.loads import Loads
-from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.cones import ELLIPSOID, cone_matrix
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.friction import cone_matrix
 
 SMALLEST, LARGEST = 1e-3, 1.0
 """Between which a ratio is looked for [m]."""

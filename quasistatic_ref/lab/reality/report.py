@@ -4,10 +4,10 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from quasistatic_ref.lab.reality.conduct import Row, poses
 from quasistatic_ref.lab.reality.errors import errors_of, summary
 from quasistatic_ref.lab.reality.identify import Identified
 from quasistatic_ref.lab.reality.pairs import Pair
+from quasistatic_ref.lab.reality.predictions import Row, poses
 from quasistatic_ref.lab.reality.pushes import Pushes
 from quasistatic_ref.lab.reality.settings import Settings
 

@@ -1,85 +1,25 @@
-"""Tangent spaces and quaternion orders that an answer may declare, and the way back to ours.
+"""Tangent spaces and quaternion orders that an answer may declare, and the way back to ours."""
 
-Which entries of q and delta_q belong to which joint of a case's mechanism, in plain float64: the
-mechanism in exact numbers is what the answers are measured against.
-"""
-
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from quasistatic_ref.lab.vectors.check.valid_witness import rotation
-from quasistatic_ref.lab.vectors.exact.mechanism import SIZES
+from quasistatic_ref.lab.program.mechanism import kinematics, slices
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.step.data import Array
 
 
-@dataclass(frozen=True)
-class Places:
-    """A body's joint, and its entries of q and delta_q."""
-
-    name: str
-    kind: str
-    q: slice
-    v: slice
-
-
-def places(mechanism: Json) -> list[Places]:
-    """Of every body, in the paper's order: actuated ones first, each part in file order.
-
-    A mimic joint has no entries, and no place.
-    """
-    found, i, k = [], 0, 0
-    for actuated in (True, False):
-        for body in mechanism["bodies"]:
-            if bool(body.get("actuated")) == actuated and "mimic" not in body:
-                kind = body["joint"]
-                size_q, size_v = SIZES[kind]
-                found.append(Places(body["name"], kind, slice(i, i + size_q), slice(k, k + size_v)))
-                i, k = i + size_q, k + size_v
-    return found
+def places(mechanism: Json) -> Iterator[tuple[Json, slice, slice]]:
+    """Each body with coordinates of its own, and its entries of q and delta_q."""
+    bodies = {body["name"]: body for body in mechanism["bodies"]}
+    for name, (q, v) in slices(mechanism)[0].items():
+        yield bodies[name], q, v
 
 
 def quaternion_places(mechanism: Json) -> list[slice]:
     """The entries of q that are quaternions."""
-    return [slice(at.q.start + 3, at.q.stop) for at in places(mechanism) if at.kind == "floating"]
-
-
-def base_rotations(mechanism: Json, q: Json) -> list[tuple[slice, Array]]:
-    """Of each floating joint its entries of delta_q, and R (3, 3), from body to world at q."""
-    at = {place.name: place for place in places(mechanism)}
-    R: dict[str | None, Array] = {None: np.eye(3)}
-    found = []
-    for body in mechanism["bodies"]:
-        mimic = body.get("mimic", {"of": body["name"], "multiplier": 1.0, "offset": 0.0})
-        place = at[mimic["of"]]
-        position = mimic["multiplier"] * np.array(q[place.q], dtype=np.float64) + mimic["offset"]
-        turned = R[body["parent"]] @ rotation(body["placement"]["quaternion"])
-        R[body["name"]] = turned @ _joint_rotation(body, position)
-        if place.kind == "floating":
-            found.append((place.v, R[body["name"]]))
-    return found
-
-
-def _joint_rotation(body: Json, q: Array) -> Array:
-    """Rotation that a joint makes at its entries of q."""
-    match body["joint"]:
-        case "floating":
-            return rotation(q[3:])
-        case "planar":
-            return _turn(np.array([0.0, 0.0, 1.0]), np.arctan2(q[3], q[2]))
-        case "continuous":
-            return _turn(np.array(body["axis"]), np.arctan2(q[1], q[0]))
-        case "revolute":
-            return _turn(np.array(body["axis"]), q[0])
-        case _:
-            return np.eye(3)
-
-
-def _turn(axis: Array, angle: float) -> Array:
-    half = np.sin(angle / 2) * axis / np.linalg.norm(axis)
-    return rotation([*half, np.cos(angle / 2)])
+    floating = (q for body, q, _ in places(mechanism) if body["joint"] == "floating")
+    return [slice(q.start + 3, q.stop) for q in floating]
 
 
 def tangent_map(mechanism: Json, q: Json, tangent: str) -> Array:
@@ -93,12 +33,15 @@ def tangent_map(mechanism: Json, q: Json, tangent: str) -> Array:
         ``"body"``; ``"world"``: a floating base's linear and angular part along the world's axes;
         ``"mujoco"``: only its linear part.
     """
-    n_v = sum(at.v.stop - at.v.start for at in places(mechanism))
-    B = np.eye(n_v)
-    for at, R in base_rotations(mechanism, q) if tangent != "body" else []:
-        for part in (0, 3) if tangent == "world" else (0,):
-            block = slice(at.start + part, at.start + part + 3)
-            B[block, block] = R.T
+    B = np.eye(slices(mechanism)[2])
+    if tangent == "body":
+        return B
+    at = kinematics(mechanism, np.array(q, dtype=np.float64))
+    for body, _, v in places(mechanism):
+        if body["joint"] == "floating":
+            for part in (0, 3) if tangent == "world" else (0,):
+                block = slice(v.start + part, v.start + part + 3)
+                B[block, block] = at[body["name"]][0].T
     return B
 
 

@@ -46,26 +46,26 @@ def pcd_points(content: bytes) -> Array:
 
 
 def _table(content: bytes) -> PointTable:
-    said: dict[str, list[str]] = {}
+    header: dict[str, list[str]] = {}
     for number, words, start in header_lines(content, "a line DATA"):
         if not words or words[0].startswith("#"):
             continue
-        if words[0] not in _WORDS or words[0] in said:
+        if words[0] not in _WORDS or words[0] in header:
             problem = f"must begin with one of {', '.join(_WORDS)}, each given once"
             raise ModelError(problem, field=f"line {number}", value=" ".join(words))
-        said[words[0]] = words[1:]
+        header[words[0]] = words[1:]
         if words[0] == "DATA":
             body = content[start:]
             break
-    data = " ".join(said["DATA"])
+    data = " ".join(header["DATA"])
     if data not in ("ascii", "binary"):
         raise ModelError("must be ascii or binary; convert the file", field="DATA", value=data)
-    return PointTable(_columns(said), _count(said), data == "ascii", body, number + 1)
+    return PointTable(_columns(header), _count(header), data == "ascii", body, number + 1)
 
 
-def _columns(said: dict[str, list[str]]) -> tuple[tuple[str, str, int], ...]:
-    names, sizes, types = (said.get(word, []) for word in ("FIELDS", "SIZE", "TYPE"))
-    counts = said.get("COUNT", ["1"] * len(names))
+def _columns(header: dict[str, list[str]]) -> tuple[tuple[str, str, int], ...]:
+    names, sizes, types = (header.get(word, []) for word in ("FIELDS", "SIZE", "TYPE"))
+    counts = header.get("COUNT", ["1"] * len(names))
     if not len(names) == len(sizes) == len(types) == len(counts) <= MOST_COLUMNS:
         problem = "must have as many entries as SIZE, TYPE and COUNT"
         raise ModelError(problem, field="FIELDS", value=names)
@@ -79,10 +79,10 @@ def _columns(said: dict[str, list[str]]) -> tuple[tuple[str, str, int], ...]:
     return tuple(columns)
 
 
-def _count(said: dict[str, list[str]]) -> int:
+def _count(header: dict[str, list[str]]) -> int:
     """The number of points, which POINTS and WIDTH times HEIGHT must agree on."""
-    sizes = [_whole(word, *said[word]) for word in ("WIDTH", "HEIGHT") if word in said]
-    given = [_whole("POINTS", *said["POINTS"])] if "POINTS" in said else []
+    sizes = [_whole(word, *header[word]) for word in ("WIDTH", "HEIGHT") if word in header]
+    given = [_whole("POINTS", *header["POINTS"])] if "POINTS" in header else []
     if len(sizes) == 2:
         given.append(math.prod(sizes))
     if not given or len(set(given)) > 1:

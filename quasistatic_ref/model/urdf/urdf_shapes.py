@@ -52,18 +52,18 @@ def checked_shapes(
     """
     shapes, notes = [], []
     for number, (link, frame) in enumerate(zip(links, frames, strict=True)):
-        said = file.links[link].collisions
+        collisions = file.links[link].collisions
         loaded = [shape for shape in geometry.geometryObjects if shape.parentFrame == frame]
         where = f"link[{link}].collision"
-        if len(loaded) != len(said):
-            capsules = any(type(shape).__name__ == "Capsule" for shape, _, _ in said)
+        if len(loaded) != len(collisions):
+            capsules = any(type(shape).__name__ == "Capsule" for shape, _, _ in collisions)
             hint = '; <capsule> needs <robot version="1.1"> or 1.2' if capsules else ""
             problem = (
                 f"only {len(loaded)} of the shapes written were loaded, "
                 f"for the reason printed on standard error{hint}"
             )
-            raise ModelError(problem, field=where, value=len(said))
-        for count, ((shape, R, t), given) in enumerate(zip(said, loaded, strict=True)):
+            raise ModelError(problem, field=where, value=len(collisions))
+        for count, ((shape, R, t), given) in enumerate(zip(collisions, loaded, strict=True)):
             placement = model.frames[frame].placement.actInv(given.placement)
             same = same_pose(placement, R, t)
             solid = _solid(shape, given, f"{where}[{count}]") if same else None

@@ -116,6 +116,6 @@ def _certified(simulator: Simulator, q: Array, q_bar_a: Array, force: Array | fl
     result = simulator.step(q, q_bar_a, force)
     if result.solution.certificate.kind == "exact":
         return result
-    solution = solve_step(result.step.replace(contacts=result.step.contacts.dense()), "none")
+    solution = solve_step(result.step.replace(), "none")
     q_next = simulator.system.integrate(q, solution.delta_q)
     return StepResult(q_next, solution.step, solution, result.points, result.seconds)

@@ -15,9 +15,8 @@ from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.optional.derivatives.turned_tangents import stays
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.step.friction import cone_matrix
 from quasistatic_ref.step.ordered import crossed
 
 FIELDS = ("dq_dq",)

@@ -49,8 +49,7 @@ class StepRates:
         self.couples = couples(simulator.pairs, points, kinematics.R, kinematics.t)
         tangents = step.contacts.d1, step.contacts.d2
         self.contacts = contact_rates(self.couples, tangents, self.motion.J)
-        dense = step.contacts.dense()
-        rows = RowRates(dense, points, simulator.layout, self.contacts, self.motion)
+        rows = RowRates(step.contacts, points, simulator.layout, self.contacts, self.motion)
         masses = MassRates(system, kinematics, self.motion)
         data = data_rates(simulator, step, x, rows, masses)
         self.data = parameters(*data.values())

@@ -82,10 +82,10 @@ def _sunk(
     for pair in pairs:
         start, end = end, end + pair.n_c
         own = np.s_[:, start:end]
-        said, table = _surprise(pair, phi[own], point[own], gap[own]), _table(pair)
-        if said and (table not in first or said.step < first[table].step):
-            first[table] = said
-    return (said.text for said in first.values())
+        surprise, table = _surprise(pair, phi[own], point[own], gap[own]), _table(pair)
+        if surprise and (table not in first or surprise.step < first[table].step):
+            first[table] = surprise
+    return (surprise.text for surprise in first.values())
 
 
 def _surprise(

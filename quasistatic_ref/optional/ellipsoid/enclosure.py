@@ -16,9 +16,14 @@ from typing import Final, TypeAlias
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
-from quasistatic_ref.certify.balls import BallForm, ball_form, square_root
 from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
-from quasistatic_ref.certify.kkt import rational_solution, rounded_solution
+from quasistatic_ref.certify.point import (
+    BallForm,
+    ball_form,
+    rational_solution,
+    rounded_solution,
+    square_root,
+)
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_above, nearest_in
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows

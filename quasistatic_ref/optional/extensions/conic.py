@@ -11,8 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.certify.optimality import Residuals, residuals_of
+from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
+from quasistatic_ref.step.cones import Violations
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.standard_form import StandardForm
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +45,26 @@ class ConicProgram:
     second_order: Sequence[int]
     exponential: int
 
+    def violations(self, s: Array, z: Array) -> Violations:
+        """As :func:`~quasistatic_ref.step.cones.row_violations`.
+
+        Parameters
+        ----------
+        s, z : ndarray, shape (m,)
+            Slacks b - A x and multipliers [those of the program].
+        """
+        ends = np.cumsum([self.zero, self.nonnegative, *self.second_order, *[3] * self.exponential])
+        flat, rows, *parts = np.split(s, ends[:-1])
+        _, multipliers, *duals = np.split(z, ends[:-1])
+        k = len(self.second_order)
+        short = [np.abs(flat), -rows]
+        short += [*map(_outside_ball, parts[:k]), *map(_outside, parts[k:])]
+        pull = [-multipliers]
+        pull += [*map(_outside_ball, duals[:k]), *map(_outside_dual, duals[k:])]
+        work = [rows * multipliers]
+        work += [np.array([u @ v]) for u, v in zip(parts, duals, strict=True)]
+        return np.concatenate(short), np.concatenate(pull), np.concatenate(work)
+
 
 def conic_residuals(program: ConicProgram, x: Array, z: Array) -> Residuals:
     """Largest violation of each condition at an answer.
@@ -58,22 +80,8 @@ def conic_residuals(program: ConicProgram, x: Array, z: Array) -> Residuals:
     -------
     Residuals
     """
-    s = program.b - program.A @ x
-    ends = np.cumsum(
-        [program.zero, program.nonnegative, *program.second_order, *[3] * program.exponential]
-    )
-    parts, duals = np.split(s, ends[:-1]), np.split(z, ends[:-1])
-    flat, rows = parts[0], parts[1]
-    balls = slice(2, 2 + len(program.second_order))
-    horns = slice(balls.stop, None)
-    primal = [np.abs(flat), -rows, *map(_outside_ball, parts[balls]), *map(_outside, parts[horns])]
-    dual = [-duals[1], *map(_outside_ball, duals[balls]), *map(_outside_dual, duals[horns])]
-    work = [
-        rows * duals[1],
-        *(np.array([u @ v]) for u, v in zip(parts[2:], duals[2:], strict=True)),
-    ]
-    balance = program.P @ x + program.c + program.A.T @ z
-    return residuals_of(balance, *map(np.concatenate, (primal, dual, work)))
+    form = StandardForm(program.P, -program.c, -program.A, -program.b)
+    return optimality_residuals(form, x, z, program.violations)
 
 
 def _outside_ball(s: Array) -> Array:

@@ -13,17 +13,18 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.errors import InputError, StepNotSolved
+from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
-from quasistatic_ref.solve.backends import backend, cone_backend
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem, cvxpy_problem
-from quasistatic_ref.solve.solver import RELAXED
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.backends import DEFAULT, backend, cone_backend
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import RELAXED, Solver
 from quasistatic_ref.solve.through_cvxpy import CANON
 from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural_units, to_natural
-from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.extension import Extension, Own, Symbols
-from quasistatic_ref.step.friction import cone_function, frictionless
 from quasistatic_ref.step.solution import (
     Certificate,
     SolverStatistics,
@@ -49,7 +50,7 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
     Extra or None
         The extension's rows alone.
     """
-    problem = cvxpy_problem(step)
+    problem = CvxpyProblem(step)
     constraints, costs = _own_terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0))
     if costs(problem) or extension.without_stiffness:
         return None
@@ -80,6 +81,47 @@ def with_rows(step: StepData, own: Extra) -> StepData:
     """A step with further rows after those that it has."""
     A, b = np.vstack([step.extra.A, own.A]), np.concatenate([step.extra.b, own.b])
     return step.replace(extra=Extra(step.extra.names + own.names, A, b))
+
+
+def extended_step(
+    step: StepData,
+    extension: Extension,
+    solver: str | Solver | None,
+    fast: bool,
+    accuracy: float,
+    certify: str,
+) -> StepSolution:
+    """What :func:`~quasistatic_ref.solve.solve.solve_step` returns for a step with an extension.
+
+    Parameters
+    ----------
+    step, extension, solver, fast, accuracy, certify
+        As of `solve_step`; accuracy in natural units [-].
+
+    Raises
+    ------
+    BackendError
+        If the extension holds more than linear constraints, and the solver is made for rows.
+    """
+    own = extension_rows(step, extension)
+    if own is not None:
+        rows = with_rows(step, own)
+        return solve_step(rows, solver, fast=fast, accuracy=accuracy, certify=certify)
+    if isinstance(solver, Solver):
+        problem = "takes linear constraints only; for a cost or a nonlinear constraint pass "
+        problem += "the name of a backend"
+        raise BackendError(problem, field="solver", value=f"{solver.name}, {solver.engine}")
+    name = DEFAULT if solver is None else solver
+    return extended_solution(step, extension, name, accuracy, certify)
+
+
+def simulated_solution(simulator: Simulator, step: StepData, extension: Extension) -> StepSolution:
+    """The solution of a step of a simulator, whose solver serves all steps with linear rows."""
+    own = extension_rows(step, extension)
+    if own is not None:
+        return simulator.solution(with_rows(step, own))
+    name = simulator.named_backend or DEFAULT
+    return extended_solution(step, extension, name, simulator.accuracy, simulator.certify)
 
 
 def extended_solution(
@@ -117,7 +159,7 @@ def extended_solution(
     if units.size <= STANDSTILL:  # nothing but the extension drives the step
         units = units._replace(size=1.0)
     natural = to_natural(step, units)
-    problem = cvxpy_problem(natural, *_own_terms(extension, step, units))
+    problem = CvxpyProblem(natural, *_own_terms(extension, step, units))
     problem.fill(natural)
     if extension.without_stiffness:  # nothing is left of Eq. (1)
         for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
@@ -156,7 +198,8 @@ def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own,
 def _symbols(problem: CvxpyProblem, step: StepData, units: Units) -> Symbols:
     """The symbols of a problem in SI units."""
     coordinate, length = units.size * units.coordinate, units.size * units.length
-    rows = frictionless if step.cone == ELLIPSOID else cone_function(step.cone)  # the gap alone
+    kind = cone(step.cone)
+    rows = kind.function if kind.polyhedral else frictionless  # the gap alone
     return Symbols(
         delta_q=cp.multiply(coordinate, problem.delta_q),
         delta_q_a=cp.multiply(coordinate[: step.n_a], problem.delta_q_a),

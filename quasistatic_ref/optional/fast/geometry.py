@@ -1,12 +1,14 @@
 """The contacts of a step as a simulator poses them: not checked number by number."""
 
+from typing import Any
+
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry, tangents
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.fast.posed import PosedContacts
-from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
+from quasistatic_ref.parts import part
 from quasistatic_ref.step.contacts import friction_coefficients
 from quasistatic_ref.step.data import Indices
 
@@ -49,10 +51,8 @@ class PosedGeometry(ContactGeometry):
         return self.named[1]
 
 
-def posed_geometry(
-    layout: ContactLayout, motion: Motion, sparse_from: int
-) -> PosedGeometry | BlockGeometry:
-    """The geometry of contacts: in blocks where J is large.
+def posed_geometry(layout: ContactLayout, motion: Motion, sparse_from: int) -> Any:
+    """The geometry of contacts: in blocks where J is large, if `optional/large` is there.
 
     Parameters
     ----------
@@ -62,5 +62,7 @@ def posed_geometry(
         Entries of J from which the steps' solver takes blocks; 0 if it takes none.
     """
     entries = 4 * len(layout.rows) * motion.n_v
-    kind = BlockGeometry if 0 < sparse_from <= entries else PosedGeometry
-    return kind(layout, motion)
+    large = part("large.sparse_jacobian")
+    if large is not None and 0 < sparse_from <= entries:
+        return large.BlockGeometry(layout, motion)
+    return PosedGeometry(layout, motion)

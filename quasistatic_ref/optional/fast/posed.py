@@ -8,6 +8,7 @@ import math
 from typing import NamedTuple
 
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
@@ -17,7 +18,7 @@ from quasistatic_ref.step.arrays import (
     whole,
 )
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.contacts import Contacts, Points
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import (
     Extra,
     RowLayout,
@@ -120,6 +121,10 @@ class PosedContacts(Contacts):
         if mu is not None:
             vars(self)["mu"] = mu
 
+    def checked(self) -> Contacts:
+        """The same, each number of them checked."""
+        return Contacts(**field_values(self))
+
     @classmethod
     def compared_as(cls) -> type:
         """They are compared as :class:`~quasistatic_ref.step.contacts.Contacts`."""
@@ -142,7 +147,7 @@ class PosedStep(StepData):
         tau_a: Array,
         tau_u: Array,
         delta_q_bar_a: Array,
-        contacts: Points,
+        contacts: Contacts,
     ) -> None:
         for array in (tau_a, tau_u, delta_q_bar_a):
             array.setflags(write=False)

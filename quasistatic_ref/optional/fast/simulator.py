@@ -14,10 +14,7 @@ from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.simulate.one_thread import by_one_thread
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.backends import DEFAULT
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.solution import StepSolution
 
 
@@ -90,16 +87,12 @@ class FastSimulator(Simulator):
         system, n_a = self.system, self.system.n_a
         contacts = self.geometry.contacts(points, kinematics)
         delta_q_bar_a = system.actuated_difference(q, q_bar_a)
-        tau = self.load(q, force)
+        tau = self.generalised_force(q, force)
         constant = self.constant if system.constant_mass_matrix else self.constant.at(system.M_u(q))
         return constant.kind(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
 
-    def solution(self, step: StepData, extension: Extension | None = None) -> StepSolution:
+    def solution(self, step: StepData) -> StepSolution:
         """A step solved; where the default backend fails, by the spare one."""
-        if extension is not None:
-            name = self.named_backend or DEFAULT
-            how: dict[str, Any] = {"accuracy": self.accuracy, "certify": self.certify}
-            return solve_step(step, name, extension=extension, **how)
         try:
             return super().solution(step)
         except StepNotSolved as failure:

@@ -6,20 +6,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.exact_step import exact_step, well_posed
+from quasistatic_ref.certify.exact import ExactOptimum, exact_step, well_posed
 from quasistatic_ref.certify.norm import EnergyNorm
 from quasistatic_ref.optional.fast.backends import fast_backend
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import proved_nearby
-from quasistatic_ref.optional.large.rounded_bound import FloatBound
+from quasistatic_ref.parts import needed_part, part
+from quasistatic_ref.solve.backends import RESIDUAL
 from quasistatic_ref.solve.native import NativeSolver, native_backends
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep, check_units, out_of_range
 from quasistatic_ref.solve.solver import Answer, Solver, solver_for, warm_start
 from quasistatic_ref.solve.units import Metric, Units, in_natural, metric, units_of
-from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, Contacts, StepData
+from quasistatic_ref.step.cones import CurvedCone, cone
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import BOUNDED
 
@@ -39,15 +39,14 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     name = fast_backend(name, step.cone)
     if name not in native_backends(step.cone):
         return solver_for(step, name)
-    if not cone(step.cone).polyhedral:
-        from quasistatic_ref.optional.ellipsoid.second_order import ConeSolver
-
-        return ConeSolver(step, name)
-    if isinstance(step.contacts, Contacts):
-        return FastSolver(step, name)
-    from quasistatic_ref.optional.large.sparse import SparseSolver
-
-    return SparseSolver(step, name)
+    kind = cone(step.cone)
+    if isinstance(kind, CurvedCone):
+        return kind.native_solver(step, name)
+    large = part("large.sparse_contacts")
+    if large is not None and isinstance(step.contacts, large.SparseContacts):
+        sparse: Solver = needed_part("large.sparse", "a step in blocks").SparseSolver(step, name)
+        return sparse
+    return FastSolver(step, name)
 
 
 class FastSolver(NativeSolver):
@@ -78,7 +77,7 @@ class FastSolver(NativeSolver):
         super().__init__(like, name, warm)
         self.hessian: BallHessian | None = None
         self.prover: Any = None
-        self.bound: FloatBound | None = None
+        self.bound: Any = None
         self.written: Units | None = None
 
     def scaled(self, step: StepData) -> NaturalStep:
@@ -123,7 +122,7 @@ class FastSolver(NativeSolver):
             warm = warm_start(scaled, answer)
             prove = BallStep(step, hessian).confirmed
             guess = np.array(warm, dtype=np.int64)
-            found = proved_nearby(prove, guess, scaled.form, hessian.rough)
+            found = proved_nearby(prove, guess, scaled.form, scaled.metric.inverse)
             if found is None:
                 return exact_step(step, warm)
         return well_posed(step, found, hessian.norm, hessian.norm.impulse(scaled.form.g))
@@ -144,17 +143,18 @@ class FastSolver(NativeSolver):
             prove = BallStep(step, hessian).confirmed
         else:
             prove = partial(self.prover.optimum, step, units=scaled.units)
-        return proved_nearby(prove, guess, scaled.form, hessian.rough)
+        return proved_nearby(prove, guess, scaled.form, scaled.metric.inverse)
 
     def error_bound(self, scaled: NaturalStep, delta_q: Array, lam: Array) -> float:
         """A bound of the relative error [-]: in float64, and in balls where that is open."""
         assert isinstance(scaled, DenseStep)
         form, (S, ell, rho) = scaled.natural_form, scaled.units
         hessian = self.kept_hessian(scaled.step)
-        if self.bound is None or not self.bound.fits(hessian, S):
-            self.bound = FloatBound(hessian, form.H, S)
+        if self.bound is None or not self.bound.serves(hessian.inverse, S):
+            bounds = needed_part("large.rounded_bound", RESIDUAL)
+            self.bound = bounds.FloatBound(hessian.inverse, hessian.h, form.H, S)
         x, y = in_natural(delta_q, lam, scaled.units)
-        error = self.bound.error(scaled.step, form, (ell, rho), x, y)
+        error: float | None = self.bound.error(scaled.step, form, (ell, rho), x, y)
         if error is not None and error <= BOUNDED:
             return error
         return super().error_bound(scaled, delta_q, lam)

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
-from quasistatic_ref.certify.balls import (
+from quasistatic_ref.certify.point import (
     PRECISION,
     BallForm,
     ball_form,

@@ -17,15 +17,12 @@ from flint import fmpq
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
-from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.verdict import Verdict
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-
-WORTHLESS = 1.0
-"""The largest error bound that says anything: where no contact penetrates, x = 0 and lam = 0 have
-an error bound of 1."""
+from quasistatic_ref.tolerances import WORTHLESS
 
 
 def bound_verdict(

@@ -16,10 +16,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from flint import arb, ctx
+from flint import arb, arb_mat, ctx
 
-from quasistatic_ref.certify.balls import PRECISION
-from quasistatic_ref.optional.fast.guess.confirm import BallHessian
+from quasistatic_ref.certify.point import PRECISION
 from quasistatic_ref.optional.large.bound import opening_direction
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm
@@ -76,8 +75,10 @@ class FloatBound:
 
     Parameters
     ----------
-    hessian : BallHessian
-        That of the steps.
+    inverse_in_balls : arb_mat, shape (n_v, n_v)
+        (h H)^-1 of the steps.
+    h : arb
+        Their time step [s].
     H : ndarray, shape (n_v, n_v)
         In natural units [-].
     coordinate : ndarray, shape (n_v,)
@@ -91,22 +92,23 @@ class FloatBound:
         H^-1 in float64, and M >= |H^-1| with |inverse - H^-1| <= 2 u M.
     """
 
-    def __init__(self, hessian: BallHessian, H: Array, coordinate: Array) -> None:
-        self.hessian, self.coordinate, self.sizes = hessian, coordinate, np.abs(H)
+    def __init__(self, inverse_in_balls: arb_mat, h: arb, H: Array, coordinate: Array) -> None:
+        self.inverse_in_balls, self.coordinate = inverse_in_balls, coordinate
+        self.sizes = np.abs(H)
         S, n = coordinate.tolist(), len(coordinate)
         with ctx.workprec(PRECISION):
-            entries = (hessian.inverse * hessian.h).entries()
+            entries = (inverse_in_balls * h).entries()
             balls = [v / arb(S[i // n]) / S[i % n] for i, v in enumerate(entries)]
             above = [float(v.abs_upper() + v.rad() * 2.0**54) for v in balls]
         self.inverse = np.array([float(v.mid()) for v in balls]).reshape(n, n)
         self.magnitude = MORE * np.array(above).reshape(n, n)
-        self.in_range = all(RANGE[0] < unit < RANGE[1] for unit in (float(hessian.h), *S))
+        self.in_range = all(RANGE[0] < unit < RANGE[1] for unit in (float(h), *S))
         self._opening: tuple[Array, float] | None = None
         self._mu = self._weight = np.zeros(0)
 
-    def fits(self, hessian: BallHessian, coordinate: Array) -> bool:
+    def serves(self, inverse_in_balls: arb_mat, coordinate: Array) -> bool:
         """Whether it is for this H in units `coordinate`, (n_v,) [m or rad, per (N m s)^0.5]."""
-        return hessian is self.hessian and coordinate is self.coordinate
+        return inverse_in_balls is self.inverse_in_balls and coordinate is self.coordinate
 
     def error(
         self, step: StepData, form: StandardForm, units: tuple[float, float], x: Array, lam: Array

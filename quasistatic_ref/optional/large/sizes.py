@@ -15,8 +15,8 @@ import numpy as np
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.outward import above
 from quasistatic_ref.optional.large.sparse_form import in_blocks
+from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
-from quasistatic_ref.step.friction import cone_matrix
 
 UNIT = 2.0**-53
 """Largest relative error of one operation."""

@@ -19,7 +19,7 @@ from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.solve.adapters.program import SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.native import NativeSolver
-from quasistatic_ref.solve.scaled import check_units
+from quasistatic_ref.solve.scaled import NaturalStep, check_units
 from quasistatic_ref.solve.solver import Attempt
 from quasistatic_ref.solve.units import coordinate_units, in_natural, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
@@ -106,6 +106,14 @@ class SparseSolver(NativeSolver):
         """The step in natural units."""
         return SparseStep(step, self)
 
+    def error_bound(self, scaled: NaturalStep, delta_q: Array, lam: Array) -> float:
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
+        assert isinstance(scaled, SparseStep)
+        units = scaled.units
+        sizes = sizes_of(scaled.step, units.coordinate, units.length, units.size)
+        form = LargeForm(scaled.metric, scaled.g, scaled.A, scaled.b, sizes)
+        return sparse_error_bound(form, *in_natural(delta_q, lam, units))
+
     def write(self, scaled: "SparseStep") -> Mask:
         """Write g, A and b; tell which rows are out of reach, shape (m,)."""
         program = self.program
@@ -149,10 +157,3 @@ class SparseStep:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
         form: Any = (self.H, self.g, self.A, self.b)
         return optimality_residuals(form, delta_q, lam)
-
-    def bound(self, delta_q: Array, lam: Array) -> float:
-        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
-        units = self.units
-        sizes = sizes_of(self.step, units.coordinate, units.length, units.size)
-        form = LargeForm(self.metric, self.g, self.A, self.b, sizes)
-        return sparse_error_bound(form, *in_natural(delta_q, lam, units))

@@ -1,15 +1,14 @@
 """The contact points of a step of many bodies."""
 
-from dataclasses import dataclass
+from typing import Any
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.step.arrays import Array, Indices, read_only
-from quasistatic_ref.step.contacts import Contacts, Points
+from quasistatic_ref.step.contacts import Contacts
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class SparseContacts(Points):
+class SparseContacts(Contacts):
     """The contact points of a step of many bodies, which keep J without its zeros.
 
     Parameters
@@ -20,21 +19,31 @@ class SparseContacts(Points):
         The columns of J that are not zero.
     """
 
-    name: tuple[str, ...]
-    phi: Array
-    n: Array
-    d1: Array
-    d2: Array
     blocks: Blocks
-    mu_v: Array
-    mu_omega: Array
-    rows: Indices
 
-    def __post_init__(self) -> None:
+    def __init__(
+        self,
+        name: tuple[str, ...],
+        phi: Array,
+        n: Array,
+        d1: Array,
+        d2: Array,
+        blocks: Blocks,
+        mu_v: Array,
+        mu_omega: Array,
+        rows: Indices,
+    ) -> None:
+        given = {"name": name, "phi": phi, "n": n, "d1": d1, "d2": d2, "blocks": blocks}
+        for key, value in {**given, "mu_v": mu_v, "mu_omega": mu_omega, "rows": rows}.items():
+            object.__setattr__(self, key, value)
         self._check()
-        if len(self.blocks.J) != self.n_c:
+        if len(blocks.J) != self.n_c:
             problem = f"must have {self.n_c} contacts"
-            raise StepDataError(problem, field="contacts.blocks", value=len(self.blocks.J))
+            raise StepDataError(problem, field="contacts.blocks", value=len(blocks.J))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        own = self.name, self.phi, self.n, self.d1, self.d2, self.blocks
+        return SparseContacts, (*own, self.mu_v, self.mu_omega, self.rows)
 
     @property
     def J(self) -> Array:
@@ -49,8 +58,3 @@ class SparseContacts(Points):
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
         return self.blocks.motion(delta_q)
-
-    def dense(self) -> Contacts:
-        """The same contacts with all of J."""
-        own = (self.name, self.phi, self.n, self.d1, self.d2, self.J)
-        return Contacts(*own, self.mu_v, self.mu_omega, self.rows)

@@ -10,7 +10,6 @@ from scipy.sparse import block_diag, bsr_matrix, csc_matrix
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.step.contacts import Points
 from quasistatic_ref.step.data import Array, StepData, hessian_blocks
 from quasistatic_ref.step.friction import row_gaps, rows_along
 
@@ -51,7 +50,7 @@ class Pattern:
     def fits(self, step: StepData) -> bool:
         """Whether a step has its entries where this pattern has them, and the same H."""
         like = self.like
-        contacts: Points = step.contacts
+        contacts = step.contacts
         if not isinstance(contacts, SparseContacts) or step.extra.names:
             return False
         if (step.h, step.cone) != (like.h, like.cone):
@@ -96,7 +95,7 @@ def in_blocks(step: StepData) -> Blocks:
     StepDataError
         If its contacts are not in blocks, or it has rows of the user's own.
     """
-    contacts: Points = step.contacts
+    contacts = step.contacts
     if not isinstance(contacts, SparseContacts) or step.extra.names:
         raise StepDataError("must be in blocks, without rows of the user's own", field="contacts")
     return contacts.blocks

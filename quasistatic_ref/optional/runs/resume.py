@@ -11,12 +11,12 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, run_settings
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.recorder import Part, Recorder, program
 from quasistatic_ref.simulate.rollout import start_cold
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.extension import Extension
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.goals import Checked
@@ -99,30 +99,31 @@ class _Again:
             t = (k + 1) * recorder.h
             goal, pushed = self.target(t, q), self.force(t, q)
             _check("target", k, part["q_bar_a"][i], goal)
-            _check("force", k, part["tau"][i], self._tau(q, pushed))
+            tau = self.simulator.generalised_force(q, pushed)
+            _check("force", k, part["tau"][i], tau)
             if self.record == "full" or k >= self.cold:
-                step, own = self._step(q, goal, pushed)
+                step, linear = self._step(q, goal, pushed)
                 _check("scene", k, part["phi"][i], step.contacts.phi)
                 rows.append(program(step) if self.record == "full" else {})
                 if k >= self.cold:
-                    self._ask(step, own)
+                    self._ask(step, linear)
         return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
 
-    def _tau(self, q: Array, pushed: Array) -> Array:
-        simulator = self.simulator
-        return (
-            simulator.gravity_acts * simulator.system.gravity_force(q, simulator.gravity) + pushed
-        )
-
-    def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, Extension | None]:
+    def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, bool]:
+        """The step from q, and whether its rows are all there is of an extension."""
         simulator, kinematics = self.simulator, self.simulator.system.kinematics(q)
         points = simulator.closest_points(kinematics)
-        return simulator.extended(simulator.step_data(q, goal, pushed, points, kinematics), q)
+        step = simulator.step_data(q, goal, pushed, points, kinematics)
+        if simulator.extension is None:
+            return step, True
+        extended = needed_part("extensions.extended", "extension")
+        own = extended.extension_rows(step, simulator.extension(q))
+        return (step, False) if own is None else (extended.with_rows(step, own), True)
 
-    def _ask(self, step: StepData, own: Extension | None) -> None:
+    def _ask(self, step: StepData, linear: bool) -> None:
         """Ask the solver as the step did, for what it keeps; nothing else is done with it."""
         simulator, solver = self.simulator, self.simulator.solver
-        if own is None and (solver is None or solver.remembers) and simulator.backend != NONE:
+        if linear and (solver is None or solver.remembers) and simulator.backend != NONE:
             solver = simulator.fitting(step)
             with suppress(StepNotSolved):
                 solve_step(step, solver, accuracy=simulator.accuracy, certify="off")

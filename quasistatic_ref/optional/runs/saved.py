@@ -70,8 +70,8 @@ def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, s
         "extension": "none" if simulator.extension is None else "one",
     }
     for body, text in zip(system.bodies, system.texts, strict=True):
-        said = (text, body.base, body.actuated, body.xyz, body.rpy)
-        settings[f"bodies.{body.name}"] = HASHED + fingerprint(said)
+        given = (text, body.base, body.actuated, body.xyz, body.rpy)
+        settings[f"bodies.{body.name}"] = HASHED + fingerprint(given)
     settings["the order of the bodies"] = ", ".join(body.name for body in system.bodies)
     for pair in simulator.pairs:
         for field in ("mu_v", "mu_omega", "rows", "k"):

@@ -5,10 +5,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed
-from quasistatic_ref.contact.solids.faces import FLAT, Face, curvature, face, kinks
-from quasistatic_ref.contact.solids.settle import CROSSING, NOTHING, _crossing, _turn
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.solids.faces import Face, curvature, face, kinks
+from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder
 from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT, ROUNDING
 
@@ -24,7 +23,7 @@ def directions(count: int) -> np.ndarray:
 @pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "ellipsoid", "box"])
 def test_the_curvature_is_the_derivative_of_the_farthest_point(name) -> None:
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
-    solid, h = Placed(SOLIDS[name], R, np.array([0.1, 0.2, 0.3])), DIFFERENCE_STEP
+    solid, h = ShapeInWorld(SOLIDS[name], R, np.array([0.1, 0.2, 0.3])), DIFFERENCE_STEP
     for n in directions(20):
         T = np.linalg.svd(n[None])[2][1:]
         for way in T:
@@ -55,7 +54,7 @@ def flat_normals(name: str) -> list[np.ndarray]:
 @pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "box", "mesh"])
 def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
-    solid = Placed(SOLIDS[name], R, np.array([0.1, 0.2, 0.3]))
+    solid = ShapeInWorld(SOLIDS[name], R, np.array([0.1, 0.2, 0.3]))
     wide = 0
     for own in flat_normals(name):
         n = R @ own
@@ -78,10 +77,10 @@ def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
 @pytest.mark.parametrize("end", [1.0, -1.0])
 def test_both_caps_of_a_cylinder_are_faces_and_the_base_of_a_cone(end) -> None:
     way = np.array([0.0, 0.0, end])
-    cap = face(Placed(Cylinder(0.1, 0.25), *HERE), way)
+    cap = face(ShapeInWorld(Cylinder(0.1, 0.25), *HERE), way)
     assert cap.radius == 0.1
     np.testing.assert_allclose(cap.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
-    base = face(Placed(Cone(0.1, 0.25), *HERE), way)
+    base = face(ShapeInWorld(Cone(0.1, 0.25), *HERE), way)
     assert base.radius == (0.1 if end < 0 else 0.0)
     np.testing.assert_allclose(base.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
 
@@ -96,11 +95,11 @@ def test_a_square_s_nearest_points_are_those_of_its_clipped_coordinates() -> Non
 
 def test_a_normal_that_is_off_by_a_millionth_is_not_that_of_a_face() -> None:
     n = np.array([np.sin(1e-6), 0, np.cos(1e-6)])
-    cap = face(Placed(Cylinder(0.1, 0.25), *HERE), n)
+    cap = face(ShapeInWorld(Cylinder(0.1, 0.25), *HERE), n)
     assert cap.radius == 0
     np.testing.assert_allclose(cap.corners, [[0.1, 0, 0.25]], rtol=EXACT, atol=CURVED_PAIR)
     for size in (1e-3, 1.0, 1e3):  # an edge along y, twice as long as the box is wide
-        edge = face(Placed(Box(size * np.array([1, 2, 3])), *HERE), n).corners
+        edge = face(ShapeInWorld(Box(size * np.array([1, 2, 3])), *HERE), n).corners
         expected = size * np.array([[1, -2, 3], [1, 2, 3]])
         np.testing.assert_allclose(edge[edge[:, 1].argsort()], expected, rtol=ROUNDING)
 
@@ -108,7 +107,7 @@ def test_a_normal_that_is_off_by_a_millionth_is_not_that_of_a_face() -> None:
 def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding() -> None:
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
     x, _, axis = R.T
-    at = Placed(Cylinder(1.0, 0.5), R, np.zeros(3))
+    at = ShapeInWorld(Cylinder(1.0, 0.5), R, np.zeros(3))
     side = face(at, x + 0.9e-11 * axis).corners
     np.testing.assert_allclose(side @ axis, [-0.5, 0.5], rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(side @ x, [1, 1], rtol=EXACT, atol=CURVED_PAIR)
@@ -121,43 +120,3 @@ def test_beyond_a_segment_its_end_is_nearest_also_in_line_with_it() -> None:
         expected = [np.clip(x, 0, 1), 0, 0]
         found = segment.nearest(np.array([x, 0.0, 0.5]))
         np.testing.assert_allclose(found, expected, rtol=EXACT, atol=EXACT)
-
-
-def test_as_far_from_a_face_s_normal_as_counts_is_on_it() -> None:
-    # Along a side or a slant, and of a plate as thick as corners may differ in height.
-    x, _, z = np.eye(3)
-    needle, plate = Cone(1.0, 0.5 / FLAT), Box(np.array([1.0, 1.0, FLAT / 2]))
-    for shape, n, corners in (
-        (Capsule(0.1, 0.2), x + FLAT * z, 2),
-        (Capsule(0.1, 0.2), x + 2 * FLAT * z, 1),
-        (needle, x, 2),
-        (needle, x - FLAT * z, 1),
-        (plate, z, 8),
-    ):
-        assert len(face(Placed(shape, *HERE), n).corners) == corners
-    # A disc is farthest along its axis, and nearer to that than as far as counts.
-    for tilt, radius in ((0.5 * FLAT, 0.1), (FLAT, 0.0)):
-        assert face(Placed(Cylinder(0.1, 0.2), *HERE), z + tilt * x).radius == radius
-
-
-def test_kinks_are_near_a_direction_that_is_off_by_less() -> None:
-    n, within = np.array([1.0, 0.0, 0.25]), 0.25
-    assert not len(kinks(Capsule(0.1, 0.2)).near(n, within).axes)
-    assert len(kinks(Capsule(0.1, 0.2)).near(n, 2 * within).axes) == 1
-    assert not len(kinks(Cylinder(0.1, 0.2)).near(np.array([within, 0.0, 1.0]), within).normals)
-
-
-def test_a_gap_turns_by_what_is_more_than_rounding() -> None:
-    # Slope and bend below NOTHING are none; a slope alone has no maximum near.
-    assert _turn(0.5 * NOTHING, 0.0) == 0.0
-    assert _turn(NOTHING, 0.0) is None
-
-
-def test_segments_as_parallel_as_counts_do_not_cross() -> None:
-    # Along x, and through its middle at a sine s: they cross at (1/2, 0, 0).
-    x, z = np.eye(3)[[0, 2]]
-    one = Face(np.array([0 * x, x]), 0.0, z)
-    for sine, crosses in ((CROSSING, False), (2 * CROSSING, True)):
-        ends = np.array([[0.0, -sine / 2, 1.0], [1.0, sine / 2, 1.0]])
-        found = _crossing(one, Face(ends, 0.0, z), 0 * x)
-        np.testing.assert_allclose(found, [0.5 * crosses, 0.0, 0.0], atol=ROUNDING)

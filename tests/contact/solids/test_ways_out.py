@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.placed import Placed
-from quasistatic_ref.contact.solids import ways_out
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.ways_out import APART, REACH, STARTS, gaps, rival_directions
 from quasistatic_ref.shapes.convex_mesh import convex_hull
@@ -26,7 +25,10 @@ POLYTOPES = {
 @pytest.mark.parametrize("name", POLYTOPES)
 def test_ways_out_of_a_polytope_are_its_normals_the_shortest_first(name, turned_round) -> None:
     shape, middle = POLYTOPES[name]
-    solid, inside = Placed(shape, R, AT), Placed(Ellipsoid(HALF_AXES), S, R @ middle + AT)
+    solid, inside = (
+        ShapeInWorld(shape, R, AT),
+        ShapeInWorld(Ellipsoid(HALF_AXES), S, R @ middle + AT),
+    )
     flat = polytope(shape)
     assert flat is not None
     normals = flat.normals @ R.T
@@ -54,8 +56,8 @@ def test_ways_out_of_a_polytope_are_its_normals_the_shortest_first(name, turned_
 
 def test_a_way_out_along_an_axis_of_an_ellipsoid_is_that_axis() -> None:
     x = R[:, 0]
-    wide = Placed(Ellipsoid(np.array([0.1, 0.3, 0.35])), R, AT)
-    inside = Placed(Ellipsoid(HALF_AXES), S, AT + 0.01 * x)
+    wide = ShapeInWorld(Ellipsoid(np.array([0.1, 0.3, 0.35])), R, AT)
+    inside = ShapeInWorld(Ellipsoid(HALF_AXES), S, AT + 0.01 * x)
     (found,) = rival_directions(wide, inside, x, gaps(wide, inside, x[None])[0], 0.5)
     np.testing.assert_allclose(found, -x, rtol=EXACT, atol=ROUNDING)
 
@@ -63,8 +65,8 @@ def test_a_way_out_along_an_axis_of_an_ellipsoid_is_that_axis() -> None:
 def test_a_way_out_through_a_side_is_found_between_the_axes() -> None:
     # A small ellipsoid off the axis of a cylinder, by 1 rad from its x axis; the cap is known.
     way = R @ [np.cos(1), np.sin(1), 0]
-    cylinder = Placed(Cylinder(0.1, 0.12), R, AT)
-    inside = Placed(Ellipsoid(HALF_AXES), S, AT + 0.05 * way)
+    cylinder = ShapeInWorld(Cylinder(0.1, 0.12), R, AT)
+    inside = ShapeInWorld(Ellipsoid(HALF_AXES), S, AT + 0.05 * way)
     found = rival_directions(cylinder, inside, R[:, 2], -0.14, 0.1)
     # On the ridge of such ways the widest sampled gap need not be the nearest one.
     assert np.arccos(found[0] @ way) <= 2 * REACH
@@ -75,17 +77,5 @@ def test_no_more_ways_out_are_followed_than_starts() -> None:
     g = (1 + np.sqrt(5)) / 2
     plane = np.array([[0, s, u * g] for s in (-1, 1) for u in (-1, 1)])
     hull = convex_hull(np.concatenate([np.roll(plane, k, axis=1) for k in range(3)]))
-    a, b = Placed(hull, R, AT), Placed(Ellipsoid(HALF_AXES), S, AT)
+    a, b = ShapeInWorld(hull, R, AT), ShapeInWorld(Ellipsoid(HALF_AXES), S, AT)
     assert len(rival_directions(a, b, R[:, 0], -10.0, 1.0)) == STARTS
-
-
-def test_no_direction_is_farther_than_reach_from_the_spread_ones(rng) -> None:
-    sphere, neighbours = ways_out._sphere()
-    np.testing.assert_allclose(np.linalg.norm(sphere, axis=1), 1, rtol=ROUNDING)
-    some = rng.normal(size=(2000, 3))
-    some /= np.linalg.norm(some, axis=1)[:, None]
-    assert np.arccos((some @ sphere.T).max(axis=1)).max() <= REACH
-    for k in range(0, len(sphere), 100):
-        others = np.delete(np.arange(len(sphere)), k)
-        nearest = others[np.argsort(np.linalg.norm(sphere[others] - sphere[k], axis=1))[:8]]
-        assert set(neighbours[k].tolist()) == set(nearest.tolist())

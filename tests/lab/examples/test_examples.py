@@ -27,14 +27,16 @@ from quasistatic_ref.lab.examples import (
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.lab.study.bench import profile
-from quasistatic_ref.optional.show.figures import faults
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import FITTED
+from tests.legible import faults
 from tests.tolerances import DIFFERENCE_OF_STEPS, FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
 
 G = 9.81
 ROOT = Path(__file__).parents[3]
+BISECTED = 1e-3
+"""Where the bisections of a patch end here [-]."""
 
 
 @pytest.fixture(autouse=True)
@@ -47,7 +49,7 @@ def runs_of_the_demo(demo, monkeypatch):
         monkeypatch.setattr(module, "grasp", read)
     monkeypatch.setattr(solver_digits, "EVERY", 75)
     monkeypatch.setattr(coulomb_against_convex_slip, "PUSHES", np.linspace(0.0, 3.0, 4))
-    monkeypatch.setattr(flat_patch, "PRECISION", 1e-3)
+    monkeypatch.setattr(flat_patch, "PRECISION", BISECTED)
     monkeypatch.setattr(flat_patch, "DRAWN", 0.25)
     monkeypatch.setattr(hold_or_slip, "MU_V", np.array([0.2, 0.5]))
     monkeypatch.setattr(hold_or_slip, "MU_OMEGA", np.array([0.015, 0.02]))
@@ -68,8 +70,46 @@ def numbers(name):
     return found
 
 
-def pairs(name, atol, rtol=0.0):
-    """Measured and expected stand next to each other in `main`: they must agree."""
+PAIRS = {
+    # what is so: the example, the relative and the absolute tolerance
+    "torque and force share the load by the section of each cone": (
+        "section_of_a_cone",
+        0.0,
+        2 * section_of_a_cone.PRECISION,
+    ),
+    "kinks have the one sided derivatives of the closed forms": (
+        "where_no_gradient_is",
+        0.0,
+        ROUNDING,
+    ),
+    "finger and block go where the two equations say": ("finger_spring_block", ROUNDING, 0.0),
+    # The lag approaches its limit by 1 / (1 + h^2 K_q / m) = 1 / 1.4 a step, 58 steps: 3e-9.
+    "the finger lags by the drag and stops with its target": ("the_step_loop", 0.0, 1e-8),
+    # The rise ends as (mu_v^2 / (1 + mu_v^2))^k = 5^-39: 5e-28.
+    "the first slip is below coulomb s and the last equals it": (
+        "coulomb_against_convex_slip",
+        ROUNDING,
+        0.0,
+    ),
+    "J of two moving bodies is beta s less alpha s": ("two_moving_bodies", 0.0, ROUNDING),
+    "a free body falls without a turn by the coupling of M u": (
+        "mass_of_a_free_body",
+        0.0,
+        ROUNDING,
+    ),
+    "a twist leads along an arc": ("a_screw", ROUNDING, 0.0),
+    "a square patch holds mu a times the cosine of its tangents angle": (
+        "flat_patch",
+        0.0,
+        2 * BISECTED,
+    ),
+    "a pinch holds from the squeeze of the formulas": ("pinch_threshold", 0.0, 100 * THRESHOLD),
+    "the peg slides in along two walls": ("peg_in_a_hole", 0.0, SCENARIO),
+}
+
+
+@pytest.mark.parametrize(("name", "rtol", "atol"), PAIRS.values(), ids=PAIRS)
+def test_measured_and_expected_stand_side_by_side_and_agree(name, rtol, atol):
     found = list(numbers(name).values())
     np.testing.assert_allclose(found[0::2], found[1::2], rtol=rtol, atol=atol)
 
@@ -114,10 +154,6 @@ def test_the_cones_have_the_volumes_of_octahedron_prism_and_ball():
     np.testing.assert_allclose(list(found.values()), expected, rtol=ROUNDING)
 
 
-def test_torque_and_force_share_the_load_by_the_section_of_each_cone():
-    pairs("section_of_a_cone", atol=2 * section_of_a_cone.PRECISION)
-
-
 def test_the_drawn_contact_is_that_of_the_definitions():
     phi, distance, *defects = numbers("contact_geometry").values()
     np.testing.assert_allclose(phi, distance, rtol=ROUNDING)
@@ -140,10 +176,6 @@ def test_the_gradient_of_a_push_is_that_of_its_difference():
     slope, difference, flat = numbers("gradient_of_a_push").values()
     np.testing.assert_allclose(slope, difference, rtol=DIFFERENCE_OF_STEPS)
     assert abs(flat - slope) > 0.9 * abs(slope)
-
-
-def test_kinks_have_the_one_sided_derivatives_of_the_closed_forms():
-    pairs("where_no_gradient_is", atol=ROUNDING)
 
 
 def test_a_smoothed_step_tends_to_the_exact_one_also_at_a_kink():
@@ -177,40 +209,10 @@ def test_the_ellipsoid_predicts_pushes_far_better_than_the_pyramid():
     assert (pyramid > 1.5 * ellipsoid).all()
 
 
-def test_finger_and_block_go_where_the_two_equations_say():
-    pairs("finger_spring_block", atol=0.0, rtol=ROUNDING)
-
-
-def test_the_finger_lags_by_the_drag_and_stops_with_its_target():
-    # The lag approaches its limit by 1 / (1 + h^2 K_q / m) = 1 / 1.4 a step, 58 steps: 3e-9.
-    pairs("the_step_loop", atol=1e-8)
-
-
 def test_phi_of_the_cloud_is_predicted_to_first_order():
     least, lowest, exponent, order = numbers("phi_and_j_of_a_cloud").values()
     np.testing.assert_allclose(least, lowest, rtol=ROUNDING)
     np.testing.assert_allclose(exponent, order, atol=FITTED)
-
-
-def test_the_first_slip_is_below_coulomb_s_and_the_last_equals_it():
-    # The rise ends as (mu_v^2 / (1 + mu_v^2))^k = 5^-39: 5e-28.
-    pairs("coulomb_against_convex_slip", atol=0.0, rtol=ROUNDING)
-
-
-def test_J_of_two_moving_bodies_is_beta_s_less_alpha_s():
-    pairs("two_moving_bodies", atol=ROUNDING)
-
-
-def test_a_free_body_falls_without_a_turn_by_the_coupling_of_M_u():
-    pairs("mass_of_a_free_body", atol=ROUNDING)
-
-
-def test_a_twist_leads_along_an_arc():
-    pairs("a_screw", atol=0.0, rtol=ROUNDING)
-
-
-def test_a_square_patch_holds_mu_a_times_the_cosine_of_its_tangents_angle():
-    pairs("flat_patch", atol=2 * flat_patch.PRECISION)
 
 
 def test_a_sphere_does_not_turn_up_to_mu_omega_m_g():
@@ -223,10 +225,6 @@ def test_a_sphere_does_not_turn_up_to_mu_omega_m_g():
 
 def test_the_laws_of_the_boundary_layer_are_h_and_h_squared():
     np.testing.assert_allclose(list(numbers("boundary_layer_laws").values()), [1, 2], atol=FITTED)
-
-
-def test_a_pinch_holds_from_the_squeeze_of_the_formulas():
-    pairs("pinch_threshold", atol=100 * THRESHOLD)
 
 
 def test_the_grasp_lifts_and_every_step_is_exact():
@@ -271,10 +269,6 @@ def test_the_door_is_where_the_tip_puts_it_and_stays():
     angle, apart, last = numbers("door").values()
     np.testing.assert_allclose(angle, 33.63, atol=0.005)  # as at h = 10 ms: geometry alone
     assert max(apart, last) < SCENARIO
-
-
-def test_the_peg_slides_in_along_two_walls():
-    pairs("peg_in_a_hole", atol=SCENARIO)
 
 
 def test_the_joints_of_the_robot_yield_by_the_torques_of_the_push():

@@ -18,12 +18,11 @@ from quasistatic_ref.optional.extensions.extended import extension_rows, with_ro
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.trajectory import trajectory_read
-from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.files import step_read, step_written
-from tests.helpers import REQUIRED, changed, error, pinch, random_step
-from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM, ROUNDING
+from tests.helpers import changed, error, pinch, random_step
+from tests.tolerances import EXACT, OPTIMUM, ROUNDING
 
 DOCS = Path(__file__).parents[3] / "docs"
 EXAMPLES = sorted((DOCS / "examples").glob("*.py"))
@@ -52,16 +51,11 @@ def test_each_example_is_at_most_15_lines_of_code_and_shown_in_the_docs(path):
     assert text.strip() in (DOCS / "extensions.md").read_text()
 
 
-def test_there_are_six_examples():
-    assert len(EXAMPLES) == 6
-
-
-@pytest.mark.parametrize("backend", [*REQUIRED, "none"])
-def test_a_joint_stops_at_its_limit_exactly(backend):
+def test_a_joint_stops_at_its_limit_exactly():
     # Free it would move by tau / K = 0.02; the limit is 0.005 away and pushes back tau - K 0.005.
     limits = joint_limits(np.array([0.25]), np.array([-1.0]), np.array([0.255]))
     step = joint()
-    answer = solve_step(step, backend, extension=limits)
+    answer = solve_step(step, extension=limits)
     assert answer.certificate.kind == "exact"
     assert answer.delta_q[0] == 0.255 - 0.25
     push = step.h * (2.0 - 100.0 * (0.255 - 0.25))
@@ -88,13 +82,7 @@ def test_a_saturated_actuator_presses_with_tau_max_and_no_more(target):
     np.testing.assert_allclose(solve_step(step).wrench[0, 2], K * target, rtol=ROUNDING, atol=0.0)
 
 
-def test_without_load_a_saturated_actuator_reaches_its_target():
-    saturation = actuator_saturation(0.01, np.array([100.0]), np.array([1.0]))
-    answer = solve_step(joint(tau=0.5, target=0.01), extension=saturation)
-    np.testing.assert_allclose(answer.delta_q, [0.01 + 0.005], rtol=OPTIMUM, atol=0.0)
-
-
-@pytest.mark.parametrize("tau", [-3.0, -0.9, 0.0, 0.5, 0.99, 1.5, 2.0])
+@pytest.mark.parametrize("tau", [-3.0, 0.0, 0.99, 1.5])
 def test_dry_friction_holds_up_to_its_force_and_takes_it_off_beyond(tau):
     # K delta_q = tau - tau_f sign(delta_q), or delta_q = 0 while |tau| <= tau_f = 1.
     answer = solve_step(joint(tau=tau), extension=dry_friction(0.01, np.array([1.0])))
@@ -103,10 +91,8 @@ def test_dry_friction_holds_up_to_its_force_and_takes_it_off_beyond(tau):
     np.testing.assert_allclose(answer.delta_q, [expected], rtol=0.0, atol=OPTIMUM * 0.02)
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_welded_bodies_move_as_one_exactly(seed):
+def test_welded_bodies_move_as_one_exactly(rng):
     # Two free bodies, m_1 pushed: with one twist for both, (M_1 + M_2) delta = h^2 tau.
-    rng = np.random.default_rng(seed)
     step = random_step(rng, 0, 12, rows=())
     J = [np.hstack([np.eye(6), np.zeros((6, 6))]), np.hstack([np.zeros((6, 6)), np.eye(6)])]
     answer = solve_step(step, extension=weld(*J))
@@ -125,15 +111,6 @@ def test_the_smoothed_step_converges_to_the_hard_one_like_the_weight():
     errors = [error(step, solve_step(step, extension=smoothing(w)).delta_q, hard) for w in weights]
     rates = np.diff(np.log10(errors)) / np.diff(np.log10(weights))
     np.testing.assert_allclose(rates, 1.0, rtol=0.0, atol=0.01)
-
-
-def test_a_smoothed_contact_pushes_from_afar_with_weight_over_slack():
-    # One coordinate at a distance: h K x = weight (4 rows) / (phi + x).
-    step, weight = wall(target=0.0, phi=0.01), 1e-5
-    x = solve_step(step, extension=smoothing(weight)).delta_q[0]
-    np.testing.assert_allclose(
-        step.h * 1000.0 * x, -4 * weight / (0.01 - x), rtol=MULTIPLIERS, atol=0.0
-    )
 
 
 def test_rows_of_an_extension_travel_in_a_step_file(tmp_path):
@@ -168,15 +145,6 @@ def test_the_numbers_of_a_row_are_those_that_were_written():
     np.testing.assert_allclose(own.b, [0.7, -1 / 3, 1 / 3], rtol=EXACT, atol=EXACT)
 
 
-def test_contact_rows_can_be_asked_to_keep_a_distance():
-    # slack is in metres: phi + delta_z >= 1 mm for every row.
-    step = pinch(grip=5.0)
-    apart = Extension(lambda s: [rows >= 1e-3 for rows in s.slack])
-    answer = solve_step(step, extension=apart)
-    assert answer.certificate.kind == "exact"
-    np.testing.assert_allclose(answer.delta_q[:2].sum(), -2e-3, rtol=OPTIMUM, atol=0.0)
-
-
 MORE_THAN_ROWS = {
     "a cost": lambda s: [cp.sum_squares(s.delta_q)],
     "a ball": lambda s: [cp.norm(s.delta_q) <= 1e-3],
@@ -197,20 +165,6 @@ def test_anything_else_gets_residuals_and_says_so(terms):
         match="constraints or costs needs one of clarabel, scs",
     ):
         solve_step(step, "piqp", extension=Extension(terms))
-
-
-def test_the_ball_is_respected_and_the_norm_is_in_metres():
-    step = joint()
-    answer = solve_step(step, extension=Extension(lambda s: [cp.norm(s.delta_q) <= 1e-3]))
-    np.testing.assert_allclose(answer.delta_q, [1e-3], rtol=OPTIMUM, atol=0.0)
-
-
-def test_a_cost_is_in_newton_metre_seconds():
-    # h K / 2 x^2 - h tau x + c x^2 is least at x = h tau / (h K + 2 c).
-    c, step = 3.0, joint()
-    answer = solve_step(step, "scs", extension=Extension(lambda s: [c * cp.sum_squares(s.delta_q)]))
-    expected = 0.01 * 2.0 / (0.01 * 100.0 + 2 * c)
-    np.testing.assert_allclose(answer.delta_q, [expected], rtol=OPTIMUM, atol=0.0)
 
 
 def test_a_cost_that_is_not_convex_is_refused_in_a_sentence():
@@ -238,18 +192,3 @@ def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
     assert len(step.extra.names) == 2 * n_a
     answer = solve_step(step, "osqp")
     np.testing.assert_allclose(answer.delta_q, read["delta_q"][7], rtol=EXACT, atol=EXACT)
-
-
-def test_a_step_problem_takes_constraints_by_itself_in_its_own_units():
-    problem = CvxpyProblem(joint(), constraints=lambda problem: [problem.delta_q_a <= 0.005])
-    problem.fill(joint())
-    problem.problem.solve(solver=cp.DAQP)  # exact enough without natural units
-    np.testing.assert_allclose(problem.primal(), [0.005], rtol=OPTIMUM, atol=0.0)
-
-
-def test_a_parameter_of_the_user_s_own_can_change_between_steps():
-    limit = cp.Parameter(value=0.005)
-    extension = Extension(lambda s: [s.delta_q_a <= limit])
-    assert solve_step(joint(), extension=extension).delta_q[0] == 0.005
-    limit.value = 0.007
-    assert solve_step(joint(), extension=extension).delta_q[0] == 0.007

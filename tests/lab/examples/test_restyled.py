@@ -5,9 +5,8 @@ import inspect
 import pytest
 from matplotlib import pyplot as plt
 
-from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
-from quasistatic_ref.optional.show.figures import panels
-from validation.tools.restyled import COLUMN, FIGURES, GRID, drawer, in_styles
+from quasistatic_ref.lab.examples.gallery import EXAMPLES
+from validation.tools.restyled import FIGURES, GRID, drawer, in_styles
 
 QUICK = ("block_on_an_incline", "corner_loads")
 """Three panels each: drawings, lines, a legend for all. The others take minutes."""
@@ -33,23 +32,3 @@ def test_every_figure_takes_axes_first_and_physical_parameters_by_name(name):
     assert all(p.kind is p.KEYWORD_ONLY and p.default is not p.empty for p in others)
     measured = ("contact_geometry", "time_of_a_step")  # of what is measured, with no parameter
     assert bool(others) == (name not in measured)
-
-
-def test_a_figure_follows_the_session_s_own_parameters():
-    with plt.rc_context({"font.size": 20, "figure.figsize": (5, 4), "axes.grid": False}):
-        page = example("boundary_layer_laws").figure(h=(0.001, 0.01))
-        size = page.axes[0].xaxis.label.get_fontsize()
-    assert size == 20
-    assert page.get_size_inches()[0] == 5
-    assert [len(line.get_xdata()) for line in page.axes[0].lines] == [2, 2]
-    plt.close(page)
-
-
-def test_a_drawing_fills_a_part_of_a_figure():
-    with plt.style.context(COLUMN):
-        page = plt.figure(figsize=(7, 4), layout="constrained")
-        left, right = page.subfigures(1, 2)
-        assert example("boundary_layer").figure(left) is page
-        assert len(left.axes) == 2
-        assert panels(within=right)[0] is page
-    plt.close(page)

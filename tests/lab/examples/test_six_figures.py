@@ -5,7 +5,8 @@ import pytest
 from matplotlib import pyplot as plt
 
 from docs.six_figures import corner_loads, the_program
-from quasistatic_ref.optional.show.figures import faults, figure_style
+from quasistatic_ref.optional.show.figures import figure_style
+from tests.legible import faults
 from tests.tolerances import ROUNDING
 
 
@@ -31,18 +32,4 @@ def test_the_figure_has_a_panel_for_each_push_and_is_legible(module):
         made = module.figure()
     assert len(made.axes) == len(module.PUSHES)
     assert faults(made) == []
-    plt.close(made)
-
-
-def test_the_nearest_point_can_be_read_off_the_figure():
-    made = the_program.figure()
-    for axes, answer, push in zip(made.axes, the_program.main(), the_program.PUSHES, strict=True):
-        assert axes.get_aspect() == 1.0
-        marks = {line.get_label(): np.array(line.get_xydata()) for line in axes.lines}
-        free = 1e6 * 0.01**2 * np.array([push, -9.81])
-        np.testing.assert_allclose(marks["without contact"][0], free, rtol=ROUNDING)
-        np.testing.assert_allclose(marks["answer"][0], 1e6 * answer, rtol=ROUNDING, atol=ROUNDING)
-        wedge = marks["rows: dz = $\\mu_v$ |dx|"]
-        distances = np.hypot(*(wedge - free).T)
-        assert np.hypot(*(1e6 * answer - free)) <= distances.min() + ROUNDING
     plt.close(made)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.reality.conduct import rows_read
+from quasistatic_ref.lab.parallel import records_read
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted
@@ -71,7 +71,7 @@ def test_a_run_that_was_ended_goes_on_to_the_same_rows(folder, tmp_path, capsys)
     path.write_bytes(whole[: len(whole) * 2 // 3])  # the last line is torn
     assert command(folder, tmp_path) == 0
     assert path.read_bytes() == whole
-    assert len(rows_read(path)[1]) == 3
+    assert len(records_read(path)) == 1 + 3  # the settings, and a line a push
 
 
 def test_rows_of_other_settings_are_not_mixed(folder, tmp_path, capsys):

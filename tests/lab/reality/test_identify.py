@@ -1,17 +1,12 @@
 """Friction from loads: planted ratios, Fisher information, and what may not be read."""
 
-import ast
 import shutil
-from importlib.util import find_spec
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.formats.resources import reality_folder
-from quasistatic_ref.lab.reality import identify
 from quasistatic_ref.lab.reality.identify import (
-    NORMAL,
     concentration,
     cosines,
     fisher_information,
@@ -21,7 +16,6 @@ from quasistatic_ref.lab.reality.identify import (
 )
 from quasistatic_ref.lab.reality.loads import Loads, loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read
-from tests.tolerances import ROUNDING
 
 RHO, RATIO = 0.04, 0.03
 
@@ -85,12 +79,6 @@ def test_the_concentration_inverts_the_mean_cosine(kappa):
     assert concentration(1 / np.tanh(kappa) - 1 / kappa) == pytest.approx(kappa, rel=1e-9)
 
 
-def test_the_interval_is_that_of_a_normal_distribution():
-    from math import erf
-
-    assert erf(NORMAL / np.sqrt(2)) == pytest.approx(0.95, rel=ROUNDING)
-
-
 GAUGES = {
     "ellipsoid": lambda f, g, t: np.sqrt(f**2 + g**2 + t**2),
     "pyramid": lambda f, g, t: abs(f) + abs(g) + abs(t),
@@ -120,37 +108,6 @@ def test_no_dissipation_is_lost_where_the_motion_is_normal_to_the_surface():
     # At a corner of it the motion is free within its normal cone; elsewhere a share is lost.
     slid = Loads(np.array([[0.2, 0.3, 0.5 * RATIO]]), np.array([[1.0, 0.0, 0.0]]))
     assert lost_share(slid, RATIO, *limit_surface("pyramid")) == pytest.approx([0.8])
-
-
-def reached(module, seen):
-    """Names of all modules of the package that a module imports, directly or through others."""
-    if module in seen or not module.startswith("quasistatic_ref"):
-        return seen
-    spec = find_spec(module)
-    if spec is None or spec.origin is None:
-        return seen
-    seen.add(module)
-    for node in ast.walk(ast.parse(Path(spec.origin).read_text())):
-        if isinstance(node, ast.ImportFrom) and node.module:
-            reached(node.module, seen)
-            for alias in node.names:
-                name = f"{node.module}.{alias.name}"
-                if node.module.startswith("quasistatic_ref") and alias.name.islower():
-                    try:
-                        reached(name, seen)
-                    except ModuleNotFoundError:
-                        continue
-    return seen
-
-
-def test_what_identifies_imports_nothing_that_reads_pushes():
-    found = reached(identify.__name__, set()) | reached(loads_read.__module__, set())
-    assert "quasistatic_ref.lab.reality.loads" in found
-    assert "quasistatic_ref.lab.reality.pushes" not in found
-    source = "".join(
-        Path(find_spec(name).origin).read_text() for name in found if "reality" in name
-    )
-    assert "pushes.csv" not in source.replace("nothing in pushes.csv", "")
 
 
 def test_ratios_are_the_same_where_there_are_no_pushes(tmp_path):

@@ -1,7 +1,5 @@
 """A push in steps: Lynch's motion, and what must not matter."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -73,14 +71,6 @@ def test_steps_begin_where_the_finger_first_touches():
     assert (targets[-1] == ahead[1]).all()
 
 
-def test_a_finger_that_starts_inside_comes_from_the_nearest_side():
-    scene = Settings().pushed(PAIR, RATIO)
-    inside = np.array([BELOW + 0.002 * UP, BELOW + 0.01 * UP])
-    first, *targets = touching(scene, START, inside)
-    assert first == pytest.approx(BELOW, abs=1e-12)
-    assert targets[1] == pytest.approx(inside[0])
-
-
 @pytest.mark.parametrize("cone", ["pyramid", "product", "facets-8"])
 def test_steps_in_polyhedral_cones_are_exact(cone):
     found = predicted(Settings(cone=cone).pushed(PAIR, RATIO), START, PATH)
@@ -91,14 +81,3 @@ def test_steps_in_polyhedral_cones_are_exact(cone):
 def test_a_push_whose_steps_have_no_bound_has_none():
     found = predicted(Settings().pushed(PAIR, RATIO), START, PATH, certify="off")
     assert found.error_bound == np.inf
-
-
-def test_a_cloud_of_three_points_loads_them_by_the_levers():
-    # The load of each of three points is its share of the weight: barycentric coordinates of the
-    # centre of mass, here 1/3 each; friction and finger act at the height of the support.
-    scene = Settings(advance=1e-4).pushed(PAIR, RATIO)
-    corners = ((0.03, 0.0), (-0.015, 0.02), (-0.015, -0.02))
-    scene = replace(scene, points=corners, ratio=0.0)
-    body = np.append(START[:2], np.zeros(4))
-    found = solve_step(scene.step(BELOW, body, BELOW + 1e-4 * UP))
-    assert found.wrench[:3, 2] == pytest.approx(np.full(3, scene.m * 9.81 / 3), rel=1e-2)

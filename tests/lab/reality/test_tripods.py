@@ -5,9 +5,8 @@ import pytest
 
 from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.reality.predict import rotation
-from quasistatic_ref.lab.reality.tripods import (
+from validation.make.reality_tripods import (
     TRIANGLE,
-    Calibration,
     TripodSet,
     calibration,
     tripod,
@@ -37,12 +36,6 @@ def test_the_calibration_finds_planted_offsets_and_radius():
     assert found.offset == pytest.approx(OFFSET, abs=1e-7)
     assert found.angle == pytest.approx(ANGLE, abs=1e-5)
     assert found.radius == pytest.approx(RADIUS, abs=1e-7)
-
-
-def test_poses_go_to_the_object_frame_and_back():
-    frozen = Calibration(OFFSET, ANGLE, RADIUS, 0.0)
-    pose = np.array([0.3, -0.2, 1.1])
-    assert frozen.measured_pose(frozen.object_pose(pose)) == pytest.approx(pose, abs=1e-15)
 
 
 def test_three_points_are_predicted_to_a_third_of_their_turn():

@@ -1,6 +1,7 @@
 """Studies small enough for a test: a few scaled problems, and solvers planted on purpose."""
 
 import os
+from pathlib import Path
 
 import pytest
 
@@ -12,6 +13,7 @@ from quasistatic_ref.lab.study.measuring.measure import Limits, measured
 from quasistatic_ref.lab.study.measuring.run import run_study
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.making import problem_of
+from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study import made_store
 from tests.lab.study.planted import ANY, FAKES, setting, slab
 
@@ -27,6 +29,44 @@ def study(tmp_path):
         return solver_study(path, toml_read(path), **changes)
 
     return written
+
+
+SMALL = """
+time_limit = 20.0
+repetitions = 2
+[problems]
+families = { contacts = 2, mass_ratio = 3 }
+[solvers.mine]
+callable = "planted_solvers:liar"
+options.default = {}
+[[runs]]
+solvers = ["qpsolvers:daqp", "mine"]
+settings = ["default", "high"]
+units = ["raw", "natural"]
+"""
+
+
+@pytest.fixture(scope="session")
+def small():
+    """The text of a small study: one problem of ten is run again, a callable has one setting."""
+    return SMALL
+
+
+@pytest.fixture(scope="session")
+def whole(tmp_path_factory):
+    """The folder of the small study, run once without interruption; tests leave it as it is."""
+    folder = tmp_path_factory.mktemp("whole")
+    path = folder / "study.toml"
+    (folder / "planted_solvers.py").write_text(FAKES)
+    path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + SMALL)
+    run_study(solver_study(path, toml_read(path)), folder / "store", progress=False)
+    return folder / "store"
+
+
+@pytest.fixture(scope="session")
+def committed():
+    """What the committed study of solvers holds."""
+    return contents(Path(__file__).parents[3] / "validation" / "studies" / "default")
 
 
 @pytest.fixture

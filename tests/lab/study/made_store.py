@@ -3,7 +3,7 @@
 import random
 
 from quasistatic_ref.lab.study.store.rows import CLOCKS
-from quasistatic_ref.lab.study.store.store import Store
+from quasistatic_ref.lab.study.store.store import Store, contents
 
 SOLVERS = ("qpsolvers:ant", "qpsolvers:bee", "qpsolvers:cat", "cvxpy:ant")
 SETTINGS = {"default": (None, 3.0), "mid": (1e-6, 2.5), "high": (1e-9, 4.0)}
@@ -71,6 +71,17 @@ def written(folder, count=12, seed=3, **changes):
     with Store(folder, STUDY | changes, facts(count)) as store:
         store.add(*rows)
     return rows
+
+
+def of_another_machine(folder, out):
+    """A store of the same measurements, each of which took twice as long; returns its folder."""
+    found = contents(folder)
+    out.mkdir()
+    with Store(out, found.study, found.problems) as store:
+        for row in found.rows:
+            times = {n: v and 2 * v for n, v in row["seconds"].items()}
+            store.add(row | {"seconds": times})
+    return out
 
 
 STUDY = {

@@ -2,25 +2,17 @@
 
 from pathlib import Path
 
-import pytest
-
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import solver_study, study_path
 from quasistatic_ref.lab.study.problems.selection import problems_taken
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.report.solver_report import solver_report
-from quasistatic_ref.lab.study.store.store import contents
 
 STUDIES = Path(__file__).parents[3] / "validation" / "studies"
 DEFAULT = STUDIES / "default"
 MOST = 3 * 2**20
 """Largest study that is kept in the repository [bytes]."""
-
-
-@pytest.fixture(scope="module")
-def found():
-    return contents(DEFAULT)
 
 
 def is_kept(folder, report):
@@ -31,19 +23,19 @@ def is_kept(folder, report):
     assert sum(path.stat().st_size for path in folder.rglob("*.*")) < MOST
 
 
-def test_the_report_on_solvers_is_what_the_rows_beside_it_give(found):
-    is_kept(DEFAULT, solver_report(found))
+def test_the_report_on_solvers_is_what_the_rows_beside_it_give(committed):
+    is_kept(DEFAULT, solver_report(committed))
 
 
 def test_the_report_on_the_grip_is_what_the_rows_beside_it_give():
     is_kept(STUDIES / "bunny_torsion", study_report(STUDIES / "bunny_torsion"))
 
 
-def test_the_committed_study_has_eight_solvers_and_300_problems(found):
-    ids = {fact["id"] for fact in found.problems}
-    assert len(ids) == found.study["problems"]["count"] >= 300
-    assert len({row["solver"] for row in found.rows}) >= 8
-    assert {row["problem"] for row in found.rows} == ids
+def test_the_committed_study_has_eight_solvers_and_300_problems(committed):
+    ids = {fact["id"] for fact in committed.problems}
+    assert len(ids) == committed.study["problems"]["count"] >= 300
+    assert len({row["solver"] for row in committed.rows}) >= 8
+    assert {row["problem"] for row in committed.rows} == ids
 
 
 def test_the_default_study_selects_from_every_family_with_dense_rows(members):

@@ -17,7 +17,6 @@ from quasistatic_ref.lab.study.calling.guests import GUESTS, installed_here, nat
 from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.file.solver_lists import solvers_named
-from quasistatic_ref.lab.study.store.store import contents
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.tolerances import ROUNDING
@@ -204,14 +203,3 @@ def test_a_guest_that_cannot_be_imported_is_said_with_its_reason(monkeypatch, fl
     monkeypatch.setitem(sys.modules, name, None)
     with pytest.raises(InputError, match=rf"cannot be imported: ModuleNotFoundError.*{name}"):
         natively(name)
-
-
-def test_a_guest_that_cannot_be_imported_costs_no_other_solver(tmp_path, monkeypatch, run):
-    (tmp_path / "mpax.py").write_text("raise ImportError('no wheel of it here')\n")
-    monkeypatch.syspath_prepend(str(tmp_path))  # of the worker, too: the study's folder
-    problems = "repetitions = 2\n[problems]\nfamilies = { mass_ratio = 2 }\n"
-    rows = run(problems + '[[runs]]\nsolvers = ["native:mpax", "native:daqp"]\n')
-    assert {(row["solver"], row["outcome"]) for row in rows} == {("daqp", "solved")}
-    (reason,) = contents(tmp_path / "store").unreached.items()
-    assert reason[0] == "native:mpax"
-    assert "no wheel of it here" in reason[1]

@@ -17,6 +17,7 @@ from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, planted_step
 from tests.lab.study.planted import slab
+from validation.programs.engines.judge import RESULTS
 from validation.programs.engines.reproduce import FOLDER
 
 PAPERS = (7, 6, (6,) * 10 + (4,) * 5)
@@ -71,6 +72,6 @@ def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
 def test_crba_still_differs_from_call_to_call_where_joints_mimic(capsys):
     file = "pinocchio_mimic.py"
     runpy.run_path(str(FOLDER / file))
-    record = json.loads((FOLDER.parent / "results" / "pinocchio.json").read_text("utf-8"))
+    record = json.loads((RESULTS / "pinocchio.json").read_text("utf-8"))
     _, _, rows = capsys.readouterr().out.rstrip().partition(": ")
     assert rows == record["printed"][file].partition(": ")[2]

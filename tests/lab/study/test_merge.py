@@ -16,15 +16,6 @@ from quasistatic_ref.lab.study.store.merge import merged, part_read
 from quasistatic_ref.lab.study.store.store import Store, contents
 from tests.lab.study import made_store, plain_report
 
-STUDY = """
-repetitions = 2
-[problems]
-families = { mass_ratio = 3 }
-[solvers.mine]
-callable = "planted_solvers:honest"
-[[runs]]
-solvers = ["qpsolvers:daqp", "mine"]
-"""
 SET = {"problems": {"sha256": "a"}}
 
 
@@ -173,16 +164,13 @@ def test_a_store_is_written_whole_or_not_at_all(stores, monkeypatch):
         merged(both, folder / "out")
 
 
-def test_runs_on_two_machines_are_merged_by_the_command_and_not_continued(run, tmp_path, capsys):
-    for name in ("one", "two"):
-        run(STUDY, name)
+def test_runs_on_two_machines_are_merged_by_the_command_and_not_continued(whole, tmp_path, capsys):
+    two = made_store.of_another_machine(whole, tmp_path / "two")
     out = tmp_path / "both"
-    names = [str(tmp_path / name) for name in ("one", "two")]
-    assert main(["study", "merge", *names, "--out", str(out)]) == 0
+    assert main(["study", "merge", f"one={whole}", str(two), "--out", str(out)]) == 0
     assert "rows of 2 machines" in capsys.readouterr().out
-    assert len(set_read(out / FOLDER)) == 3
-    assert len(contents(out).rows) == 2 * len(contents(tmp_path / "one").rows)
-    assert main(["study", "report", str(out)]) == 0
-    assert "daqp | qpsolvers | two" in (out / "report" / "report.md").read_text()
+    assert len(set_read(out / FOLDER)) == 5
+    assert len(contents(out).rows) == 2 * len(contents(whole).rows)
+    assert "daqp | qpsolvers | two" in markdown_page(study_report(out))
     with pytest.raises(InputError, match="holds merged results"):
-        Store(out, contents(tmp_path / "one").study)
+        Store(out, contents(whole).study)

@@ -14,6 +14,8 @@ from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.measuring.keeper import Keeper, Request
 from quasistatic_ref.lab.study.measuring.measure import Limits, measured
 from quasistatic_ref.lab.study.measuring.worker import GRACE
+from quasistatic_ref.lab.study.problems.families.dials import one_turned
+from quasistatic_ref.lab.study.problems.making import problem_of
 from tests.lab.study.planted import FAKES
 
 DEFAULT = SETTINGS[0]
@@ -43,9 +45,11 @@ def folder(tmp_path_factory):
     return place
 
 
-def row_of(solver, problem, folder, limit=30.0):
-    with Keeper(solver, folder) as keeper:
-        return measured(keeper, problem, DEFAULT, "natural", False, Limits(limit, limit))
+def row_of(solver, problem, folder, limits=Limits(30.0, 30.0, 2), **options):  # noqa: B008
+    """The row of a planted solver in a process of its own."""
+    solver = fake(solver) if isinstance(solver, str) else solver
+    with Keeper(solver, folder, **options) as keeper:
+        return measured(keeper, problem, DEFAULT, "natural", False, limits)
 
 
 def fake(name):
@@ -70,13 +74,10 @@ def test_an_honest_solver_gets_its_digits_and_a_liar_none(harmless, problem):
 
 
 @pytest.mark.parametrize("name", ["loops", "loops_in_c"])
-def test_a_looping_solver_is_killed_and_started_again(name, folder, problem):
-    with Keeper(fake(name), folder) as keeper:
-        for starts in (1, 2):
-            begin = time.perf_counter()
-            row = measured(keeper, problem, DEFAULT, "natural", False, Limits(0.2, 0.2))
-            assert (row["outcome"], keeper.starts) == ("timeout", starts)
-            assert time.perf_counter() - begin < 20
+def test_a_looping_solver_is_killed(name, folder, problem):
+    begin = time.perf_counter()
+    assert row_of(name, problem, folder, Limits(0.2, 0.2))["outcome"] == "timeout"
+    assert time.perf_counter() - begin < 60
 
 
 def test_a_looping_solver_whose_keeper_was_killed_ends_itself(folder, problem):
@@ -141,28 +142,36 @@ BODIES = {
 }
 
 
+@pytest.fixture(scope="module")
+def executable(tmp_path_factory, problem):
+    """A function: the row of an executable with a body, and its folder; one process calls all."""
+    folder = tmp_path_factory.mktemp("executable")
+    path = folder / "solver"
+    path.touch(stat.S_IRWXU)
+    with Keeper(Solver("mine", "executable", ("./solver",)), folder) as keeper:
+
+        def row_of_body(body, limit=30.0, units="natural"):
+            path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
+            keeper.seen.clear()
+            return measured(keeper, problem, DEFAULT, units, False, Limits(limit, limit, 1)), folder
+
+        yield row_of_body
+
+
 @pytest.mark.parametrize("name", BODIES)
-def test_an_executable_reads_and_writes_json(name, tmp_path, problem):
+def test_an_executable_reads_and_writes_json(name, executable):
     body, (outcome, claimed, said_optimal, wrong) = BODIES[name]
-    path = tmp_path / "solver"
-    path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
-    path.chmod(path.stat().st_mode | stat.S_IXUSR)
-    solver = Solver("mine", "executable", ("./solver",))
-    row = row_of(solver, problem, tmp_path, limit=1.0 if name == "hangs" else 30.0)
+    row, _ = executable(body, 1.0 if name == "hangs" else 30.0)
     assert (row["outcome"], row["said_optimal"], row["wrong"]) == (outcome, said_optimal, wrong)
     assert claimed in row["claimed"]
     if name == "writes":
         assert (row["iterations"], row["seconds"]["solver"]) == (4, 0.25)
 
 
-def test_an_executable_gets_the_numbers_of_the_problem_to_the_last_bit(tmp_path, problem):
-    path = tmp_path / "solver"
+def test_an_executable_gets_the_numbers_of_the_problem_to_the_last_bit(executable, problem):
     body = 'open("seen.json", "w").write(json.dumps(qp)); print("{}")'
-    path.write_text(EXECUTABLE.format(python=sys.executable, body=body))
-    path.chmod(path.stat().st_mode | stat.S_IXUSR)
-    with Keeper(Solver("mine", "executable", ("./solver",)), tmp_path) as keeper:
-        measured(keeper, problem, DEFAULT, "raw", False, Limits(30.0))
-    seen = json.loads((tmp_path / "seen.json").read_text())
+    _, folder = executable(body, units="raw")
+    seen = json.loads((folder / "seen.json").read_text())
     for name in ("H", "g", "A", "b"):
         assert seen[name] == (getattr(problem.form, name) + 0.0).tolist()
 
@@ -181,3 +190,103 @@ def test_a_solver_that_cannot_be_reached_is_one_sentence(solver, says, folder, p
         row_of(solver, problem, folder)
     assert "\n" not in str(refused.value)
     assert os.linesep not in str(refused.value)
+
+
+# -- What fools or hurts a study -----------------------------------------------------------------
+
+
+def test_no_answer_is_to_be_found_in_the_process_of_a_solver(folder, problem):
+    row = row_of("peeks", problem, folder)
+    assert row["digits"]["delta_q"] < 1
+    assert row["wrong"]
+
+
+def test_a_clock_that_was_stopped_is_not_believed(folder, harmless, problem):
+    """It works for 3 ms; its process says 0."""
+    row = row_of("stops_the_clock", problem, folder)
+    assert row["clock_agrees"] is False
+    assert row["seconds"]["call"] > 1e-3
+    honest = harmless("honest", problem)
+    assert honest["clock_agrees"] is True
+    assert 0 < honest["seconds"]["low"] <= honest["seconds"]["call"] <= honest["seconds"]["high"]
+    assert honest["calls"] >= 2
+
+
+def test_clocks_of_warm_calls_are_not_compared(harmless, problem):
+    """An exchange holds the solves that warm calls start from, so its length confirms nothing."""
+    row = harmless("honest", problem, warm=True)
+    assert row["outcome"] == "solved"
+    assert row["clock_agrees"] is None
+
+
+def test_multipliers_that_are_none_are_found_beside_a_right_answer(harmless, problem):
+    row, honest = (harmless(name, problem) for name in ("minus_one", "honest"))
+    assert row["digits"]["delta_q"] == honest["digits"]["delta_q"] > 12
+    assert row["wrong_multipliers"]
+    assert row["digits"]["multipliers"] < 1
+    assert not honest["wrong_multipliers"]
+
+
+def alive(folder):
+    pids = [int(line) for line in (folder / "detached").read_text().split()]
+    assert pids
+    return [pid for pid in pids if os.path.exists(f"/proc/{pid}") and not zombie(pid)]
+
+
+def zombie(pid):
+    with open(f"/proc/{pid}/stat") as file:
+        return file.read().rpartition(")")[2].split()[0] == "Z"
+
+
+@pytest.mark.parametrize("name", ["detaches", "detaches_and_dies"])
+def test_what_a_solver_leaves_behind_is_ended(name, folder, problem):
+    row_of(name, problem, folder)
+    end = time.monotonic() + 10
+    while alive(folder) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert alive(folder) == []
+
+
+def test_a_solver_that_eats_memory_is_ended_and_its_memory_reported(folder, harmless, problem):
+    row = row_of("eats", problem, folder, memory=3e8)
+    assert row["outcome"] == "memory"
+    assert "0.3 GB" in row["claimed"]
+    assert 1e7 < harmless("honest", problem)["memory"] < 1e9
+
+
+def test_what_is_no_reply_is_a_crash_and_nothing_is_unpickled(folder, problem):
+    assert row_of("scribbles", problem, folder)["outcome"] == "crashed"
+
+
+def test_the_worst_of_repeated_answers_is_graded(folder, problem):
+    row = row_of("second_thoughts", problem, folder)
+    assert row["wrong"]
+
+
+def test_the_first_call_of_a_shape_is_outside_of_the_time_limit(folder, problem):
+    """It takes 1 s where 0.5 s are allowed, once."""
+    row = row_of("compiles", problem, folder, Limits(0.5, 10.0, 2))
+    assert row["outcome"] == "solved"
+    assert row["seconds"]["warm_up"] >= 1.0 > row["seconds"]["first"]
+
+
+@pytest.fixture(scope="module")
+def none_to_find():
+    """A problem without a solution."""
+    found = problem_of(one_turned("infeasible", 1e-2, 0, 1))
+    assert not found.feasible
+    return found
+
+
+JUDGED = {  # on a problem with a solution, and on one without: (says there is none, wrong)
+    "says_there_is_none": ((True, True), (True, False)),
+    "liar": ((False, True), (False, True)),
+    "gives_up": ((False, False), (False, False)),
+}
+
+
+@pytest.mark.parametrize("name", JUDGED)
+def test_a_claim_that_there_is_no_solution_is_judged(name, harmless, problem, none_to_find):
+    for judged, (said, wrong) in zip((problem, none_to_find), JUDGED[name], strict=True):
+        row = harmless(name, judged)
+        assert (row["said_infeasible"], row["wrong"]) == (said, wrong)

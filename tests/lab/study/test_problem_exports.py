@@ -2,6 +2,7 @@
 
 import csv
 import json
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -15,18 +16,16 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.commands.study_problems import FORMATS
 from quasistatic_ref.lab.study.problems import exports
 
-FEW = ["--families", "wedge,infeasible,ellipsoid,sparse", "--every", "80"]
-
-
-def export(to, folder, *more):
-    command = ["study", "problems", "export", "--to", to, "--out", str(folder)]
-    assert main([*command, *(more or FEW)]) == 0
-
 
 @pytest.fixture
 def few(members):
-    names = FEW[1].split(",")
+    """Some problems of each kind: rows, rows without a solution, cones, sparse matrices."""
+    names = ("wedge", "infeasible", "ellipsoid", "sparse")
     return [one for one in members if one.facts["family"] in names][::80]
+
+
+def export(to, folder, problems):
+    assert exports.exported("contact-qp-1", problems, to, folder)
 
 
 def test_the_formats_of_the_command_are_those_of_the_writer():
@@ -34,7 +33,7 @@ def test_the_formats_of_the_command_are_those_of_the_writer():
 
 
 def test_the_bundle_has_every_number_of_the_problems(few, tmp_path):
-    export("npz", tmp_path)
+    export("npz", tmp_path, few)
     with np.load(tmp_path / "contact-qp-1.npz") as bundle:
         assert bundle["id"].tolist() == [one.id for one in few]
         for k, one in enumerate(few):
@@ -49,7 +48,7 @@ def test_the_bundle_has_every_number_of_the_problems(few, tmp_path):
 
 
 def test_matlabs_file_has_every_number_of_the_problems(few, tmp_path):
-    export("mat", tmp_path)
+    export("mat", tmp_path, few)
     problems = loadmat(tmp_path / "contact-qp-1.mat", spmatrix=False)["problems"][0]
     for row, one in zip(problems, few, strict=True):
         assert row["id"][0] == one.id
@@ -59,7 +58,7 @@ def test_matlabs_file_has_every_number_of_the_problems(few, tmp_path):
 
 
 def test_the_lines_of_json_have_every_number_of_the_problems(few, tmp_path):
-    export("json", tmp_path)
+    export("json", tmp_path, few)
     lines = (tmp_path / "contact-qp-1.jsonl").read_text().splitlines()
     for line, one in zip(lines, few, strict=True):
         said = json.loads(line)
@@ -69,9 +68,12 @@ def test_the_lines_of_json_have_every_number_of_the_problems(few, tmp_path):
             assert said["H"] == one.H.toarray().tolist()
 
 
-def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(tmp_path, capsys):
-    export("parquet", tmp_path, "--families", "condition,infeasible,wedge", "--every", "60",
-           "--units", "natural")  # fmt: skip
+def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(
+    tmp_path, monkeypatch, capsys
+):
+    command = ["study", "problems", "export", "--to", "parquet", "--out", str(tmp_path)]
+    some = ["--families", "condition,infeasible,wedge", "--every", "60", "--units", "natural"]
+    assert main([*command, *some]) == 0
     assert "left out 5 problems" in capsys.readouterr().err
     program = Path(sys.executable).with_name("qpbenchmark")
     module = "contact_qp_1_natural.py"
@@ -83,6 +85,7 @@ def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(tmp_pat
     assert done.returncode == 0, done.stderr
     with (tmp_path / "results.csv").open() as file:
         assert len({row["problem"] for row in csv.DictReader(file)}) == 10
-    graded = subprocess.run([sys.executable, module, "daqp"], cwd=tmp_path, capture_output=True,
-                            text=True, timeout=120, check=False)  # fmt: skip
-    assert graded.stdout.startswith("daqp: median ")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "argv", [module, "daqp"])
+    runpy.run_path(module, run_name="__main__")
+    assert capsys.readouterr().out.startswith("daqp: median ")

@@ -208,14 +208,14 @@ def test_a_set_whose_lines_are_something_else_is_refused(tmp_path, spoilt):
         set_read(tmp_path)
 
 
-def test_other_problems_under_the_name_of_a_set_are_found_out(tmp_path, capsys):
+def test_other_problems_under_the_name_of_a_set_are_found_out(tmp_path):
     shutil.copytree(problem_set_folder(), tmp_path / "set")
     path = tmp_path / "set" / MANIFEST
     head = json.loads(path.read_text())
     head["families"]["wedge"]["dial"]["unit"] = "mrad"
     path.write_text(json.dumps(head))
-    assert main(["study", "problems", "check", str(tmp_path / "set")]) == 1
-    assert "calls itself contact-qp-1 and has other problems" in capsys.readouterr().err
+    found = edition_problem(tmp_path / "set")
+    assert found == "calls itself contact-qp-1 and has other problems: give it another name"
 
 
 def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, capsys):

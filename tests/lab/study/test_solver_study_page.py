@@ -5,7 +5,6 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study.plain_report import (
     agrees,
     delivered,
@@ -39,18 +38,13 @@ OWN = re.compile(
 
 
 @pytest.fixture(scope="module")
-def found():
-    return contents(DEFAULT)
+def limit(committed):
+    return committed.study["time_limit"]
 
 
 @pytest.fixture(scope="module")
-def limit(found):
-    return found.study["time_limit"]
-
-
-@pytest.fixture(scope="module")
-def rows(found):
-    return [row for row in found.rows if row["repetition"] == 0 and row["feasible"]]
+def rows(committed):
+    return [row for row in committed.rows if row["repetition"] == 0 and row["feasible"]]
 
 
 @pytest.fixture(scope="module")
@@ -75,8 +69,8 @@ def check_claims(found, own):
     assert whole(found["none"]) == sum(row["said_infeasible"] for row in own)
 
 
-def test_the_sentences_of_the_page_are_made_of_the_committed_rows(text):
-    assert text == advice(DEFAULT)
+def test_the_sentences_of_the_page_are_made_of_the_committed_rows(text, committed):
+    assert text == advice(committed)
     assert f"studies/default/{NAME}" in PAGE.read_text("utf-8")
 
 
@@ -113,8 +107,8 @@ def test_a_solver_is_advised_at_no_setting_with_later_digits(text, rows, limit):
         assert found["setting"] == min(means, key=means.get)
 
 
-def test_claims_of_the_whole_study_are_counted(text, found):
-    rows = [row for row in found.rows if row["repetition"] == 0]
+def test_claims_of_the_whole_study_are_counted(text, committed):
+    rows = [row for row in committed.rows if row["repetition"] == 0]
     counts = re.search(
         r"Of ([\d,]+) claims of success, ([\d,]+) are false; of ([\d,]+) claims that there is "
         r"no solution, ([\d,]+) are false\.", text)  # fmt: skip
@@ -122,19 +116,6 @@ def test_claims_of_the_whole_study_are_counted(text, found):
     infeasible = [row["wrong"] for row in rows if row["said_infeasible"]]
     assert [whole(count) for count in counts.groups()] == [
         len(optimal), sum(optimal), len(infeasible), sum(infeasible)]  # fmt: skip
-
-
-def test_the_table_of_units_is_that_of_the_rows(text, rows):
-    lines = re.findall(r"^\| (\w+) \| (default|high) \| (\d+) \| ([\d.]+) \| ([\d.]+) \|$", text,
-                       re.MULTILINE)  # fmt: skip
-    assert len(lines) >= 8
-    for solver, setting, count, *cells in lines:
-        where = f"interface = qpsolvers, solver = {solver}, setting = {setting}, warm = false"
-        own = shared(picked(rows, where), ["units"])
-        for units, cell in zip(("raw", "natural"), cells, strict=True):
-            part = picked(own, f"units = {units}")
-            assert int(count) == len(part)
-            assert agrees(cell, share(part, 6))
 
 
 def test_the_page_has_no_number_that_is_not_made():

@@ -7,7 +7,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.study.file.sweeps import sweep_study
-from quasistatic_ref.lab.study.measuring.sweep import sweep_row
+from quasistatic_ref.lab.study.measuring.sweep import sweep_run
 from quasistatic_ref.lab.study.store.rows import table
 from quasistatic_ref.lab.study.store.store import contents
 
@@ -56,7 +56,7 @@ def test_a_sliding_block_travels_as_its_closed_form_says(sweeps, mu, h):
     It is then mu times its last slip above the slope: docs/derivations.md.
     """
     (sweep,) = sweeps(SLIDE)
-    row = sweep_row(sweep, {"mu": mu, "h": h})
+    row, _ = sweep_run(sweep, {"mu": mu, "h": h})
     angle, steps = np.radians(25), round(0.02 / h)
     d, r = h**2 * 9.81 * (np.sin(angle) - mu * np.cos(angle)), mu**2 / (1 + mu**2)
     slips = d * (1 - r ** np.arange(1, steps + 1))
@@ -82,7 +82,7 @@ values = [100.0, 0.2063]
 def test_a_run_that_ends_early_is_a_row_too(sweeps):
     """The block starts at 0.20616 m from the origin and slides past 0.2063 m on its way down."""
     (sweep,) = sweeps(REACH)
-    rows = [sweep_row(sweep, point) for point in sweep.points()]
+    rows = [sweep_run(sweep, point)[0] for point in sweep.points()]
     assert [row["outcome"] for row in rows] == ["done", "ended_early"]
     assert [row["reason"] is None for row in rows] == [True, False]
     steps = [row["measures"]["steps"] for row in rows]

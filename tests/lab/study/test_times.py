@@ -15,7 +15,7 @@ from tests.lab.study.planted import slab
 
 TUNED = SETTINGS[-1]
 PAIR = ("quadprog", "daqp")
-ROUNDS = 15
+ROUNDS = 9
 AGREEMENT = 1.5
 """By what factor the ratio of the two may differ: processes have caches of their own. Cold single
 calls gave a ratio of 1.98 where calls in turns gave 1.15, 1.7 times less."""
@@ -50,7 +50,7 @@ def in_a_study(problems):
 
 
 def test_quadprog_against_daqp_is_what_calls_in_turns_give():
-    problems = [problem_of(slab(seed, 6)) for seed in range(8)]
+    problems = [problem_of(slab(seed, 6)) for seed in range(4)]
     for last in (False, False, True):  # another program may come between
         turns, study = in_turns(problems), in_a_study(problems)
         ratio = (study["quadprog"] / study["daqp"]) / (turns["quadprog"] / turns["daqp"])
@@ -63,12 +63,15 @@ def test_quadprog_against_daqp_is_what_calls_in_turns_give():
 @pytest.mark.parametrize("name", ["native:piqp", "cvxpy:scs"])
 def test_set_up_and_solving_are_parts_of_a_call(name, problem):
     interface, _, solver = name.partition(":")
+    every = []
     with Keeper(Solver(solver, interface, solver)) as keeper:
-        every = [
-            measured(keeper, problem, SETTINGS[0], "natural", False, Limits(20.0))["seconds"]
-            for _ in range(4)  # another program may come between
-        ]
-    parts = [sum(seconds[part] or 0.0 for part in ("setup", "solver")) for seconds in every]
-    assert min(parts) > 0
-    assert any(p < 2 * seconds["high"] for p, seconds in zip(parts, every, strict=True))
+        for _ in range(4):  # another program may come between
+            row = measured(keeper, problem, SETTINGS[0], "natural", False, Limits(20.0))
+            every.append(row["seconds"])
+            parts = sum(every[-1][part] or 0.0 for part in ("setup", "solver"))
+            assert parts > 0
+            if parts < 2 * every[-1]["high"]:
+                break
+        else:
+            pytest.fail(f"more than the call: {every}")
     assert every[0]["start"] > 0.05  # imports, besides the call's time

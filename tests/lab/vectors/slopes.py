@@ -5,9 +5,9 @@ from unittest import mock
 
 import numpy as np
 
-from quasistatic_ref.lab.vectors.program import step
-from quasistatic_ref.lab.vectors.program.integration import difference, moved
-from quasistatic_ref.lab.vectors.program.mechanism import kinematics, slices
+from quasistatic_ref.lab.program import step
+from quasistatic_ref.lab.program.integration import moved, way
+from quasistatic_ref.lab.program.mechanism import kinematics, slices
 
 EPS = 1e-5
 """Rounding of q+, 1e-16, is 1e-11 of a quotient, and eps^4 next to nothing."""
@@ -34,31 +34,26 @@ def plus(case, q, way):
 
 def minus(case, q, other):
     """The difference q (-) other."""
-    joints, n_v = parts(case)
-    found = np.zeros(n_v)
-    for body, entries, columns in joints:
-        found[columns] = difference(body, q[entries], other[entries])
-    return found
+    return way(case["mechanism"], other, q)
 
 
 def q_next(case):
     """Configuration after the program's step, with a further generalised force in ``tau``."""
-    right = step.masses
+    right = step.loads
 
-    def loaded(case, at, n_a, n_v):
-        M, tau = right(case, at, n_a, n_v)
+    def loaded(case, at):
+        M, tau = right(case, at)
         return M, tau + case.get("tau", 0.0)
 
-    with mock.patch.object(step, "masses", loaded):
+    with mock.patch.object(step, "loads", loaded):
         return np.array(step.step(case)["q_next"])
 
 
 def held(case):
     """The case with its wrenches as the generalised force that they are at q."""
-    _, n_v = parts(case)
     at = kinematics(case["mechanism"], np.array(case["q"]))
-    both = [step.masses(c, at, 0, n_v)[1] for c in (case, {**case, "wrenches": []})]
-    return {**case, "wrenches": [], "tau": both[0] - both[1]}
+    tau = step.loads({**case, "gravity": np.zeros(3)}, at)[1]
+    return {**case, "wrenches": [], "tau": tau}
 
 
 def by_q(case, j, by):

@@ -4,11 +4,15 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from flint import fmpq
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
+from quasistatic_ref.lab.vectors.exact.entered import entered
 from quasistatic_ref.lab.vectors.exact.floor import floors
-from quasistatic_ref.lab.vectors.exact.rational import digits, exact, rounded, tolerance
+from quasistatic_ref.lab.vectors.exact.precision import short
+from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.layers import qp, rows, selection, wrench
 from tests.tolerances import ROUNDING
 
@@ -135,12 +139,18 @@ def test_tolerances_are_rounded_up_to_one_digit():
     assert tolerance(Fraction(0), "why").absolute == 0.0
 
 
-def test_fractions_are_rounded_to_even_and_never_to_minus_zero():
-    values = exact([1.0, -1.0]) * Fraction(1, 3)
-    assert rounded(values) == [1 / 3, -1 / 3]
-    assert str(rounded(exact([-0.0]))) == "[0.0]"
-    assert digits(x=values)["x"][0] == "3.33333333333333333333333333333e-01"
-    assert digits(x=exact(np.zeros(201))) == {}
+def test_fields_of_more_than_200_numbers_have_no_digits():
+    assert short({"x": ["1.0"], "y": ["0.0"] * 201, "z": []}) == {"x": ["1.0"]}
+
+
+def test_the_plain_program_refuses_what_is_no_optimum():
+    # A mass of 2 that is pushed by 1 against x >= 1: x = 1, lam = 2 - 1.
+    case = entered({"H": [[2.0]], "g": [1.0], "A": [[1.0]], "b": [1.0]})
+    one, half = fmpq(1), fmpq(1, 2)
+    assert is_optimum(case, [one], [one])
+    for x, lam in ((half, fmpq(0)), (one, half), (2 * one, 3 * one)):
+        assert not is_optimum(case, [x], [lam])
+    assert not is_optimum(entered({**case, "g": [3.0]}), [one], [-one])
 
 
 def test_a_body_held_fast_is_right_to_eight_roundings_of_its_free_step():

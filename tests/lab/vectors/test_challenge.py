@@ -11,7 +11,7 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.challenge.fresh import EASY, HARD, PLAIN, fresh_case, record_of
-from quasistatic_ref.lab.vectors.challenge.live import challenge
+from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.challenge.serve import served
 from quasistatic_ref.lab.vectors.challenge.shrink import shrunk
 from quasistatic_ref.lab.vectors.challenge.simpler import MOVES

@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref.lab.program import step
+from quasistatic_ref.lab.program.candidates import tangents
+from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.check.mistakes import MISTAKES
 from quasistatic_ref.lab.vectors.converters import tangent_map
-from quasistatic_ref.lab.vectors.families.derivative_kinks import kink_cases
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.lab.vectors.program import step
-from quasistatic_ref.lab.vectors.program.candidates import tangents
-from quasistatic_ref.lab.vectors.program.mechanism import kinematics
 from tests.lab.vectors.material import cases, expected, report_on
 from tests.lab.vectors.slopes import EPS, MOVES, held, minus, parts, q_next, rate, slopes
 
@@ -64,9 +63,9 @@ def test_there_are_three_hundred_cases_and_kinks_of_every_kind():
 
 
 def test_kinks_without_rounding_are_found_anew_by_kind_and_name():
-    for name, _, table in list(kink_cases())[::9]:
-        found = layer("derivative").expected(table)
-        assert found.output == expected("derivative")[name]["output"]
+    for case in kinks()[::9]:
+        found = layer("derivative").expected(case.input)
+        assert found.output == expected("derivative")[case.id]["output"]
 
 
 def test_one_sided_differences_of_another_program_differ_at_kinks():

@@ -13,7 +13,7 @@ import pytest
 from validation.programs.engines import phenomena
 from validation.programs.engines.judge import ENGINES, HERE, RESULTS
 from validation.programs.engines.reproduce import FOLDER, LIST, missing, printed_for, unlike
-from validation.programs.engines.tables import layers_page, phenomena_page
+from validation.programs.engines.tables import phenomena_page
 
 G, M = 9.81, 0.3
 RECORDS = {
@@ -127,10 +127,9 @@ def test_a_reproduction_that_prints_another_number_shows_no_cell():
     assert printed_for("XPBD: -1.5e-3 rad/s (Coulomb: 0)\nVBD: 2", "XPBD") == [-1.5e-3, 0.0]
 
 
-def test_the_pages_are_those_of_the_results():
+def test_the_page_is_that_of_the_results():
     assert set(RECORDS) == set(ENGINES)
     assert (RESULTS / "phenomena.md").read_text("utf-8") == phenomena_page(RECORDS)
-    assert (RESULTS / "layers.md").read_text("utf-8") == layers_page(RECORDS)
 
 
 def test_every_setting_of_the_table_is_one_that_is_asked():
@@ -162,8 +161,9 @@ def test_reproductions_have_at_most_fifteen_lines_and_adapters_a_hundred():
     files = sorted(FOLDER.glob("*.py"))
     assert {path.name for path in files} == {entry["file"] for entry in LIST}
     assert {path.name: lines(path) for path in files if lines(path) > 15} == {}
-    adapters = [*HERE.glob("*_adapter.py"), *HERE.glob("*_layers.py"), HERE / "pinocchio_admm.py"]
-    assert [p.name for p in adapters if len(p.read_text("utf-8").splitlines()) > 100] == []
+    assert [
+        p.name for p in HERE.glob("*_adapter.py") if len(p.read_text("utf-8").splitlines()) > 100
+    ] == []
 
 
 @pytest.mark.parametrize("file", MUJOCO)

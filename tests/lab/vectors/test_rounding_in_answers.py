@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.challenge.findings import Finding
-from quasistatic_ref.lab.vectors.challenge.live import challenge
+from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.check.multipliers import multipliers_problem
 from tests.lab.vectors.programs import command
 

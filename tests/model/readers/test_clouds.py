@@ -9,7 +9,6 @@ import pytest
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.readers.clouds import point_cloud
-from quasistatic_ref.tolerances import LARGE
 from tests.tolerances import FILE_FLOAT32
 
 POINTS = np.array([[0.1, -0.2, 0.3], [1.0, 2e-3, -0.5]])
@@ -118,7 +117,6 @@ NAN = np.array([[0.0, 0.0, 0.0], [1.0, np.nan, 2.0]])
 BAD: dict[str, tuple[str, bytes, str]] = {
     "pcd that is compressed": (".pcd", pcd("binary_compressed", b""), "DATA: must be ascii or bin"),
     "pcd without an end": (".pcd", PCD_HEADER.encode(), "header: must end with a line DATA"),
-    "pcd of nothing": (".pcd", b"\x00" * 100, "header: must end with a line DATA"),
     "pcd of other words": (".pcd", b"solid thing\n", "line 1: must begin with one of VERSION, FI"),
     "pcd cut off": (
         ".pcd",
@@ -126,13 +124,6 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         "must hold 2 points .got 1",
     ),
     "pcd of too few lines": (".pcd", pcd("ascii", b"0 1 2 3\n"), "must hold 2 points .got 1"),
-    "pcd of short lines": (".pcd", pcd("ascii", b"1 2 3\n" * 2), "line 12: must be 4 numbers"),
-    "pcd of words": (".pcd", pcd("ascii", b"0 1 2 x\n" * 2), "line 12"),
-    "pcd of NaN": (
-        ".pcd",
-        pcd("binary", binary_body("<B3d", POINTS * np.nan)),
-        "point 0: must be finite",
-    ),
     "pcd of more points than memory": (
         ".pcd",
         pcd(
@@ -147,11 +138,6 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         pcd("binary", b"", PCD_HEADER.replace("TH 2", "TH 3")),
         "POINTS: must be given",
     ),
-    "pcd of a wide field": (
-        ".pcd",
-        pcd("binary", b"", PCD_HEADER.replace("COUNT 1", "COUNT 999999")),
-        "at most 1000",
-    ),
     "pcd of an odd type": (
         ".pcd",
         pcd("binary", b"", PCD_HEADER.replace("SIZE 1", "SIZE 3")),
@@ -161,11 +147,6 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         ".pcd",
         pcd("binary", b"", PCD_HEADER.replace("y z", "y w")),
         "FIELDS: must name z once",
-    ),
-    "pcd of too few sizes": (
-        ".pcd",
-        pcd("binary", b"", PCD_HEADER.replace("SIZE 1", "SIZE")),
-        "FIELDS: must have",
     ),
     "npy of a pickle": (
         ".npy",
@@ -184,52 +165,27 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         npy(POINTS[:, :2]),
         "numbers of shape .N, 3. .got 'float64",
     ),
-    "npy of complex numbers": (".npy", npy(POINTS * 1j), "numbers of shape .N, 3. .got 'complex"),
-    "npy of infinity": (".npy", npy(POINTS * np.inf), "point 0: must be finite numbers"),
     "npz of two arrays": (".npz", npz(a=POINTS, b=POINTS), "must hold one array, or one that is"),
-    "npz of none": (".npz", npz(), "must hold one array, or one that is named points"),
-    "npz that is no zip": (".npz", b"PK", "is not a file of NumPy's arrays"),
     "npz of a pickle": (".npz", npz(points=np.array([{}], dtype=object)), "points.npy is a pickle"),
     "unknown extension": (".stl", b"", "extension: is not a known kind of point cloud.*'.stl'"),
-    "no extension": ("", b"0 0 0", "extension: is not a known kind of point cloud"),
     "empty xyz": (".xyz", b"\n# nothing\n", "points: must hold at least one point"),
-    "empty csv": (".csv", b"x,y,z\n", "points: must hold at least one point"),
-    "empty obj": (".obj", b"f 1 2 3\n", "points: must hold at least one point"),
     "two numbers": (".xyz", b"0 0 0\n1 2\n", r"line 2: must be three numbers, x y z.*'1 2'"),
-    "four numbers": (".xyz", b"0 0 0 1\n", "line 1: must be three numbers"),
     "nan": (".xyz", b"0 0 0\n\n0 nan 1\n", r"line 3: must be a finite decimal number \(got 'nan'"),
-    "a word": (".xyz", b"0 zero 0\n", "line 1: must be a finite decimal number.*'zero'"),
-    "underscore": (".xyz", b"0 1_0 0\n", "line 1: must be a finite decimal number.*'1_0'"),
     "overflow": (".xyz", b"0 1e999 0\n", "line 1:.*overflows.*'1e999'"),
     "not text": (".xyz", b"0 0 0\n\xff\xfe 0 0\n", "line 2: is not UTF-8 text"),
     "decimal comma": (".csv", b"0,1;0,2;0,3\n", "line 1: must have 3 columns"),
-    "ragged csv": (".csv", b"x,y,z,i\n1,2,3\n", "line 2: must have 4 columns.*'1,2,3'"),
     "no column z": (".csv", b"x,y,u\n1,2,3\n", "line 1: must name the column z once"),
-    "empty cell": (".csv", b"1,,3\n", r"line 1: must be a finite decimal number \(got ''"),
     "obj without z": (".obj", b"v 1 2\n", "line 1: must be v x y z"),
-    "obj nan": (".obj", b"o a\nv 1 2 nan\n", "line 2: must be a finite decimal number"),
     "not ply": (".ply", b"hello\n", "line 1: must be the word ply.*'hello'"),
-    "headless ply": (".ply", b"ply\nformat ascii 1.0\n", "header: must end with end_header"),
     "big endian": (
         ".ply",
         b"ply\nformat binary_big_endian 1.0\nend_header\n",
         "line 2: is not understood.*binary_big_endian",
     ),
-    "no format": (".ply", PLY_ASCII.replace("format ascii 1.0\n", "").encode(), "name a format"),
     "short ascii ply": (
         ".ply",
         PLY_ASCII.split("1.0 2e-3")[0].encode(),
         r"body: must hold 2 vertices \(got 1\)",
-    ),
-    "bad ascii ply": (
-        ".ply",
-        PLY_ASCII.replace("2e-3", "nan").encode(),
-        r"line 13: must be a finite decimal number \(got 'nan'\)",
-    ),
-    "ragged ascii ply": (
-        ".ply",
-        PLY_ASCII.replace("0.3 255", "0.3").encode(),
-        "line 12: must be 4 numbers",
     ),
     "no property z": (
         ".ply",
@@ -246,17 +202,7 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         b"ply\nformat ascii 1.0\nelement face 1\nend_header\n",
         "line 3: must be element vertex.*'face'",
     ),
-    "short binary ply": (
-        ".ply",
-        binary_ply("double", "d")[:-1],
-        r"body: must hold 2 vertices \(got 1\)",
-    ),
     "nan binary ply": (".ply", binary_ply("double", "d", NAN), "point 1: must be finite numbers"),
-    "no vertices": (
-        ".ply",
-        PLY_ASCII.replace("vertex 2", "vertex 0").encode(),
-        "points: must hold at least one point",
-    ),
     "impossible count": (
         ".ply",
         binary_ply("float", "f").replace(b"vertex 2", b"vertex 999999999999999999"),
@@ -274,17 +220,6 @@ def test_a_defect_is_one_sentence_that_names_the_file(
     with pytest.raises(ModelError, match=words) as caught:
         point_cloud(path)
     assert str(caught.value).startswith(f"{path}: ")
-
-
-def test_coordinates_are_taken_up_to_the_largest(tmp_path: Path) -> None:
-    path, points = tmp_path / "cloud.npy", LARGE * np.eye(4, 3)
-    path.write_bytes(npy(points))
-    assert np.array_equal(point_cloud(path).points, points)
-    for wrong in (np.nan, 1.1 * LARGE):
-        points[3, 0] = wrong
-        path.write_bytes(npy(points))
-        with pytest.raises(ModelError, match="point 3: "):
-            point_cloud(path)
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:

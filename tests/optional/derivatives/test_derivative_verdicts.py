@@ -20,8 +20,8 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.simulate.simulator import Simulator
 from tests.model.urdf.urdf_texts import joint, link, robot
+from tests.oracles.differences import after, rate
 from tests.tolerances import DIFFERENCE_OF_STEPS
-from validation.make.derivatives import after, rate
 
 H, G, NONE = 0.01, 9.81, np.zeros(0)
 FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)

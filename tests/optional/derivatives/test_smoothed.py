@@ -5,14 +5,14 @@ import pytest
 
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.nudge import MASS, RADIUS, H, resting
-from quasistatic_ref.lab.scenes.pushes import pushed
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from quasistatic_ref.shapes.placed_shape import Sphere
 from quasistatic_ref.step.data import Contacts
+from tests.oracles.differences import rate, unit
+from tests.oracles.pushes import pushed
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
-from validation.make.derivatives import rate, unit
 
 G = 9.81
 NONE = np.zeros(0)
@@ -94,9 +94,8 @@ def test_what_cannot_be_smoothed_is_refused():
         barrier_step(closed, 1e-6)
 
 
-def two_walls(contacts):
+def two_walls(c):
     """The contact, closed, and another one from the opposite side: they contradict each other."""
-    c = contacts.dense()
     return Contacts(
         ("a", "b"), np.array([-1e-3, -1e-3]), np.stack([c.n[0], -c.n[0]]),
         np.stack([c.d1[0], c.d1[0]]), np.stack([c.d2[0], -c.d2[0]]), np.stack([c.J[0], c.J[0]]),

@@ -10,15 +10,15 @@ from jax.test_util import check_grads
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, NotDifferentiable
-from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, points, resting
+from quasistatic_ref.lab.scenes.nudge import RADIUS, H, points, resting
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
-from quasistatic_ref.lab.scenes.pushes import pushed
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step_jax import smoothed_jax, step_jax
 from quasistatic_ref.shapes.placed_shape import Sphere
-from tests.optional.derivatives.test_derivative_verdicts import BOX, FLOOR, free
+from tests.optional.derivatives.free_bodies import BOX, FLOOR, free
+from tests.oracles.pushes import pushed
 from tests.tolerances import JAX_GRADIENT, JAX_STEP, ROUNDING
 
 G, NONE, UP = 9.81, np.zeros(0), np.eye(6)[2]
@@ -191,11 +191,3 @@ def test_nothing_of_jax_is_imported_before_it_is_asked_for():
     command = [sys.executable, "-c", source]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"
-
-
-def test_a_push_s_gradient_by_its_force_is_that_of_the_closed_form():
-    # A point that slides rises by mu_v x: h^2 F = m (1 + mu_v^2) x.
-    simulator, q = resting(points((0.0, 0.0, 0.0)), 0.0)
-    push = np.eye(6)[0] * 2 * MU_V * MASS * G
-    by_force = jax.jacfwd(lambda force: step_jax(simulator)(q, NONE, force)[0])(push)
-    np.testing.assert_allclose(by_force[0, 0], H**2 / (MASS * (1 + MU_V**2)), rtol=1e-9)

@@ -171,7 +171,8 @@ DRAGS = {"block_push", "block_incline", "panda_push"}
 
 @pytest.mark.parametrize("name", scenario_names())
 def test_a_scenario_that_comes_along_warns_of_its_drag_at_most(name):
-    run = load_scenario(name, ["solver.certify=off", "record=light"], fast=True).run(progress=False)
+    settings = ["solver.certify=off", "record=light", "steps=60"]
+    run = load_scenario(name, settings, fast=True).run(progress=False)
     assert all(said.startswith("the spurious drag") for said in run.warnings)
     assert len(run.warnings) == (name in DRAGS)
 

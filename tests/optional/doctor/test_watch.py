@@ -5,23 +5,10 @@ import pytest
 
 from quasistatic_ref.optional.doctor.watch import watched
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    HalfSpace,
-    PointCloud,
-    Sphere,
-)
 from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from quasistatic_ref.simulate.wrenches import Scene
 from quasistatic_ref.tolerances import BEYOND, IN_METRES, LEAP, SUNK
-from tests.model.urdf.urdf_texts import written
 from tests.scenes import chain_scene, written_scenario
-from tests.tolerances import ROUNDING
 
 
 @pytest.fixture(scope="module")
@@ -123,17 +110,6 @@ def test_a_target_beyond_the_limits_of_a_urdf_is_named(scene, target, words):
     assert words is None or words in said[0]
 
 
-def test_limits_are_those_of_the_urdf_and_zero_to_zero_says_nothing(scene):
-    limits = {joint.name: joint.limits for joint in load_scenario(scene, fast=True).system.joints}
-    assert limits == {"rail/slide": (-1.0, 1.0), "rail/turn": None, "ball/base": None}
-    text = (scene.parent / "rail.urdf").read_text().replace('lower="-1" upper="1"', "")
-    written(scene.parent, text, "free.urdf")
-    system = load_scenario(
-        scene, {"bodies.rail.urdf": scene.parent / "free.urdf"}, fast=True
-    ).system
-    assert system.joint("rail/slide").limits is None
-
-
 @pytest.mark.parametrize(("mu_omega", "warned"), [(0.1, False), (0.101, True), (20.0, True)])
 def test_a_mu_omega_longer_than_the_smaller_body_looks_like_millimetres(scene, mu_omega, warned):
     scenario = load_scenario(scene, {"contacts.floor.mu_omega": mu_omega}, fast=True)
@@ -142,19 +118,6 @@ def test_a_mu_omega_longer_than_the_smaller_body_looks_like_millimetres(scene, m
         f"{mu_omega:.3g} m is more than the size of the smaller body, 0.1 m"
     )
     assert made(scenario) == ([sentence] if warned else [])
-
-
-CORNERS = np.array([[0.0, 0, 0], [3, 0, 0], [0, 2, 0], [0, 0, 1]])
-
-
-@pytest.mark.parametrize(("shape", "expected"), [
-    (Sphere(0.5), 1.0), (Box(np.array([0.5, 2.0, 1.0])), 4.0), (Cylinder(0.5, 2.0), 4.0),
-    (Capsule(0.5, 2.0), 5.0), (Cone(3.0, 2.0), 6.0), (Ellipsoid(np.array([1.0, 2.0, 0.5])), 4.0),
-    (HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0), np.inf), (PointCloud(CORNERS), 3.0),
-    (convex_hull(CORNERS), 3.0),
-])  # fmt: skip
-def test_the_extent_of_a_shape_is_the_longest_edge_of_its_box(shape, expected):
-    np.testing.assert_allclose(shape.extent, expected, rtol=ROUNDING)
 
 
 def test_a_doubtful_unit_comes_before_what_may_come_of_it(scene):

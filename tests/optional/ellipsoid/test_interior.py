@@ -6,28 +6,20 @@ from flint import arb, arb_mat, ctx
 
 from quasistatic_ref.optional.ellipsoid.interior import (
     Blocks,
-    Pair,
     _centrality,
-    _centred,
-    _inside,
     _inverse_scaling,
     _reach,
     interior_point,
 )
 from quasistatic_ref.optional.ellipsoid.newton import (
-    INWARDS,
     OPEN,
     SLIDES,
     STICKS,
-    _inwards,
     _linearised,
     _opening,
-    _projected,
-    _with_multipliers,
     contact_states,
     newton_pair,
 )
-from quasistatic_ref.optional.ellipsoid.scaled_blocks import largest
 from tests.tolerances import ROUNDING
 
 FAR = 2.0**30
@@ -64,12 +56,6 @@ def test_scaling_takes_the_slack_to_the_multiplier(k):
         assert np.linalg.eigvalsh(W)[0] > 0
 
 
-def test_a_step_to_the_central_path_is_that_of_the_inverse():
-    """y^-1 = (y_0, -y_1, ..) / (y_0^2 - |y_1|^2): of (2, 1, 0) it is (2, -1, 0) / 3."""
-    found = floats(_centred(balls([5, 1, 2]), balls([2, 1, 0]), arb(6)).entries())
-    np.testing.assert_allclose(found, [-5 + 4, -1 - 2, -2], rtol=ROUNDING)
-
-
 def test_centrality_is_one_on_the_path_less_off_it_and_nothing_outside():
     """On the path s = mu y^-1. Of s = y = (2, 1) the eigenvalues are 1 and 3, in the mean 5."""
     y, inverse = [2.0, 1.0, 0.0], [2.0, -1.0, 0.0]
@@ -84,12 +70,6 @@ def test_centrality_is_one_on_the_path_less_off_it_and_nothing_outside():
         assert float(_centrality([balls(outside)], [balls(y)])) == 0.0
     complementary = [balls([1.0, 1.0, 0.0])], [balls([1.0, -1.0, 0.0])]  # both on the boundary
     assert float(_centrality(*complementary)) == 0.0
-
-
-def test_a_start_is_moved_well_inside():
-    assert floats(_inside(column([0.0, 3.0, 4.0]))) == [6.0, 3.0, 4.0]
-    assert floats(_inside(column([7.0, 3.0, 4.0]))) == [7.0, 3.0, 4.0]
-    assert floats(_inside(column([-2.0]))) == [1.0]
 
 
 @pytest.mark.parametrize(
@@ -140,16 +120,6 @@ def test_both_methods_project_on_a_cone(push, x, y, state):
         np.testing.assert_allclose(floats(pair.s[0]), x, rtol=0, atol=tolerance)
 
 
-def test_newton_ends_at_the_free_motion_where_nothing_touches():
-    """4 x = 2, and the row x >= -8 is open by 8.5."""
-    problem = Blocks(arb_mat([[arb(4)]]), column([2.0]), [arb_mat([[arb(1)]])], [column([-8.0])])
-    with ctx.workprec(640):
-        pair = newton_pair(problem, column([3.0]), [balls([1.0])], [OPEN])
-    assert floats(pair.x.entries()) == [0.5]
-    assert floats(pair.s[0]) == [8.5]
-    assert float(pair.y[0][0]) == float(INWARDS)
-
-
 def test_without_contacts_the_free_motion_is_the_answer():
     problem = Blocks(arb_mat([[arb(4)]]), column([2.0]), [], [])
     pair = interior_point(problem, arb(2) ** -60)
@@ -196,72 +166,8 @@ def test_what_slides_is_linearised_with_its_curvature():
     assert (floats(K.entries()), C.nrows(), c.nrows()) == (np.eye(3).ravel().tolist(), 0, 0)
 
 
-def test_constraints_stand_in_the_order_of_their_contacts():
-    """A row that sticks at s = 7, then what slides at s = (6, 3, 4), with c = 6 - 5."""
-    floor = floor_problem()
-    row = arb_mat([[arb(1), arb(0), arb(0)]])
-    problem = Blocks(floor.H, floor.g, [row, *floor.A], [column([-1.0]), *floor.b])
-    y = [balls([2.0]), balls([10.0, 0.0, 0.0])]
-    _, C, c, f = _linearised(problem, column([6.0, 3.0, 4.0]), y, [STICKS, SLIDES])
-    np.testing.assert_allclose(floats(C.entries()), [1, 0, 0, 1, -0.6, -0.8], rtol=ROUNDING)
-    np.testing.assert_allclose(floats(c.entries()), [7, 1], rtol=ROUNDING)
-    assert floats(f.entries()) == [2.0, 10.0]
-
-
-def test_multipliers_of_what_slides_are_against_the_slip():
-    """Of s = x - b = (6, 3, 4) the slip is along (0.6, 0.8)."""
-    problem, x = floor_problem(), column([7.0, 1.0, 2.0])
-    problem = Blocks(problem.H, problem.g, problem.A, [column([1.0, -2.0, -2.0])])
-    old = [balls([9.0, 9.0, 9.0])]
-    found = _with_multipliers(problem, x, old, [SLIDES], balls([10.0]))
-    np.testing.assert_allclose(floats(found[0]), [10, -6, -8], rtol=ROUNDING)
-    assert floats(_with_multipliers(problem, x, old, [OPEN], [])[0]) == [0.0] * 3
-    assert floats(_with_multipliers(problem, x, old, [STICKS], balls([1, 2, 3]))[0]) == [1, 2, 3]
-
-
-def test_a_pair_is_moved_inwards_by_its_share():
-    """Of the largest multiplier 8, and along what opens the contact."""
-    problem, states = floor_problem(), [STICKS]
-    with ctx.workprec(640):
-        pair = _inwards(problem, column([0.0, 0.0, 0.0]), [balls([8.0, 0.0, 0.0])], states)
-        (way,) = _opening(problem.A, 3)[:1]
-        assert float((pair.y[0][0] - 8) / INWARDS) == 8.0
-        assert float(pair.s[0][0] / INWARDS) == way > 0.5
-    assert isinstance(pair, Pair)
-
-
-@pytest.mark.parametrize(
-    ("z", "nearest"),
-    [
-        ([2.0, 1.0, 0.0], [2.0, 1.0, 0.0]),
-        ([-2.0, 1.0, 0.0], [0.0, 0.0, 0.0]),
-        ([1.0, 3.0, 4.0], [3.0, 1.8, 2.4]),  # (1 + 5) / 2 of (1, 0.6, 0.8)
-        ([-1.0, 3.0, 4.0], [2.0, 1.2, 1.6]),
-        ([-5.0, 3.0, 4.0], [0.0, 0.0, 0.0]),
-        ([5.0, 3.0, 4.0], [5.0, 3.0, 4.0]),
-        ([3.0], [3.0]),
-        ([-3.0], [0.0]),
-        ([], []),
-    ],
-)
-def test_the_nearest_point_of_a_cone(z, nearest):
-    np.testing.assert_allclose(_projected(np.array(z)), nearest, rtol=ROUNDING)
-
-
 def test_no_direction_opens_walls_that_face_each_other():
     east, west = arb_mat([[arb(1)]]), arb_mat([[arb(-1)]])
     assert _opening([east], 1) is not None
     assert _opening([east, west], 1) is None
     assert _opening([], 2).tolist() == [0.0, 0.0]
-
-
-@pytest.mark.parametrize("rows", [[1, 3], [1, 1, 3]])
-def test_walls_on_one_side_are_all_opened(rows):
-    """One coordinate d and rows a d: that each is inside by 1/2 at least wants d >= 1/2."""
-    (d,) = _opening([arb_mat([[arb(a)]]) for a in rows], 1)
-    assert d >= 0.5
-
-
-def test_the_largest_size_is_one_of_nothing():
-    assert float(largest(balls([-3, 2]))) == 3.0
-    assert float(largest(balls([0]))) == float(largest([])) == 1.0

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.balls import ball_form
 from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.certify.point import ball_form
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.lab.scenes.slider import push, push_step

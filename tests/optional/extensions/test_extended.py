@@ -8,7 +8,7 @@ from quasistatic_ref.errors import BackendError, StepNotSolved
 from quasistatic_ref.optional.extensions import extended
 from quasistatic_ref.optional.extensions.extended import _symbols, extended_solution, with_rows
 from quasistatic_ref.solve.backends import cone_backend
-from quasistatic_ref.solve.cvxpy_problem import cvxpy_problem
+from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.units import natural_units, to_natural
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
@@ -33,7 +33,7 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
     units, form = natural_units(step), standard_form(step)
     assert units.length > 2
     natural = to_natural(step, units)
-    problem, delta_q = cvxpy_problem(natural), rng.normal(size=7)
+    problem, delta_q = CvxpyProblem(natural), rng.normal(size=7)
     problem.fill(natural)
     x = delta_q / (units.size * units.coordinate)
     problem.delta_q_a.value, problem.delta_q_u.value = x[:3], x[3:]

@@ -4,14 +4,12 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-from quasistatic_ref.certify.exact_step import exact_step
+from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
-from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.grasps import grasp_step
-from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.large.bound import enclosed_answer, error_bound, opening_direction
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
@@ -20,8 +18,8 @@ from tests.helpers import error, point_on_floor
 from tests.oracles.random_steps import any_step
 from tests.tolerances import ROUNDING
 
-FUZZED = 200
-"""Random steps with answers made to look good: two seconds."""
+FUZZED = 80
+"""Random steps with answers made to look good."""
 
 
 @pytest.mark.parametrize("size", [0.0, 1e-14, 1e-9, 1e-4, 1.0, 10.0])
@@ -51,17 +49,6 @@ def test_step_without_contacts_is_bounded_to_rounding():
     step = point_between_walls(np.zeros((0, 3)), [], force=(1.0, 2.0, 3.0))
     exact = exact_step(step)
     assert error_bound(step, exact.delta_q, exact.lam).error < 1e-15
-
-
-@pytest.mark.parametrize(("mass", "h"), [(1.0, 1.0), (0.3, 0.01), (7e3, 2.0)])
-def test_bound_of_a_body_that_falls_freely_is_its_error(mass, h):
-    """x* = h^2 f / m; of x = 1.5 x* the error is 1/2 and the gap 1/2 m / h |x* / 2|^2."""
-    force = np.array([1.0, 2.0, 3.0])
-    step = free_step(mass * np.eye(3), force, no_contacts(3), h)
-    x = h**2 * force / mass
-    bound = error_bound(step, 1.5 * x, np.zeros(0))
-    assert bound.error == pytest.approx(0.5, rel=ROUNDING)
-    assert bound.gap == pytest.approx(mass / h * (x / 2) @ (x / 2) / 2, rel=ROUNDING)
 
 
 def test_right_active_set_encloses_the_optimum_and_its_net_impulse():
@@ -94,20 +81,6 @@ def test_opening_direction_opens_every_row():
         direction = opening_direction(step)
         assert direction is not None
         assert (standard_form(step).A @ direction > 0).all()
-
-
-@pytest.mark.parametrize(
-    ("mass", "scale"), [((1.0, 1.0, 1.0), (1.0, 1.0)), ((4.0, 9.0, 1.0), (0.5, 8.0))]
-)
-def test_opening_direction_is_of_least_squares_whatever_the_units(mass, scale):
-    """c_1 x >= 0 and c_2 y >= 0: each row opens by one in the norm of H = diag(mass) / h.
-
-    That is d = (1 / sqrt H_1, 1 / sqrt H_2, 0), for rows of any length.
-    """
-    rows = Extra(("x", "y"), np.diag(scale) @ np.eye(2, 3), np.zeros(2))
-    step = free_step(np.diag(mass), np.zeros(3), no_contacts(3), 0.25).replace(extra=rows)
-    d = 1 / np.sqrt(np.array(mass) / 0.25) * [1, 1, 0]
-    np.testing.assert_allclose(opening_direction(step), d, rtol=ROUNDING, atol=ROUNDING)
 
 
 def test_the_way_to_a_feasible_point_is_part_of_the_bound():

@@ -1,24 +1,13 @@
 """Data that are kept as they are or made again, and how many of them a page shows."""
 
 import json
-from fractions import Fraction
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts
-from quasistatic_ref.optional.large.sparse_form import _same
-from quasistatic_ref.optional.show.show import (
-    MOST,
-    MOST_IN_HTML,
-    NAME,
-    html_page,
-    shortened,
-    text_page,
-)
-from quasistatic_ref.optional.show.step_words import certificate_facts, force_rows
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.rounded_wrench import _nearest, rounded_wrenches
+from quasistatic_ref.step.friction import rounded_wrenches
 from quasistatic_ref.step.solution import Certificate, SolverStatistics, step_solution
 from quasistatic_ref.step.solution_files import solution_text
 from tests.helpers import point_on_floor, random_step
@@ -58,33 +47,12 @@ def test_constants_of_another_mass_have_its_h_and_of_the_same_are_kept():
     np.testing.assert_allclose(own.at(2 * STEP.M_u).H, expected, rtol=EXACT, atol=EXACT)
 
 
-def test_a_number_beyond_float64_is_infinite_with_its_sign():
-    assert _nearest(Fraction(10) ** 400) == np.inf
-    assert _nearest(-(Fraction(10) ** 400)) == -np.inf
-
-
 def test_a_wrench_that_is_rounded_to_zero_has_no_sign():
     """Of -d2 a quarter of the least float64, over h = 1."""
     contacts = point_on_floor(mu_v=0.25).contacts
     wrench = rounded_wrenches(contacts, np.array([0.0, 0.0, 0.0, 5e-324]), 1.0)
     assert wrench[0].tolist() == [0.0, 0.0, 5e-324, 0.0]
     assert not np.signbit(wrench).any()
-
-
-@pytest.mark.parametrize("more", [0, 1])
-def test_a_page_counts_the_rows_that_it_leaves_out(more):
-    words = ["more"] if more else []
-    text = text_page(("title", (), ("name",), [(f"row {i}",) for i in range(MOST + more)]))
-    assert [word for word in text.split() if word == "more"] == words
-    html = html_page(("title", (), ("name",), [("row",)] * (MOST_IN_HTML + more)))
-    assert html.count(">row<") == MOST_IN_HTML
-    assert ("and 1 more" in html) == bool(more)
-    assert ("more" in html) == bool(more)
-
-
-def test_a_name_that_fits_is_not_shortened():
-    assert shortened("n" * NAME) == "n" * NAME
-    assert len(shortened("n" * (NAME + 1))) == NAME
 
 
 def test_multipliers_of_own_rows_are_the_last():
@@ -102,23 +70,3 @@ def test_multipliers_below_zero_are_written_as_the_bound_takes_them(bound, writt
                          "complementarity"), 0.0), error_bound=bound)  # fmt: skip
     solution = step_solution(STEP, np.zeros(7), lam, claims, SAID)
     assert json.loads(solution_text(solution))["lam"][0][1] == written
-
-
-def test_arrays_are_the_same_if_all_of_their_numbers_are():
-    ones = np.ones(2)
-    assert _same(ones, ones)
-    assert _same(ones, np.ones(2))
-    assert not _same(ones, np.array([1.0, 0.0]))
-    assert not _same(ones, np.zeros(2))
-
-
-def test_facts_of_a_certificate_say_what_is_known():
-    assert len(certificate_facts(Certificate("residual"))) == 1
-    known = Certificate("exact", multipliers_unique=True, differentiable=False)
-    assert "multipliers unique, delta_q not differentiable" in certificate_facts(known)[1]
-
-
-def test_an_active_row_that_the_cone_does_not_have_is_shown_by_its_number():
-    claims = Certificate("exact", active=((0, 0), (0, 5), (0, 6)))
-    solution = step_solution(STEP, np.zeros(7), np.zeros(10), claims, SAID)
-    assert [row[-1] for row in force_rows(solution)] == ["+d1 -spin 6", "none"]

@@ -1,7 +1,5 @@
 """M_u and H of many bodies, kept in diagonal blocks: the same bits as whole, and never whole."""
 
-import pickle
-
 import numpy as np
 import pinocchio as pin
 import pytest
@@ -13,7 +11,7 @@ from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model import system as of_system
 from quasistatic_ref.optional.fast import posed
 from quasistatic_ref.optional.fast.posed import BlockStep, PosedStep, constants
-from quasistatic_ref.optional.large.sparse_form import Pattern, kept_M_u, sparse_form
+from quasistatic_ref.optional.large.sparse_form import Pattern, kept_M_u
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.rollout import rollout
@@ -24,8 +22,7 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_text
 from quasistatic_ref.step.solution_files import solution_text
 from tests.helpers import always_in_blocks
-from tests.scenes import chain_scene
-from tests.tolerances import EXACT, ROUNDING
+from tests.tolerances import ROUNDING
 
 BOXES = (2, 1, 2)
 GRASP = ["solver.backend=piqp", "solver.certify=residual", "steps=4"]
@@ -84,12 +81,11 @@ def test_M_u_H_and_P_have_the_bits_of_the_whole_mass_matrix(name):
 
 
 @pytest.mark.parametrize("name", ["pile", "grasp"])
-@pytest.mark.parametrize("record", ["full", "light"])
-def test_a_run_has_the_bits_of_the_run_that_keeps_all_of_M_u(name, record, monkeypatch):
-    blocks = run(name, record)
+def test_a_run_has_the_bits_of_the_run_that_keeps_all_of_M_u(name, monkeypatch):
+    blocks = run(name)
     monkeypatch.setattr(BlockGeometry, "in_blocks", False)
     assert type(step_of(name)[1]) is PosedStep
-    dense = run(name, record)
+    dense = run(name)
     for key, values in dense.arrays.items():
         assert blocks.arrays[key].tobytes() == values.tobytes(), key
     largest = "largest_drag_share"  # of sums of products, in another order
@@ -130,15 +126,6 @@ def test_a_light_record_of_a_sparse_run_never_forms_M_u_or_H(monkeypatch):
     assert step.M_u is not step.M_u
 
 
-def test_the_momentum_of_blocks_is_that_of_all_of_M_u():
-    for name in ("pile", "grasp"):
-        step = step_of(name)[1]
-        delta_q = np.cos(np.arange(step.n_v))
-        expected = step.M_u @ delta_q[step.n_a :]
-        np.testing.assert_allclose(step.momentum(delta_q), expected, rtol=EXACT, atol=ROUNDING)
-        np.testing.assert_array_equal(step.replace().momentum(delta_q), expected)
-
-
 def test_a_checked_copy_fits_the_solver_and_a_heavier_one_does_not():
     step = step_of("pile")[1]
     solver, checked = solver_for(step, "piqp", fast=True), step.replace()
@@ -150,15 +137,6 @@ def test_a_checked_copy_fits_the_solver_and_a_heavier_one_does_not():
     assert one == two
 
 
-def test_a_copy_keeps_the_blocks_alone():
-    step = step_of("pile")[1]
-    again = pickle.loads(pickle.dumps(step))
-    assert kept_M_u(again).shape == (4, 6, 6)
-    assert not kept_M_u(again).flags.writeable
-    assert "H" not in vars(again)
-    assert again.H.tobytes() == step.H.tobytes()
-
-
 def spoiled(change):
     blocks = np.tile(np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0]), (3, 1, 1))
     change(blocks[-1])
@@ -168,9 +146,7 @@ def spoiled(change):
 BAD = {
     "symmetric": lambda M: M.__setitem__((0, 1), 0.1),
     "positive definite": lambda M: M.__setitem__((5, 5), 0.0),
-    "positive definite ": lambda M: M.__setitem__(slice(4, 6), M[4] + M[5]),
     "finite numbers": lambda M: M.__setitem__((2, 2), np.nan),
-    "finite numbers ": lambda M: M.__setitem__((2, 2), np.inf),
     "out of the range": lambda M: M.__setitem__((0, 0), 1e308),
 }
 
@@ -180,7 +156,7 @@ def test_a_mass_in_the_last_block_is_refused_as_all_of_M_u_is(words, change):
     rows, said = np.array([4]), []
     blocks = spoiled(change)
     for M_u in (blocks, whole(blocks)):
-        with pytest.raises(StepDataError, match=words.strip()) as caught:
+        with pytest.raises(StepDataError, match=words) as caught:
             constants(0.01, np.zeros((0, 0)), 0, M_u, rows)
         said.append(caught.value)
     assert str(said[0]) == str(said[1])
@@ -194,24 +170,3 @@ def test_the_last_of_several_bodies_is_refused_if_its_mass_is_singular():
         system_of({"a": BOX, "b": BOX, "mote": mote})
     assert len(caught.value.value) == 6
     assert all(name.startswith("mote/") for name in caught.value.value)
-
-
-def test_a_mechanism_has_no_blocks(tmp_path):
-    system = chain_scene(tmp_path)
-    assert not system.constant_mass_matrix
-    assert system.mass_blocks.shape == (0, 6, 6)
-    assert whole(np.zeros((0, 6, 6))).shape == (0, 0)
-    M_u = system.M_u(system.q_start)
-    assert np.array_equal(M_u, M_u.T)
-    assert (M_u == 0).any()  # between bodies
-    assert not np.signbit(M_u[M_u == 0]).any()
-
-
-def test_the_load_of_a_step_in_blocks_is_that_of_its_springs_and_forces():
-    """G = h [K_q delta_q_bar_a + tau_a; tau_u]."""
-    _, step = step_of("grasp")
-    step = step.replace(tau_a=np.arange(1.0, step.n_a + 1))
-    springs = step.K_q @ step.delta_q_bar_a
-    g = step.h * np.concatenate([springs + step.tau_a, step.tau_u])
-    found = sparse_form(step, Pattern(step)).g
-    np.testing.assert_allclose(found, g, rtol=ROUNDING, atol=ROUNDING * abs(g).max())

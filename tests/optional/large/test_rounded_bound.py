@@ -18,15 +18,12 @@ from quasistatic_ref.optional.large.rounded_bound import FloatBound
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import Units, from_natural, in_natural, to_natural
-from quasistatic_ref.step.friction import cone_matrix
 from tests.helpers import point_on_floor
 from tests.oracles.random_steps import any_step
-from tests.tolerances import ROUNDING
 from validation.make.confirmed_bits import CONES
 
-MASS = np.eye(1)
-FUZZED = 150
-"""Random steps of a fuzz, with an answer each: two seconds."""
+FUZZED = 60
+"""Random steps of a fuzz, with an answer each."""
 
 
 def small_step(rng):
@@ -47,7 +44,8 @@ class Judged:
         self.form, self.units = scaled.natural_form, scaled.units
         S, ell, rho = self.units
         self.x, self.y = x, np.maximum(lam, 0.0)
-        self.bound = FloatBound(BallHessian(step), self.form.H, S)
+        hessian = BallHessian(step)
+        self.bound = FloatBound(hessian.inverse, hessian.h, self.form.H, S)
         self.given = step, self.form, (ell, rho), x
         self.at = self.bound.rounded(*self.given, self.y)
         self.error = self.bound.error(*self.given, lam)
@@ -183,43 +181,6 @@ def test_each_count_of_roundings_is_needed(monkeypatch, constant, smaller, which
     assert not all(claims(8000))
 
 
-def test_sums_lose_less_than_is_given_back(monkeypatch):
-    """A body that falls freely high over 2,000 floors: its displacement is right.
-
-    The multipliers are not: they work over the gap. One is 2^-20 and all others less than half a
-    unit in its last place, of which a sum in float64 loses what is added one by one.
-    """
-    axes, J = np.eye(3)[None].repeat(2000, axis=0), np.zeros((2000, 4, 1))
-    J[:, 2] = 1.0
-    floors = contacts_of(2.0**18, axes, J, 0.0, rows=4)
-    step = free_step(np.eye(1), np.array([-1.0]), floors, 1.0)
-    lam = np.full(8000, 0.4 * 2.0**-73)
-    lam[0] = 2.0**-20
-    given = in_natural(np.array([-1.0]), lam, DenseStep(step).units)
-    for factor, holds in ((rounded_bound.MORE, True), (1.0, False)):
-        monkeypatch.setattr(rounded_bound, "MORE", factor)
-        judged = Judged(step, *given)
-        delta_q, exact_lam = from_natural(judged.x, judged.y, judged.units)
-        assert bool(bound_verdict(step, delta_q, exact_lam, judged.error)) == holds
-
-
-@pytest.mark.parametrize("cone", CONES)
-def test_reach_is_above_what_rows_are_summed_of(cone):
-    """|n|'|J| + mu_v (|c_1| |d1| + |c_2| |d2|)'|J| + mu_omega |c_3| |J_w|, row by row."""
-    rng = np.random.default_rng(3)
-    for _ in range(20):
-        step = grasp_step(rng).replace(cone=cone)
-        judged = Judged(step, np.zeros(step.n_v), np.zeros(int(step.offsets[-1])))
-        contacts, (S, ell, _) = step.contacts, judged.units
-        J, (mu_v, _, mu_omega) = np.abs(contacts.J) * (S / ell), contacts.mu.T[:, :, None]
-        along = [np.einsum("ci,civ->cv", np.abs(d), J[:, :3])
-                 for d in (contacts.n, contacts.d1, contacts.d2)]  # fmt: skip
-        for row in np.abs(cone_matrix(cone)):
-            parts = along[0], mu_v * along[1], mu_v * along[2], mu_omega * J[:, 3]
-            sums = sum(c * part for c, part in zip(row, parts, strict=True))
-            assert (sums <= judged.at.reach * (1 + ROUNDING)).all()
-
-
 def test_units_out_of_range_are_left_to_balls():
     step = point_on_floor(force=(4.0, 1.0, -2.943))
     answer = np.zeros(3), np.zeros(4)
@@ -228,31 +189,6 @@ def test_units_out_of_range_are_left_to_balls():
         coordinate, *others = units
         far = to_natural(step, Units(np.full(3, coordinate), *others))
         assert Judged(far, *answer).error is None
-
-
-def test_an_opening_direction_is_kept_and_found_again():
-    """Two walls: what opens the one closes the other; both at once leave nothing to decide."""
-    hessian, kept = None, None
-    for direction in (1.0, 1.0, -1.0):
-        step = wall(direction)
-        judged = Judged(step, np.zeros(1), np.array([1.0]))
-        hessian = judged.bound.hessian if hessian is None else hessian
-        kept = judged.bound if kept is None else kept
-        before = kept._opening
-        assert kept.error(*judged.given, judged.y) == judged.error
-        assert (kept._opening is before) == (direction > 0 and before is not None)
-    shut = wall(1.0, -1.0)
-    assert Judged(shut, np.zeros(1), np.zeros(2)).error is None
-
-
-def wall(*directions):
-    """A body on a line, driven by 1 N, whose walls are a metre away."""
-    axes = np.array([[[0, 1.0, 0], [0, 0, d], [d, 0, 0]] for d in directions])
-    J = np.zeros((len(directions), 4, 1))
-    J[:, 0] = 1.0
-    return free_step(MASS, np.ones(1), contacts_of(1.0, axes, J, 0.0), 1.0).replace(
-        cone="frictionless"
-    )
 
 
 def test_a_bound_that_is_too_large_is_tried_in_balls(monkeypatch):

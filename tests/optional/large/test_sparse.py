@@ -7,28 +7,19 @@ import pytest
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.errors import BackendError, ContactError, StepDataError, StepNotSolved
-from quasistatic_ref.lab.scenes import piles
+from quasistatic_ref.errors import BackendError, StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.study.bench.large import large_step, table
-from quasistatic_ref.model import world
-from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse import MOST_ITERATIONS, SparseSolver, reachable
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, Sphere
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
-from quasistatic_ref.tolerances import FAR
-from tests.helpers import always_in_blocks
-from tests.model.urdf.urdf_texts import written
-from tests.scenes import CLUB
+from tests.helpers import always_in_blocks, changed_blocks
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
 
 BOXES = (2, 1, 2)
@@ -69,20 +60,6 @@ def test_blocks_are_the_columns_of_J_that_are_not_zero(scene):
         sparse.motion(delta_q), dense.motion(delta_q), rtol=EXACT, atol=ROUNDING
     )
     assert sparse.name == dense.name
-
-
-def test_the_block_of_a_club_that_swings_over_a_floor_is_one_column(tmp_path):
-    # It turns about y, 0.1 m above the floor, with a ball of 0.01 m at x = 0.2: the ball's lowest
-    # point moves by y x (0.2, 0, -0.01) = (-0.01, 0, -0.2), and there is no spin about z.
-    system = System([Body("a", written(tmp_path, CLUB, "club.urdf"), "fixed", ("swing",))])
-    floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(np.eye(3)[2], 0.0))
-    on_club = system.link("a/club"), np.eye(3), np.array([0.2, 0.0, 0.0])
-    pairs = [ContactPair("p", floor, PlacedShape("ball", *on_club, Sphere(0.01)), 0.5, 0.0, 4, 1)]
-    kinematics = system.kinematics(system.q_start)
-    geometry = BlockGeometry(contact_layout(pairs), system.motion)
-    found = geometry.contacts(closest_points(pairs, kinematics), kinematics).blocks
-    assert found.column.tolist() == [[0]]
-    np.testing.assert_allclose(found.J, [[[-0.01], [0], [-0.2], [0]]], rtol=EXACT, atol=ROUNDING)
 
 
 def test_the_sparse_form_is_the_standard_form(always_sparse):
@@ -156,13 +133,6 @@ def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always
         SparseSolver(step, "daqp")
 
 
-def test_a_step_that_is_not_in_blocks_has_no_pattern():
-    step = step_after(pile(BOXES, certify="full"), 1).step
-    assert type(step.contacts) is not SparseContacts
-    with pytest.raises(StepDataError, match="must be in blocks"):
-        Pattern(step)
-
-
 def test_a_large_step_without_solution_is_no_answer(always_sparse):
     step = step_after(pile(BOXES), 1).step
     solver = SparseSolver(step, "clarabel")
@@ -172,31 +142,10 @@ def test_a_large_step_without_solution_is_no_answer(always_sparse):
     n, d1, d2 = (np.repeat(vectors[::2], 2, axis=0) for vectors in (at.n, at.d1, at.d2))
     n[1::2], d2[1::2] = -n[1::2], -d2[1::2]
     phi, blocks = np.full(at.n_c, -1e-3), replace(at.blocks, J=J)
-    torn = replace(at, phi=phi, n=n, d1=d1, d2=d2, blocks=blocks)
+    torn = changed_blocks(at, phi=phi, n=n, d1=d1, d2=d2, blocks=blocks)
     stuck = step.replace(contacts=torn)
     with pytest.raises(StepNotSolved, match="clarabel did not solve"):
         solve_step(stuck, solver, certify="off")
-
-
-@pytest.mark.parametrize(("within", "solvable"), [(1.0, False), (0.9, True)])
-def test_edges_of_aligned_boxes_have_no_normal_and_inner_points_do(monkeypatch, within, solvable):
-    monkeypatch.setattr(piles, "WITHIN", within)
-    some = pile((2, 1, 1), 16, certify="full")
-    q = some.q.copy()
-    q[7] -= piles.GAP + 1e-12  # x of the second box: it touches the first
-    if solvable:
-        result = some.simulator.step(q, NO_TARGET, some.force)
-        assert result.solution.certificate.kind == "exact"
-    else:
-        with pytest.raises(ContactError, match="no normal is right"):
-            some.simulator.step(q, NO_TARGET, some.force)
-
-
-def test_piqp_solves_a_step_whose_duality_gap_is_lost_in_rounding():
-    # 512 contacts: a gap of 1e-14 is never reached, the answer is right all the same.
-    some = pile((16, 1, 1), 32, backend="piqp", certify="residual")
-    residuals = step_after(some, 1).solution.certificate.residuals
-    assert max(residuals.values()) <= OPTIMUM
 
 
 def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():
@@ -209,47 +158,3 @@ def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():
     assert reachable(tight, 10) == tight | {"max_iter": MOST_ITERATIONS}
     split = BACKENDS["osqp"].attempts(1e-12)[0]
     assert reachable(split, 1000) == split  # it has no gap, and needs its many iterations
-
-
-def test_bodies_in_parts_are_the_bodies_at_once(monkeypatch):
-    def found(part):
-        monkeypatch.setattr(world, "PART", part)
-        system = load_scenario("bunny_grasp", fast=True).system
-        q = system.integrate(system.q_start, 0.1 * np.cos(np.arange(system.n_v)))
-        kinematics = system.kinematics(q)
-        M_u, force = system.M_u(q), system.gravity_force(q, (1.0, 2.0, -9.81))
-        return len(system._workspace.parts), (kinematics.R, kinematics.t, kinematics.J, M_u, force)
-
-    (one, at_once), (two, in_parts) = found(100), found(1)
-    assert (one, two) == (1, 2)
-    for a, b in zip(at_once, in_parts, strict=True):
-        np.testing.assert_allclose(b, a, rtol=EXACT, atol=ROUNDING)
-
-
-def test_what_a_large_step_costs_is_told_by_part_with_its_memory(always_sparse):
-    cost = large_step((3, 1, 1), steps=2)
-    # 3 on the floor and 2 between neighbours, 4 contacts of 6 rows each
-    assert (cost.bodies, cost.contacts, cost.coordinates, cost.rows) == (3, 20, 18, 120)
-    assert cost.sparse
-    assert 0 < cost.seconds <= cost.tail
-    assert sum(cost.parts.values()) <= cost.tail * (1 + ROUNDING)
-    # A has 12 contacts of 6 rows and 6 columns, 8 of 6 rows and 12 columns, and data and indices
-    assert 12 * (12 * 6 * 6 + 8 * 6 * 12) / 2**20 < cost.megabytes < 1
-    assert "| 3 | 20 | 18 | 120 | yes |" in table("bodies", [cost])[-1]
-
-
-@pytest.mark.usefixtures("always_sparse")
-def test_rows_beyond_their_reach_are_handed_over_at_it():
-    """FAR times a row's length, or FAR where that is more."""
-    step = step_after(pile(BOXES), 1).step
-    solver = SparseSolver(step, "piqp")
-    scaled = solver.scaled(step)
-    scaled.A.data *= np.where(scaled.A.indices % 2, 8.0, 0.125)
-    lengths = np.linalg.norm(scaled.A.toarray(), axis=1)
-    reach = FAR * np.maximum(1.0, lengths)
-    assert lengths.min() < 1 < lengths.max()
-    for share, beyond in ((0.99, False), (1.01, True)):
-        scaled.b = -share * reach
-        assert (solver.write(scaled) == beyond).all()
-        expected = -min(share, 1.0) * reach
-        np.testing.assert_allclose(solver.program.b, expected, rtol=ROUNDING, atol=0.0)

@@ -1,7 +1,5 @@
 """A trajectory as attributes, as a sequence of steps, and as a table of pandas."""
 
-import copy
-import pickle
 import sys
 from operator import attrgetter
 
@@ -38,14 +36,6 @@ def test_the_length_is_that_in_steps_and_an_empty_run_is_a_run(run):
     empty = Trajectory(run.header, {"t": np.zeros(0)})
     assert len(empty) == 0
     assert empty
-
-
-def test_copies_and_pickles_hold_the_same_arrays(run):
-    for other in (copy.copy(run), copy.deepcopy(run), pickle.loads(pickle.dumps(run))):
-        assert other.header == run.header
-        assert other.arrays.keys() == run.arrays.keys()
-        for name, array in run.arrays.items():
-            np.testing.assert_array_equal(other[name], array)
 
 
 def test_a_table_has_a_row_a_step_and_a_column_a_number(run):

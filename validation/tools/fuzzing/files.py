@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from validation.tools.fuzzing.records import (
+from tests.oracles.records import (
     NUMBERS,
     WORDS,
     Rng,

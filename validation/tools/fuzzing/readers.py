@@ -35,7 +35,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.files import step_read, step_text
 from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
 from tests.lab.study import made_store
-from tests.model.readers.test_meshes import COLLADA
+from tests.model.readers.test_mesh_files import COLLADA
 from tests.model.urdf.urdf_texts import collision, link, written
 from tests.model.urdf.urdf_texts import robot as urdf_of
 from validation.tools.fuzzing import texts

@@ -4,8 +4,7 @@ import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
-from quasistatic_ref.lab.runs import grasp
-from quasistatic_ref.simulate.measures import link_motion
+from quasistatic_ref.lab.runs import grasp, lift
 
 HELD, SWUNG, LIFTED = 1.0, 30.0, 0.030
 """Rotations that nobody would call a rotation, and that nobody would overlook [deg]; lift [m]."""
@@ -15,13 +14,11 @@ def evidence() -> Evidence:
     """Rotation during the lift, height of the lift, and how many steps are exact."""
     angles, lifts, exact, times = {}, [], [], np.zeros(0)
     for case in CASES:
-        scenario, run = grasp(case)
-        motion = link_motion(scenario.system, run, "bunny")
-        a, b = motion.index(CLOSED), motion.index(TOP)
-        times = motion.times[a : b + 1]
-        angles[case] = np.degrees(motion.rotation_since(CLOSED)[a : b + 1])
-        lifts.append(motion.t[b, 2] - motion.t[a, 2])
-        exact.append(np.mean(run["certificate"] == "exact"))
+        motion, steps = lift(case)
+        times = motion.times[steps]
+        angles[case] = np.degrees(motion.rotation_since(CLOSED)[steps])
+        lifts.append(motion.t[steps][-1, 2] - motion.t[steps][0, 2])
+        exact.append(np.mean(grasp(case)[1]["certificate"] == "exact"))
     h = float(grasp("with torsion")[0].h)
     picture = {"times": times, "angles": angles, "h": h}
     return Evidence.of(

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.cloud import closest
+from quasistatic_ref.contact.distance import closest_points, in_world, relative_pose
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.timing import (
@@ -198,11 +199,12 @@ def _selection(simulator: Simulator, q: Array) -> float:
     """Time of finding the closest points among those that are measured [s]; 0 by brute force."""
     if not isinstance(simulator, FastSimulator):
         return 0.0
-    clouds, at = simulator.tracker.clouds, simulator.system.kinematics(q)
-    assert clouds is not None
-    poses = clouds.placements.poses(at.R, at.t)
-    measured = [(batch, batch.distances(poses)) for batch in clouds.batches]
-    return seconds(lambda: [batch.selection(*found) for batch, found in measured])
+    at = simulator.system.kinematics(q)
+    measured = []
+    for cloud in simulator.tracker.clouds:
+        sides = in_world(cloud.solid, at.R, at.t), in_world(cloud.cloud, at.R, at.t)
+        measured.append((cloud.measured(relative_pose(*sides))[1], cloud.pair.k))
+    return seconds(lambda: [closest(phi, k) for phi, k in measured])
 
 
 UNFIT = ("highs", "qpsolvers:highs")

@@ -9,7 +9,8 @@ import numpy as np
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.scenes.piles import Pile, pile
 from quasistatic_ref.optional.fast.backends import DEFAULT_OF_LARGE
-from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
+from quasistatic_ref.step.data import Array
 
 CHAINS = (10, 20, 40, 80, 160)
 """Bodies in a row."""
@@ -84,7 +85,7 @@ def large_step(shape: tuple[int, int, int], k: int = 4, steps: int = STEPS) -> L
         contacts=some.contacts,
         coordinates=result.step.n_v,
         rows=int(result.step.offsets[-1]),
-        sparse=not isinstance(result.step.contacts, Contacts),
+        sparse=isinstance(result.step.contacts, SparseContacts),
         seconds=float(np.median([sum(lap.values()) for lap in timed])),
         tail=float(np.quantile([sum(lap.values()) for lap in timed], 0.99)),
         parts=parts,

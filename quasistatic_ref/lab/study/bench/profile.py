@@ -13,6 +13,7 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.lab.study.bench.grasp import by_numpy
 from quasistatic_ref.lab.study.bench.timing import seconds
 from quasistatic_ref.optional.fast.solver import FastSolver
+from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.solve.adapters.program import Adapter, Reply
@@ -202,14 +203,18 @@ def tracked_distances(scenario: Scenario, steps: int) -> Array:
     and lists that are made from fewer.)
     """
     simulator, q = by_numpy(scenario), scenario.system.q_start
-    clouds, counts = simulator.tracker.clouds, np.zeros(steps)
-    assert clouds is not None
+    tracker, counts = simulator.tracker, np.zeros(steps)
     a_pair = all_distances(scenario) // len(scenario.pairs)
     for k in range(steps):
-        before, listed = clouds.lists_made, sum(len(some.index) for some in clouds.lists)
+        before, listed = tracker.lists_made, _listed(tracker)
         q = simulator.step(q, scenario.targets(scenario.h * (k + 1))).q
-        made = clouds.lists_made - before
+        made = tracker.lists_made - before
         counts[k] = listed if k else all_distances(scenario)
         if made:
-            counts[k] += made * a_pair + sum(len(some.index) for some in clouds.lists)
+            counts[k] += made * a_pair + _listed(tracker)
     return counts
+
+
+def _listed(tracker: ContactTracker) -> int:
+    """How many points are on the lists of a tracker."""
+    return sum(len(cloud.list.index) for cloud in tracker.clouds if cloud.list is not None)

@@ -110,7 +110,7 @@ def _failed(words: str, seconds: float) -> Reply:
 
 
 def _by_cvxpy(name: str) -> Call:
-    from quasistatic_ref.solve.through_cvxpy import PlainPrograms  # heavy, not every worker's
+    from quasistatic_ref.lab.study.calling.plain_programs import PlainPrograms  # heavy: CVXPY
 
     programs = PlainPrograms(name)
 

@@ -6,11 +6,10 @@ Every combination of the values is one run, each step exact; a row is what the r
 import hashlib
 import os
 import time
-from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import asdict
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +17,7 @@ import numpy as np
 
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
-from quasistatic_ref.lab.parallel import results
+from quasistatic_ref.lab.parallel import results, workers
 from quasistatic_ref.lab.study.file.sweeps import Sweep, sweep_scenario
 from quasistatic_ref.lab.study.measuring.environment import machine, versions
 from quasistatic_ref.lab.study.store.rows import Row, key_of
@@ -86,12 +85,11 @@ def _workers(jobs: int | None, scheduler: str | None) -> Iterator[tuple[Executor
     if scheduler is not None:
         from quasistatic_ref.lab.study.measuring.cluster import executor_of
 
-        with executor_of(scheduler) as workers:
-            yield workers
+        with executor_of(scheduler) as there:
+            yield there
     else:
-        jobs = jobs or os.cpu_count() or 1
-        with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-            yield pool, jobs
+        with workers(jobs) as pool:
+            yield pool, jobs or os.cpu_count() or 1
 
 
 def check_point(sweep: Sweep, point: dict[str, Any]) -> None:
@@ -114,19 +112,27 @@ def run_file(row: Row) -> str:
     return f"{RUNS}/{row['sweep']}_{hashlib.sha256(key_of(row)[1].encode()).hexdigest()[:12]}.npz"
 
 
-def sweep_row(sweep: Sweep, point: dict[str, Any]) -> Row:
-    """One run, and what it came to; a run that ends early is a result too."""
-    return sweep_run(sweep, point)[0]
+def sweep_row(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, None]:
+    """One run without its trajectory, which may be large."""
+    return sweep_run(sweep, point)[0], None
 
 
 def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory]:
-    """The same with its trajectory."""
+    """One run, and what it came to; a run that ends early is a result too.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        If the user ended it.
+    """
     begin = time.perf_counter()
     scenario = sweep_scenario(sweep, point)
     outcome, reason = DONE, None
     try:
         trajectory = scenario.run(progress=False)
     except RunFailed as failure:
+        if isinstance(failure.__cause__, KeyboardInterrupt):
+            raise KeyboardInterrupt from None
         outcome, reason, trajectory = ENDED_EARLY, failure.reason, failure.trajectory
     measures = outcomes(scenario, trajectory, sweep.link, sweep.since)
     row = _naming(sweep, point) | {"outcome": outcome, "reason": reason, "measures": measures}
@@ -143,13 +149,11 @@ def _run(
 ) -> None:
     """Run what is left, and add its rows to the store."""
     with progress_bar(total=len(todo), unit="run", shown=progress) as bar:
-        if kept is None:
-            for row in results(executor, slots, sweep_row, todo):
-                store.add(row)
-                bar.update()
-            return
-        for row, trajectory in results(executor, slots, sweep_run, todo):
-            trajectory.save(kept / run_file(row))  # before the row, which names it
+        call: Callable[..., tuple[Row, Trajectory | None]]
+        call = sweep_row if kept is None else sweep_run
+        for row, trajectory in results(executor, slots, call, todo):
+            if kept is not None and trajectory is not None:
+                trajectory.save(kept / run_file(row))  # before the row, which names it
             store.add(row)
             bar.update()
 

@@ -1,14 +1,113 @@
-"""The rows of a study of solvers that a report compares first."""
+"""What a report on solvers compares: each at the setting that delivers so many digits soonest.
 
+A call that does not deliver them takes the time limit. So a setting is chosen by one number, the
+shifted geometric mean of these times, in which a fast setting pays for every problem that it loses.
+"""
+
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.study.report.columns import Columns, Where, chosen, groups, size
-from quasistatic_ref.lab.study.report.headline import WANTED, Soonest, soonest
-from quasistatic_ref.lab.study.report.noise import Noise, noise_of
+from quasistatic_ref.lab.study.report.rows import Rows, Where
+from quasistatic_ref.lab.study.report.statistics import shifted_geometric_mean
+
+WANTED = (6.0, 3.0, 9.0, 12.0)
+"""Digits for which times are given; the first are those that a simulator's step should have."""
+FEWEST = 5
+"""Pairs of one solver from which the noise of its mean is given."""
+MOST_OF = 90.0
+"""The percentile of solvers that the floor of the noise is [%]."""
+
+
+@dataclass(frozen=True)
+class Noise:
+    """How far two measurements of the same call differ.
+
+    Parameters
+    ----------
+    pairs : int
+        Measurements that were solved twice, at different moments.
+    call : float or None
+        Median of |t_1 / t_2 - 1| of one measurement [-].
+    floor : float or None
+        Of the shifted geometric mean of a solver's times, the 90th percentile of solvers [-]:
+        smaller differences between solvers are ties. None where nothing was measured twice.
+    """
+
+    pairs: int
+    call: float | None
+    floor: float | None
+
+    @property
+    def words(self) -> str:
+        """The noise as a sentence."""
+        if self.floor is None or self.call is None:
+            return (
+                "No measurement was repeated, or too few were: the noise of these times is not "
+                "known, and no difference is called a tie."
+            )
+        return (
+            f"{self.pairs:,} measurements were repeated after all others. The two times of a "
+            f"measurement differ by {100 * self.call:.0f} % (median), the two mean times of a "
+            f"solver by at most {100 * self.floor:.0f} % for nine solvers of ten. Solvers that "
+            "differ by less are tied."
+        )
+
+
+def noise_of(rows: Rows) -> Noise:
+    """The noise of a study, from its rows of repetitions 0 and 1."""
+    twice: dict[str, list[tuple[float, ...]]] = {}
+    calls = rows.at(solved=True).groups("label", "problem", "setting", "units", "warm")
+    for (label, *_), own in calls.items():
+        times = {row["repetition"]: row["seconds"] for row in own}
+        if len(times) == 2:
+            twice.setdefault(label, []).append((times[0], times[1]))
+    pairs = np.array([pair for own in twice.values() for pair in own])
+    if not len(pairs):
+        return Noise(0, None, None)
+    means = [
+        abs(np.log(shifted_geometric_mean(before) / shifted_geometric_mean(after)))
+        for before, after in (np.transpose(own) for own in twice.values() if len(own) >= FEWEST)
+    ]
+    spread = np.exp(abs(np.diff(np.log(pairs)))) - 1
+    floor = float(np.exp(np.percentile(means, MOST_OF)) - 1) if means else None
+    return Noise(len(pairs), float(np.median(spread)), floor)
+
+
+@dataclass(frozen=True, eq=False)
+class Soonest:
+    """One solver at its setting for so many digits.
+
+    Parameters
+    ----------
+    label, setting : str
+    rows : Rows
+        Its calls there.
+    times : ndarray, shape (calls,)
+        Of those, the time limit where the digits were not delivered [s].
+    least : float
+        The digits [-].
+    """
+
+    label: str
+    setting: str
+    rows: Rows
+    times: np.ndarray
+    least: float
+
+    @property
+    def machine(self) -> str:
+        """Where its calls were made, if several were merged."""
+        return str(self.rows.first("machine"))
+
+    @property
+    def mean(self) -> float:
+        """Shifted geometric mean of the times [s]."""
+        return shifted_geometric_mean(self.times)
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,9 +118,9 @@ class Comparison:
     ----------
     study : mapping
         As a store has it.
-    first : mapping of str to ndarray
+    first : Rows
         Of the first repetition.
-    columns : mapping of str to ndarray
+    rows : Rows
         Those of them on problems that have a solution, if there are any.
     settings : list of str
         Each solver's own first, then from loose to tight.
@@ -31,40 +130,56 @@ class Comparison:
     """
 
     study: Mapping[str, Any]
-    first: Columns
-    columns: Columns
+    first: Rows
+    rows: Rows
     settings: list[str]
     base: Where
     noise: Noise
 
     def soonest(self, least: float) -> list[Soonest]:
-        """Each solver at the setting that delivers so many digits soonest.
+        """Each solver at the setting that delivers so many digits soonest, the fastest first.
+
+        All are compared on the same problems, at every setting that each was called with.
 
         Parameters
         ----------
         least : float
             Digits [-].
         """
-        return soonest(self.columns, self.settings, self.base, least, self.study["time_limit"])
+        best: dict[str, Soonest] = {}
+        order = self.settings.index
+        for label, setting in sorted(self.compared, key=lambda key: order(key[1])):
+            rows = self.compared[label, setting]
+            late = rows["digits"] < least
+            times = np.where(late, self.study["time_limit"], rows["seconds"])
+            one = Soonest(label, setting, rows, times, least)
+            if label not in best or one.mean < best[label].mean:
+                best[label] = one
+        return sorted(best.values(), key=lambda one: one.mean)
+
+    @cached_property
+    def compared(self) -> dict[tuple[Any, ...], Rows]:
+        """The rows by label and setting, on the problems that all of these were called with."""
+        own = self.rows.at(self.base).common("label", "setting")
+        return own.groups("label", "setting")
 
     def fastest(self) -> list[Soonest]:
-        """Of the interfaces to one solver the one with the fastest 6 digits, for figures.
-
-        Of merged results figures show one machine, that with most rows.
-        """
-        found = [one for one in self.soonest(WANTED[0]) if one.machine == self.drawn]
-        by_solver = {str(one.rows["who"][0]): one for one in reversed(found)}
+        """Of the interfaces to one solver the one with the fastest 6 digits, for figures."""
+        drawn = self.drawn
+        found = [one for one in self.soonest(WANTED[0]) if one.machine == drawn]
+        by_solver = {one.rows.first("who"): one for one in reversed(found)}
         return sorted(by_solver.values(), key=lambda one: one.mean)
-
-    def best(self) -> list[str]:
-        """The labels of these solvers."""
-        return [one.label for one in self.fastest()]
 
     @property
     def drawn(self) -> str:
         """The machine that figures are of; empty where there is only one."""
-        names, counts = np.unique(self.columns["machine"], return_counts=True)
-        return str(names[counts.argmax()])
+        counts = Counter(str(row["machine"]) for row in self.rows)
+        return min(counts, key=lambda name: (-counts[name], name))
+
+    @property
+    def options(self) -> dict[str, Mapping[str, Any]]:
+        """The options of each solver at each setting, by ``interface:name``."""
+        return {f"{s['interface']}:{s['name']}": s["options"] for s in self.study["solvers"]}
 
     def at(self, setting: str) -> Where:
         """The fields of the rows that are compared first, at one setting."""
@@ -73,38 +188,27 @@ class Comparison:
     @property
     def main(self) -> list[str]:
         """The settings, at most two, with the most calls."""
-        counts = {s: size(chosen(self.columns, self.at(s))) for s in self.settings}
+        counts = {s: len(self.rows.at(self.at(s))) for s in self.settings}
         two = sorted(self.settings, key=lambda s: -counts[s])[:2]
         return [s for s in self.settings if s in two and counts[s]]
 
 
-def comparison_of(study: Mapping[str, Any], every: Columns) -> Comparison:
+def comparison_of(study: Mapping[str, Any], every: Rows) -> Comparison:
     """The comparison of a store.
 
     Parameters
     ----------
     study : mapping
-        As a store has it.
-    every : mapping of str to ndarray
-        All rows; what is compared is of the first repetition, on problems that have a solution if
-        there are any.
+    every : Rows
+        All of its rows on problems that were solved alone.
     """
-    first = chosen(every, {"repetition": 0})
-    columns = chosen(first, {"feasible": True})
-    columns = columns if size(columns) else first
-    settings, base = _settings(study, columns), _widest(columns)
-    return Comparison(study, first, columns, settings, base, noise_of(every))
-
-
-def _settings(study: Mapping[str, Any], columns: Columns) -> list[str]:
-    """The settings in the rows, each solver's own first, then from loose to tight."""
-    found = [s for s in study["settings"] if s["name"] in set(columns["setting"])]
-    found.sort(key=lambda s: -np.inf if s["accuracy"] is None else -s["accuracy"])
-    return [s["name"] for s in found]
-
-
-def _widest(columns: Columns) -> Where:
-    """The units, and warm or cold starts, with which most solvers were run."""
-    every = groups(columns, ["units", "warm"])
-    (units, warm), _ = max(every, key=lambda one: (len(set(one[1]["label"])), size(one[1])))
-    return {"units": units, "warm": warm == "True"}
+    first = every.at(repetition=0)
+    rows = first.at(feasible=True) or first
+    there = set(rows["setting"])
+    settings = [s for s in study["settings"] if s["name"] in there]
+    settings.sort(key=lambda s: -np.inf if s["accuracy"] is None else -s["accuracy"])
+    parts = rows.groups("units", "warm")
+    widest = max(parts, key=lambda key: (len(set(parts[key]["label"])), len(parts[key])))
+    base: Where = dict(zip(("units", "warm"), widest, strict=True))
+    names = [s["name"] for s in settings]
+    return Comparison(study, first, rows, names, base, noise_of(every))

@@ -6,46 +6,12 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section
-from quasistatic_ref.lab.study.report.columns import (
-    chosen,
-    columns_of,
-    common,
-    groups,
-    matrix,
-    size,
-)
-from quasistatic_ref.lab.study.report.comparison import Comparison, comparison_of
-from quasistatic_ref.lab.study.report.headline import WANTED, soonest_table
-from quasistatic_ref.lab.study.report.judged_tables import (
-    claims_sentence,
-    detection,
-    failing_clocks,
-    parts_of_calls,
-)
-from quasistatic_ref.lab.study.report.noise import noise_words
-from quasistatic_ref.lab.study.report.numbers import filter_words
-from quasistatic_ref.lab.study.report.report_words import (
-    limitations,
-    method,
-    options_table,
-    place_tables,
-    settings_table,
-)
-from quasistatic_ref.lab.study.report.sequences import sequence_tables
-from quasistatic_ref.lab.study.report.solver_tables import (
-    LEVELS,
-    contrast,
-    false_claims,
-    family_digits,
-    family_table,
-    outcome_table,
-    problem_table,
-    same_problems,
-    solver_table,
-    worst_claims,
-)
-from quasistatic_ref.lab.study.report.statistics import performance_ratios, success
-from quasistatic_ref.lab.study.report.worst import worst_problems
+from quasistatic_ref.lab.study.report import tables
+from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, comparison_of
+from quasistatic_ref.lab.study.report.rows import Where, rows_of
+from quasistatic_ref.lab.study.report.statistics import SHIFT, performance_ratios, success
+from quasistatic_ref.lab.study.report.tables import LEVELS, same_problems
+from quasistatic_ref.lab.study.report.words import filter_words, sentences
 from quasistatic_ref.lab.study.store.store import Contents
 
 PROFILED = (6.0, 9.0)
@@ -58,135 +24,136 @@ def solver_report(found: Contents) -> Report:
     Parameters
     ----------
     found : Contents
+
+    Returns
+    -------
+    Report
     """
     study, facts = found.study, found.problems
-    every = columns_of(found.rows, study["time_limit"])
-    first = chosen(every, {"repetition": 0})
-    alone = chosen(every, {"mode": ""})
+    every = rows_of(found.rows, study["time_limit"])
+    first, alone = every.at(repetition=0), every.at(mode="")
     head = (
         f"{len(facts):,} problems, {len(set(every['way'])):,} pairs of solver and interface, "
         f"{len(found.rows):,} measurements."
     )
     sections: dict[str, Sequence[Block]] = {}
-    if size(alone):
+    if alone:
         sections |= _of_problems(comparison_of(study, alone), found, head)
+    method = sentences("method", limit=study["time_limit"], shift=1e3 * SHIFT)
+    places = [*tables.place_tables(study), tables.options_table(study["solvers"])]
     sections |= {
-        "Steps in order": sequence_tables(found.rows, facts),
-        "How calls ended": [outcome_table(first), *failing_clocks(first)],
-        "Method": [*method(study["time_limit"]), settings_table(study["settings"])],
-        "Limitations": limitations(),
-        "Problems": [problem_table(facts)],
-        "Machine, versions, options": [*place_tables(study), options_table(study["solvers"])],
+        "Steps in order": tables.sequence_tables(every, facts),
+        "How calls ended": [tables.outcome_table(first), *tables.failing_clocks(first)],
+        "Method": [*method, tables.settings_table(study["settings"])],
+        "Limitations": sentences("limitations"),
+        "Problems": [tables.problem_table(facts)],
+        "Machine, versions, options": places,
     }
     title = "Solvers on contact problems with exact answers"
-    parts = (Section(name, tuple(part)) for name, part in sections.items() if part)
-    return Report(title, tuple(parts))
+    return Report(title, tuple(Section(n, tuple(part)) for n, part in sections.items() if part))
 
 
 def _of_problems(comparison: Comparison, found: Contents, head: str) -> dict[str, Sequence[Block]]:
     """The sections on problems that were solved one at a time."""
-    columns, facts = comparison.columns, found.problems
+    facts = found.problems
     if machines := found.study.get("machines"):
         head += f" Made on {len(machines)} machines: {', '.join(machines)}; "
         head += f"the figures are of {comparison.drawn}."
-    heads = [head, noise_words(comparison.noise)]
-    fastest = [(one.label, one.setting) for one in comparison.fastest()]
+    soonest = comparison.soonest(WANTED[0])
     families = list(dict.fromkeys(fact["family"] for fact in facts))
-    calls = [(one.rows, one.setting) for one in comparison.soonest(WANTED[0])]
+    heads = [head, comparison.noise.words]
     return {
         "Time to so many digits": [*heads, *_headline(comparison, found.unreached)],
         "Accuracy and time": _compared(comparison),
-        "False claims": [*_claims(comparison), *detection(comparison.first)],
-        "Worst problems": worst_problems(columns, comparison.base, fastest, facts),
+        "False claims": [*_claims(comparison), tables.detection(comparison.first)],
+        "Worst problems": tables.worst_problems(comparison, facts, comparison.fastest()),
         "By problem family": _by_family(comparison, families),
         "Units, warm starts, interfaces": _contrasts(comparison),
-        "Set-up, solving, conversion": parts_of_calls(calls, comparison.base),
+        "Set-up, solving, conversion": tables.parts_of_calls(soonest, comparison.base),
     }
 
 
 def _headline(comparison: Comparison, unreached: Mapping[str, str]) -> list[Block]:
-    options = {f"{s['interface']}:{s['name']}": s["options"] for s in comparison.study["solvers"]}
-    tables = []
-    for least in WANTED:
-        shown = options if least == WANTED[0] else None
-        tables.append(
-            soonest_table(comparison.soonest(least), comparison.base, comparison.noise, shown)
-        )
-    there = set(chosen(comparison.columns, comparison.base)["label"])
+    there = set(comparison.rows.at(comparison.base)["label"])
     words = [f"{label} was left out: it {reason}." for label, reason in unreached.items()]
-    if missing := sorted(set(comparison.columns["label"]) - there):
+    if missing := sorted(set(comparison.rows["label"]) - there):
         names = f"{', '.join(missing)} {'was' if len(missing) == 1 else 'were'}"
-        words.append(
-            f"{names} never run with {filter_words(comparison.base)}, and cannot be compared."
-        )
-    return [*words, *tables]
+        never = filter_words(comparison.base)
+        words.append(f"{names} never run with {never}, and cannot be compared.")
+    found = [comparison.soonest(least) for least in WANTED]
+    first = tables.soonest_table(found[0], comparison, comparison.options)
+    return [*words, first, *(tables.soonest_table(own, comparison) for own in found[1:])]
 
 
 def _compared(comparison: Comparison) -> list[Block]:
-    panels, shares, said, best = [], [], [], comparison.best()
+    best = [one.label for one in comparison.fastest()]
+    each = [tables.solver_table(comparison, setting) for setting in comparison.settings]
+    pictures = _profiles(comparison, best), _successes(comparison, best)
+    return [*pictures, _against_time(comparison, best), *each]
+
+
+def _profiles(comparison: Comparison, best: Sequence[str]) -> Block:
+    panels, said = [], []
     for least in PROFILED:
         found = {one.label: one for one in comparison.soonest(least)}
         lines = [found[label] for label in best if label in found]
-        if not lines:
-            continue
-        order = [np.argsort(one.rows["unit"]) for one in lines]
-        times = np.array([one.rows["seconds"][at] for one, at in zip(lines, order, strict=True)])
-        good = np.array([one.rows["digits"][at] for one, at in zip(lines, order, strict=True)])
-        ratios = performance_ratios(times, good >= least)
-        title = f"right to {least:g} digits"
-        panels.append({"title": title, "labels": [one.label for one in lines], "ratios": ratios})
-        said.append(f"{title}{same_problems(lines[0].rows)}")
-    settings = "; ".join(said) + "; each at the setting of the table of that time"
-    profiles = f"{filter_words(comparison.base)}; {settings}"
-    said = []
-    for setting in comparison.main:
-        own = common(chosen(comparison.columns, comparison.at(setting)))
-        labels = [label for (label,), _ in groups(own, ["label"]) if label in best]
-        if labels:
-            right = matrix(own, "digits", labels)
-            of = np.array([[success(d, level) for level in LEVELS] for d in right])
-            shares.append({"title": setting, "labels": labels, "shares": of})
-            said.append(f"setting = {setting}{same_problems(own)}")
-    rows = f"{filter_words(comparison.base)}; {'; '.join(said)}"
-    words, levels = "Problems solved to 3, 6 and 9 correct digits.", {"levels": LEVELS}
+        if lines:
+            times = np.array([one.rows.sorted_by_unit("seconds") for one in lines])
+            good = np.array([one.rows.sorted_by_unit("digits") for one in lines])
+            ratios = performance_ratios(times, good >= least)
+            title = f"right to {least:g} digits"
+            labels = [one.label for one in lines]
+            panels.append({"title": title, "labels": labels, "ratios": ratios})
+            said.append(f"{title}{same_problems(lines[0].rows)}")
     caption = (
         "Performance profiles, of each solver through the interface with the fastest 6 digits."
     )
-    return [
-        _picture("profiles", panels, caption, profiles),
-        _picture("success", shares, words, rows, **levels),
-        _against_time(comparison, best),
-        *(
-            solver_table(comparison.columns, comparison.at(setting))
-            for setting in comparison.settings
-        ),
-    ]
+    words = "; ".join(said) + "; each at the setting of the table of that time"
+    return _picture("profiles", panels, caption, comparison.base, words)
 
 
-def _picture(name: str, panels: list[Any], caption: str, where: str, **more: Any) -> Block:
+def _successes(comparison: Comparison, best: Sequence[str]) -> Block:
+    panels, said = [], []
+    for setting in comparison.main:
+        own = comparison.rows.at(comparison.at(setting)).common()
+        right = {
+            label: part.sorted_by_unit("digits")
+            for (label,), part in own.groups("label").items()
+            if label in best
+        }
+        if right:
+            shares = np.array([[success(d, level) for level in LEVELS] for d in right.values()])
+            panels.append({"title": setting, "labels": list(right), "shares": shares})
+            said.append(f"setting = {setting}{same_problems(own)}")
+    words = "Problems solved to 3, 6 and 9 correct digits."
+    return _picture("success", panels, words, comparison.base, "; ".join(said), levels=LEVELS)
+
+
+def _picture(
+    name: str, panels: list[Any], caption: str, where: Where, said: str, **more: Any
+) -> Block:
     """A picture, or a sentence in place of one that would be empty."""
     if not panels:
         return (
             f"There is no problem that all solvers were run on: the figure `{name}` is not drawn."
         )
-    return Picture(name, name, {"panels": panels, **more}, caption, where)
+    rows = f"{filter_words(where)}; {said}"
+    return Picture(name, name, {"panels": panels, **more}, caption, rows)
 
 
 def _against_time(comparison: Comparison, best: Sequence[str]) -> Block:
     """Digits against time: a line a solver, a mark a setting, all on the same problems."""
     own_ = {s["name"]: s["accuracy"] is None for s in comparison.study["settings"]}
     panels, said = [], []
-    for units in sorted(set(comparison.columns["units"])):
-        own = common(
-            chosen(comparison.columns, {**comparison.base, "units": units}), ["label", "setting"]
-        )
+    for units in sorted(set(comparison.rows["units"])):
+        own = comparison.rows.at({**comparison.base, "units": units}).common("label", "setting")
         lines = {
             label: [
                 (own_[s], float(np.median(at["seconds"])), float(np.median(at["digits"])))
                 for s in comparison.settings
-                if size(at := chosen(part, {"setting": s}))
+                if (at := part.at(setting=s))
             ]
-            for (label,), part in groups(own, ["label"])
+            for (label,), part in own.groups("label").items()
             if label in best
         }
         if lines:
@@ -198,48 +165,48 @@ def _against_time(comparison: Comparison, best: Sequence[str]) -> Block:
         "filled the solver's own, filled the tightest. A line joins the solver's other settings, "
         "from loose to tight."
     )
-    return _picture("digits_time", panels, caption, f"{filter_words(where)}; {'; '.join(said)}")
+    return _picture("digits_time", panels, caption, where, "; ".join(said))
 
 
 def _claims(comparison: Comparison) -> list[Block]:
-    columns = comparison.columns
+    rows = comparison.rows
     promised = {s["name"]: s["promised"] for s in comparison.study["settings"]}
-    tables = [
-        false_claims(columns, comparison.settings, {"units": units, "warm": warm == "True"})
-        for (units, warm), _ in sorted(groups(columns, ["units", "warm"]), key=lambda one: one[0])
+    found = [
+        tables.false_claims(rows, comparison.settings, {"units": units, "warm": warm})
+        for units, warm in sorted(rows.groups("units", "warm"))
     ]
-    return [*claims_sentence(columns), *tables, worst_claims(columns, promised)]
+    return [tables.claims_sentence(rows), *found, tables.worst_claims(rows, promised)]
 
 
 def _by_family(comparison: Comparison, families: Sequence[str]) -> list[Block]:
-    panels, tables, said = [], [], []
+    panels, found, said = [], [], []
     for setting in comparison.main:
         where = comparison.at(setting)
-        labels, found = family_digits(comparison.columns, where, families)
-        more = same_problems(common(chosen(comparison.columns, where)))
-        if not labels:
-            continue
-        panel = {"labels": labels, "families": families, "digits": found}
-        panels.append({"title": f"setting {setting}", **panel})
-        tables.append(family_table(labels, found, where, families, more))
-        said.append(f"setting = {setting}{more}")
+        own = comparison.rows.at(where).common()
+        labels, digits = tables.family_digits(own, families)
+        if labels:
+            more = same_problems(own)
+            panel = {"labels": labels, "families": families, "digits": digits}
+            panels.append({"title": f"setting {setting}", **panel})
+            found.append(tables.family_table(labels, digits, families, where, more))
+            said.append(f"setting = {setting}{more}")
     caption = "Median digits delivered, by problem family and solver."
-    rows = f"{filter_words(comparison.base)}; {'; '.join(said)}"
-    return [_picture("families", panels, caption, rows), *tables]
+    return [_picture("families", panels, caption, comparison.base, "; ".join(said)), *found]
 
 
 def _contrasts(comparison: Comparison) -> list[Block]:
     units, cold = {"units": comparison.base["units"]}, {"warm": False}
-    columns, ways = (comparison.columns, comparison.settings), ["label", "setting"]
-    raw = ("raw", "natural")
-    tables = [
-        contrast(*columns, "Raw units and natural units.", "units", raw, cold, ways),
-        contrast(*columns, "Cold and warm starts.", "warm", (False, True), units, ways, True),
-    ]
+    ways, raw = ("label", "setting"), ("raw", "natural")
+    found = [
+        tables.contrast(comparison, "Raw units and natural units.", "units", raw, cold, ways),
+        tables.contrast(comparison, "Cold and warm starts.", "warm", (False, True), units, ways,
+                        iterations=True),
+    ]  # fmt: skip
+    where = units | cold
     if len(machines := comparison.study.get("machines", [])) > 1:
-        way, where = ["way", "setting"], units | cold
-        tables.append(contrast(*columns, "Machines.", "machine", machines, where, way))
+        way = ("way", "setting")
+        found.append(tables.contrast(comparison, "Machines.", "machine", machines, where, way))
     for one, other in (("qpsolvers", "cvxpy"), ("native", "qpsolvers")):
         title = f"{one} and {other}."
-        tables.append(contrast(*columns, title, "interface", (one, other), units | cold))
-    return [table for table in tables if table.rows]
+        found.append(tables.contrast(comparison, title, "interface", (one, other), where))
+    return [table for table in found if table.rows]

@@ -4,7 +4,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section, Table
-from quasistatic_ref.lab.study.report.report_words import place_tables, sweep_method
+from quasistatic_ref.lab.study.report.tables import place_tables
+from quasistatic_ref.lab.study.report.words import sentences
 from quasistatic_ref.lab.study.store.rows import Row
 
 MEASURES = (
@@ -41,8 +42,8 @@ def sweep_report(study: Mapping[str, Any], rows: Sequence[Row]) -> Report:
     ]
     return Report(
         "Simulation parameters swept over scenarios",
-        (*sections, Section("Method and limitations", tuple(sweep_method())),
-         Section("Machine and versions", place_tables(study))),
+        (*sections, Section("Method and limitations", tuple(sentences("sweep"))),
+         Section("Machine and versions", tuple(place_tables(study)))),
     )  # fmt: skip
 
 

@@ -15,7 +15,7 @@ from typing import Any
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.lab.study.problems.for_study import FOLDER
-from quasistatic_ref.lab.study.store.claim import joined, lasting
+from quasistatic_ref.lab.study.store.continued import joined, lasting
 from quasistatic_ref.lab.study.store.pack import shorter
 from quasistatic_ref.lab.study.store.rows import Row, key_of, label_of
 from quasistatic_ref.lab.study.store.store import Contents, Store, contents

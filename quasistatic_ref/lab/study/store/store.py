@@ -17,7 +17,7 @@ from typing import Any, Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read, json_text
-from quasistatic_ref.lab.study.store.claim import continued, label
+from quasistatic_ref.lab.study.store.continued import continued, label
 from quasistatic_ref.lab.study.store.rows import Row, flat, key_of, label_of, nested
 
 STORE, PACKED = "study.sqlite", "study.json.xz"

@@ -7,9 +7,9 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_read
 from quasistatic_ref.lab.vectors.challenge.findings import FORMAT
-from quasistatic_ref.lab.vectors.challenge.live import challenge, sent_again
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import Program
+from quasistatic_ref.lab.vectors.challenge.rounds import challenge, sent_again
 from quasistatic_ref.lab.vectors.challenge.serve import served
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS
 

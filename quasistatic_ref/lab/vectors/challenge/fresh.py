@@ -1,4 +1,4 @@
-"""A case of a layer for any seed: from the families of the vectors, easy ones first.
+"""A case of a layer for any seed, easy ones first.
 
 Easy is one contact, few bodies and numbers of one digit; then come cases as the vectors have them,
 then those that are degenerate, badly scaled, or without solution.
@@ -10,37 +10,61 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.lab.scenes.at_random import Rng, random_contacts, random_step
+from quasistatic_ref.lab.scenes.at_random import Rng, random_contacts, random_frames
+from quasistatic_ref.lab.scenes.at_random import random_step as random_program
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step
 from quasistatic_ref.lab.vectors.challenge.simpler import rounded_case
 from quasistatic_ref.lab.vectors.challenge.terms import terms
 from quasistatic_ref.lab.vectors.challenge.valid import is_valid
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families import rows as rows_family
 from quasistatic_ref.lab.vectors.families.derivative import (
     derivative_at_random,
     hangs_on_rounding,
     is_tame,
 )
-from quasistatic_ref.lab.vectors.families.distance import SHAPES, mixed_points
-from quasistatic_ref.lab.vectors.families.integrate import step_at_random
-from quasistatic_ref.lab.vectors.families.jacobian import with_contacts
 from quasistatic_ref.lab.vectors.families.mechanisms import (
     few_digits,
     follower,
     free_body,
     link,
     random_pose,
+    random_q,
+    random_step,
     random_tree,
 )
 from quasistatic_ref.lab.vectors.families.random_scenes import random_scene
-from quasistatic_ref.lab.vectors.families.steps import program
-from quasistatic_ref.lab.vectors.families.wrench import CONES, random_loads
+from quasistatic_ref.lab.vectors.families.steps import PLACE, program, rows_input, wrench_input
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.layers import step as step_layer
+from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.data import Contacts
 
+CONES: Final = (
+    "pyramid",
+    "product",
+    "facets-4",
+    "facets-6",
+    "facets-8",
+    "facets-16",
+    "frictionless",
+)
+SHAPES: Final[dict[str, Json]] = {
+    "sphere": {"radius": 0.2},
+    "box": {"size": [0.3, 0.5, 0.4]},
+    "capsule": {"radius": 0.1, "length": 0.5},
+    "convex": {
+        "vertices": [
+            *([0.3, 0.1, 0.0], [-0.2, 0.3, 0.1], [-0.1, -0.3, 0.0]),
+            *([0.05, 0.0, 0.4], [0.0, 0.1, -0.2], [0.2, -0.2, 0.15]),
+        ]
+    },
+    "cylinder": {"radius": 0.15, "length": 0.4},
+    "cone": {"radius": 0.2, "length": 0.5},
+    "ellipsoid": {"half_axes": [0.1, 0.2, 0.3]},
+    "halfspace": {"normal": [0.1, 0.2, 0.97], "offset": 0.1},
+}
+"""One shape of each kind, of the size of things that a robot holds [m]."""
 EASY, PLAIN, HARD = 0, 1, 2
 """How hard cases are: one contact and round numbers; as the vectors have them; corners."""
 TRIES: Final = 20
@@ -128,7 +152,7 @@ def _contacts(rng: Rng, level: int, n_v: int) -> Contacts:
 
 def _rows(rng: Rng, level: int) -> Json:
     at = _contacts(rng, level, int(rng.integers(1, 3 if level == EASY else 9)))
-    return rows_family.rows_input(at, str(rng.choice(rows_family.CONES)))
+    return rows_input(at, str(rng.choice(CONES)))
 
 
 def _qp(rng: Rng, level: int) -> Json:
@@ -139,19 +163,38 @@ def _qp(rng: Rng, level: int) -> Json:
     if level == PLAIN and rng.integers(4) == 0:
         at = _contacts(rng, PLAIN, n_a + n_u)
         at = repeated(at, range(at.n_c), phi=abs(at.phi))
-        return program(random_step(rng, n_a, n_u, at, cone="ellipsoid"))
+        return program(random_program(rng, n_a, n_u, at, cone="ellipsoid"))
     kind = int(rng.integers(3)) if level == HARD else -1  # one trouble at a time
     ratio = 10.0 ** int(rng.integers(9)) if kind == 0 else 1.0
     at = _contacts(rng, HARD if kind == 1 else min(level, PLAIN), n_a + n_u)
-    found = program(random_step(rng, n_a, n_u, at, ratio))
+    found = program(random_program(rng, n_a, n_u, at, ratio))
     if kind == 2:  # a row and its opposite, that leave no room
         found["A"].append([-x for x in found["A"][0]])
         found["b"].append(-found["b"][0] + 1e-3)
     return found
 
 
+def random_loads(rng: Rng, n_c: int, cone: str) -> Json:
+    """The input with multipliers at random, on contacts between three bodies and the world."""
+    at = random_contacts(rng, n_c, 1)
+    names = [None, "a", "b", "c"]
+    points = []
+    for n, phi in zip(at.n, at.phi, strict=True):
+        one, two = rng.choice(4, 2, replace=False)
+        alpha = 0.2 * rng.standard_normal(3)
+        place = (names[one], names[two], alpha.tolist(), (alpha + phi * n).tolist())
+        points.append(dict(zip(PLACE, place, strict=True)))
+    touched = {point[body] for point in points for body in PLACE[:2]} - {None}
+    bodies = {body: {"point": rng.uniform(-1, 1, 3).tolist()} for body in sorted(touched)}
+    count = int(cone_of(cone).counts(at.rows).sum())
+    lam = rng.random(count) * (rng.random(count) < 0.6)
+    if cone == "ellipsoid":
+        lam = lam.reshape(-1, 4) * [4, 0.1, -0.1, 0.001]
+    return wrench_input(at, cone, 0.01, lam.ravel() + 0.0, points, bodies)
+
+
 def _wrench(rng: Rng, level: int) -> Json:
-    cone = "pyramid" if level == EASY else str(rng.choice(CONES))
+    cone = "pyramid" if level == EASY else str(rng.choice([*CONES, "ellipsoid"]))
     case = random_loads(rng, 1 if level == EASY else int(rng.integers(1, 6)), cone)
     return {**case, "h": float(rng.choice([0.01, 0.02, 0.005, 0.1]))}
 
@@ -173,12 +216,22 @@ def _tree(rng: Rng, level: int) -> Json:
 
 
 def _jacobian(rng: Rng, level: int) -> Json:
-    return with_contacts(rng, _tree(rng, level), 1 if level == EASY else int(rng.integers(1, 4)))
+    tree, count = _tree(rng, level), 1 if level == EASY else int(rng.integers(1, 4))
+    names = [body["name"] for body in tree["bodies"]]
+    contacts = []
+    for frame in random_frames(rng, count):
+        d1, d2, n = frame.tolist()
+        bodies = {"alpha_body": [None, *names][int(rng.integers(len(names)))]}
+        point = {side: few_digits(rng.uniform(-1, 1, 3)) for side in ("alpha", "beta")}
+        contacts.append({**bodies, "beta_body": names[-1], "n": n, "d1": d1, "d2": d2, **point})
+    return {"mechanism": tree, "q": random_q(rng, tree), "contacts": contacts}
 
 
 def _integrate(rng: Rng, level: int) -> Json:
     size = (0.5, 0.5, 10.0 ** -int(rng.integers(9)))[level]
-    return step_at_random(rng, _tree(rng, level), size)
+    tree = _tree(rng, level)
+    q, delta_q = random_q(rng, tree), random_step(rng, tree, size)
+    return {"mechanism": tree, "q": q, "delta_q": delta_q}
 
 
 def _selection(rng: Rng, level: int) -> Json:
@@ -189,13 +242,11 @@ def _selection(rng: Rng, level: int) -> Json:
 
 
 def _shape(rng: Rng, kind: str) -> Json:
-    """A shape of the family, of other lengths."""
+    """A shape of other lengths."""
     factor = float(rng.choice([0.5, 1.0, 2.0, 0.1]))
-    scaled = {"radius", "length", "offset", "size", "half_axes", "vertices"}
-    return {
-        key: np.multiply(factor, value).tolist() if key in scaled else value
-        for key, value in SHAPES[kind].items()
-    }
+    lengths = {key: value for key, value in SHAPES[kind].items() if key != "normal"}
+    scaled = {key: np.multiply(factor, value).tolist() for key, value in lengths.items()}
+    return {"kind": kind, **SHAPES[kind], **scaled}
 
 
 def _distance(rng: Rng, level: int) -> Json:
@@ -206,7 +257,8 @@ def _distance(rng: Rng, level: int) -> Json:
         kinds[1] = "sphere"
     sides = [_shape(rng, kind) for kind in kinds]
     if level == HARD and rng.integers(4) == 0:
-        sides[1] = {"kind": "cloud", "points": mixed_points(rng, 5)}
+        points = [[0.0, 0.0, 0.0], [0.0, 0.0, 0.21], *rng.uniform(-0.45, 0.45, (3, 3)).tolist()]
+        sides[1] = {"kind": "cloud", "points": points}
     sides = sides[:: 1 if rng.integers(2) else -1]
     places = [random_pose(rng, 0.6) for _ in sides]
     if level == HARD and rng.integers(4) == 0:

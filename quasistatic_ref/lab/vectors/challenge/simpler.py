@@ -9,7 +9,11 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.lab.vectors.challenge.fewer import fewer_bodies, fewer_coordinates, fewer_parts
+from quasistatic_ref.lab.vectors.challenge.removals import (
+    fewer_bodies,
+    fewer_coordinates,
+    fewer_parts,
+)
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, UPRIGHT
 

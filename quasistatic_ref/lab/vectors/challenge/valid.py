@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from quasistatic_ref.lab.vectors.converters import places
 from quasistatic_ref.lab.vectors.expected import Json
 
 SQUARE = 1e-9
@@ -68,15 +69,13 @@ def _frame(contact: Json) -> bool:
 
 def _turned(case: Json) -> bool:
     """Whether no quaternion and no (cos, sin) in q or in a target is zero."""
-    from quasistatic_ref.lab.vectors.converters import places
-
     units = {"floating": 3, "planar": 2, "continuous": 0}
-    found = places(case["mechanism"])
-    if len(case["q"]) != max((at.q.stop for at in found), default=0):
+    found = list(places(case["mechanism"]))
+    if len(case["q"]) != max((q.stop for _, q, _ in found), default=0):
         return False
-    for at in found:
-        if at.kind in units:
-            part = slice(at.q.start + units[at.kind], at.q.stop)
+    for body, q, _ in found:
+        if body["joint"] in units:
+            part = slice(q.start + units[body["joint"]], q.stop)
             values = [case["q"][part], case.get("q_bar_a", [])[part]]
             if not all(np.any(value) for value in values if value):
                 return False

@@ -9,13 +9,12 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.lab.program.wrench import contact_wrench
 from quasistatic_ref.lab.vectors.check.compare import number_problem, tolerance_of
 from quasistatic_ref.lab.vectors.check.verdict import PASSED, Verdict, acceptable, failure
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
-from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.friction import cone_matrix
 
 EPS: Final = float(np.finfo(np.float64).eps)
 NEGLIGIBLE: Final = 1e-9
@@ -98,16 +97,11 @@ def wrench_problem(case: Json, record: Json, answer: Json) -> str | None:
     pairs = [by_name[contact["pair"]] for contact in contacts]
     parts = by_contact(answer["lam"], case["cone"], pairs)
     for j, (pair, lam) in enumerate(zip(pairs, parts, strict=True)):
-        part = np.array(lam, dtype=np.float64) / case["h"]
-        if case["cone"] == ELLIPSOID:
-            wrench = part[[1, 2, 0, 3]]
-        else:
-            mu_omega = pair["mu_omega"] if pair["rows"] == 6 else 0.0
-            mu = np.array([1.0, pair["mu_v"], pair["mu_v"], mu_omega])
-            wrench = (part @ cone_matrix(case["cone"])[: len(part)] * mu)[[1, 2, 0, 3]]
+        wrench = np.array(contact_wrench({**pair, "lam": lam}, case["cone"], case["h"]))
+        size = float(np.abs(np.array(lam, dtype=np.float64) / case["h"]).sum())
         off = float(np.abs(wrench - np.array(answer["wrench"][j])).max())
         room = tolerance_of(record["tolerance"], "wrench")
-        if not off <= room + 16 * EPS * float(np.abs(part).sum()) < np.inf:
+        if not off <= room + 16 * EPS * size < np.inf:
             return f"wrench[{j}] is not what its lam makes: it is off by {off:.2g}"
     return None
 

@@ -14,11 +14,9 @@ import numpy as np
 from quasistatic_ref.lab.vectors.check.compare import tolerance_of
 from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
 from quasistatic_ref.lab.vectors.distances.candidates import parts
-from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.lab.vectors.layers.rows import by_contact
-from quasistatic_ref.lab.vectors.layers.step import shape_pose
+from quasistatic_ref.lab.vectors.layers.step import answered, of_pair, shape_pose, with_rows
 from quasistatic_ref.step.data import Array
 
 TIED: Final = 1e-9
@@ -47,7 +45,6 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
     for one, other in pairwise(contacts):
         if one["pair"] == other["pair"] and one["index"] > other["index"]:
             return f"those of {one['pair']} do not stand in the order of index"
-    tree = mechanism(case["mechanism"])
     for pair in case["pairs"]:
         own = [c for c in contacts if c["pair"] == pair["name"]]
         due = sorted(c["phi"] for c in wanted if c["pair"] == pair["name"])
@@ -59,7 +56,7 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
         sides: dict[str, Json] = {}
         for side in ("alpha", "beta"):
             entry = case["shapes"][pair[side]]
-            sides |= {side: entry["shape"], f"pose_{side}": shape_pose(tree, case["q"], entry)}
+            sides |= {side: entry["shape"], f"pose_{side}": shape_pose(case, entry)}
         candidates = [one for part in parts(sides, pair["k"]) for one in solid_cases(part)]
         for contact in own:
             if not 0 <= contact["index"] < len(candidates):
@@ -90,32 +87,10 @@ def _projected(axis: int, n: Array) -> Array:
 def record_from(case: Json, record: Json, contacts: Json) -> Json:
     """What is expected of a step with these contacts: H, g and all tolerances stay."""
     pairs = {pair["name"]: pair for pair in case["pairs"]}
-    entries = []
-    for contact in contacts:
-        pair = pairs[contact["pair"]]
-        bodies = {f"{s}_body": case["shapes"][pair[s]]["body"] for s in ("alpha", "beta")}
-        friction = {key: pair[key] for key in ("mu_v", "mu_omega", "rows")}
-        entries.append({**contact, **bodies, **friction})
-    tree = {"mechanism": case["mechanism"], "q": case["q"]}
-    J = layer("jacobian").expected({**tree, "contacts": entries}).output["J"]
-    entries = [{**entry, "J": block} for entry, block in zip(entries, J, strict=True)]
-    old = record["output"]
-    rows = layer("rows").expected({"cone": case["cone"], "contacts": entries}).output
-    solved = layer("qp").expected({"H": old["H"], "g": old["g"], **rows})
-    output = {
-        "contacts": [{key: entry[key] for key in contacts[0]} for entry in entries],
-        "H": old["H"],
-        "g": old["g"],
-        **rows,
-    }
-    if "farkas" in solved.output:
-        return {**record, "output": {**output, "farkas": solved.output["farkas"]}}
-    output |= {name: solved.output[name] for name in ("delta_q", "lam", "A_lam")}
-    for entry, lam in zip(entries, by_contact(output["lam"], case["cone"], entries), strict=True):
-        entry["lam"] = lam
-    loads = {"h": case["h"], "cone": case["cone"], "contacts": entries, "bodies": {}}
-    output["wrench"] = layer("wrench").expected(loads).output["wrench"]
-    after = layer("integrate").expected({**tree, "delta_q": output["delta_q"]})
-    output["q_next"] = after.output["q"]
+    given = [{**of_pair(case, pairs[contact["pair"]]), **contact} for contact in contacts]
+    entries, _, rows = with_rows(case, given)
+    program = {key: record["output"][key] for key in ("H", "g")} | rows.output
+    solved = layer("qp").expected(program)
+    output, _, _ = answered(case, entries, program, solved)
     unique = record["flags"]["unique_multipliers"] and solved.flags["unique_multipliers"]
     return {**record, "output": output, "flags": {**record["flags"], "unique_multipliers": unique}}

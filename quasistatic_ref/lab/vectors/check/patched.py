@@ -7,11 +7,11 @@ from importlib.resources import files
 from types import CodeType, ModuleType
 from typing import Final
 
-from quasistatic_ref.lab.vectors import program as plain_program
+from quasistatic_ref.lab import program as plain_program
 from quasistatic_ref.lab.vectors.expected import Json
 
 MODULES: Final = (
-    *("rotation", "mechanism", "integration", "curved", "distance", "candidates"),
+    *("number", "rotation", "mechanism", "integration", "curved", "distance", "candidates"),
     *("rows", "wrench", "optimum", "step", "layers"),
 )
 """Files of the program, each after those that it imports from."""

@@ -5,11 +5,10 @@ against n, then the gap along n is the signed distance, apart and in penetration
 tables of a case, about their own origin; everything is float64.
 """
 
-from typing import Any
-
 import numpy as np
 from scipy.spatial import ConvexHull
 
+from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.step.data import Array
 
@@ -126,10 +125,3 @@ def solid_cases(case: Json) -> list[Json]:
 
 def _pose(pose: Json) -> tuple[Array, Array]:
     return rotation(pose["quaternion"]), np.array(pose["xyz"], dtype=np.float64)
-
-
-def rotation(quaternion: Any) -> Array:
-    """Rotation of q/|q|, q = [x, y, z, w], shape (3, 3)."""
-    x, y, z, w = np.array(quaternion, dtype=np.float64) / np.linalg.norm(quaternion)
-    V = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.asarray(np.eye(3) + 2 * w * V + 2 * V @ V)

@@ -21,17 +21,15 @@ from quasistatic_ref.lab.vectors.exact.algebra import (
     add,
     scaled,
     subtract,
-    times,
-    transposed,
 )
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.whole.along import with_held_wrenches
-from quasistatic_ref.lab.vectors.whole.derivatives import moves
-from quasistatic_ref.lab.vectors.whole.differences import Base, away, base, quotient
-from quasistatic_ref.lab.vectors.whole.grid import STEP, vector_on_grid, working
-from quasistatic_ref.lab.vectors.whole.nearby import Near
-from quasistatic_ref.lab.vectors.whole.step import Change, after
-from quasistatic_ref.lab.vectors.whole.world import World, world
+from quasistatic_ref.lab.vectors.unrounded.derivatives import moves
+from quasistatic_ref.lab.vectors.unrounded.differences import Base, away, base, quotient
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.moved_inputs import with_held_wrenches
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near
+from quasistatic_ref.lab.vectors.unrounded.step import Change, after
+from quasistatic_ref.lab.vectors.unrounded.world import World, world
 
 SIDES: Final = ("alpha", "beta")
 
@@ -160,8 +158,9 @@ def _name(near: Near) -> tuple[int, int]:
     return near.pair, near.index
 
 
-def _body(at: World, near: Near, side: str) -> int | None:
-    return at.tree.number(at.case["shapes"][at.case["pairs"][near.pair][side]]["body"])
+def _body(at: World, near: Near, side: str) -> str | None:
+    name: str | None = at.case["shapes"][at.case["pairs"][near.pair][side]]["body"]
+    return name
 
 
 def _carried(before: World, at: World, near: Near, side: str, point: Vector) -> Vector:
@@ -169,8 +168,7 @@ def _carried(before: World, at: World, near: Near, side: str, point: Vector) -> 
     body = _body(at, near, side)
     if body is None:
         return point
-    local = times(transposed(before.at.R[body]), subtract(point, before.at.t[body]))
-    return add(times(at.at.R[body], local), at.at.t[body])
+    return add(_turned(before, at, near, side, subtract(point, before.at[body][1])), at.at[body][1])
 
 
 def _turned(before: World, at: World, near: Near, side: str, way: Vector) -> Vector:
@@ -178,7 +176,8 @@ def _turned(before: World, at: World, near: Near, side: str, way: Vector) -> Vec
     body = _body(at, near, side)
     if body is None:
         return way
-    return times(at.at.R[body], times(transposed(before.at.R[body]), way))
+    turned: Vector = (at.at[body][0] @ before.at[body][0].T @ way).tolist()
+    return turned
 
 
 DERIVATIVES: Final = (

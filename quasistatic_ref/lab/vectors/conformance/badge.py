@@ -7,7 +7,7 @@ them overlap.
 from html import escape
 from typing import Final
 
-from quasistatic_ref.lab.vectors.conformance.standing import Conformance
+from quasistatic_ref.lab.vectors.conformance.conformance import Conformance
 
 LABEL, GREEN, AMBER, RED, GREY = "#444444", "#1a7f37", "#8f5a00", "#b42318", "#57606a"
 """White on each has a contrast of more than 4.5."""

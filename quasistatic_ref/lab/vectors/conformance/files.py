@@ -18,9 +18,9 @@ from quasistatic_ref.lab.page.parts import Table
 from quasistatic_ref.lab.vectors.check.answers import Answers, answers_read
 from quasistatic_ref.lab.vectors.check.folder import check_answers
 from quasistatic_ref.lab.vectors.conformance.badge import badge
+from quasistatic_ref.lab.vectors.conformance.conformance import Conformance
 from quasistatic_ref.lab.vectors.conformance.histogram import histogram
 from quasistatic_ref.lab.vectors.conformance.page import page
-from quasistatic_ref.lab.vectors.conformance.standing import Conformance
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.versions import edition
 

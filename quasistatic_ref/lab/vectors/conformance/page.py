@@ -8,7 +8,7 @@ from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section, Tabl
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.report import LayerReport
 from quasistatic_ref.lab.vectors.check.verdict import ACCEPTABLE
-from quasistatic_ref.lab.vectors.conformance.standing import Conformance
+from quasistatic_ref.lab.vectors.conformance.conformance import Conformance
 
 WHOLE = (
     "Passed is within the case's own tolerance, acceptable is right by a documented freedom or to "

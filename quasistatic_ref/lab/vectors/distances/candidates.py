@@ -12,7 +12,10 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Final
 
+import numpy as np
+
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.program.candidates import lateness
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
 from quasistatic_ref.lab.vectors.exact.precision import rounded
 from quasistatic_ref.lab.vectors.expected import Json
@@ -111,11 +114,12 @@ def _candidates(case: Json) -> list[_Candidate]:
 
 
 def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> Chosen:
-    phi = [one.numbers["phi"] for one in candidates]
-    late = [solids and _repeats(candidates, i) for i in range(len(candidates))]
-    level = [x <= phi[-1] + REPEATED and not again for x, again in zip(phi, late, strict=True)]
-    spare = solids and sum(level[:-1]) >= k
-    late[-1] = late[-1] or spare
+    phi, alpha, n = (
+        np.array([one.numbers[key] for one in candidates]) for key in ("phi", "alpha", "n")
+    )
+    late, spare = [False] * len(candidates), False
+    if solids:
+        late, spare = lateness(phi, alpha, n, k, REPEATED)
     order = sorted(range(len(candidates)), key=lambda i: (late[i], phi[i], i))
     kept, rest = sorted(order[:k]), order[k:]
     last = order[len(kept) - 1]
@@ -126,21 +130,9 @@ def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> 
     answers = [layer("distance").expected(candidates[i].case) for i in kept]
     return Chosen(
         contacts=[{"index": i, **candidates[i].numbers} for i in kept],
-        clear=clear,
+        clear=bool(clear),
         unique=all(answer.flags["unique"] for answer in answers),
         tolerance={
             name: max(answer.tolerance[name].absolute for answer in answers) for name in FIELDS
         },
     )
-
-
-def _repeats(candidates: Sequence[_Candidate], i: int) -> bool:
-    """Whether a candidate is an earlier one again."""
-
-    def same(one: dict[str, Json], other: dict[str, Json]) -> bool:
-        pairs = [(one["phi"], other["phi"])]
-        for name in ("alpha", "n"):
-            pairs += zip(one[name], other[name], strict=True)
-        return all(abs(a - b) <= REPEATED for a, b in pairs)
-
-    return any(same(candidates[i].numbers, candidates[j].numbers) for j in range(i))

@@ -28,8 +28,7 @@ from quasistatic_ref.lab.vectors.exact.algebra import (
     scaled,
     squared,
 )
-from quasistatic_ref.lab.vectors.exact.precision import Real, rational_near, root, sign
-from quasistatic_ref.lab.vectors.exact.rotation import cos_sin
+from quasistatic_ref.lab.vectors.exact.precision import Real, cos_sin, rational_near, root, sign
 
 SECTORS = 48
 """Parts of a rim: its distance to a convex solid has few minima, far apart."""

@@ -9,6 +9,7 @@ from flint import fmpq
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.exact.algebra import (
     IDENTITY,
     ZERO,
@@ -23,7 +24,6 @@ from quasistatic_ref.lab.vectors.exact.algebra import (
     transposed,
 )
 from quasistatic_ref.lab.vectors.exact.precision import Real, number, numbers, sign
-from quasistatic_ref.lab.vectors.exact.rotation import rotation
 
 SHAPES = {
     "sphere": ("radius",),
@@ -105,7 +105,7 @@ def placed(shape: dict[str, Any], pose: dict[str, Any]) -> Placed:
     if set(shape) != {"kind", *SHAPES[kind]}:
         problem = f"a {kind} has the fields {', '.join(SHAPES[kind])}"
         raise InputError(problem, field="shape", value=sorted(shape))
-    R, t = rotation(numbers(pose["quaternion"])), numbers(pose["xyz"])
+    R, t = rotation(numbers(pose["quaternion"])).tolist(), numbers(pose["xyz"])
     sizes: list[Real] = []
     points: list[Vector] = []
     match kind:

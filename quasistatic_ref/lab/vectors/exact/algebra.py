@@ -5,7 +5,7 @@ from typing import TypeAlias
 
 from flint import fmpq
 
-from quasistatic_ref.lab.vectors.exact.precision import Real, root
+from quasistatic_ref.lab.vectors.exact.precision import Real
 
 Vector: TypeAlias = list[Real]
 Matrix: TypeAlias = list[Vector]
@@ -54,21 +54,9 @@ def squared(a: Vector) -> Real:
     return dot(a, a)
 
 
-def unit(a: Vector) -> Vector:
-    """Direction a / |a|."""
-    length = root(squared(a))
-    return [x / length for x in a]
-
-
 def times(A: Matrix, x: Vector) -> Vector:
     """Matrix times vector, A x."""
     return [dot(row, x) for row in A]
-
-
-def product(A: Matrix, B: Matrix) -> Matrix:
-    """Matrix times matrix, A B."""
-    columns = transposed(B)
-    return [[dot(row, column) for column in columns] for row in A]
 
 
 def transposed(A: Matrix) -> Matrix:

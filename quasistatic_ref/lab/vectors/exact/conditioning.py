@@ -17,10 +17,10 @@ from typing import Any, Final, cast
 
 from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
 
-from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.lab.vectors.exact.floor import floors
-from quasistatic_ref.lab.vectors.exact.rational import UNIT
+from quasistatic_ref.lab.vectors.exact.rational import UNIT, fraction
 
 ROUNDINGS: Final = 8
 """c is that many times the size of K."""
@@ -145,5 +145,4 @@ def _absolute(M: fmpz_mat) -> fmpz_mat:
 
 
 def _largest(values: Sequence[fmpq | fmpz], unit: fmpq) -> Fraction:
-    value = max((abs(unit * v) for v in values), default=fmpq(0))
-    return Fraction(int(value.p), int(value.q))
+    return fraction(max((abs(unit * v) for v in values), default=fmpq(0)))

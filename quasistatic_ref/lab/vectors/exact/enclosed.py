@@ -7,11 +7,12 @@ from typing import Final
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
-from quasistatic_ref.certify.balls import square_root
+from quasistatic_ref.certify.point import square_root
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.rounding import decimal_string, nearest_in
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.exact.rational import DIGITS, tolerance
+from quasistatic_ref.lab.vectors.exact.precision import DIGITS
+from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected
 from quasistatic_ref.optional.ellipsoid.enclosure import BITS as PROVED
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, enclosed_error

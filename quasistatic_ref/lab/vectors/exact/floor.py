@@ -19,7 +19,7 @@ from typing import Final
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.rational import ExactForm
-from quasistatic_ref.lab.vectors.exact.rational import UNIT
+from quasistatic_ref.lab.vectors.exact.rational import UNIT, fraction
 
 ROUNDINGS: Final = 8
 """Of the unconstrained step: an answer of 15 digits."""
@@ -51,7 +51,7 @@ def floors(form: ExactForm) -> tuple[Fraction, Fraction, Fraction]:
 def _reach(squares: Iterable[fmpq], energy: fmpq, unit: fmpq) -> Fraction:
     """The largest square root of s energy, in SI units."""
     largest = max(squares, default=fmpq(0)) * energy * unit * unit
-    return UNIT * _root(Fraction(int(largest.p), int(largest.q)))
+    return UNIT * _root(fraction(largest))
 
 
 def _root(value: Fraction) -> Fraction:

@@ -14,9 +14,11 @@ from functools import lru_cache
 from math import inf, isqrt, nextafter
 from typing import Any, Final, TypeAlias
 
+import numpy as np
 from flint import arb, ctx, fmpq
 
 from quasistatic_ref.certify.rounding import decimal_string, nearest_fraction, nearest_in
+from quasistatic_ref.lab.program import number as kinds
 
 Real: TypeAlias = Any
 """An fmpq or an arb. They mix freely, which their type hints cannot say."""
@@ -29,6 +31,8 @@ HIGHEST: Final = 16 * PRECISION
 
 DIGITS: Final = 30
 """Significant decimal digits of the strings that stand with the float64 numbers."""
+LONGEST: Final = 200
+"""Most numbers of a field that is also written in them: more would fill the files."""
 
 
 class Undecided(ArithmeticError):
@@ -36,7 +40,7 @@ class Undecided(ArithmeticError):
 
 
 def number(x: float | Real) -> Real:
-    """A float64, exactly; what is exact or a ball already, as it is."""
+    """A float64 or whole number, exactly; what is exact or a ball already, as it is."""
     return x if isinstance(x, (fmpq, arb)) else fmpq(*x.as_integer_ratio())
 
 
@@ -77,13 +81,39 @@ def sign(x: Real) -> int:
     raise Undecided
 
 
-def least(values: Sequence[Real]) -> int:
-    """Index of the smallest number, the first of equal ones."""
-    best = 0
-    for k in range(1, len(values)):
-        if sign(values[k] - values[best]) < 0:
-            best = k
-    return best
+def cos_sin(angle: Real) -> tuple[Real, Real]:
+    """Cosine and sine of an angle; of zero, exactly."""
+    if angle == 0:
+        return fmpq(1), fmpq(0)
+    sine, cosine = ball(angle).sin_cos()
+    return cosine, sine
+
+
+def _angle_of(sine: Real, cosine: Real) -> Real:
+    if sign(sine) == 0 and sign(cosine) > 0:
+        return fmpq(0)
+    return arb.atan2(ball(sine), ball(cosine))
+
+
+def _coefficients(t: Real) -> tuple[Real, Real, Real]:
+    if t == 0:
+        return fmpq(1), fmpq(1, 2), fmpq(1, 6)
+    sinc, half = ball(t).sinc(), ball(t / 2).sinc()
+    return sinc, half * half / 2, (1 - sinc) / (t * t)
+
+
+def _part_of_turn(like: Real, k: int, K: int) -> tuple[Real, Real]:
+    (sine, cosine), _ = rounded(lambda: arb(fmpq(2 * k, K)).sin_cos_pi())
+    return number(cosine), number(sine)
+
+
+for _kind in (fmpq, arb):
+    kinds.sign.register(_kind, sign)
+    kinds.root.register(_kind, root)
+    kinds.cos_sin.register(_kind, cos_sin)
+    kinds.angle_of.register(_kind, _angle_of)
+    kinds.coefficients.register(_kind, _coefficients)
+    kinds.part_of_turn.register(_kind, _part_of_turn)
 
 
 def rounded(function: Callable[[], Any]) -> tuple[Any, Any]:
@@ -117,11 +147,22 @@ def rounded(function: Callable[[], Any]) -> tuple[Any, Any]:
     raise Undecided(f"{HIGHEST} bits do not decide a sign or a rounding: the case is ill-posed")
 
 
+def short(digits: dict[str, Any]) -> dict[str, Any]:
+    """The fields that are not too large for their digits to stand in a file as well."""
+
+    def fits(value: Any) -> bool:
+        return bool(value) if isinstance(value, dict) else 0 < np.size(value) <= LONGEST
+
+    return {name: value for name, value in digits.items() if fits(value)}
+
+
 def _mapped(tree: Any, leaf: Callable[[Real], Any]) -> Any:
     if isinstance(tree, dict):
         return {key: _mapped(value, leaf) for key, value in tree.items()}
     if isinstance(tree, (list, tuple)):
         return [_mapped(value, leaf) for value in tree]
+    if isinstance(tree, np.ndarray):  # its whole numbers are constants of the program
+        return np.frompyfunc(lambda x: leaf(number(x)), 1, 1)(tree).tolist()
     return leaf(tree) if isinstance(tree, (fmpq, arb)) else tree
 
 

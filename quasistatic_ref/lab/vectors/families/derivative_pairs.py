@@ -4,7 +4,6 @@ The shapes stand anyhow; one is moved along the line of their closest points unt
 small, and its body is pushed with a force that leaves it apart, or lets it stick, slide or spin.
 """
 
-from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -12,7 +11,6 @@ import numpy as np
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.by_hand import Case
 from quasistatic_ref.lab.vectors.families.mechanisms import (
     ORIGIN,
     few_digits,
@@ -55,20 +53,6 @@ def pair_kinds() -> list[tuple[str, str]]:
     """Kinds of alpha and beta of each pair that has a distance."""
     both = [(a, b) for i, a in enumerate(KINDS) for b in KINDS[i:]]
     return [(a, b) for a, b in both if {a, b} not in NO_PAIR]
-
-
-def pair_cases() -> Iterator[Case]:
-    """Id, provenance and input of each case."""
-    for number, (a, b) in enumerate(pair_kinds()):
-        for turn in range(3):
-            alpha, beta = (a, b) if turn % 2 else (b, a)
-            rng = np.random.default_rng([19, number, turn])
-            moving = ("beta", "alpha", "beta")[turn]
-            if "halfspace" in (a, b):
-                moving = "alpha" if beta == "halfspace" else "beta"
-            table = pressed(rng, alpha, beta, moving, driven=turn == 2)
-            why = f"a {alpha} and a {beta} at random, pressed together"
-            yield f"derivative/pair/{alpha}_{beta}_{turn}", why, table
 
 
 def pressed(rng: Rng, alpha: str, beta: str, moving: str, *, driven: bool = False) -> Json:

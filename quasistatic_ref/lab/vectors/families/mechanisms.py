@@ -117,39 +117,6 @@ def random_step(rng: Rng, mechanism: Json, size: float) -> list[float]:
     return [float(f"{x:.3g}") for x in rng.uniform(-size, size, n_v)]
 
 
-def gripper() -> Json:
-    """A base with two fingers that slide against each other."""
-    names = ("left", "right")
-    fingers = [
-        link(
-            name,
-            "base",
-            "prismatic",
-            axis=[side, 0.0, 0.0],
-            placement=at(0.02 * side, 0.0, -0.05),
-            actuated=True,
-            mass=0.1,
-            com=[0.0, 0.0, -0.02],
-            inertia=[[1e-4, 0.0, 0.0], [0.0, 1e-4, 0.0], [0.0, 0.0, 5e-5]],
-        )
-        for name, side in zip(names, (1.0, -1.0), strict=True)
-    ]
-    return {
-        "bodies": [
-            link(
-                "base",
-                None,
-                "floating",
-                actuated=True,
-                mass=0.5,
-                com=[0.0, 0.0, 0.01],
-                inertia=[[1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.0, 1e-3]],
-            ),
-            *fingers,
-        ]
-    }
-
-
 def free_body(name: str = "object", **more: Any) -> Json:
     """One floating body."""
     inertia = [[0.002, 0.0, 0.0], [0.0, 0.003, 0.0], [0.0, 0.0, 0.004]]

@@ -8,8 +8,8 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.scenes.at_random import Rng
-from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.mechanisms import (
     few_digits,
@@ -49,9 +49,9 @@ def random_scene(rng: Rng, hard: bool) -> Json:
     if kind != 0 and hard and rng.integers(2):
         tree.append({**free_body("other"), **mass(rng)})
     bodies = {"bodies": tree}
-    q, n_a = random_q(rng, bodies), mechanism(bodies).n_a
+    q, (places, n_a, _) = random_q(rng, bodies), slices(bodies)
     stiff = few_digits(rng.uniform(5, 500, n_a), 0)
-    n_q_a = sum(b.q.stop - b.q.start for b in mechanism(bodies).bodies if _drives(b.table))
+    n_q_a = max((i.stop for i, k in places.values() if k.stop <= n_a), default=0)
     case = scene(
         tree,
         {},
@@ -76,10 +76,6 @@ def random_scene(rng: Rng, hard: bool) -> Json:
     return case
 
 
-def _drives(body: Json) -> bool:
-    return bool(body.get("actuated")) and body["joint"] != "fixed" and "mimic" not in body
-
-
 def _pair(rng: Rng, name: str, alpha: str, beta: str, k: int = 1) -> Json:
     friction = few_digits([rng.uniform(0.1, 1), rng.uniform(0.001, 0.02)], 3)
     rows = int(rng.choice([4, 6, 6]))
@@ -100,7 +96,7 @@ def _touch(rng: Rng, case: Json, body: str, hard: bool) -> None:
     radius = few_digits(rng.uniform(0.02, 0.08, 1), 3)[0]
     ball = on(body, {"kind": "sphere", "radius": radius}, few_digits(rng.uniform(0, 0.1, 1))[0])
     case["shapes"]["ball"] = ball
-    centre = shape_pose(mechanism(case["mechanism"]), case["q"], ball)["xyz"]
+    centre = shape_pose(case, ball)["xyz"]
     gap = float(rng.choice(GAPS))
     if rng.integers(3):
         case["shapes"]["floor"] = on(None, _plane(rng, centre, radius + gap))

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.program.rotation import quaternion_of
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
 from quasistatic_ref.model.body import Body
@@ -76,17 +77,7 @@ def shape_of(shape: Shape) -> Json:
 
 def pose_of(R: Array, t: Array) -> Json:
     """A pose as position and quaternion, its largest entry positive."""
-    (a, b, c), (d, e, f), (g, h, i) = R
-    table = np.array(
-        [
-            [1 + a - e - i, b + d, c + g, h - f],
-            [b + d, 1 - a + e - i, f + h, c - g],
-            [c + g, f + h, 1 - a - e + i, d - b],
-            [h - f, c - g, d - b, 1 + a + e + i],
-        ]
-    )
-    row = table[table.diagonal().argmax()]
-    return {"xyz": (t + 0.0).tolist(), "quaternion": (row / np.linalg.norm(row) + 0.0).tolist()}
+    return {"xyz": (t + 0.0).tolist(), "quaternion": (quaternion_of(R) + 0.0).tolist()}
 
 
 def _tree(body: Body, file: UrdfFile) -> list[Json]:

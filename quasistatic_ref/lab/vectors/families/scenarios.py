@@ -10,15 +10,19 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.derivative import kinds_of
-from quasistatic_ref.lab.vectors.families.rows import rows_input
 from quasistatic_ref.lab.vectors.families.scenario_mechanism import (
     mechanism_of,
     pairs_of,
     pose_of,
     shape_of,
 )
-from quasistatic_ref.lab.vectors.families.steps import contact_entries, program
-from quasistatic_ref.lab.vectors.families.wrench import PLACE, wrench_input
+from quasistatic_ref.lab.vectors.families.steps import (
+    PLACE,
+    contact_entries,
+    program,
+    rows_input,
+    wrench_input,
+)
 from quasistatic_ref.lab.vectors.files import Case
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.model.system import Kinematics

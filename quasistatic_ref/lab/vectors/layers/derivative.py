@@ -1,6 +1,6 @@
 """Layer `derivative`: of q+ by q, q_bar_a, forces and parameters, or why there is none.
 
-Nothing is rounded from the mechanism to q+, as ``lab/vectors/whole`` has it. The numbers are
+Nothing is rounded from the mechanism to q+, as ``lab/vectors/unrounded`` has it. The numbers are
 differences of such steps, each proved to 15 digits by a second difference.
 """
 
@@ -11,11 +11,11 @@ from flint import fmpq, fmpq_mat
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.lab.vectors.whole.along import with_held_wrenches
-from quasistatic_ref.lab.vectors.whole.derivatives import Derivatives, derivatives
-from quasistatic_ref.lab.vectors.whole.differences import Base, base
-from quasistatic_ref.lab.vectors.whole.nearby import Touching
-from quasistatic_ref.lab.vectors.whole.touching import touching_pairs
+from quasistatic_ref.lab.vectors.unrounded.derivatives import Derivatives, derivatives
+from quasistatic_ref.lab.vectors.unrounded.differences import Base, base
+from quasistatic_ref.lab.vectors.unrounded.moved_inputs import with_held_wrenches
+from quasistatic_ref.lab.vectors.unrounded.nearby import Touching
+from quasistatic_ref.lab.vectors.unrounded.touching import touching_pairs
 
 FIELDS: Final = {
     "q": "dq_dq",

@@ -2,8 +2,8 @@
 
 from typing import Final
 
-from quasistatic_ref.lab.vectors.exact.integration import integrated
-from quasistatic_ref.lab.vectors.exact.mechanism import mechanism
+from quasistatic_ref.lab.program import integration as program
+from quasistatic_ref.lab.vectors.exact.entered import entered
 from quasistatic_ref.lab.vectors.exact.precision import rounded
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 
@@ -15,9 +15,8 @@ quaternions; the package's own answers stay below 4."""
 
 def expected(case_input: Json) -> Expected:
     """The next configuration; quaternions and (cos, sin) have length one."""
-    tree = mechanism(case_input["mechanism"])
-    q, delta_q = case_input["q"], case_input["delta_q"]
-    output, digits = rounded(lambda: {"q": integrated(tree, q, delta_q)})
+    case, delta_q = entered(case_input), case_input["delta_q"]
+    output, digits = rounded(lambda: program.integrate(case))
     # The angle of a turn is rounded to its own last bit before its sine is taken.
     size = max([1.0, *(abs(x) for x in [*output["q"], *delta_q])])
     reason = f"{ROUNDINGS:g} units of rounding of coordinates and angles up to {size:.3g}"

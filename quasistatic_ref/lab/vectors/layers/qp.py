@@ -1,12 +1,12 @@
 """Layer 5: min 1/2 x'Hx - g'x subject to Ax >= b, its float64 numbers taken as they are.
 
 lam and the working set are those of the cold run of the dual active-set method that adds the first
-violated row. In second-order cones, (F x + f)_0 >= |(F x + f)_1:3| for each block, the optimum is
-not rational: it is enclosed in balls.
+violated row; the plain program checks the conditions of the optimum in rationals. In second-order
+cones, (F x + f)_0 >= |(F x + f)_1:3| for each block, the optimum is not rational: it is enclosed in
+balls.
 """
 
 from collections.abc import Sequence
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -14,14 +14,17 @@ from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Farkas, least_index
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
-from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form_of
 from quasistatic_ref.errors import InputError, StepInfeasible
+from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.vectors.exact.conditioning import Bounds, bounds
 from quasistatic_ref.lab.vectors.exact.enclosed import enclosed
-from quasistatic_ref.lab.vectors.exact.rational import Exact, digits, rounded, tolerance
+from quasistatic_ref.lab.vectors.exact.entered import entered
+from quasistatic_ref.lab.vectors.exact.precision import rounded, short
+from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.solution import Certificate
@@ -44,7 +47,7 @@ def expected(case_input: Json) -> Expected:
     optimum = exact_optimum(form, (), least_index)
     if isinstance(optimum, Farkas):
         return _infeasible(form, optimum)
-    x, net = _solution(form, optimum.working_set)
+    exact = _proved(case_input, form, optimum.working_set)
     bound = bounds(form, optimum.working_set)
     return Expected(
         output={
@@ -54,7 +57,7 @@ def expected(case_input: Json) -> Expected:
             "slack": optimum.slack.tolist(),
             "certificate": _certificate(optimum),
         },
-        digits=digits(delta_q=x, A_lam=net),
+        digits=short(rounded(lambda: exact)[1]),
         flags=flags_of(optimum, bound),
         tolerance=tolerances(bound),
     )
@@ -149,18 +152,22 @@ def optimum_of(form: ExactForm) -> ExactOptimum:
     return optimum
 
 
-def _solution(form: ExactForm, working: Sequence[int]) -> tuple[Exact, Exact]:
-    """delta_q and A'lam as fractions."""
+def _proved(case_input: Json, form: ExactForm, working: Sequence[int]) -> dict[str, list[fmpq]]:
+    """delta_q and A'lam of a working set, after the plain program looked at their conditions."""
     found = rational_solution(form, tuple(working))
-    x, net = (
-        np.array([_fraction(unit * v / found.denominator) for v in values], dtype=object)
-        for unit, values in ((form.x_unit, found.x), (form.net_unit, found.net))
+    x, net, lam = (
+        [unit * v / found.denominator for v in values]
+        for unit, values in (
+            (form.x_unit, found.x),
+            (form.net_unit, found.net),
+            (form.lam_unit, found.lam),
+        )
     )
-    return x, net
-
-
-def _fraction(value: fmpq) -> Fraction:
-    return Fraction(int(value.p), int(value.q))
+    every = [fmpq(0)] * form.m
+    for row, value in zip(working, lam, strict=True):
+        every[row] = value
+    assert is_optimum(entered(case_input), x, every)
+    return {"delta_q": x, "A_lam": net}
 
 
 def _certificate(optimum: ExactOptimum) -> Json:
@@ -195,7 +202,7 @@ def _infeasible(form: ExactForm, proof: Farkas) -> Expected:
     y = [proof.y.get(i, fmpq(0)) / largest_y for i in range(form.m)]
     return Expected(
         output={
-            "farkas": rounded(np.array([_fraction(v) for v in y], dtype=object)),
+            "farkas": rounded(lambda: y)[0],
             "certificate": {"kind": "exact", "farkas": [str(v) for v in y]},
         },
         flags={"infeasible": True, **dict.fromkeys(FLAGS, False)},

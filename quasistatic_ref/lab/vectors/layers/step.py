@@ -10,56 +10,45 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, Final
 
-from flint import fmpq
+import numpy as np
 
+from quasistatic_ref.lab.program import step as program
+from quasistatic_ref.lab.program.candidates import tangents
+from quasistatic_ref.lab.program.integration import way
+from quasistatic_ref.lab.program.mechanism import kinematics
+from quasistatic_ref.lab.program.rotation import quaternion_of
 from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Chosen, chosen
-from quasistatic_ref.lab.vectors.exact.algebra import (
-    Matrix,
-    Vector,
-    cross,
-    dot,
-    moved,
-    product,
-    subtract,
-    unit,
-)
 from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
-from quasistatic_ref.lab.vectors.exact.integration import difference
-from quasistatic_ref.lab.vectors.exact.masses import gravity_force, mass_matrix_u
-from quasistatic_ref.lab.vectors.exact.mechanism import Mechanism, Poses, mechanism, poses
-from quasistatic_ref.lab.vectors.exact.precision import Real, least, number, numbers, rounded
+from quasistatic_ref.lab.vectors.exact.entered import entered, exact
+from quasistatic_ref.lab.vectors.exact.precision import Real, rounded
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
-from quasistatic_ref.lab.vectors.exact.rotation import quaternion_of, rotation
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.layers.qp import flags_of, form_of, optimum_of, tolerances
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
 
 EPS: Final = 2.0**-52
+SHOWN: Final = ("pair", "index", *FIELDS, "d1", "d2", "J")
+"""What the answer says of a contact."""
+ANSWERED: Final = ("delta_q", "lam", "A_lam")
 ROUNDINGS: Final = 16
 """Units of rounding of a mass, a force or a pose: some products of rotations, deep chains."""
 
 
 def expected(
-    case_input: Json, terms: Callable[[Mechanism, Json], tuple[float, float]] | None = None
+    case_input: Json, terms: Callable[[Json], tuple[float, float]] | None = None
 ) -> Expected:
     """All that one step comes to, and q after it; `terms` says how large what makes H and g is."""
-    tree, q = mechanism(case_input["mechanism"]), case_input["q"]
-    contacts, friction, found = contacts_of(tree, case_input)
-    place = {"mechanism": case_input["mechanism"], "q": q}
-    jacobian = layer("jacobian").expected({**place, "contacts": contacts})
-    for contact, J in zip(contacts, jacobian.output["J"], strict=True):
-        contact["J"] = J
-    both = [{**contact, **mu} for contact, mu in zip(contacts, friction, strict=True)]
-    rows = layer("rows").expected({"cone": case_input["cone"], "contacts": both})
-    H, g, g_size = objective(tree, case_input)
+    contacts, found = contacts_of(case_input)
+    contacts, jacobian, rows = with_rows(case_input, contacts)
+    H, g, g_size = objective(case_input)
     H_size = max([abs(x) for row in H for x in row], default=0.0)
     if terms:
-        H_size, g_size = map(max, (H_size, g_size), terms(tree, case_input))
+        H_size, g_size = map(max, (H_size, g_size), terms(case_input))
     program = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
     errors, distances = _errors(case_input, program, found, jacobian, rows, (H_size, g_size))
     solved = _solved(program, errors)
-    base = {**program, "contacts": [_shown(contact) for contact in contacts]}
+    output, wrenches, after = answered(case_input, contacts, program, solved)
     base_tolerance = {
         **{f"contacts.{name}": t for name, t in distances.items()},
         "contacts.J": tolerance(_plus(jacobian.tolerance["J"], 2 * distances["alpha"].absolute),
@@ -71,34 +60,49 @@ def expected(
     }  # fmt: skip
     ties = {"tie": not all(one.clear for one in found)}
     ties["unique"] = all(one.unique for one in found)
-    if "farkas" in solved.output:
-        return Expected(
-            {**base, "farkas": solved.output["farkas"]},
-            flags={**solved.flags, **ties},
-            tolerance={**base_tolerance, **solved.tolerance},
-        )
-    wrenches = _wrenches(case_input, both, solved)
-    after = layer("integrate").expected({**place, "delta_q": solved.output["delta_q"]})
-    step = solved.tolerance["delta_q"].absolute
-    wrench_bound = _wrench_bound(case_input, friction, solved, wrenches)
-    q_bound = _plus(after.tolerance["q"], 4 * step)
-    answered = ("delta_q", "lam", "A_lam")
+    flags = {**solved.flags, **ties}
+    if wrenches is None or after is None:
+        return Expected(output, flags=flags, tolerance={**base_tolerance, **solved.tolerance})
+    wrench_bound = _wrench_bound(case_input, solved, wrenches)
+    q_bound = _plus(after.tolerance["q"], 4 * solved.tolerance["delta_q"].absolute)
     return Expected(
-        output={
-            **base,
-            **{name: solved.output[name] for name in answered},
-            "wrench": wrenches.output["wrench"],
-            "q_next": after.output["q"],
-        },
-        digits=solved.digits,
-        flags={**solved.flags, **ties},
+        output,
+        solved.digits,
+        flags,
         tolerance={
             **base_tolerance,
-            **{name: solved.tolerance[name] for name in answered},
+            **{name: solved.tolerance[name] for name in ANSWERED},
             "wrench": tolerance(wrench_bound, "that of lam, over h"),
             "q_next": tolerance(q_bound, "that of delta_q, and of the layer integrate"),
         },
     )
+
+
+def with_rows(case: Json, contacts: list[Json]) -> tuple[list[Json], Expected, Expected]:
+    """Contacts with their J, and what the layers `jacobian` and `rows` say of them."""
+    place = {key: case[key] for key in ("mechanism", "q")}
+    jacobian = layer("jacobian").expected({**place, "contacts": contacts})
+    blocks = jacobian.output["J"]
+    found = [{**contact, "J": J} for contact, J in zip(contacts, blocks, strict=True)]
+    return found, jacobian, layer("rows").expected({"cone": case["cone"], "contacts": found})
+
+
+def answered(
+    case: Json, contacts: list[Json], program: Json, solved: Expected
+) -> tuple[dict[str, Json], Expected | None, Expected | None]:
+    """The output of a step whose program is solved, and how: by the layers wrench and integrate."""
+    output = {**program, "contacts": [{key: c[key] for key in SHOWN} for c in contacts]}
+    if "farkas" in solved.output:
+        return {**output, "farkas": solved.output["farkas"]}, None, None
+    parts = by_contact(solved.output["lam"], case["cone"], contacts)
+    loaded = [{**contact, "lam": lam} for contact, lam in zip(contacts, parts, strict=True)]
+    loads = {"h": case["h"], "cone": case["cone"], "contacts": loaded, "bodies": {}}
+    wrenches = layer("wrench").expected(loads)
+    moved = {key: case[key] for key in ("mechanism", "q")} | {"delta_q": solved.output["delta_q"]}
+    after = layer("integrate").expected(moved)
+    output |= {name: solved.output[name] for name in ANSWERED}
+    output |= {"wrench": wrenches.output["wrench"], "q_next": after.output["q"]}
+    return output, wrenches, after
 
 
 def own(case_input: Json) -> Json:
@@ -108,10 +112,10 @@ def own(case_input: Json) -> Json:
     return own_step(case_input)
 
 
-def _chosen(tree: Mechanism, case: Json) -> list[Chosen]:
+def _chosen(case: Json) -> list[Chosen]:
     """The contacts of each pair."""
     names = {pair[side] for pair in case["pairs"] for side in ("alpha", "beta")}
-    places = {name: shape_pose(tree, case["q"], case["shapes"][name]) for name in sorted(names)}
+    places = {name: shape_pose(case, case["shapes"][name]) for name in sorted(names)}
     found = []
     for pair in case["pairs"]:
         alpha, beta = (case["shapes"][pair[side]]["shape"] for side in ("alpha", "beta"))
@@ -119,111 +123,68 @@ def _chosen(tree: Mechanism, case: Json) -> list[Chosen]:
     return found
 
 
-def shape_pose(tree: Mechanism, q: list[float], entry: Json) -> Json:
-    """Pose of a shape in the world, rounded; one that is fixed there as it is given."""
-    body = tree.number(entry["body"])
-    if body is None:
+def shape_pose(case: Json, entry: Json) -> Json:
+    """Pose of a shape in the world, rounded; one that is fixed there as it is given.
+
+    Parameters
+    ----------
+    case : dict
+        Of which ``mechanism`` and ``q`` are read.
+    entry : dict
+        ``body`` and ``pose`` of the shape.
+    """
+    if entry["body"] is None:
         return entry["pose"]
+    entry = {key: entry[key] for key in ("body", "pose")}
+    place = {"mechanism": case["mechanism"], "q": case["q"], "shapes": {"it": entry}}
+    place = entered(place)
 
     def world() -> Any:
-        at = poses(tree, q)
-        inside, t = rotation(numbers(entry["pose"]["quaternion"])), numbers(entry["pose"]["xyz"])
-        R = product(at.R[body], inside)
-        return {"xyz": moved(at.R[body], at.t[body], t), "quaternion": quaternion_of(R)}
+        at = kinematics(place["mechanism"], np.array(place["q"]))
+        R, t = program.placed(place["shapes"]["it"], at)
+        return {"xyz": t, "quaternion": quaternion_of(R)}
 
     return rounded(world)[0]
 
 
-def contacts_of(tree: Mechanism, case: Json) -> tuple[list[Json], list[Json], list[Chosen]]:
-    """Contacts of all pairs without J, each one's coefficients of friction, and whence they are."""
-    found = _chosen(tree, case)
-    contacts, friction = [], []
+def contacts_of(case: Json) -> tuple[list[Json], list[Chosen]]:
+    """Contacts of all pairs without J, and whence they are."""
+    found, contacts = _chosen(case), []
     for pair, one in zip(case["pairs"], found, strict=True):
-        bodies = {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
-        for contact in one.contacts:
-            tangents = _tangents(contact["n"])
-            contacts.append({"pair": pair["name"], **bodies, **contact, **tangents})
-            friction.append({key: pair[key] for key in ("mu_v", "mu_omega", "rows")})
-    return contacts, friction, found
+        given = of_pair(case, pair)
+        contacts += [{**given, **c, **_tangents(c["n"])} for c in one.contacts]
+    return contacts, found
+
+
+def of_pair(case: Json, pair: Json) -> Json:
+    """What all contacts of a pair have in common."""
+    bodies = {f"{side}_body": case["shapes"][pair[side]]["body"] for side in ("alpha", "beta")}
+    friction = {key: pair[key] for key in ("mu_v", "mu_omega", "rows")}
+    return {"pair": pair["name"], **bodies, **friction}
 
 
 def _tangents(normal: list[float]) -> dict[str, Json]:
     """d1, the projection of the world axis farthest from n, and d2 = n x d1, each rounded."""
-
-    def d1() -> Vector:
-        n = numbers(normal)
-        axis = least([abs(x) for x in n])
-        along = [fmpq(int(i == axis)) for i in range(3)]
-        return unit(subtract(along, [n[axis] * x for x in n]))
-
-    first = rounded(d1)[0]
-    return {"d1": first, "d2": rounded(lambda: cross(numbers(normal), numbers(first)))[0]}
+    n = np.array(exact(normal))
+    d1 = rounded(lambda: tangents(n)[0])[0]
+    return {"d1": d1, "d2": rounded(lambda: np.cross(n, np.array(exact(d1))))[0]}
 
 
-def objective(tree: Mechanism, case: Json) -> tuple[Json, Json, float]:
+def objective(case_input: Json) -> tuple[Json, Json, float]:
     """H (n_v, n_v) and g (n_v,) of Eq. (13), each entry rounded once, and the largest term of g."""
-    out = rounded(lambda: objective_of(tree, poses(tree, case["q"]), case))[0]
+    case = entered({key: value for key, value in case_input.items() if key != "shapes"})
+
+    def terms() -> Any:
+        h, q, n_a = case["h"], np.array(case["q"]), len(case["K_q"])
+        M, tau = program.loads(case, kinematics(case["mechanism"], q))
+        H, g = program.objective(case, M, tau)
+        sizes = np.abs(h * tau)
+        K_q = np.array(case["K_q"]).reshape(n_a, n_a)
+        sizes[:n_a] += h * np.abs(K_q) @ np.abs(way(case["mechanism"], q, case["q_bar_a"]))
+        return {"H": H, "g": g, "sizes": sizes}
+
+    out = rounded(terms)[0]
     return out["H"], out["g"], max(out["sizes"], default=0.0)
-
-
-def loads_of(tree: Mechanism, at: Poses, case: Json) -> tuple[Matrix, Vector]:
-    """M_u, and the generalised forces in addition to the stiffness, without rounding."""
-    return mass_matrix_u(tree, at), _forces(tree, at, case)
-
-
-def objective_of(
-    tree: Mechanism, at: Poses, case: Json, loads: tuple[Matrix, Vector] | None = None
-) -> dict[str, Any]:
-    """The same without rounding: ``H``, ``g``, and the ``sizes`` of the terms of g.
-
-    Parameters
-    ----------
-    tree : Mechanism
-    at : Poses
-        At the q of the case.
-    case : dict
-        Its numbers are float64 or exact.
-    loads : (matrix, vector), optional
-        As `loads_of`, where they are known.
-    """
-    h, n_a = number(case["h"]), tree.n_a
-    K = [numbers(row) for row in case["K_q"]]
-    M, tau = loads or loads_of(tree, at, case)
-    change = difference(tree, case["q"], case["q_bar_a"], actuated=True)
-    H = [[fmpq(0)] * tree.n_v for _ in range(tree.n_v)]
-    for i in range(tree.n_v):
-        for j in range(tree.n_v):
-            if i < n_a and j < n_a:
-                H[i][j] = h * K[i][j]  # Eq. (13)
-            elif i >= n_a and j >= n_a:
-                H[i][j] = M[i - n_a][j - n_a] / h
-    g = [h * x for x in tau]
-    sizes = [abs(x) for x in g]
-    for i in range(n_a):
-        g[i] += h * dot(K[i], change)  # Eqs. (1), (13)
-        sizes[i] += h * dot([abs(x) for x in K[i]], [abs(x) for x in change])
-    return {"H": H, "g": g, "sizes": sizes}
-
-
-def _forces(tree: Mechanism, at: Poses, case: Json) -> Vector:
-    """Generalised forces but the stiffness's: gravity where nothing is actuated, and wrenches."""
-    weight = gravity_force(tree, at, case["gravity"])
-    tau: Vector = [fmpq(0)] * tree.n_a + weight[tree.n_a :]
-    return [x + y for x, y in zip(tau, wrench_force(tree, at, case), strict=True)]
-
-
-def wrench_force(tree: Mechanism, at: Poses, case: Json) -> Vector:
-    """Generalised force of a case's wrenches, of n_v numbers [N, N m]."""
-    tau: Vector = [fmpq(0)] * tree.n_v
-    for wrench in case.get("wrenches", []):
-        k = tree.number(wrench["body"])
-        if k is None:
-            continue
-        force, torque = numbers(wrench["force"]), numbers(wrench["torque"])
-        centre = moved(at.R[k], at.t[k], numbers(tree.bodies[k].table["com"]))
-        for v, (nu, omega) in at.point_columns(k, centre).items():
-            tau[v] += dot(nu, force) + dot(omega, torque)
-    return tau
 
 
 def _errors(
@@ -269,24 +230,13 @@ def _solved(program: Json, errors: Errors) -> Expected:
     return Expected(solved.output, solved.digits, flags, tolerances(bound))
 
 
-def _wrenches(case: Json, contacts: list[Json], solved: Expected) -> Expected:
-    parts = by_contact(solved.output["lam"], case["cone"], contacts)
-    entries = [{**contact, "lam": lam} for contact, lam in zip(contacts, parts, strict=True)]
-    loads = {"h": case["h"], "cone": case["cone"], "contacts": entries, "bodies": {}}
-    return layer("wrench").expected(loads)
-
-
-def _wrench_bound(
-    case: Json, friction: list[Json], solved: Expected, wrenches: Expected
-) -> Fraction:
-    rows = len(solved.output["lam"]) // max(len(friction), 1) + 1
-    mu = max([1.0, *(max(one["mu_v"], one["mu_omega"]) for one in friction)])
+def _wrench_bound(case: Json, solved: Expected, wrenches: Expected) -> Fraction:
+    contacts = len(wrenches.output["wrench"])
+    rows = len(solved.output["lam"]) // max(contacts, 1) + 1
+    frictions = [max(p["mu_v"], p["mu_omega"]) for p in case["pairs"]] if contacts else []
     own_error = Fraction(wrenches.tolerance["wrench"].absolute)
-    return own_error + Fraction(rows * mu * solved.tolerance["lam"].absolute) / Fraction(case["h"])
-
-
-def _shown(contact: Json) -> Json:
-    return {key: contact[key] for key in ("pair", "index", *FIELDS, "d1", "d2", "J")}
+    error = rows * max([1.0, *frictions]) * solved.tolerance["lam"].absolute
+    return own_error + Fraction(error) / Fraction(case["h"])
 
 
 def _plus(given: Tolerance, more: float) -> Real:

@@ -1,14 +1,14 @@
 """Shapes of the vectors as the package knows them, and its own closest points."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.shapes import placed_shape as shapes
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PointCloud, Shape
@@ -40,22 +40,10 @@ def own_shape(shape: dict[str, Any]) -> Shape:
             raise InputError("is not a kind of shape", field="shape.kind", value=shape["kind"])
 
 
-def own_rotation(quaternion: Sequence[float]) -> Array:
-    """Rotation matrix (3, 3) of a quaternion of any length."""
-    x, y, z, w = np.array(quaternion) / np.hypot.reduce(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
 def own_closest_points(case: dict[str, Any]) -> dict[str, Any]:
     """phi, alpha, beta, n of a case; of a cloud, lists over its points."""
     a, b = (
-        Placed(own_shape(case[side]), own_rotation(pose["quaternion"]), np.array(pose["xyz"]))
+        ShapeInWorld(own_shape(case[side]), rotation(pose["quaternion"]), np.array(pose["xyz"]))
         for side, pose in (("alpha", case["pose_alpha"]), ("beta", case["pose_beta"]))
     )
     if isinstance(b.shape, PointCloud):
@@ -70,7 +58,7 @@ def own_closest_points(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def _points_on_solid(
-    solid: Placed, cloud: Placed, points: Array
+    solid: ShapeInWorld, cloud: ShapeInWorld, points: Array
 ) -> tuple[Array, Array, Array, Array]:
     """Distances, closest points of the solid, the points themselves and normals, world frame."""
     world = points @ cloud.R.T + cloud.t

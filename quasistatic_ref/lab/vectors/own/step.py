@@ -7,8 +7,9 @@ import numpy as np
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import StepInfeasible
+from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.own.shapes import own_rotation, own_shape
+from quasistatic_ref.lab.vectors.own.shapes import own_shape
 from quasistatic_ref.lab.vectors.own.system import OwnSystem, own_system
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
@@ -103,7 +104,7 @@ def _pair(pair: Json, shapes: Json, mine: OwnSystem) -> ContactPair:
     sides = []
     for side in ("alpha", "beta"):
         entry = shapes[pair[side]]
-        R = own_rotation(entry["pose"]["quaternion"])
+        R = rotation(entry["pose"]["quaternion"])
         t = np.array(entry["pose"]["xyz"], dtype=np.float64)
         shape = own_shape(entry["shape"])
         sides.append(PlacedShape(pair[side], mine.links[entry["body"]], R, t, shape))

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.lab.program.mechanism import ENTRIES
+from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
-from quasistatic_ref.lab.vectors.exact.mechanism import SIZES
-from quasistatic_ref.lab.vectors.own.shapes import own_rotation
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
 
@@ -83,7 +83,7 @@ def own_system(mechanism: dict[str, Any]) -> OwnSystem:
             if k in joints and joints[k].actuated == actuated:
                 if joints[k].kind in _UNITS:
                     start = len(q) + _UNITS[joints[k].kind]
-                    units.append(slice(start, len(q) + SIZES[body["joint"]][0]))
+                    units.append(slice(start, len(q) + ENTRIES[body["joint"]][0]))
                 q += range(joints[k].q.start, joints[k].q.stop)
                 v += range(joints[k].v.start, joints[k].v.stop)
     links: dict[str | None, int] = {None: 0}
@@ -159,7 +159,7 @@ def _rpy(quaternion: Sequence[float]) -> list[float]:
     The yaw is taken after the roll, from what the roll leaves: each may be arbitrary there, but
     not both.
     """
-    R = own_rotation(quaternion)
+    R = rotation(quaternion)
     roll = np.arctan2(R[2, 1], R[2, 2])
     pitch = np.arctan2(-R[2, 0], np.hypot(R[0, 0], R[1, 0]))
     c, s = np.cos(roll), np.sin(roll)

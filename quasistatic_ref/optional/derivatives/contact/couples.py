@@ -5,11 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints, placed
+from quasistatic_ref.contact.distance import ClosestPoints, in_world
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
-from quasistatic_ref.optional.fast.tracker.cloud_tracker import cloud_tree
 from quasistatic_ref.shapes.placed_shape import Cylinder, PointCloud, Sphere
 from quasistatic_ref.shapes.round import QUARTERS
 from quasistatic_ref.step.data import Array
@@ -42,7 +41,7 @@ class Couple(NamedTuple):
     Parameters
     ----------
     pair : ContactPair
-    bodies : (Placed, Placed)
+    bodies : (ShapeInWorld, ShapeInWorld)
         alpha's and beta's shape in the world.
     phi : float
     points : (ndarray, ndarray), each of shape (3,)
@@ -60,7 +59,7 @@ class Couple(NamedTuple):
     """
 
     pair: ContactPair
-    bodies: tuple[Placed, Placed]
+    bodies: tuple[ShapeInWorld, ShapeInWorld]
     phi: float
     points: tuple[Array, Array]
     n: Array
@@ -86,7 +85,7 @@ def couples(
     """The contacts of all pairs at their closest points; R (L, 3, 3), t (L, 3) are the links'."""
     found, at = [], 0
     for pair in pairs:
-        a, b = placed(pair.alpha, R, t), placed(pair.beta, R, t)
+        a, b = in_world(pair.alpha, R, t), in_world(pair.beta, R, t)
         sizes = _extents(a, b)
         for j in range(at, at + pair.n_c):
             found.append(_couple(pair, a, b, points.chosen(np.array([j])), sizes))
@@ -94,26 +93,30 @@ def couples(
     return found
 
 
-def closest_pair(pair: ContactPair, a: Placed, b: Placed, points: ClosestPoints) -> Couple:
+def closest_pair(
+    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, points: ClosestPoints
+) -> Couple:
     """The closest pair of two solids as a couple; `points` has one, `a` and `b` are the bodies."""
     return _couple(pair, a, b, points._replace(point=np.array([pair.corners])), _extents(a, b))
 
 
-def _extents(a: Placed, b: Placed) -> tuple[float, float]:
-    """Of a cloud by the box about it, which is kept; of a half-space, infinity [m]."""
-    boxes = [
-        cloud_tree(body.shape).box if isinstance(body.shape, PointCloud) else None
-        for body in (a, b)
-    ]
+def _extents(a: ShapeInWorld, b: ShapeInWorld) -> tuple[float, float]:
+    """How large two bodies are [m]: a cloud as the box about it; of a half-space, infinity."""
     first, second = (
-        body.shape.extent if box is None else float(np.ptp(box, axis=0).max())
-        for body, box in zip((a, b), boxes, strict=True)
+        float(np.ptp(body.shape.points, axis=0).max())
+        if isinstance(body.shape, PointCloud)
+        else body.shape.extent
+        for body in (a, b)
     )
     return first, second
 
 
 def _couple(
-    pair: ContactPair, a: Placed, b: Placed, one: ClosestPoints, extents: tuple[float, float]
+    pair: ContactPair,
+    a: ShapeInWorld,
+    b: ShapeInWorld,
+    one: ClosestPoints,
+    extents: tuple[float, float],
 ) -> Couple:
     phi, n, index = float(one.phi[0]), one.n[0], int(one.point[0])
     ends = one.alpha[0], one.beta[0]
@@ -133,7 +136,7 @@ def _couple(
 
 
 def _corner(
-    pair: ContactPair, a: Placed, b: Placed, index: int
+    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, index: int
 ) -> tuple[int, float, Rim | None] | None:
     """Which side is a corner, the ball about it and its rim; None of a closest pair."""
     for side, body in enumerate((a, b)):
@@ -150,13 +153,13 @@ def _corner(
     return side, shape.corners(Z)[1], None
 
 
-def rim_velocity(rim: Rim, body: Placed, towards: Array, turning: Array) -> Array | None:
+def rim_velocity(rim: Rim, body: ShapeInWorld, towards: Array, turning: Array) -> Array | None:
     """How a corner on a rim moves on its body, shape (3, n_v) [m], world frame.
 
     Parameters
     ----------
     rim : Rim
-    body : Placed
+    body : ShapeInWorld
     towards : ndarray, shape (3,)
         Unit vector [-] from this body to the other, world frame.
     turning : ndarray, shape (3, n_v)

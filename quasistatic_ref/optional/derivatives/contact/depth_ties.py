@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.contact.patch import TURNED, faces_apart
-from quasistatic_ref.contact.placed import Placed, Witness
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between
 from quasistatic_ref.contact.solids.settle import settled
@@ -58,7 +58,7 @@ def _axes_cross(couple: Couple) -> bool:
     return bool(abs(couple.phi + radii) <= TIED * couple.size)
 
 
-def _rival(a: Placed, b: Placed, couple: Couple) -> bool:
+def _rival(a: ShapeInWorld, b: ShapeInWorld, couple: Couple) -> bool:
     size = couple.size
     ways = rival_directions(a, b, couple.n, couple.phi, size)
     if not ways:

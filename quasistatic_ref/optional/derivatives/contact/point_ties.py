@@ -5,12 +5,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.distance import ClosestPoints, late, nearest_of_solids, with_corners
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.distance import (
+    ClosestPoints,
+    late,
+    nearest_of_solids,
+    relative_pose,
+    with_corners,
+)
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
-from quasistatic_ref.optional.fast.tracker.cloud_tracker import cloud_tree
-from quasistatic_ref.optional.fast.tracker.tracker_bound import shortlist
 from quasistatic_ref.shapes.placed_shape import PointCloud
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import rotated
 from quasistatic_ref.tolerances import TIED
 
@@ -34,28 +39,24 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
     if pair.n_c >= pair.candidates or (pair.n_c == 1 and not pair.has_cloud):
         return [], []  # all of them, or the closest pair of two solids
     if isinstance(b.shape, PointCloud):
-        index, phi = _near(a, b, b.shape, points.phi, pair.n_c)
+        phi = _cloud_distances(a, b, b.shape.points)
     elif isinstance(a.shape, PointCloud):
-        index, phi = _near(b, a, a.shape, points.phi, pair.n_c)
+        phi = _cloud_distances(b, a, a.shape.points)
     else:
         every = with_corners(a, b, nearest_of_solids(pair, a, b))
-        index, phi = every.point, np.where(late(every, pair.k), np.inf, every.phi)
-    chosen = set(points.point.tolist())
-    out = [(int(i), p) for i, p in zip(index, phi, strict=True) if int(i) not in chosen]
+        phi = np.full(pair.candidates, np.inf)
+        phi[every.point] = np.where(late(every, pair.k), np.inf, every.phi)
     worst = points.phi.max()
-    left_out = [i for i, p in out if abs(p - worst) <= TIED * kept[0].size]
+    as_near = np.flatnonzero(np.abs(phi - worst) <= TIED * kept[0].size)
+    left_out = np.setdiff1d(as_near, points.point).tolist()
     if not left_out:
         return [], []
     level = np.abs(points.phi - worst) <= TIED * kept[0].size
     return points.point[level].tolist(), left_out
 
 
-def _near(
-    solid: Placed, body: Placed, cloud: PointCloud, phi: np.ndarray, k: int
-) -> tuple[np.ndarray, np.ndarray]:
-    """Numbers and distances of at least the k + 1 closest points of a cloud."""
-    R, t = solid.R.T @ body.R, solid.R.T @ (body.t - solid.t)
-    first = cloud.points[:1]
-    n = signed_distance(solid.shape, rotated(R, first) + t)[1][0]
-    listed = shortlist(cloud_tree(cloud), solid.shape, R, t, n, np.inf, k + 1, 4 * (k + 1))
-    return listed.index, signed_distance(solid.shape, rotated(R, cloud.points[listed.index]) + t)[0]
+def _cloud_distances(solid: ShapeInWorld, body: ShapeInWorld, points: Array) -> Array:
+    """Signed distances of all points of a cloud, shape (N,) [m]."""
+    relative = relative_pose(solid, body)
+    x = rotated(relative[:, :3], points) + relative[:, 3]
+    return signed_distance(solid.shape, x)[0]

@@ -16,8 +16,8 @@ import numpy as np
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
+from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import cone_matrix
 from quasistatic_ref.step.standard_form import standard_form
 
 STEPS = 200

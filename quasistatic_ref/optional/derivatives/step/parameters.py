@@ -10,10 +10,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from flint import fmpq
 
-from quasistatic_ref.certify.dyadic import Dyadic
-from quasistatic_ref.certify.rational import contact_motion, fraction, two_to
+from quasistatic_ref.certify.rational import Dyadic, contact_motion, fraction, two_to
+from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import cone_function, cone_matrix
 
 Vector = list[fmpq]
 

@@ -25,7 +25,7 @@ from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.degeneracy import strictly_active
 from quasistatic_ref.certify.dependence import combination, idle_rows, independent_rows
-from quasistatic_ref.certify.kkt import rational_solution
+from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import flat_rows, row_owners

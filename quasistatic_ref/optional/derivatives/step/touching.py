@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linprog
 
+from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.step.friction import cone_matrix, frame_jacobian
+from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import load
 from quasistatic_ref.tolerances import BEARING, DEPENDENT, TOUCHING

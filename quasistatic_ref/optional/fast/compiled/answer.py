@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.optional.fast.solver import FastSolver
-from quasistatic_ref.optional.large.uncertified import NOTHING_CLAIMED
+from quasistatic_ref.solve.solve import NOTHING_CLAIMED
 from quasistatic_ref.solve.units import Units, from_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.data import StepData

@@ -4,15 +4,14 @@ import math
 
 import numpy as np
 
-from quasistatic_ref.certify.dependence import combined
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Violated
-from quasistatic_ref.optional.fast.guess.zeros import zeros_hold
+from quasistatic_ref.optional.fast.guess.zeros import combined, zeros_hold
 from quasistatic_ref.solve.units import Units
+from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, RowLayout, StepData
-from quasistatic_ref.step.friction import cone_matrix
 
 NUMBERS = ("n_a", "n_v", "n_c", "rows", "working")
 ARRAYS = (

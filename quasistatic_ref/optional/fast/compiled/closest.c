@@ -4,7 +4,7 @@
 
 int64_t scene_size(void) { return sizeof(Scene); }
 
-/* contact/poses: R times on_link, then + t. */
+/* contact/distance: R times on_link, then + t. */
 static void placed(const double *R, const double *t, const double *on_link, double *world)
 {
     for (int i = 0; i < 3; i++) {
@@ -18,7 +18,7 @@ static void placed(const double *R, const double *t, const double *on_link, doub
     }
 }
 
-/* contact/poses: R_solid' times [R_cloud, t_cloud - t_solid]. */
+/* contact/distance: R_solid' times [R_cloud, t_cloud - t_solid]. */
 static void relative(const double *solid, const double *cloud, double *pose)
 {
     for (int i = 0; i < 3; i++)
@@ -116,7 +116,7 @@ static int faces_tie(int64_t kind, const double *size, const double *x, double p
     return level > 1;
 }
 
-/* contact/batch: below which signed distances no point outside the list can have come. Its rounding
+/* tracker/tracker_bound: below which signed distances no point outside the list can have come. Its rounding
    is in the bounds' room, so that any order of its sum will do. */
 static double limit(const Scene *s, int64_t pair, const double *pose)
 {
@@ -137,7 +137,7 @@ static void in_solid(const double *pose, double x, double y, double z, double *a
         at[i] = along(pose + 4 * i, x, y, z) + pose[4 * i + 3];
 }
 
-/* contact/batch: the `count` least distances in ascending order, ties by index; 0 if one is NaN. */
+/* contact/cloud: the `count` least distances in ascending order, ties by index; 0 if one is NaN. */
 static int selected(const Scene *s, int64_t pair, const double *pose)
 {
     int64_t kept = 0, count = s->count[pair];
@@ -161,7 +161,7 @@ static int selected(const Scene *s, int64_t pair, const double *pose)
     return kept == count;
 }
 
-/* contact/cloud_tracker: the points and normal of one contact in the world; 0 if faces tie. */
+/* contact/distance: the points and normal of one contact in the world; 0 if faces tie. */
 static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, int64_t p)
 {
     const double *solid = s->world + 24 * pair, *cloud = solid + 12;

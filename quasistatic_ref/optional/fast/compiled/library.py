@@ -140,8 +140,8 @@ def _made(command: list[str]) -> Path:
             compiling = [*command, *FLAGS, "-o", str(out), *sources, "-lm"]
             testing = [sys.executable, "-I", str(here / SELFTEST), str(out)]
             for work, failed in ((compiling, "could not compile it"), (testing, "is not used")):
-                if said := _complaint(work):
-                    raise CompileError(f"{command[0]} {failed}: {said}")
+                if complaint := _complaint(work):
+                    raise CompileError(f"{command[0]} {failed}: {complaint}")
             os.replace(out, file)
     return file
 
@@ -165,7 +165,7 @@ def _complaint(command: Sequence[str]) -> str:
         start_new_session=True,
     ) as process:
         try:
-            _, said = process.communicate(timeout=PATIENCE)
+            _, output = process.communicate(timeout=PATIENCE)
         except BaseException as ended:  # Ctrl-C as well: nothing goes on without us
             os.killpg(process.pid, signal.SIGKILL)
             if not isinstance(ended, subprocess.TimeoutExpired):
@@ -173,7 +173,7 @@ def _complaint(command: Sequence[str]) -> str:
             return f"it did not end in {PATIENCE:g} s ({VARIABLE}={NONE} asks for no compiler)"
     if not process.returncode:
         return ""
-    lines = said.decode("utf-8", "replace").strip().splitlines()
+    lines = output.decode("utf-8", "replace").strip().splitlines()
     signalled = f"it was ended by signal {-process.returncode}"
     silent = signalled if process.returncode < 0 else "without a word"
     errors = [line for line in lines if "error" in line] or lines[-1:] or [silent]

@@ -1,5 +1,7 @@
 """A simulator's contacts as the structures of scene.h."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -8,12 +10,11 @@ from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import Constants
-from quasistatic_ref.optional.fast.tracker.batch import bounds
-from quasistatic_ref.optional.fast.tracker.cloud_tracker import CloudTracker
+from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker, FollowedCloud
 from quasistatic_ref.shapes import placed_shape as shapes
 from quasistatic_ref.shapes.rounded import Rounded
+from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices
-from quasistatic_ref.step.friction import cone_function, cone_matrix
 
 ROUNDED_BOX, HALF_SPACE, CYLINDER = range(3)
 """Kinds of solids, as scene.h counts them."""
@@ -51,7 +52,7 @@ class Scene(Structure):
         In a polyhedral cone.
     weighs : ndarray, shape (n_v,)
         1.0 for each coordinate that feels gravity, else 0.0 [-].
-    clouds : CloudTracker or None
+    tracker : ContactTracker or None
         Of all pairs, where each has a cloud and a solid that is :func:`known`.
     """
 
@@ -61,7 +62,7 @@ class Scene(Structure):
         geometry: PosedGeometry,
         constant: Constants,
         weighs: Array,
-        clouds: CloudTracker | None,
+        tracker: ContactTracker | None,
     ) -> None:
         motion, layout = geometry.motion, constant.layout
         n_c, m, n_a = len(layout.counts), int(layout.offsets[-1]), len(constant.K_q)
@@ -77,7 +78,7 @@ class Scene(Structure):
         )  # fmt: skip
         self._bytes = np.zeros(given.itemsize, np.uint8)
         written = np.ndarray((), given, self._bytes)
-        self.clouds, self.lists_made = clouds, 0
+        self.tracker, self.lists_made = tracker, 0
         alpha, beta = geometry.moves[:, :, 0]
         self.put(
             {
@@ -93,8 +94,8 @@ class Scene(Structure):
                 "force": np.zeros(n_v), "tau_k": np.zeros(n_a),
             },
         )  # fmt: skip
-        if clouds is not None:
-            self._put_pairs(clouds)
+        if tracker is not None:
+            self._put_pairs(tracker.clouds)
 
     def taken(self) -> NDArray[np.void]:
         """What C has written of a step, of shape (): its arrays by their names."""
@@ -108,44 +109,56 @@ class Scene(Structure):
 
     def relist(self) -> None:
         """Take over the tracker's short lists, where it has made new ones."""
-        clouds = self.clouds
-        if clouds is None or clouds.lists_made == self.lists_made:
+        tracker = self.tracker
+        if tracker is None or tracker.lists_made == self.lists_made:
             return
-        self.lists_made = clouds.lists_made
-        index = [made.index for made in clouds.lists]
-        points = [cloud.points[i] for cloud, i in zip(clouds.clouds, index, strict=True)]
-        of_lists = [
-            bounds(made, tree.box) for made, tree in zip(clouds.lists, clouds.trees, strict=True)
-        ]
+        self.lists_made = tracker.lists_made
+        index, points, slopes, offsets = [], [], [], []
+        for cloud in tracker.clouds:
+            assert cloud.list is not None
+            slope, offset = cloud.list.bounds
+            index.append(cloud.list.index)
+            points.append(cloud.points[cloud.list.index])
+            slopes.append(slope)
+            offsets.append(offset)
         x, y, z = np.concatenate(points).T
         length = np.array([len(i) for i in index])
         self.put(
             {
                 "first": starts(length)[:-1], "length": length, "index": np.concatenate(index),
                 "x": x, "y": y, "z": z,
-                "bounds": starts(np.array([len(offset) for _, offset in of_lists])),
-                "slope": np.concatenate([slope for slope, _ in of_lists]),
-                "offset": np.concatenate([offset for _, offset in of_lists]),
+                "bounds": starts(np.array([len(offset) for offset in offsets])),
+                "slope": np.concatenate(slopes), "offset": np.concatenate(offsets),
             },
         )  # fmt: skip
 
-    def _put_pairs(self, clouds: CloudTracker) -> None:
-        """What does not change of the pairs, in the tracker's order."""
-        P, places = len(clouds.solids), clouds.placements
-        count = np.array(clouds.n_c)
-        start = np.zeros(P, np.int64)
-        start[np.argsort(clouds.pair)] = starts(count[np.argsort(clouds.pair)])[:-1]
-        kinds, sizes = zip(*map(solid_numbers, clouds.solids), strict=True)
+    def _put_pairs(self, clouds: Sequence[FollowedCloud]) -> None:
+        """What does not change of the pairs, in their order."""
+        count = np.array([cloud.pair.n_c for cloud in clouds])
+        kinds, sizes = zip(*(solid_numbers(cloud.solid.shape) for cloud in clouds), strict=True)
+        solids, points = [cloud.solid for cloud in clouds], [cloud.cloud for cloud in clouds]
         self.put(
             {
-                "pairs": P, "link_solid": places.link[:P], "link_cloud": places.link[P:],
-                "on_solid": places.on_link[:P], "on_cloud": places.on_link[P:],
-                "kind": np.array(kinds), "size": np.array(sizes), "sign": clouds.signs,
-                "start": start, "count": count,
-                "world": np.zeros((P, 24)), "nearest": np.zeros(count.max()),
+                "pairs": len(clouds),
+                "link_solid": links(solids), "link_cloud": links(points),
+                "on_solid": on_links(solids), "on_cloud": on_links(points),
+                "kind": np.array(kinds), "size": np.array(sizes),
+                "sign": np.array([cloud.sign for cloud in clouds]),
+                "start": starts(count)[:-1], "count": count,
+                "world": np.zeros((len(clouds), 24)), "nearest": np.zeros(count.max()),
                 "rank": np.zeros(count.max(), np.int64),
             },
         )  # fmt: skip
+
+
+def links(placed: Sequence[shapes.PlacedShape]) -> Indices:
+    """The links of some shapes, shape (P,)."""
+    return np.array([shape.link for shape in placed], dtype=np.int64)
+
+
+def on_links(placed: Sequence[shapes.PlacedShape]) -> Array:
+    """Where the shapes are on their links: [R, t], shape (P, 3, 4); t [m]."""
+    return np.array([np.column_stack([shape.R, shape.t]) for shape in placed])
 
 
 def starts(lengths: Indices) -> Indices:

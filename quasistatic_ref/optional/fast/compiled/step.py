@@ -107,9 +107,9 @@ class CompiledStep:
     def __init__(self, simulator: FastSimulator) -> None:
         assert isinstance(simulator.geometry, PosedGeometry)
         self.poses, self.geometry = Poses(simulator.system), simulator.geometry
-        clouds = None if measured_by_numpy(simulator) else simulator.tracker.clouds
+        tracker = None if measured_by_numpy(simulator) else simulator.tracker
         constant, weighs = simulator.constant, simulator.gravity_acts
-        self.scene = Scene(self.poses, self.geometry, constant, weighs, clouds)
+        self.scene = Scene(self.poses, self.geometry, constant, weighs, tracker)
         self.force, self.tau_k = self.scene["force"], self.scene["tau_k"]
         found = library()
         self.find, self.form, self.reach = found.closest_points, found.step_data, found.reach
@@ -170,8 +170,9 @@ class CompiledStep:
         """Write the closest points at q: from the short lists; NumPy's where these prove none."""
         scene = self.scene
         scene.relist()
-        if scene.clouds is not None and scene.listed and self.find(scene.address):
-            scene.clouds.steps += 1
+        if scene.tracker is not None and scene.listed and self.find(scene.address):
+            for cloud in scene.tracker.clouds:
+                cloud.steps += 1
             self.tie = self.no_tie
             return
         kinematics = simulator.system.kinematics(q)

@@ -19,17 +19,19 @@ from collections.abc import Sequence
 
 import numpy as np
 from flint import arb, arb_mat, ctx
+from numpy.typing import NDArray
 
-from quasistatic_ref.certify.balls import PRECISION, inverse
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.norm import energy_norm, rough_inverse
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.point import PRECISION, inverse
 from quasistatic_ref.certify.rational import h_times_hessian, matrix
-from quasistatic_ref.certify.rounding import all_nearest
+from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Violated
 from quasistatic_ref.optional.fast.guess.zeros import zeros_hold
+from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
-from quasistatic_ref.step.friction import cone_function, cone_matrix, row_gaps
+from quasistatic_ref.step.friction import row_gaps
 
 
 class BallHessian:
@@ -43,8 +45,6 @@ class BallHessian:
     ----------
     norm : EnergyNorm
         Of H in float64.
-    rough : ndarray, shape (n_v, n_v)
-        The inverse of H in float64.
 
     Raises
     ------
@@ -61,15 +61,14 @@ class BallHessian:
             self.K_q = arb_mat(step.n_a, step.n_a, step.K_q.ravel().tolist())
             self.M_u = arb_mat(step.n_u, step.n_u, step.M_u.ravel().tolist())
         self.norm = energy_norm(step.H)
-        self.rough: Array = rough_inverse(step.H)
 
     def fits(self, step: StepData) -> bool:
         """Whether a step has the same h, and the same arrays K_q and M_u."""
         h, K_q, M_u = self.of
         return h == step.h and K_q is step.K_q and M_u is step.M_u
 
-    def load(self, step: StepData) -> arb_mat:
-        """The load h g of Eq. :eq:`eq-13`, shape (n_v, 1)."""
+    def h_times_g(self, step: StepData) -> arb_mat:
+        """H g of Eq. :eq:`eq-13`, shape (n_v, 1)."""
         tau_k = self.K_q * _column(step.delta_q_bar_a)  # Eq. (1)
         tau = (tau_k + _column(step.tau_a)).entries() + step.tau_u.tolist()
         return arb_mat(step.n_v, 1, tau) * (self.h * self.h)  # Eq. (13)
@@ -99,7 +98,7 @@ class BallStep:
         self.step, self.hessian, J = step, hessian, step.contacts.J
         with ctx.workprec(PRECISION):
             self.J = arb_mat(4 * len(J), step.n_v, J.ravel().tolist())
-            self.free = hessian.inverse * hessian.load(step)
+            self.free = hessian.inverse * hessian.h_times_g(step)
 
     def confirmed(self, guess: Sequence[int] | Indices) -> Proof:
         """The exact optimum, if a guess of its working set is right and balls show it.
@@ -166,6 +165,29 @@ class BallStep:
             smallest_active_multiplier=min(lam_w.tolist(), default=None),
             walks=0,
         )
+
+
+def all_nearest(balls: Sequence[arb]) -> tuple[Array, NDArray[np.bool_]]:
+    """The float64 nearest to every number in each ball, and whether it is shown to be.
+
+    Returns
+    -------
+    ndarray, shape (balls,)
+        The float64 numbers [of the unit of the balls].
+    ndarray of bool, shape (balls,)
+    """
+    midpoints = [float(ball) for ball in balls]
+    off = np.array([float((b - x).abs_upper()) for b, x in zip(balls, midpoints, strict=True)])
+    x = np.array(midpoints) + 0.0  # never -0.0
+    with np.errstate(over="ignore", invalid="ignore"):
+        gap = np.minimum(np.nextafter(x, np.inf) - x, x - np.nextafter(x, -np.inf))
+    # gap / 2 is a float64 (0 of the least gap): an error that is not below it is not rounded to a
+    # number below it.
+    shown = (off < gap / 2) | (off == 0) & (x == 0)
+    for i in np.flatnonzero(~shown & (off <= 2 * gap)).tolist():  # a power of two, or subnormal
+        value = nearest_in(balls[i])
+        x[i], shown[i] = (x[i], False) if value is None else (value, True)
+    return x, shown
 
 
 def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:

@@ -10,18 +10,20 @@ W spans (:mod:`~quasistatic_ref.certify.degeneracy`). If W spans the sum of thes
 where both directions of a slip are closed, all of them are strictly active, and lam is not unique.
 """
 
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import numpy as np
-from flint import fmpz
+from flint import fmpz, fmpz_mat
 
-from quasistatic_ref.certify.dependence import all_follow, spanned_in_contacts
-from quasistatic_ref.certify.kkt import rational_solution
-from quasistatic_ref.certify.rational import exact_form, exact_rows
+from quasistatic_ref.certify.dependence import follow
+from quasistatic_ref.certify.point import rational_solution
+from quasistatic_ref.certify.rational import Dyadic, dyadic, form_on, friction_rows, joined
 from quasistatic_ref.certify.rows import places
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.cones import cone_matrix
+from quasistatic_ref.step.data import Indices, StepData
+from quasistatic_ref.step.friction import row_gaps
 
 
 def zeros_hold(
@@ -48,12 +50,12 @@ def zeros_hold(
     every, k = (*working, *rows), len(working)
     if _implied(_Claim(_numbers(step, every), k, every, tuple(coordinates), step)):
         return True
-    solution = rational_solution(exact_form(step, every), tuple(range(k)))
+    solution = rational_solution(form_on(step, *_some_rows(step, every)), tuple(range(k)))
     if any(solution.slack[k:]) or any(solution.x[v] for v in coordinates):
         return False
     exact = exact_rows(step, every)
     total = [sum(column) for column in zip(*exact[k:], strict=True)]
-    return not rows or all_follow(exact[:k], [total])
+    return not rows or all(follow(exact[:k], [total]))
 
 
 @dataclass(frozen=True)
@@ -86,4 +88,84 @@ def _implied(claim: _Claim) -> bool:
     n, k = claim.step.n_v, claim.k
     exact = exact_rows(claim.step, claim.rows)
     zeros = [[fmpz(int(i == v)) for i in range(n + 1)] for v in claim.coordinates]
-    return all_follow(exact[:k], [*exact[k:], *zeros])
+    return all(follow(exact[:k], [*exact[k:], *zeros]))
+
+
+def exact_rows(step: StepData, rows: Sequence[int]) -> list[list[int]]:
+    """Rows [a, b] of A x >= b without rounding: one positive factor for every a, one for every b.
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone.
+    rows : sequence of int
+        Rows of A; only these are formed.
+    """
+    A, b = _some_rows(step, rows)
+    return [[*A.m[i], b.m[i]] for i in range(len(rows))]
+
+
+def _some_rows(step: StepData, rows: Sequence[int]) -> tuple[Dyadic, Dyadic]:
+    """Some rows of A, and their entries of b."""
+    contact, row = places(step, rows)
+    own = contact == step.contacts.n_c
+    used, at = np.unique(contact[~own], return_inverse=True)
+    gaps = row_gaps(step.contacts, step.cone)[contact[~own], row[~own]]
+    of_contacts = friction_rows(step.contacts, step.cone, used)[at, row[~own]]
+    A = joined([of_contacts, dyadic(step.extra.A[row[own]])])  # Eq. (8)
+    b = joined([dyadic(-gaps), dyadic(step.extra.b[row[own]])])
+    order = np.argsort(own, kind="stable").argsort()
+    return A[order], b[order]
+
+
+def spanned_in_contacts(step: StepData, working: Sequence[int], rows: Sequence[int]) -> bool:
+    """Whether the coefficients of the rows show that equations of some rows follow from those of W.
+
+    The rows of a contact combine the equations of four generators: of the gap, two slips and the
+    spin. A coefficient of friction that is 0 leaves out its generator, and contacts whose spins
+    are equal, or opposite, have that generator in common. A dependence among the coefficients is
+    one among the rows; the converse does not hold.
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone.
+    working : sequence of int
+        W: independent rows.
+    rows : sequence of int
+    """
+    contact, row = places(step, [*working, *rows])
+    table_of_cone, mu = combined(step.cone).tolist(), step.contacts.mu.tolist()
+    spins = step.contacts.J[:, 3] + 0.0
+    columns: dict[Hashable, int] = {}
+    entries: list[tuple[int, int, int]] = []
+
+    def put(k: int, generator: Hashable, coefficient: int) -> None:
+        if coefficient:
+            column = columns.setdefault(generator, len(columns))
+            entries.append((k, column, coefficient))
+
+    for k, (j, i) in enumerate(zip(contact.tolist(), row.tolist(), strict=True)):
+        if j == step.contacts.n_c:
+            put(k, ("own", i), 1)
+            continue
+        gap, slip_1, slip_2, spin = table_of_cone[i]
+        mu_v, _, mu_omega = mu[j]
+        put(k, (j, "gap"), gap)
+        if mu_v:
+            put(k, (j, "slip_1"), slip_1)
+            put(k, (j, "slip_2"), slip_2)
+        if mu_omega:
+            turn, back = spins[j].tobytes(), (0.0 - spins[j]).tobytes()
+            opposite = (mu_omega, back) in columns
+            put(k, (mu_omega, back if opposite else turn), -spin if opposite else spin)
+    table = fmpz_mat(len(contact), len(columns))
+    for k, column, coefficient in entries:
+        table[k, column] = coefficient
+    return bool(table.rank() == len(working))
+
+
+@cache
+def combined(name: str) -> Indices:
+    """How the rows of a cone combine gap, slips and spin: integers (R, 4), times one factor > 0."""
+    return np.array(dyadic(cone_matrix(name)).m.tolist(), dtype=np.int64)

@@ -13,7 +13,7 @@ SMALL = 1024
 
 
 @dataclass(frozen=True, eq=False)
-class Balls:
+class Level:
     """One level: balls, and boxes in them, that hold all points of the cloud.
 
     Parameters
@@ -41,7 +41,7 @@ class BallTree:
 
     Parameters
     ----------
-    levels : tuple of Balls
+    levels : tuple of Level
         Ball j has as children the next level's c j .. c j + c - 1, where c is the ratio of their
         numbers. The last level are the points, balls of radius 0, some of them twice.
     index : ndarray of int, shape (B of the last level,)
@@ -52,7 +52,7 @@ class BallTree:
         that moves least: displacements are affine.
     """
 
-    levels: tuple[Balls, ...]
+    levels: tuple[Level, ...]
     index: Indices
     box: Array
 
@@ -79,7 +79,7 @@ def ball_tree(points: Array) -> BallTree:
     arranged = filled[order]
     real = order < N
     zero = np.zeros(len(order))
-    levels = [Balls(arranged, zero, np.zeros((len(order), 3)), np.where(real, 0.0, np.inf))]
+    levels = [Level(arranged, zero, np.zeros((len(order), 3)), np.where(real, 0.0, np.inf))]
     count = 1 << depth
     while len(levels[0].centre) > SMALL:
         levels.insert(0, _balls(arranged.reshape(count, -1, 3), real.reshape(count, -1)))
@@ -89,11 +89,11 @@ def ball_tree(points: Array) -> BallTree:
     return BallTree(tuple(levels), np.where(real, order, -1), box)
 
 
-def _balls(nodes: Array, real: Mask) -> Balls:
+def _balls(nodes: Array, real: Mask) -> Level:
     """A ball about each node's points, shape (B, n, 3), of which some are real."""
     low, high = nodes.min(axis=1), nodes.max(axis=1)
     centre = (low + high) / 2
     away = nodes - centre[:, None]
     radius = np.sqrt(np.sum(away * away, axis=2).max(axis=1))
     far_side = np.where(real.any(axis=1), radius, np.inf)
-    return Balls(centre, radius, (high - low) / 2, far_side)
+    return Level(centre, radius, (high - low) / 2, far_side)

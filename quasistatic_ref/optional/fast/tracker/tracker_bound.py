@@ -4,6 +4,7 @@ docs/distances.md derives the two bounds that keep all other points out.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -21,6 +22,11 @@ Distances change as fast as a cloud comes or goes, the order of heights only as 
 
 BEAM = 48
 """Balls of a level that are opened, at least."""
+
+CORNERS = 8
+"""Of the box around a cloud."""
+
+_SQRT_3 = float(np.nextafter(np.sqrt(3.0), 2.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +46,8 @@ class Shortlist:
         Unit vector in the solid's frame.
     corners : ndarray, shape (8, 3)
         Of the box around the cloud, in the solid's frame [m].
+    box : ndarray, shape (8, 3)
+        The same corners in the cloud's frame [m].
     """
 
     index: Indices
@@ -47,6 +55,41 @@ class Shortlist:
     by_height: float
     n: Array
     corners: Array
+    box: Array
+
+    @cached_property
+    def bounds(self) -> tuple[Array, Array]:
+        """Functions of the pose, slope . [R, t] + offset [m], of which the least is the limit.
+
+        Returns
+        -------
+        ndarray, shape (48 + 48, 12), and ndarray, shape (48 + 48,)
+
+        Notes
+        -----
+        A point that moves by u has its height changed by n . u, its distance by |u| at most, and
+        what is rounded by UNSEEN |u|. All these are concave in u, and u is affine in the point:
+        over the box the least is at a corner. |u| <= sqrt(3) max |u_i| makes them linear.
+        """
+        ways = _SQRT_3 * np.concatenate([np.eye(3), -np.eye(3)])
+        here = np.column_stack([self.box, np.ones(CORNERS)])
+        by_height = self.n + UNSEEN * ways, self.by_height
+        slopes, offsets = [], []
+        for directions, bound in (by_height, ((1 + UNSEEN) * ways, self.by_distance)):
+            slopes.append(np.einsum("ai,cj->acij", directions, here).reshape(-1, 12))
+            offsets.append(bound - (directions @ self.corners.T).ravel())
+        return np.concatenate(slopes), np.concatenate(offsets)
+
+    def limit(self, pose: Array) -> float:
+        """Below which signed distance [m] no point outside the list can have come.
+
+        Parameters
+        ----------
+        pose : ndarray, shape (3, 4)
+            [R, t] from the cloud's frame to the solid's.
+        """
+        slope, offset = self.bounds
+        return float((slope @ pose.ravel() + offset).min())
 
 
 def reach(shape: Shape, n: Array) -> float:
@@ -124,4 +167,4 @@ def shortlist(
             nodes = (nodes[:, None] * children + np.arange(children)).reshape(-1)
     index = tree.index[nodes]
     kept = np.sort(index[index >= 0])
-    return Shortlist(kept, by_distance - slack, by_height - slack, n, corners)
+    return Shortlist(kept, by_distance - slack, by_height - slack, n, corners, tree.box)

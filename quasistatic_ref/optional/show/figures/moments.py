@@ -9,9 +9,8 @@ from quasistatic_ref.optional.show.figures.surfaces import surface_points
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.step.friction import cone_matrix
 
 BEARING = 1e-3
 """A contact is drawn as bearing load above this share of the largest normal force [-]."""

@@ -11,9 +11,8 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial import ConvexHull, QhullError
 
 from quasistatic_ref.optional.show.figures.camera import Camera
-from quasistatic_ref.optional.show.figures.legible import DRAWING
 from quasistatic_ref.optional.show.figures.moments import Moment
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
 from quasistatic_ref.optional.show.figures.surfaces import faces, patch, surface_points
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array

@@ -38,6 +38,9 @@ NARROW: Final = 16.0
 CROWDED: Final = 1.3
 """Width over height [-] at which a panel is as cramped across as it is up: labels lie below it."""
 
+DRAWING: Final = "drawing"
+"""Mark (gid) of lines that are parts of a picture: not data, so nothing has to tell them apart."""
+
 FORMATS = ("png", "pdf")
 _current: ContextVar[str | Path] = ContextVar("figure style", default="paper")
 

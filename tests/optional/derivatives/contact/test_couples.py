@@ -5,11 +5,10 @@ import pytest
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.placed import Placed
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.contact.contact_rates import (
-    _dependent,
     contact_rates,
     merged_features,
     nearly_level,
@@ -27,9 +26,8 @@ from quasistatic_ref.shapes.placed_shape import (
     PointCloud,
     Sphere,
 )
-from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
+from tests.oracles.differences import rate
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
-from validation.make.derivatives import rate
 
 FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
 TANGENTS = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
@@ -119,7 +117,7 @@ def test_a_cloud_is_as_large_as_the_longest_side_of_its_box():
 
 def test_a_level_rim_whose_body_turns_has_no_lowest_point():
     z = np.array([0.0, 0.0, 1.0])
-    cylinder = Placed(Cylinder(0.04, 0.06), np.eye(3), np.zeros(3))
+    cylinder = ShapeInWorld(Cylinder(0.04, 0.06), np.eye(3), np.zeros(3))
     about_z = np.cross(z[:, None], z[:, None], axis=0)  # z x z: it does not tilt
     about_x = np.cross(np.array([[1.0], [0], [0]]), z[:, None], axis=0)
     rim = Rim(0, 1, 0.04)
@@ -150,36 +148,3 @@ def test_merged_features_are_those_of_either_side_with_their_ends_free():
     assert np.array_equal(first.bend, one.bend)
     assert len(first.ends) == 0
     assert second is other
-
-
-def test_a_rim_is_nearly_level_up_to_the_tolerances():
-    x, z, tall = np.array([0.04, 0.0, 0.0]), np.array([0.0, 0.0, 1.0]), Cylinder(0.04, 0.06)
-    _, (couple,) = kept(still := body((0.0, 0.0, 0.0)), pair_of(still, FLOOR, tall, "fixed", 1))
-    ways = ((SPLIT, False), (2 * SPLIT, True), (LEVEL, True), (2 * LEVEL, False))
-    for tilt, expected in ways:
-        at = couple._replace(n=z + tilt * np.array([1.0, 0.0, 0.0]))
-        end = (1 - ON_RIM) * x - 0.06 * z
-        assert nearly_level(at._replace(points=(end, end))) == expected
-        inside = (1 - 2 * ON_RIM) * x - 0.06 * z
-        assert not nearly_level(at._replace(points=(inside, inside)))
-
-
-def test_a_rim_is_level_and_stays_so_up_to_the_tolerances():
-    x, z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
-    cylinder = Placed(Cylinder(0.04, 0.06), np.eye(3), np.zeros(3))
-    for tilt, rate_of, expected in ((1.0, 2.0, None), (2.0, 2.0, "slides"), (1.0, 1.0, "rests")):
-        turning = rate_of * ON_RIM * x[:, None]
-        found = rim_velocity(Rim(0, 1, 0.04), cylinder, z + tilt * LEVEL * x, turning)
-        assert (found is None) == (expected is None)
-        assert expected != "rests" or not found.any()
-
-
-def test_directions_as_near_to_each_other_as_counts_are_one():
-    x, y = np.eye(3)[:2]
-    system = body((0.0, 0.0, 0.2))
-    _, (couple,) = kept(system, pair_of(system, FLOOR, Box(np.full(3, 0.1)), "fixed", 1))
-    for share, count in ((1.0, 1), (2.0, 2)):
-        one = Feature(np.eye(3), x[None], share * ON_RIM * y[None])
-        assert len(merged_features(couple._replace(features=(one, one)))[0].free) == count
-        ways = tuple(Feature(np.eye(3), way[None]) for way in (x, share * UNIQUE * y))
-        assert _dependent(ways) == (count == 1)

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.derivatives.contact.couples import couples
-from quasistatic_ref.optional.derivatives.contact.depth_ties import _differ, _inside_tie, depth_tie
+from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -44,15 +44,12 @@ TIES = {
     "two faces of a box": (BOX, (0.1 - D, D - 0.2, 0.05), (1, 0, 0)),
     "both ends of an axis of a box": (BOX, (0.0, 0.02, -0.03), (1, 0, 0)),
     "side and top of a cylinder": (TALL, (C * (0.1 - D), S * (0.1 - D), 0.2 - D), (0, 0, 1)),
-    "side and bottom of a cylinder": (TALL, (C * (0.1 - D), S * (0.1 - D), D - 0.2), (0, 0, 1)),
     "top and bottom of a cylinder": (FLAT, (0.05, -0.02, 0.0), (0, 0, 1)),
     "side and base of a cone": (CONE, (C * CONE_R, S * CONE_R, D - 0.1), (C, S, 0)),
     "two faces of a mesh": (TETRAHEDRON, (0.02, 0.02, 0.06), (1, 0, 0)),
-    "two faces of a mesh of six": (BRICK, (0.0625 - D, D - 0.125, 0.05), (1, 0, 0)),
     "two sides of an ellipsoid": (WIDE, (0.1, 0.05, 0.0), (0, 0, 1)),
     "two sides of an ellipsoid, far out": (WIDE, (0.99 * END, 0.0, 0.0), (0, 0, 1)),
     "two sides of one along y": (Ellipsoid(np.array([0.3, 0.1, 0.2])), (0.1, 0, 0.05), (0, 1, 0)),
-    "two sides of one along x": (Ellipsoid(np.array([0.1, 0.3, 0.2])), (0, 0.1, 0.05), (1, 0, 0)),
     "the middle of a long ellipsoid": (Ellipsoid(np.array([0.3, 0.1, 0.1])), (0, 0, 0), (1, 0, 0)),
 }
 """A solid, a point as deep below two parts of its surface, and a way to where it is not [-]."""
@@ -60,23 +57,16 @@ TIES = {
 NO_TIES = {
     "the middle of a face of a box": (BOX, (0.07, 0.0, 0.0)),
     "beyond an edge of a box": (BOX, (0.12, 0.22, 0.0)),
-    "on an edge of a box": (BOX, (0.1, 0.2, 0.0)),
     "near the top of a cylinder": (TALL, (0.01, 0.01, 0.19)),
-    "near the side of a cylinder": (TALL, (0.09, 0.01, 0.02)),
     "across a cylinder from where it would be": (TALL, (0.01, C * (0.1 - D), 0.2 - D)),
     "beyond the rim of a cylinder": (TALL, (0.12, 0.0, 0.22)),
-    "on the rim of a cylinder": (TALL, (0.1, 0.0, 0.2)),
     "beyond the rim of a cone, as far": (CONE, (0.3 + 2 * (0.3 - CONE_R), 0.0, -0.1 - 2 * D)),
-    "on the rim of a cone": (CONE, (0.3, 0.0, -0.1)),
     "near the base of a cone": (CONE, (0.02, 0.01, -0.09)),
-    "near the side of a cone": (CONE, (0.13, 0.01, 0.0)),
     "beyond an edge of a mesh": (BRICK, (0.07, 0.1325, 0.0)),
-    "on an edge of a mesh": (BRICK, (0.0625, 0.125, 0.0)),
     "near a face of a mesh": (TETRAHEDRON, (0.02, 0.03, 0.06)),
     "beyond where two sides of an ellipsoid tie": (WIDE, (1.01 * END, 0.0, 0.0)),
     "where its sides tie no more": (Ellipsoid(np.array([2.0, 2.0, 1.0])), (1.5, 0.0, 0.0)),
     "off the middle of a long ellipsoid": (Ellipsoid(np.array([0.3, 0.1, 0.1])), (0.05, 0, 0)),
-    "beyond the end of a long ellipsoid": (Ellipsoid(np.array([0.3, 0.1, 0.1])), (0.35, 0, 0)),
 }
 """A solid and a point with one nearest point, or with none below the surface."""
 
@@ -107,28 +97,17 @@ def inside(solid, p, body, pose):
     return found
 
 
-@pytest.mark.parametrize("body", [POINT, Sphere(0.01)])
 @pytest.mark.parametrize("name", TIES)
-def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name, body) -> None:
+def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name) -> None:
     solid, p, way = TIES[name]
-    pose = TURNED, AT
-    assert inside(solid, p + NEAR * solid.extent * np.array(way), body, pose)
+    near = p + NEAR * solid.extent * np.array(way)
+    assert inside(solid, near, POINT, (TURNED, AT))
+    assert inside(solid, near, Sphere(0.01), (TURNED, AT))
     for sign in (1, -1):
-        assert not inside(solid, p + sign * AWAY * np.array(way), body, pose)
-    # Equal is what differs by at most TIED * size. The sizes are below 1 m: this is more than that,
-    # and less than TIED / size.
-    off = 0.9 * TIED / solid.extent
-    assert not inside(solid, p + off * np.array(way), body, pose)
-
-
-@pytest.mark.parametrize(
-    "name", [name for name in TIES if not isinstance(TIES[name][0], Ellipsoid)]
-)
-def test_what_is_as_deep_to_the_last_digits_is_refused(name) -> None:
-    solid, p, _ = TIES[name]
-    for body in (POINT, Sphere(0.01)):
+        assert not inside(solid, p + sign * AWAY * np.array(way), POINT, (TURNED, AT))
+    if not isinstance(solid, Ellipsoid):  # whose two normals are never equal to the last digits
         with pytest.raises(ContactError, match=r"p: the bodies are as deep in each other along \["):
-            inside(solid, p, body, STILL)
+            inside(solid, p, POINT, STILL)
 
 
 @pytest.mark.parametrize("name", NO_TIES)
@@ -154,20 +133,12 @@ PAIRS = {
 @pytest.mark.parametrize("name", PAIRS)
 def test_two_solids_as_deep_in_each_other_along_two_axes_are_tied(name) -> None:
     a, b, t = PAIRS[name]
-    size = max(a.extent, b.extent)
-    ways = np.eye(3) if t[2] < 0.2 else np.eye(3)[[0, 2]]
-    between = (TIED / size + TIED * size) / 2  # more than TIED * size, which is equal
-    near = np.array(t) + NEAR * size * ways[0]
+    way = np.eye(3)[0]
+    near = np.array(t) + NEAR * max(a.extent, b.extent) * way
     assert tied(a, b, (TURNED, AT), (TURNED, TURNED @ near + AT))
-    for way in ways[:2]:
-        for off in (AWAY, -AWAY, between, -between):
-            moved = TURNED @ (np.array(t) + off * way) + AT
-            assert not tied(a, b, (TURNED, AT), (TURNED, moved))
-
-
-@pytest.mark.parametrize("name", PAIRS)
-def test_solids_as_deep_to_the_last_digits_are_refused(name) -> None:
-    a, b, t = PAIRS[name]
+    for off in (AWAY, -AWAY):
+        moved = TURNED @ (np.array(t) + off * way) + AT
+        assert not tied(a, b, (TURNED, AT), (TURNED, moved))
     with pytest.raises(ContactError, match="as deep in each other along"):
         tied(a, b, STILL, (np.eye(3), np.array(t)))
 
@@ -193,52 +164,3 @@ def test_a_rim_that_touches_an_edge_has_two_normals() -> None:
     found = couple_of(rim, half, STILL, (np.eye(3), np.array([0.5, 0.0, 0.5])))
     assert depth_tie(found)
     assert depth_tie(found._replace(phi=0.0))
-
-
-# Of a size of 1 / TIED two depths are equal that differ by no more than one metre.
-FAR = 1 / TIED
-BORDERS = {
-    "a box": (Box(np.array([2.0, 2.0, 4.0])), (1.0, 0.0, 0.0)),
-    "a cylinder": (Cylinder(3.0, 2.0), (1.0, 0.0, 1.0)),
-    # Side and base of this cone, of slant 5, are (6 - 3 z) / 5 and 2 + z deep below its axis.
-    "a cone": (Cone(3.0, 2.0), (0.0, 0.0, 1 / 8)),
-    "a mesh": (convex_hull(Box(np.array([2.0, 2.0, 4.0])).corners(AT)[0]), (1.0, 0.0, 0.0)),
-    "an ellipsoid": (Ellipsoid(np.array([8.0, 6.0, 4.0])), (0.0, 0.0, 1.0)),
-    "a long ellipsoid": (Ellipsoid(np.array([8.0, 4.0, 4.0])), (1.0, 0.0, 0.0)),
-}
-"""A solid and a point whose depths differ by one metre, or that is as far from where they tie."""
-
-
-@pytest.mark.parametrize("name", BORDERS)
-def test_depths_that_differ_by_as_much_as_counts_as_equal_are_tied(name) -> None:
-    solid, p = BORDERS[name]
-    assert _inside_tie(solid, np.array(p), FAR)
-    assert not _inside_tie(solid, np.array(p), 0.99 * FAR)
-
-
-@pytest.mark.parametrize(
-    ("solid", "p"),
-    [
-        (Ellipsoid(np.array([8.0, 6.0, 0.5])), (0.0, 0.0, 0.5)),
-        (Cylinder(2.0, 2.0), (1.5, 0.0, 2.0)),
-    ],
-)
-def test_a_point_on_a_surface_is_not_tied_however_near_another_is(solid, p) -> None:
-    assert not _inside_tie(solid, np.array(p), FAR)
-
-
-def test_ways_out_that_differ_by_as_much_as_counts_as_equal_are_tied() -> None:
-    # The cubes are 2 m deep in each other along x and 3 m along y; the axes of the capsules, whose
-    # radii are 3/4 m, are one metre apart.
-    cube, away = Box(np.array([2.0, 2.0, 2.0])), (np.eye(3), np.array([2.0, 1.0, 0.0]))
-    boxes = couple_of(cube, cube, STILL, away)
-    capsules = couple_of(Capsule(0.5, 2.0), Capsule(0.25, 2.0), STILL, away)._replace(phi=0.25)
-    for found in (boxes, capsules):
-        for share, expected in ((1.0, True), (0.99, False)):
-            assert depth_tie(found._replace(extents=(1.0, share * FAR))) == expected
-
-
-def test_normals_that_differ_by_the_root_of_the_tolerance_are_one() -> None:
-    n, off = np.array([0.0, 0.0, 1.0]), np.sqrt(TIED) * np.array([1.0, 0.0, 0.0])
-    assert not _differ((n + off)[None], n)
-    assert _differ((n + 2 * off)[None], n)

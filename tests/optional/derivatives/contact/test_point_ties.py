@@ -59,13 +59,6 @@ def test_a_point_as_near_as_the_farthest_that_is_kept_is_tied(solid) -> None:
 
 
 @pytest.mark.parametrize("solid", [FLOOR, BALL])
-def test_two_that_are_kept_are_tied_with_one_that_is_not(solid) -> None:
-    kept, out = both(solid, cloud(solid, [0.03, 0.01, 0.03, 0.03, 0.04]), 3)
-    assert sorted(kept + out) == [0, 2, 3]
-    assert len(kept) == 2
-
-
-@pytest.mark.parametrize("solid", [FLOOR, BALL])
 def test_points_are_tied_within_a_share_of_the_size(solid) -> None:
     # Equal is what differs by at most TIED * size, and the size is between 0.01 and 1 m here.
     for off, expected in ((TIED, False), (-TIED, False), (TIED * 0.01, True), (-TIED * 0.01, True)):
@@ -94,13 +87,3 @@ def test_corners_of_a_box_on_the_floor_are_tied_but_not_of_a_tilted_one() -> Non
     tilted = Rotation.from_euler("xy", [0.1, 0.25]).as_matrix(), np.array([0.0, 0.0, 0.2])
     assert ties(FLOOR, box, 3, (floor, tilted)) == ([], [])
     assert ties(FLOOR, box, 1, (floor, lying)) == ([], [])
-
-
-def test_heights_that_differ_by_as_much_as_counts_as_equal_are_tied() -> None:
-    # Of a size of 1 / TIED that is one metre: of points at 1, 2, 3 and 5 m two are kept.
-    p = pair(placed(FLOOR, 1), placed(cloud(FLOOR, [1.0, 2.0, 3.0, 5.0]), 2), 2)
-    poses = np.array([np.eye(3)] * 3), np.zeros((3, 3))
-    points = pair_closest_points(p, *poses)
-    for share, expected in ((1.0, ([0, 1], [2])), (0.99, ([], []))):
-        kept = [c._replace(extents=(np.inf, share / TIED)) for c in couples([p], points, *poses)]
-        assert tied_points(kept, points) == expected

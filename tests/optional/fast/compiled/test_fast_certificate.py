@@ -12,8 +12,6 @@ import pytest
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.units import natural_units
@@ -154,8 +152,7 @@ def test_numbers_that_do_not_fit_are_left_to_balls(factor, shown):
         assert not differing(found, exact_optimum(exact_form(step), list(truth.working_set)))
 
 
-@pytest.mark.parametrize("name", ["peg_in_hole", "stack", "block_push"])
-def test_a_run_is_proved_by_compiled_code(monkeypatch, name):
+def test_a_run_is_proved_by_compiled_code(monkeypatch):
     certificate, proved = compiled("certificate"), []
     plain = certificate.Prover.optimum
 
@@ -165,22 +162,10 @@ def test_a_run_is_proved_by_compiled_code(monkeypatch, name):
         return found
 
     monkeypatch.setattr(certificate.Prover, "optimum", counted)
-    run = load_scenario(name, ["steps=40", "record=light"], fast=True).run(progress=False)
+    run = load_scenario("peg_in_hole", ["steps=40", "record=light"], fast=True).run(progress=False)
     assert (run["certificate"] == "exact").all()
     assert 40 <= len(proved) <= 44  # a wrong guess is followed by another
     assert np.mean(proved) > 0.9
-
-
-def test_a_number_just_beyond_a_power_of_two_is_rounded_to_it():
-    """Beyond 1 the next float64 is 2^-52 away, below it 2^-53: x = h^2 f / m is in between."""
-    rng, far = np.random.default_rng(4), Fraction(0)
-    while not 2.0**-54 < far < 2.0**-53:
-        h, f = rng.uniform(1.0, 1.4, 2).tolist()
-        m = h * h * f
-        far = Fraction(h) * Fraction(h) * Fraction(f) / Fraction(m) - 1
-    contacts = contacts_of(9.0, np.eye(3)[None], np.zeros((1, 4, 1)), 0.0, rows=4)
-    step = free_step(np.array([[m]]), np.array([f]), contacts, h)
-    assert proof(step, []).delta_q.tolist() == [1.0]
 
 
 def test_impulses_that_are_zero_where_nothing_moves_are_proved():

@@ -75,11 +75,8 @@ def test_units_that_an_order_of_sums_may_decide_are_left_to_numpy(case):
     assert not any(part.any() for part in (program.f, program.A, program.b))
 
 
-@pytest.mark.parametrize("backend", ["daqp", "piqp", "clarabel"])
-def test_backends_are_given_the_program_that_numpy_would_write(backend):
-    scenario = load_scenario(
-        "bunny_grasp", [f"solver.backend={backend}", "record=light"], fast=True
-    )
+def test_a_backend_is_given_the_program_that_numpy_would_write():
+    scenario = load_scenario("bunny_grasp", ["record=light"], fast=True)
     simulator, q = scenario.simulator(), scenario.system.q_start
     given = []
     for k in range(6):

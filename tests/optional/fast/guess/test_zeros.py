@@ -7,11 +7,10 @@ from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
-from quasistatic_ref.optional.fast.guess.zeros import _Claim, _implied, _numbers, zeros_hold
+from quasistatic_ref.optional.fast.guess.zeros import zeros_hold
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.units import natural_units
 from tests.certify.test_exact import resting_point
-from tests.helpers import changed, random_step
 from validation.make.confirmed_bits import differing
 
 SPINS, SLIPS = [4, 5], [0, 1, 2, 3]
@@ -51,20 +50,3 @@ def test_of_a_row_without_slack_that_nothing_presses_on_nothing_is_known():
     assert not zeros_hold(weightless, [], [0, 1, 2, 3, 4, 5], [])
     assert zeros_hold(weightless, [], [], [0, 1, 2, 3])
     assert not exact_optimum(exact_form(weightless)).differentiable
-
-
-def test_zeros_that_the_working_set_implies_need_no_loads():
-    pushed = resting_point(tau_x=0.1)
-    assert zeros_hold(pushed, [0, 1, 2], [3], [0, 1, 2])
-    claim = _Claim(_numbers(pushed, (0, 1, 2, 3)), 3, (0, 1, 2, 3), (0, 1, 2), pushed)
-    assert _implied(claim)
-    assert not _implied(_Claim(claim.numbers, 3, claim.rows, (3,), pushed))
-
-
-def test_a_claim_has_the_numbers_of_the_contacts_that_its_rows_are_of(rng):
-    """Rows 6 and 7 are the first two of the second contact."""
-    step = random_step(rng, rows=(6, 4))
-    before = _numbers(step, [6, 7])
-    for phi, same in (([9.0, 0.0], True), ([0.0, 9.0], False)):
-        other = step.replace(contacts=changed(step.contacts, phi=step.contacts.phi + phi))
-        assert (_numbers(other, [6, 7]) == before) == same

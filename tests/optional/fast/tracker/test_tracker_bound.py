@@ -9,10 +9,8 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.optional.fast.tracker import ball_tree
-from quasistatic_ref.optional.fast.tracker.batch import Batch
-from quasistatic_ref.optional.fast.tracker.cloud_tracker import SHORT, CloudTracker
+from quasistatic_ref.optional.fast.tracker.tracker import SHORT, ContactTracker
 from quasistatic_ref.optional.fast.tracker.tracker_bound import (
-    BEAM,
     Shortlist,
     reach,
     shortlist,
@@ -96,60 +94,11 @@ def test_points_left_out_lie_beyond_a_bound_with_room_for_rounding(name, kind, r
     assert tightest < 1.0  # the bounds say something
 
 
-@pytest.mark.parametrize(("shape", "axis"), [(Sphere(0.1), 0), (HalfSpace(Z, 0.0), 2)])
-def test_a_ball_is_as_far_and_a_box_as_high_as_its_nearest_point(shape, axis, rng, small_leaves):
-    # In line with the centre of a sphere and at its height, so that only distances tell; above a
-    # floor, where all heights are distances.
-    at, way = np.linspace(0.3, 5.0, 80), np.eye(3)[axis]
-    points = np.concatenate([np.outer(at, way), np.outer(at + 0.02, way)])
-    tree, width = ball_tree.ball_tree(points), 2 * BEAM  # all points of the balls that are opened
-    made = shortlist(tree, shape, np.eye(3), np.zeros(3), Z, np.inf, K, width)
-    out = np.setdiff1d(np.arange(len(points)), made.index)
-    least = signed_distance(shape, points[out])[0].min()
-    assert np.isinf(made.by_height if axis == 0 else made.by_distance)
-    bound = min(made.by_height, made.by_distance)
-    assert bound <= least - (1 - 1e-3) * room(shape, points, points)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_a_box_is_as_high_as_its_lowest_corner_however_it_is_turned(seed, small_leaves):
-    # Pairs of points far from each other, each pair at the lowest and highest corner of its box.
-    rng = np.random.default_rng(seed)
-    n, R = rng.normal(size=3), Rotation.random(rng=rng).as_matrix()
-    n /= np.linalg.norm(n)
-    half = np.sign(n @ R) * rng.uniform(0.01, 0.1, size=(128, 3))
-    centre = rng.uniform(-0.1, 0.1, size=(128, 3))
-    centre[:, 0] += np.arange(128)
-    points, t = np.concatenate([centre - half, centre + half]), rng.normal(size=3)
-    floor, tree = HalfSpace(n, 0.0), ball_tree.ball_tree(points)
-    np.testing.assert_allclose(
-        tree.levels[-2].half_extents, np.abs(half), rtol=ROUNDING, atol=ROUNDING
-    )
-    made = shortlist(tree, floor, R, t, n, np.inf, K, 2 * BEAM)
-    beyond = spare(made, floor, points, R, t, n)
-    assert beyond.min() >= (1 - 1e-3) * room(floor, points, rotated(R, points) + t)
-    assert beyond.min() < 1e-6  # and no lower
-
-
 def test_a_solid_s_size_is_no_less_than_it_reaches_in_any_direction():
     for shape in (*SHAPES.values(), convex_hull(-WEDGE)):
         if not isinstance(shape, HalfSpace):
             reaches = [reach(shape, sign * axis) for axis in np.eye(3) for sign in (1, -1)]
             assert size(shape) >= max(reaches)
-
-
-@pytest.mark.parametrize("axis", [0, 2])
-def test_points_that_are_farther_by_less_than_the_room_are_in_the_list(axis):
-    # All but 5 points are farther by nine tenths of it, beside the solid or above it.
-    shape, n = Sphere(0.1), np.eye(3)[axis]
-    points = np.tile(0.2 * n, (200, 1))
-    points[K:] += 0.9 * room(shape, points, points) * n
-    phi = np.sort(signed_distance(shape, points)[0])
-    assert phi[K - 1] < phi[K] < phi[K - 1] + room(shape, points, points)
-    far = np.concatenate([points, np.outer(np.linspace(1, 2, 50), n)])
-    made = shortlist(ball_tree.ball_tree(far), shape, np.eye(3), np.zeros(3), n, np.inf, K, WIDTH)
-    assert made.index.tolist() == list(range(200))
-    assert min(made.by_distance, made.by_height) > phi[K - 1]  # it suffices where it was made
 
 
 @pytest.mark.parametrize("name", SHAPES)
@@ -161,13 +110,11 @@ def test_no_point_left_out_comes_below_the_limit_at_any_motion(name, rng):
         phi, normal = signed_distance(shape, points + Z)
         n = normal[phi.argmin()]
     made = shortlist(ball_tree.ball_tree(points), shape, np.eye(3), Z, n, np.inf, K, WIDTH)
-    box = ball_tree.ball_tree(points).box
-    batch = Batch([0], [shape], [made], [points[made.index]], [box], [K])
     out = np.setdiff1d(np.arange(300), made.index)
     for scale in (1e-6, 1e-3, 0.1, 1.0) * 10:
         R = Rotation.from_rotvec(scale * rng.normal(size=3)).as_matrix()
         t = Z + scale * rng.normal() * (n if scale < 1e-2 else rng.normal(size=3))
-        limit = batch.limit(np.column_stack([R, t])[None])[0]
+        limit = made.limit(np.column_stack([R, t]))
         above = signed_distance(shape, rotated(R, points[out]) + t)[0].min() - limit
         assert above > 0
         tightest = min(tightest, above)
@@ -181,9 +128,8 @@ def test_the_limit_of_a_falling_cloud_is_the_next_height_less_the_room():
     floor, tree = HalfSpace(Z, 0.0), ball_tree.ball_tree(points)
     made = shortlist(tree, floor, np.eye(3), np.zeros(3), Z, np.inf, K, WIDTH)
     assert made.index.tolist() == list(range(WIDTH))
-    batch = Batch([0], [floor], [made], [points[:WIDTH]], [tree.box], [K])
     for down in (0.0, 0.01, 0.5):
-        limit = batch.limit(np.column_stack([np.eye(3), -down * Z])[None])[0]
+        limit = made.limit(np.column_stack([np.eye(3), -down * Z]))
         least = 2 * UNSEEN * 0.099  # sizes of the cloud, and of where it was
         assert (
             least - ROUNDING <= 1e-3 * WIDTH - down - limit <= least + 2 * UNSEEN * down + ROUNDING
@@ -193,10 +139,9 @@ def test_the_limit_of_a_falling_cloud_is_the_next_height_less_the_room():
 def test_a_limit_by_distance_falls_by_the_motion_and_the_room_for_that():
     # The box about a cloud, moved along an axis by 1 m: |u| <= sqrt(3) max |u_i|, for all ways.
     box = np.array(list(itertools.product((-0.1, 0.1), repeat=3)))
-    made = Shortlist(np.arange(2), 3.0, np.inf, Z, box)
-    batch = Batch([0], [Sphere(0.1)], [made], [box[:2]], [box], [1])
+    made = Shortlist(np.arange(2), 3.0, np.inf, Z, box, box)
     for u in (X, -X, Z):
-        limit = batch.limit(np.column_stack([np.eye(3), u])[None])[0]
+        limit = made.limit(np.column_stack([np.eye(3), u]))
         expected = 3.0 - np.sqrt(3) * (1 + UNSEEN)
         np.testing.assert_allclose(limit, expected, rtol=EXACT, atol=ROUNDING)
 
@@ -206,12 +151,12 @@ def test_a_list_that_suffices_for_few_steps_is_made_twice_as_long(rng):
     k, points = 12, PointCloud(rng.uniform(-0.1, 0.1, size=(500, 3)))
     floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(Z, 0.0))
     cloud = PlacedShape("cloud", 1, np.eye(3), np.zeros(3), points)
-    tracker = CloudTracker([ContactPair("p", floor, cloud, 0.5, 0.0, 4, k)])
+    tracker = ContactTracker([ContactPair("p", floor, cloud, 0.5, 0.0, 4, k)])
     upright, upside_down = np.eye(3), np.diag([1.0, -1.0, -1.0])
     widths = []
     for R, steps in ((upright, SHORT), (upside_down, SHORT - 1), (upright, 1)):
         for _ in range(steps):
             tracker.closest_points(np.stack([np.eye(3), R]), np.zeros((2, 3)))
-        widths.append(tracker.width[0])
+        widths.append(tracker.clouds[0].width)
     assert tracker.lists_made == 3
     assert widths == [4 * k, 4 * k, 8 * k]

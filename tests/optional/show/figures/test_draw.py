@@ -7,7 +7,7 @@ from matplotlib.patches import Polygon
 from PIL import Image
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.show.figures import animate, draw_scene, faults, moment, panels
+from quasistatic_ref.optional.show.figures import animate, draw_scene, moment, panels
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.draw import LONGEST, force_scale, round_scale
 from quasistatic_ref.optional.show.figures.moments import DrawnContact, Moment, extent
@@ -17,8 +17,8 @@ from quasistatic_ref.shapes.placed_shape import (
     Box,
     HalfSpace,
     PlacedShape,
-    Sphere,
 )
+from tests.legible import faults
 from tests.tolerances import EXACT, FILE_FLOAT32, ROUNDING
 
 SLOPE = np.radians(25)
@@ -142,15 +142,6 @@ def test_a_scene_is_legible_in_every_view(incline, view):
     plt.close(figure)
 
 
-def test_the_scene_in_three_dimensions_has_as_many_forces_and_faces(incline):
-    figure, (axes,) = panels(4.6, 4.0, subplot_kw={"projection": "3d"})
-    of = moment(*incline, -1)
-    draw_scene(axes, of, parts=("forces",))
-    bodies = 3  # two blocks and the slope
-    assert len(axes.collections) == bodies + int(of.bearing.sum())
-    plt.close(figure)
-
-
 def test_faces_and_triangles_of_a_cube_and_their_direction():
     cube = surface_points(PlacedShape("s", 0, np.eye(3), np.zeros(3), Box(np.ones(3))))
     assert sorted(len(face) for face in faces(cube)) == [4] * 6
@@ -190,21 +181,6 @@ def test_a_film_has_a_frame_for_every_twentieth_of_a_second(incline, tmp_path):
         assert film.info["duration"] == 100
 
 
-def test_slow_motion_shows_every_step_four_times_as_long(incline, tmp_path):
-    path = animate(*incline, tmp_path / "slow.gif", fps=20, speed=0.25)
-    with Image.open(path) as film:
-        assert film.n_frames == 30  # 20 / 0.25 frames in a second of the run: of 10 ms, each one
-        assert film.info["duration"] == 40
-    with pytest.raises(InputError, match="must be positive and finite"):
-        animate(*incline, tmp_path / "never.gif", speed=0)
-
-
-def test_a_wrong_option_of_a_film_is_named(incline, tmp_path):
-    with pytest.raises(TypeError, match="colour"):
-        animate(*incline, tmp_path / "blocks.gif", colour="red")
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_forces_are_scaled_by_what_of_them_is_in_view():
     # A force of 12 N along y and one of 1.5 N along z: seen along y, 1.5 N is the largest.
     frame, rim = np.eye(3), np.zeros((0, 3))
@@ -223,18 +199,6 @@ def test_forces_are_scaled_by_what_of_them_is_in_view():
     assert force_scale([lone], "xz", half) == force_scale([lone], None, half) > 0
 
 
-def test_cones_and_forces_are_whole_in_the_picture(incline, page):
-    of = moment(*incline, -1)
-    draw_scene(page, of, metres_per_newton=0.2)
-    (left, right), (low, high) = page.get_xlim(), page.get_ylim()
-    for contact in of.contacts:
-        tips = 1e3 * (contact.beta + 0.2 * np.vstack([contact.rim, contact.force]))
-        assert (left < tips[:, 0]).all()
-        assert (tips[:, 0] < right).all()
-        assert (low < tips[:, 2]).all()
-        assert (tips[:, 2] < high).all()
-
-
 def test_films_that_cannot_be_written_are_refused(incline, tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", "")
     with pytest.raises(InputError, match="cannot be written without ffmpeg"):
@@ -242,10 +206,3 @@ def test_films_that_cannot_be_written_are_refused(incline, tmp_path, monkeypatch
     with pytest.raises(InputError, match=r"must end in \.gif or \.mp4"):
         animate(*incline, tmp_path / "blocks.png")
     assert animate(*incline, tmp_path / "blocks", fps=4).name == "blocks.gif"
-
-
-def test_sphere_is_a_solid_like_others():
-    ball = PlacedShape("s", 0, np.eye(3), np.zeros(3), Sphere(0.2))
-    few = surface_points(ball, around=24, up=9)
-    assert len(few) == 24 * 9
-    np.testing.assert_allclose(np.linalg.norm(few, axis=1), 0.2, rtol=ROUNDING)

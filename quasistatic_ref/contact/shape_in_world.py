@@ -1,0 +1,36 @@
+"""A shape with its pose in the world, and the closest points of a pair of them."""
+
+from typing import NamedTuple
+
+from quasistatic_ref.shapes.placed_shape import Shape
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import dot, product, rotated
+
+
+class ShapeInWorld(NamedTuple):
+    """A shape and its pose in the world: x_world = R x + t."""
+
+    shape: Shape
+    R: Array
+    t: Array
+
+    def farthest(self, direction: Array) -> Array:
+        """The farthest point along a direction, shape (3,) [m]; both in the world frame."""
+        return rotated(self.R, self.shape.support_point(product(self.R.T, direction))) + self.t
+
+    def reach(self, directions: Array) -> Array:
+        """How far it reaches along unit vectors (N, 3) of the world frame, shape (N,) [m]."""
+        return self.shape.support_value(product(directions, self.R)) + dot(directions, self.t)
+
+
+class Witness(NamedTuple):
+    """Closest points of two solids, in one frame: beta - alpha = phi n."""
+
+    phi: float
+    alpha: Array
+    beta: Array
+    n: Array
+
+    def swapped(self) -> "Witness":
+        """The same with alpha and beta exchanged."""
+        return Witness(self.phi, self.beta, self.alpha, -self.n)

@@ -1,0 +1,84 @@
+"""Layer 7: q (+) delta_q, joint by joint, and its inverse (-)."""
+
+import numpy as np
+
+from .mechanism import slices
+from .number import angle_of, coefficients, cos_sin, root, sign
+from .rotation import AXES, quaternion_product, rotation, skew, unit
+
+
+def moved(body, q, d):
+    """The q (+) d of one joint."""
+    kind = body["joint"]
+    if kind == "floating":
+        p = q[3:]
+        v = d[:3]
+        w = d[3:]
+        t = root(w @ w)
+        _, b, c = coefficients(t)
+        shift = v + b * np.cross(w, v) + c * np.cross(w, np.cross(w, v))
+        half = np.append(coefficients(t / 2)[0] / 2 * w, cos_sin(t / 2)[0])
+        turned = unit(quaternion_product(p, half))
+        return np.concatenate([q[:3] + rotation(p) @ shift, turned])
+    if kind in ("planar", "continuous"):
+        c, s = unit(q[-2:])
+        turned = unit(np.array([[c, -s], [s, c]]) @ cos_sin(d[-1]))
+        if kind == "continuous":
+            return turned
+        a, b, _ = coefficients(abs(d[2]))
+        x = a * d[0] - b * d[2] * d[1]
+        y = a * d[1] + b * d[2] * d[0]
+        return np.array([q[0] + c * x - s * y, q[1] + s * x + c * y, *turned])
+    return q + d
+
+
+def difference(body, target, q):
+    """The least d with q (+) d = target, of one joint."""
+    kind = body["joint"]
+    if kind == "floating":
+        back = np.append(-q[3:6], q[6])
+        p = unit(quaternion_product(back, target[3:]))
+        p = -p if sign(p[3]) < 0 else p
+        s = root(p[:3] @ p[:3])
+        w = p[:3] * (2 * angle_of(s, p[3]) / s if sign(s) else 2)
+        _, b, c = coefficients(root(w @ w))
+        W = skew(w)
+        V = AXES + b * W + c * W @ W
+        return np.append(solved(V, rotation(q[3:]).T @ (target[:3] - q[:3])), w)
+    if kind in ("planar", "continuous"):
+        (c, s), (c1, s1) = q[-2:], target[-2:]
+        w = angle_of(c * s1 - s * c1, c * c1 + s * s1)
+        if kind == "continuous":
+            return np.array([w])
+        a, b, _ = coefficients(abs(w))
+        c, s = unit([c, s])
+        x, y = np.array([[c, s], [-s, c]]) @ (target[:2] - q[:2])
+        size = a * a + b * w * b * w
+        return np.array([(a * x + b * w * y) / size, (a * y - b * w * x) / size, w])
+    return target - q
+
+
+def solved(V, x):
+    """The y of V y = x in three dimensions, by the cofactors of V."""
+    cofactors = np.array([np.cross(V[:, i - 2], V[:, i - 1]) for i in range(3)])
+    return cofactors @ x / (cofactors[0] @ V[:, 0])
+
+
+def integrate(case):
+    """Layer 7."""
+    q, delta_q = np.array(case["q"]), np.array(case["delta_q"])
+    return {"q": joined(case["mechanism"], lambda body, i, k: moved(body, q[i], delta_q[k]))}
+
+
+def way(mechanism, q, target):
+    """The delta_q with q (+) delta_q = target: of as many joints as the target has entries of."""
+    q, target = np.array(q), np.array(target)
+    return joined(mechanism, lambda body, i, k: difference(body, target[i], q[i]), len(target))
+
+
+def joined(mechanism, part, n_q=None):
+    """What each joint's part is, by its entries of q (the first n_q) and of delta_q."""
+    bodies = {body["name"]: body for body in mechanism["bodies"]}
+    places = slices(mechanism)[0].items()
+    found = [part(bodies[name], i, k) for name, (i, k) in places if n_q is None or i.stop <= n_q]
+    return np.concatenate(found) if found else np.zeros(0)

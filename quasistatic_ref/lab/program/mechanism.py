@@ -1,0 +1,102 @@
+"""Layer 3: mechanisms, the order of their coordinates, poses, and Jacobians of contacts."""
+
+import numpy as np
+
+from .number import cos_sin
+from .rotation import AXES, NONE, frame, rotation, skew, turn, unit
+
+ENTRIES = {  # of q, of delta_q
+    "fixed": (0, 0),
+    "revolute": (1, 1),
+    "prismatic": (1, 1),
+    "continuous": (2, 1),
+    "floating": (7, 6),
+    "planar": (4, 3),
+}
+
+
+def joint_pose(body, q):
+    """(R, t) of a joint at its entries of q."""
+    kind = body["joint"]
+    if kind == "floating":
+        return rotation(q[3:]), q[:3]
+    if kind == "planar":
+        c, s = unit(q[2:])
+        return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), np.append(q[:2], 0)
+    if kind == "revolute":
+        return turn(body["axis"], *cos_sin(q[0])), NONE
+    if kind == "continuous":
+        return turn(body["axis"], *unit(q)), NONE
+    if kind == "prismatic":
+        return AXES, q[0] * unit(body["axis"])
+    return AXES, NONE
+
+
+def slices(mechanism):
+    """{body: (slice of q, slice of delta_q)}, n_a, n_v: actuated first; none of a mimic."""
+    found, i, k, n_a = {}, 0, 0, 0
+    for actuated in (True, False):
+        for body in mechanism["bodies"]:
+            if bool(body.get("actuated")) == actuated and "mimic" not in body:
+                size_q, size_v = ENTRIES[body["joint"]]
+                found[body["name"]] = slice(i, i + size_q), slice(k, k + size_v)
+                i, k = i + size_q, k + size_v
+        n_a = k if actuated else n_a
+    return found, n_a, k
+
+
+def kinematics(mechanism, q):
+    """{body: (R, t, J)}: J (6 x n_v) of the velocity of its origin and its angular velocity."""
+    at, _, n_v = slices(mechanism)
+    found = {None: (AXES, NONE, np.zeros((6, n_v), dtype=int))}
+    for body in mechanism["bodies"]:
+        R0, t0, J0 = found[body["parent"]]
+        R_placed, t_placed = frame(body["placement"])
+        Rp, tp = R0 @ R_placed, R0 @ t_placed + t0
+        mimic = body.get("mimic", {"of": body["name"], "multiplier": 1, "offset": 0})
+        entries, columns = at[mimic["of"]]
+        pace, position = mimic["multiplier"], np.array(q[entries])
+        R_q, t_q = joint_pose(body, pace * position + mimic["offset"])
+        R, t = Rp @ R_q, Rp @ t_q + tp
+        J = np.vstack([J0[:3] - skew(t - t0) @ J0[3:], J0[3:]])
+        own = np.zeros((6, columns.stop - columns.start), dtype=R.dtype)
+        if body["joint"] == "floating":
+            own[:3, :3] = R
+            own[3:, 3:] = R
+        elif body["joint"] == "planar":
+            own[:3, :2] = R[:, :2]
+            own[3:, 2] = R[:, 2]
+        elif body["joint"] != "fixed":
+            along = Rp @ unit(body["axis"])
+            moving = slice(0, 3) if body["joint"] == "prismatic" else slice(3, 6)
+            own[moving, 0] = pace * along
+        J = np.hstack([J[:, : columns.start], J[:, columns] + own, J[:, columns.stop :]])
+        found[body["name"]] = R, t, J
+    return found
+
+
+def point_jacobian(at, point):
+    """Velocity of a material point, and the angular velocity."""
+    _, t, J = at
+    return J[:3] - skew(np.array(point) - t) @ J[3:], J[3:]
+
+
+def contact_jacobian(at, contact):
+    """Velocity of beta relative to alpha, and the relative spin about n: 4 rows."""
+    alpha = np.array(contact["alpha"])
+    beta = np.array(contact["beta"])
+    v_alpha, w_alpha = point_jacobian(at[contact["alpha_body"]], alpha)
+    v_beta, w_beta = point_jacobian(at[contact["beta_body"]], beta)
+    slip = v_beta - v_alpha
+    spin = np.array(contact["n"]) @ (w_beta - w_alpha)
+    return np.vstack([slip, spin])
+
+
+def jacobian(case):
+    """Layer 3."""
+    at = kinematics(case["mechanism"], np.array(case["q"]))
+    found = []
+    for contact in case["contacts"]:
+        J = contact_jacobian(at, contact)
+        found.append(J)
+    return {"J": found}

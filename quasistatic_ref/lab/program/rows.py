@@ -1,0 +1,39 @@
+"""Layer 4: the rows of the contacts, A delta_q >= b."""
+
+import numpy as np
+
+from .number import part_of_turn
+
+
+def cone_table(cone, rows, mu):
+    """T of each row of a contact, in units of (mu_v, mu_v, mu_omega), for mu of any kind."""
+    sides = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
+    spins = [[0, 0, 1], [0, 0, -1]]
+    if cone == "frictionless":
+        return np.zeros((1, 3), dtype=int)
+    if cone == "product":
+        both = [[a, b, s if rows == 6 else 0] for s in (1, -1) for a, b, _ in sides]
+        return np.array(both if rows == 6 else both[:4])
+    if cone != "pyramid":
+        K = int(cone.split("-")[1])
+        sides = [[*part_of_turn(mu, k, K), 0] for k in range(K)]
+    return np.array(sides + (spins if rows == 6 else []))
+
+
+def contact_rows(c, cone):
+    """The rows of one contact."""
+    T = cone_table(cone, c["rows"], c["mu_v"])
+    J = np.array(c["J"])
+    linear = np.array(c["n"]) + c["mu_v"] * T[:, :2] @ np.array([c["d1"], c["d2"]])
+    angular = c["mu_omega"] * T[:, 2]
+    return np.column_stack([linear, angular]) @ J
+
+
+def rows(case):
+    """Layer 4."""
+    A, b = [], []
+    for c in case["contacts"]:
+        found = contact_rows(c, case["cone"])
+        A.extend(found)
+        b.extend([-c["phi"]] * len(found))
+    return {"A": A, "b": b}

@@ -1,0 +1,101 @@
+"""Layer 8: a whole step."""
+
+import numpy as np
+
+from .candidates import candidates, chosen, tangents
+from .integration import integrate, way
+from .mechanism import jacobian, kinematics, point_jacobian, slices
+from .optimum import qp_answer
+from .rotation import AXES, NONE, frame
+from .rows import cone_table, rows
+from .wrench import wrench
+
+SHOWN = ("pair", "index", "phi", "alpha", "beta", "n", "d1", "d2", "J")
+"""What the answer says of a contact."""
+
+
+def placed(shape, at):
+    """(R, t) of a shape in the world."""
+    R, t, _ = at[shape["body"]]
+    R_shape, t_shape = frame(shape["pose"])
+    return R @ R_shape, R @ t_shape + t
+
+
+def contacts_of(case, at):
+    """The contacts, pair by pair, without J."""
+    found = []
+    for pair in case["pairs"]:
+        alpha, beta = case["shapes"][pair["alpha"]], case["shapes"][pair["beta"]]
+        k = pair["k"]
+        phi, a, b, n, late = candidates(
+            alpha["shape"], placed(alpha, at), beta["shape"], placed(beta, at), k
+        )
+        for i in chosen(phi, late, k):
+            d1, d2 = tangents(n[i])
+            contact = {"pair": pair["name"], "index": int(i)}
+            contact |= {"phi": phi[i], "alpha": a[i], "beta": b[i], "n": n[i], "d1": d1, "d2": d2}
+            contact |= {"alpha_body": alpha["body"], "beta_body": beta["body"]}
+            contact |= {key: pair[key] for key in ("mu_v", "mu_omega", "rows")}
+            found.append(contact)
+    return found
+
+
+def loads(case, at):
+    """M, and tau of gravity (un-actuated only) and of the wrenches."""
+    _, n_a, n_v = slices(case["mechanism"])
+    M, weight = np.zeros((n_v, n_v), dtype=int), np.zeros(n_v, dtype=int)
+    centre = {}
+    for body in case["mechanism"]["bodies"]:
+        R, t, _ = at[body["name"]]
+        mass = body.get("mass", 0)
+        centre[body["name"]] = R @ np.array(body.get("com", NONE)) + t
+        inertia = R @ np.array(body.get("inertia", 0 * AXES)) @ R.T
+        v, w = point_jacobian(at[body["name"]], centre[body["name"]])
+        M = M + mass * v.T @ v + w.T @ inertia @ w
+        weight = weight + mass * v.T @ np.array(case["gravity"])
+    tau = np.append(np.zeros(n_a, dtype=int), weight[n_a:])
+    for given in case.get("wrenches", []):
+        point = centre[given["body"]]
+        v, w = point_jacobian(at[given["body"]], point)
+        tau = tau + v.T @ np.array(given["force"]) + w.T @ np.array(given["torque"])
+    return M, tau
+
+
+def objective(case, M, tau):
+    """H and g."""
+    h, n_a = case["h"], len(case["K_q"])
+    K_q = np.array(case["K_q"]).reshape(n_a, n_a)
+    delta_q_bar_a = way(case["mechanism"], case["q"], case["q_bar_a"])
+    tau_k = K_q @ delta_q_bar_a
+    g = h * tau
+    g[:n_a] += h * tau_k
+    H = np.zeros(M.shape, dtype=g.dtype)
+    H[:n_a, :n_a] = h * K_q
+    H[n_a:, n_a:] = M[n_a:, n_a:] / h
+    return H, g
+
+
+def step(case):
+    """Layer 8: all of it."""
+    mechanism, h, cone = case["mechanism"], case["h"], case["cone"]
+    at = kinematics(mechanism, np.array(case["q"]))
+    contacts = contacts_of(case, at)
+    blocks = jacobian({"mechanism": mechanism, "q": case["q"], "contacts": contacts})["J"]
+    for contact, J in zip(contacts, blocks, strict=True):
+        contact["J"] = J
+    H, g = objective(case, *loads(case, at))
+    A_b = rows({"cone": cone, "contacts": contacts})
+    A, b = np.array(A_b["A"]).reshape(-1, len(g)), np.array(A_b["b"])
+    shown = [{key: contact[key] for key in SHOWN} for contact in contacts]
+    output = {"contacts": shown, "H": H, "g": g, "A": A, "b": b}
+    found = qp_answer(H, g, A, b)
+    if "farkas" in found:
+        return {**output, **found}
+    delta_q, lam, A_lam = found["delta_q"], found["lam"], found["A_lam"]
+    counts = [len(cone_table(cone, c["rows"], c["mu_v"])) for c in contacts]
+    shares = np.split(lam, np.cumsum(counts)[:-1]) if counts else []
+    loaded = [{**contact, "lam": part} for contact, part in zip(contacts, shares, strict=True)]
+    wrenches = wrench({"h": h, "cone": cone, "contacts": loaded, "bodies": {}})["wrench"]
+    q_next = integrate({"mechanism": mechanism, "q": case["q"], "delta_q": delta_q})["q"]
+    output |= {"delta_q": delta_q, "lam": lam, "A_lam": A_lam}
+    return {**output, "wrench": wrenches, "q_next": q_next}

@@ -1,0 +1,136 @@
+"""Many pushes predicted in parallel, each kept in a file as soon as it is known.
+
+The file has a first line with the settings, and one line a push. A run that was ended goes
+on from there; a last line that was cut off is dropped.
+"""
+
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from os import cpu_count
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from quasistatic_ref.lab.parallel import Log, results, workers
+from quasistatic_ref.lab.reality.pairs import Pair
+from quasistatic_ref.lab.reality.predict import predicted
+from quasistatic_ref.lab.reality.push import Pushed
+from quasistatic_ref.lab.reality.pushes import Pushes
+from quasistatic_ref.lab.reality.settings import Settings
+from quasistatic_ref.simulate.progress import progress_bar
+from quasistatic_ref.step.data import Array
+
+FORMAT: Final = {"format": "quasistatic-ref/reality", "version": 1}
+CHUNK: Final = 5
+"""Pushes handed to a process at once: some seconds of work."""
+
+Row = dict[str, Any]
+
+
+def predicted_pushes(
+    pairs: Sequence[Pair],
+    pushes: Mapping[str, Pushes],
+    ratios: Mapping[str, float],
+    settings: Settings,
+    path: Path,
+    *,
+    jobs: int | None = None,
+    certify: str = "full",
+    progress: bool = True,
+) -> dict[str, list[Row]]:
+    """Predict pushes, or what is left of them.
+
+    Parameters
+    ----------
+    pairs : sequence of Pair
+    pushes : mapping of str to Pushes
+        By the name of the pair.
+    ratios : mapping of str to float
+        mu_omega / mu_v of each pair [m].
+    settings : Settings
+    path : Path
+        Where rows are kept.
+    jobs : int, optional
+        Processes; by default as many as there are cores. With 1 it is this one.
+    certify : str
+        As of :func:`~quasistatic_ref.solve.solve.solve_step`.
+    progress : bool
+
+    Returns
+    -------
+    dict of str to list of dict
+        One row a push, in the order of ``pushes``, by the name of the pair.
+
+    Raises
+    ------
+    InputError
+        If the file holds a run of other settings, or is none.
+    StepNotSolved
+        If a step has no answer that can be trusted.
+    """
+    scenes = {pair.name: settings.pushed(pair, ratios[pair.name]) for pair in pairs}
+    header = FORMAT | {
+        "settings": settings.record(),
+        "certify": certify,
+        "mu_omega_over_mu_v": {pair.name: float(ratios[pair.name]) for pair in pairs},
+    }
+    log = Log(path, lambda row: (row["pair"], row["push"]), header)
+    chunks = list(_chunks(pairs, pushes, log.found))
+    calls = [(name, scenes[name], tasks, certify) for name, tasks in chunks]
+    total = sum(pushes[pair.name].number.size for pair in pairs)
+    left = sum(len(tasks) for _, tasks in chunks)
+    jobs = min(jobs or cpu_count() or 1, max(1, len(chunks)))
+    with (
+        workers(jobs) as executor,
+        progress_bar(total=total, done=total - left, unit="push", shown=progress) as bar,
+    ):
+        for rows in results(executor, 2 * jobs - 1, rows_of, calls):
+            log.add(*rows)
+            bar.update(len(rows))
+    return {
+        pair.name: [log.found[pair.name, int(k)] for k in pushes[pair.name].number]
+        for pair in pairs
+    }
+
+
+Chunk = tuple[str, list[tuple[int, Array, Array]]]
+
+
+def _chunks(
+    pairs: Sequence[Pair], pushes: Mapping[str, Pushes], done: Mapping[Hashable, Row]
+) -> Iterator[Chunk]:
+    for pair in pairs:
+        own = pushes[pair.name]
+        every = zip(own.number.tolist(), own.before, own.path, strict=True)
+        left = [task for task in every if (pair.name, task[0]) not in done]
+        for k in range(0, len(left), CHUNK):
+            yield pair.name, left[k : k + CHUNK]
+
+
+def rows_of(
+    name: str, scene: Pushed, tasks: Sequence[tuple[int, Array, Array]], certify: str
+) -> list[Row]:
+    """Predict some pushes of a pair.
+
+    Parameters
+    ----------
+    name : str
+        Of the pair.
+    scene : Pushed
+    tasks : sequence of (int, ndarray of shape (3,), ndarray of shape (n, 2))
+        Number, pose before [m, rad] and path of the finger [m] of each.
+    certify : str
+    """
+    rows = []
+    for number, pose, path in tasks:
+        found = predicted(scene, pose, path, certify)
+        rows.append({
+            "pair": name, "push": number, "pose": found.pose, "steps": found.kinds,
+            "error_bound": found.error_bound, "sticks": found.sticks, "slides": found.slides,
+        })  # fmt: skip
+    return rows
+
+
+def poses(rows: Sequence[Row]) -> Array:
+    """Predicted poses, shape (n, 3): x, y [m], angle [rad]."""
+    return np.array([row["pose"] for row in rows])

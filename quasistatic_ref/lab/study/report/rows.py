@@ -1,0 +1,133 @@
+"""The rows of solvers, chosen and grouped by what they say about themselves."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, Final
+
+import numpy as np
+
+from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, SOLVED
+from quasistatic_ref.lab.study.store.rows import Row, label_of
+
+Where = Mapping[str, str | bool | int]
+"""Field -> value: a filter, as the line below each table states it."""
+EVERY: Final[Where] = MappingProxyType({})
+FLAGS: Final = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong", "wrong_multipliers",
+                "solved", "called", "clock_agrees")  # fmt: skip
+
+
+class Rows:
+    """Rows of solvers, each with the fields that :func:`rows_of` adds.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+    """
+
+    def __init__(self, rows: Sequence[Row]) -> None:
+        self._rows = rows
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __iter__(self) -> Iterator[Row]:
+        return iter(self._rows)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        """One field, shape (rows,); NaN where a number is not known."""
+        kind = bool if name in FLAGS else None
+        return np.array([row[name] for row in self._rows], dtype=kind)
+
+    def first(self, name: str) -> Any:
+        """A field that all of the rows have alike."""
+        return self._rows[0][name]
+
+    def kept(self, keep: Callable[[Row], bool]) -> "Rows":
+        """The rows of which something holds."""
+        return Rows([row for row in self._rows if keep(row)])
+
+    def at(self, where: Where = EVERY, **more: str | bool | int) -> "Rows":
+        """The rows whose fields have these values."""
+        rows = self._rows
+        for name, value in {**where, **more}.items():
+            rows = [row for row in rows if row[name] == value]
+        return Rows(rows)
+
+    def groups(self, *by: str) -> dict[tuple[Any, ...], "Rows"]:
+        """The rows in parts, by the values of some fields, in the order in which these occur."""
+        found: dict[tuple[Any, ...], list[Row]] = {}
+        keys = zip(*([row[name] for row in self._rows] for name in by), strict=True)
+        for key, row in zip(keys, self._rows, strict=True):
+            found.setdefault(key, []).append(row)
+        return {key: Rows(own) for key, own in found.items()}
+
+    def common(self, *by: str) -> "Rows":
+        """The rows on the problems that every solver was run on.
+
+        Parameters
+        ----------
+        by : str
+            The fields that distinguish one solver from another; ``"label"`` by default. A solver
+            without any call is left out; a call that a budget did not reach counts as not solved,
+            which costs its own solver and no other.
+        """
+        by = by or ("label",)
+        parts = [part for part in self.groups(*by).values() if any(row["called"] for row in part)]
+        units = [{row["unit"] for row in part} for part in parts]
+        shared = set.intersection(*units) if units else set()
+        kept = {id(row) for part in parts for row in part if row["unit"] in shared}
+        return self.kept(lambda row: id(row) in kept)
+
+    def sorted_by_unit(self, name: str) -> np.ndarray:
+        """One field in the order of the problems, shape (rows,), so that rows compare."""
+        return self[name][np.argsort(self["unit"])]
+
+
+def rows_of(rows: Sequence[Row], limit: float) -> Rows:
+    """Rows of a store, with the two conventions that every number of a report keeps.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+    limit : float
+        The study's time limit of a problem [s].
+
+    Returns
+    -------
+    Rows
+        With ``way`` (interface:solver), ``who`` (solver, and behind an @ the machine, where several
+        were merged), ``label`` (interface:who); ``unit``, the problem with its repetition;
+        ``called``, whether the call was made; ``digits``: those of delta_q that were delivered,
+        0 where the solver does not say that it solved the problem; ``net`` likewise; ``seconds``:
+        of the call, the time limit where the solver does not say so; ``call``: of any call;
+        ``own_setup`` and ``own_solver``: of set-up and solving by its own account.
+    """
+    return Rows([row | _more(row, limit) for row in rows])
+
+
+def _more(row: Row, limit: float) -> Row:
+    machine, seconds, solved = row.get("machine", ""), row["seconds"], row["outcome"] == SOLVED
+    who = f"{row['solver']}@{machine}" if machine else row["solver"]
+    return {
+        "machine": machine,
+        "who": who,
+        "way": label_of(row),
+        "label": f"{row['interface']}:{who}",
+        "unit": f"{row['problem']}#{row['repetition']}",
+        "solved": solved,
+        "called": row["outcome"] != NOT_RUN,
+        "digits": _or(row["digits"]["delta_q"] if solved else None, 0.0),
+        "net": _or(row["digits"]["net_wrench"] if solved else None, 0.0),
+        "seconds": _or(seconds["call"] if solved else None, limit),
+        "call": _or(seconds["call"]),
+        "own_setup": _or(seconds["setup"]),
+        "own_solver": _or(seconds["solver"]),
+        "warm_up": _or(seconds["warm_up"]),
+        "memory": _or(row["memory"]),
+        "iterations": _or(row["iterations"]),
+        "clock_agrees": row["clock_agrees"] is not False,  # null: not compared
+    }
+
+
+def _or(value: float | None, otherwise: float = np.nan) -> float:
+    return otherwise if value is None else value

@@ -1,0 +1,518 @@
+"""The tables of a report on solvers; each carries the filter that gives its rows."""
+
+import shlex
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Final
+
+import numpy as np
+
+from quasistatic_ref.certify.digits import digits_of_error
+from quasistatic_ref.lab.page.parts import Block, Table
+from quasistatic_ref.lab.study.calling.sessions import COLD
+from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, OUTCOMES
+from quasistatic_ref.lab.study.report.comparison import Comparison, Soonest
+from quasistatic_ref.lab.study.report.rows import Rows, Where
+from quasistatic_ref.lab.study.report.statistics import (
+    LOW,
+    SHIFT,
+    interval,
+    resampled,
+    shifted_geometric_mean,
+    success,
+)
+from quasistatic_ref.lab.study.report.words import (
+    filter_words,
+    milliseconds,
+    options_words,
+    tenths,
+)
+from quasistatic_ref.lab.study.store.rows import Row
+from quasistatic_ref.solve.backends import BACKENDS
+
+LEVELS = (3.0, 6.0, 9.0)
+"""Digits at which success is counted."""
+LIMITS = tuple({b.time_limit for b in BACKENDS.values()})
+"""Options that are not advice."""
+FALSE_SHOWN, WORST_SHOWN = 12, 10
+"""How many false claims are shown, and worst problems of a solver."""
+SHARED = "; on the {} that all these solvers were given; what a budget did not reach is missed"
+FACTS = ("n", "m", "contacts", "h", "mass_ratio", "condition", "condition_natural")
+"""Numbers of a problem whose smallest and largest are shown."""
+Cell = Callable[[Rows], str]
+
+
+def _share(least: float) -> Cell:
+    return lambda rows: tenths(success(rows["digits"], least))
+
+
+def _median(name: str, words: Callable[[float], str]) -> Cell:
+    return lambda rows: words(float(np.median(rows[name])))
+
+
+def _wrong(claim: str) -> Cell:
+    return lambda rows: str(int((rows["wrong"] & rows[f"said_{claim}"]).sum()))
+
+
+CELLS: Final[dict[str, Cell]] = {
+    "calls": lambda rows: str(len(rows)),
+    "solved [%]": lambda rows: tenths(100 * float(rows["solved"].mean())),
+    **{f">= {d:g} digits [%]": _share(d) for d in LEVELS},
+    "digits, 1st percentile": lambda rows: tenths(float(np.percentile(rows["digits"], LOW))),
+    "digits, median": _median("digits", tenths),
+    "digits of the net wrench, median": _median("net", tenths),
+    "time, median [ms]": _median("seconds", milliseconds),
+    "time, shifted geometric mean [ms]": lambda rows: milliseconds(
+        shifted_geometric_mean(rows["seconds"])
+    ),
+}
+"""The columns of a table of one setting: heading -> what stands there, of one solver's rows."""
+CLAIMS: Final = {f"said {c}, was wrong": _wrong(c) for c in ("optimal", "infeasible")}
+
+
+def solver_table(comparison: Comparison, setting: str) -> Table:
+    """Every solver at one setting, on the same problems: digits, success and time."""
+    where = comparison.at(setting)
+    own = comparison.rows.at(where).common()
+    heads = solver_headings(comparison.rows)
+    rows = [
+        (*solver_cells(part), *(cell(part) for cell in CELLS.values()))
+        for part in own.groups("label").values()
+    ]
+    title = f"Setting {setting}, {where['units']} units."
+    words = filter_words(where, same_problems(own))
+    return Table(title, words, (*heads, *CELLS), tuple(rows), left=len(heads))
+
+
+def solver_headings(rows: Rows) -> tuple[str, ...]:
+    """The first columns of tables on solvers: the machine is one where several were merged."""
+    return ("solver", "interface", *(("machine",) if any(rows["machine"]) else ()))
+
+
+def solver_cells(part: Rows) -> list[str]:
+    """What stands in these columns, of rows of one solver."""
+    return [part.first(name) for name in solver_headings(part)]
+
+
+def same_problems(rows: Rows) -> str:
+    """How many problems a comparison is on, as the end of a filter."""
+    return SHARED.format(f"{len(set(rows['unit'])):,} problems")
+
+
+def soonest_table(
+    found: Sequence[Soonest], comparison: Comparison, options: Mapping[str, Any] | None = None
+) -> Table:
+    """What digits cost, solver by solver.
+
+    Parameters
+    ----------
+    found : sequence of Soonest
+        The fastest first.
+    comparison : Comparison
+    options : mapping, optional
+        By interface and solver, and by setting: a column of the table.
+    """
+    least = found[0].least if found else 0
+    heads = solver_headings(found[0].rows) if found else ("solver", "interface")
+    names = (*heads, "setting", *(() if options is None else ("its own options",)))
+    floor = comparison.noise.floor
+    rows = []
+    for one in found:
+        own, families = one.rows, one.rows["family"]
+        shares = interval(100 * resampled((own["digits"] >= least).astype(float), families))
+        span = interval(np.exp(resampled(np.log(one.times + SHIFT), families)) - SHIFT)
+        cells = [*solver_cells(own), one.setting]
+        if options is not None:
+            cells.append(f"`{options_words(options[own.first('way')][one.setting], LIMITS)}`")
+        fastest = next(other for other in found if other.machine == one.machine)
+        tie = "not known" if floor is None else "no"
+        if floor is not None and one.mean <= fastest.mean * (1 + floor):
+            tie = "yes"
+        cells += [
+            _share(least)(own),
+            " to ".join(map(tenths, shares)),
+            CELLS["digits, median"](own),
+            *(cell(own) for cell in CLAIMS.values()),
+            CELLS["time, median [ms]"](own),
+            milliseconds(one.mean),
+            " to ".join(map(milliseconds, span)),
+            "-" if one is fastest else tie,
+        ]
+        rows.append(tuple(cells))
+    columns = (
+        *names, f">= {least:g} digits [%]", "95 % of bootstraps", "digits, median", *CLAIMS,
+        "time, median [ms]", f"time to {least:g} digits, shifted geometric mean [ms]",
+        "95 % of bootstraps, mean", "tie with the fastest",
+    )  # fmt: skip
+    title = f"Time to {least:g} digits, each solver at the setting that delivers them soonest."
+    more = same_problems(found[0].rows) if found else ""
+    words = filter_words(comparison.base, more)
+    return Table(title, words, columns, tuple(rows), left=len(names))
+
+
+def outcome_table(rows: Rows) -> Table:
+    """How all calls ended, solver by solver."""
+    lines = []
+    for (label,), part in rows.groups("label").items():
+        ends = part["outcome"]
+        lines.append((label, str(len(part)), *(str(int((ends == o).sum())) for o in OUTCOMES)))
+    names = ("not run (budget)" if o == NOT_RUN else o.replace("_", " ") for o in OUTCOMES)
+    head = ("solver", "calls", *names)
+    return Table("How the calls ended.", "repetition = 0", head, tuple(lines))
+
+
+def claims_sentence(rows: Rows) -> str:
+    """How many claims were made, and are false."""
+    optimal, infeasible, wrong = (rows[n] for n in ("said_optimal", "said_infeasible", "wrong"))
+    return (
+        f"{int((wrong & optimal).sum()):,} of {int(optimal.sum()):,} claims of success are false, "
+        f"and {int((wrong & infeasible).sum()):,} of {int(infeasible.sum()):,} claims that there "
+        f"is no solution are false; {int(rows['wrong_multipliers'].sum()):,} claims of success "
+        "have wrong multipliers."
+    )
+
+
+def false_claims(rows: Rows, settings: Sequence[str], where: Where) -> Table:
+    """What was claimed wrongly: optimal, infeasible, multipliers; of how many claims of success."""
+    lines = []
+    for (label,), part in rows.at(where).groups("label").items():
+        cells = []
+        for setting in settings:
+            own = part.at(setting=setting)
+            wrong = [cell(own) for cell in CLAIMS.values()]
+            words = " + ".join([*wrong, str(int(own["wrong_multipliers"].sum()))])
+            cells.append(f"{words} / {int(own['said_optimal'].sum())}" if own else "-")
+        lines.append((label, *cells))
+    units, way = where["units"], "warm" if where["warm"] else "cold"
+    title = (
+        "False claims of success + false claims of infeasibility + wrong multipliers / all claims "
+        f"of success: {units} units, {way}."
+    )
+    return Table(title, filter_words(where), ("solver", *settings), tuple(lines))
+
+
+def worst_claims(rows: Rows, promised: Mapping[str, float]) -> Table:
+    """The false claims with the fewest digits of those promised, one of each kind of call.
+
+    Parameters
+    ----------
+    rows : Rows
+    promised : mapping of str to float
+        Digits [-], by setting.
+    """
+    kinds = rows.at(wrong=True).groups("label", "setting", "units", "warm").values()
+    worst = [min(part, key=lambda row: float(row["digits"])) for part in kinds]
+    worst.sort(key=lambda row: float(row["digits"] - promised[row["setting"]]))
+    lines = tuple(
+        (*(row[n] for n in ("label", "setting", "units")), str(row["warm"]).lower(),
+         row["problem"], row["claimed"], tenths(promised[row["setting"]]), tenths(row["digits"]))
+        for row in worst[:FALSE_SHOWN]
+    )  # fmt: skip
+    names = ("solver", "setting", "units", "warm", "problem", "its own status",
+             "digits promised", "digits")  # fmt: skip
+    return Table("The false claims that fall furthest short of the digits promised, one for each "
+                 "solver, setting, units, and warm or cold start.", "wrong = true", names, lines,
+                 left=6)  # fmt: skip
+
+
+def detection(rows: Rows) -> Block:
+    """What solvers say of problems that have no solution: right, wrong, silent."""
+    lines = []
+    for key, part in rows.at(feasible=False).groups("label", "setting").items():
+        right, wrong = int(part["said_infeasible"].sum()), int(part["said_optimal"].sum())
+        counts = (len(part), right, wrong, len(part) - right - wrong)
+        lines.append((*key, *map(str, counts)))
+    if not lines:
+        return "The study contains no problem without a solution."
+    names = ("solver", "setting", "calls", "right", "wrong", "silent")
+    title = (
+        "Problems without a solution, as Farkas vectors prove: a call is right if it says "
+        "infeasible, wrong if it says optimal, and silent if it says neither."
+    )
+    return Table(title, "feasible = false", names, tuple(lines), left=2)
+
+
+def contrast(
+    comparison: Comparison,
+    title: str,
+    by: str,
+    values: Sequence[Any],
+    where: Where,
+    ways: tuple[str, str] = ("who", "setting"),
+    iterations: bool = False,
+) -> Table:
+    """One field at two or more values, each solver and setting on the same problems.
+
+    Parameters
+    ----------
+    comparison : Comparison
+    title : str
+    by : str
+        The field.
+    values : sequence
+    where : mapping
+        What is the same.
+    ways : tuple of str
+        What distinguishes one line from another.
+    iterations : bool
+        Whether their medians are columns, too.
+    """
+    shown = {">= 6 digits [%]": CELLS[">= 6 digits [%]"],
+             "time, median [ms]": CELLS["time, median [ms]"]}  # fmt: skip
+    if iterations:
+        shown["iterations, median"] = lambda rows: _median_known(rows["iterations"])
+    every = comparison.rows.at(where).groups(*ways)
+    solvers = dict.fromkeys(solver for solver, _ in every)
+    lines = []
+    for key in ((solver, setting) for solver in solvers for setting in comparison.settings):
+        own = every[key].common(by) if key in every else Rows(())
+        parts = [own.at({by: value}) for value in values]
+        if all(parts):
+            cells = (cell(part) for cell in shown.values() for part in parts)
+            lines.append((*key, str(len(set(own["unit"]))), *cells))
+    names = [f"{heading}, {filter_words({by: value})}" for heading in shown for value in values]
+    said = f"; each line is on the problems with a call at every value of {by}"
+    head = ("solver", "setting", "problems", *names)
+    return Table(title, filter_words(where, said), head, tuple(lines), left=2)
+
+
+def family_digits(rows: Rows, families: Sequence[str]) -> tuple[list[str], np.ndarray]:
+    """Median digits, shape (solvers, families) [-]; NaN where there is no row."""
+    labels = [label for (label,) in rows.groups("label")]
+    found = np.full((len(labels), len(families)), np.nan)
+    for (label, family), part in rows.groups("label", "family").items():
+        found[labels.index(label), families.index(family)] = float(np.median(part["digits"]))
+    return labels, found
+
+
+def family_table(
+    labels: Sequence[str], found: np.ndarray, families: Sequence[str], where: Where, more: str
+) -> Table:
+    """The numbers of the heat map.
+
+    Parameters
+    ----------
+    labels, families : sequence of str
+    found : ndarray, shape (solvers, families)
+        Median digits [-].
+    where : mapping of str to object
+    more : str
+    """
+    lines = tuple(
+        (family, *("-" if np.isnan(value) else tenths(float(value)) for value in column))
+        for family, column in zip(families, found.T, strict=True)
+    )
+    title = f"Median digits by family, setting {where['setting']}."
+    return Table(title, filter_words(where, more), ("family", *labels), lines)
+
+
+def failing_clocks(rows: Rows) -> list[Block]:
+    """Memory of every solver, and how many of its times the keeper's clock did not confirm."""
+    lines = []
+    for (label,), part in rows.groups("label").items():
+        known, warm = (part[name][np.isfinite(part[name])] for name in ("memory", "warm_up"))
+        if len(known):
+            slowest = f"{warm.max():.3g}" if len(warm) else "-"
+            unconfirmed = str(int((~part["clock_agrees"]).sum()))
+            lines.append((label, f"{known.max() / 1e6:.0f}", unconfirmed, slowest,
+                          f"{warm.sum():.3g}"))  # fmt: skip
+    names = ("solver", "memory, peak [MB]", "clock not confirmed", "slowest warm-up [s]",
+             "warm-ups [s]")  # fmt: skip
+    table = Table("Memory, clocks, warm-ups.", "repetition = 0", names, tuple(lines))
+    return [table] if lines else []
+
+
+def parts_of_calls(found: Sequence[Soonest], where: Where) -> list[Block]:
+    """Set-up and solving by the solver's own account, and what is left of a call: conversion.
+
+    Parameters
+    ----------
+    found : sequence of Soonest
+    where : mapping
+        The filter that gives their rows.
+    """
+    lines = []
+    for one in found:
+        own = one.rows.at(solved=True)
+        known = np.isfinite(own["own_solver"])
+        if not known.any():
+            continue
+        call, setup, solving = (own[n][known] for n in ("seconds", "own_setup", "own_solver"))
+        left = call - solving - np.where(np.isfinite(setup), setup, 0.0)
+        cells = [milliseconds(float(np.median(call))),
+                 milliseconds(float(np.median(setup))) if np.isfinite(setup).all() else "-",
+                 milliseconds(float(np.median(solving))),
+                 milliseconds(max(float(np.median(left)), 0.0)),
+                 tenths(100 * max(float(np.median(left / call)), 0.0))]  # fmt: skip
+        lines.append((*solver_cells(one.rows), one.setting, str(int(known.sum())), *cells))
+    if not lines:
+        return []
+    names = (*solver_headings(found[0].rows), "setting")
+    columns = (*names, "calls solved, times reported", "whole call, median [ms]",
+               "set-up, median [ms]", "solving, median [ms]", "conversion, median [ms]",
+               "conversion, median of shares [%]")  # fmt: skip
+    words = (
+        "Set-up and solving are by the solver's own account (natively the set-up is timed here); "
+        "conversion is what is left of a call: matrices into the solver's form, and answers back. "
+        "Where a solver does not report its set-up separately, the set-up is part of the solving "
+        "if the solver counts it there, and otherwise of the conversion."
+    )
+    title = "Set-up, solving and conversion, each at the setting that delivers 6 digits soonest."
+    more = "; outcome = solved, seconds.solver is reported"
+    return [words, Table(title, filter_words(where, more), columns, tuple(lines), left=len(names))]
+
+
+def worst_problems(
+    comparison: Comparison, facts: Sequence[Mapping[str, Any]], ways: Iterable[Soonest]
+) -> list[Block]:
+    """What a solver's author looks at first: a table for each, the most digits missed first.
+
+    Parameters
+    ----------
+    comparison : Comparison
+    facts : sequence of mapping
+        Of the problems.
+    ways : iterable of Soonest
+        Solvers, with their interfaces and settings.
+    """
+    words = (
+        "Each table is of one solver, at the setting and through the interface that deliver 6 "
+        "digits soonest. It lists the calls whose answers miss the most of the known digits; of "
+        "calls that miss equally many, the slowest come first. The command runs the solver on the "
+        "problem again, with the same options, and prints how wrong the answer is; "
+        "`--store FOLDER` names the folder of this study, which the command needs for problems and "
+        "solvers that only this study has."
+    )
+    known = {fact["id"]: digits_of_error(fact["bound"]) for fact in facts}
+
+    def missed_and_slow(row: Row) -> tuple[float, float, str]:
+        missed = max(known[row["problem"]] - row["digits"], 0.0)
+        return -missed, -row["seconds"], row["problem"]
+
+    names = ("problem", "outcome", "its own status", "false claim", "command", "digits",
+             "digits known", "time [ms]")  # fmt: skip
+    tables = []
+    for one in ways:
+        where = {**comparison.at(one.setting), "label": one.label}
+        worst = sorted(comparison.rows.at(where), key=missed_and_slow)[:WORST_SHOWN]
+        lines = tuple(
+            (*(row[n] for n in ("problem", "outcome", "claimed")), "yes" if row["wrong"] else "no",
+             f"`{ask_command(row)}`", tenths(row["digits"]), tenths(known[row["problem"]]),
+             milliseconds(row["seconds"]))
+            for row in worst
+        )  # fmt: skip
+        title = f"Worst {WORST_SHOWN} problems of {one.label} at {one.setting}."
+        tables.append(Table(title, filter_words(where), names, lines, left=5))
+    return [words, *tables]
+
+
+def ask_command(row: Row) -> str:
+    """The command that repeats one measurement."""
+    words = [row[name] for name in ("problem", "way", "setting")]
+    units = [] if row["units"] == "natural" else ["--units", row["units"]]
+    start = ["--warm"] if row["warm"] else []
+    return shlex.join(["quasistatic-ref", "study", "ask", *words, *units, *start])
+
+
+def sequence_tables(rows: Rows, facts: Sequence[Mapping[str, Any]]) -> list[Table]:
+    """A line for each solver, setting and mode, on all steps but the first of each sequence.
+
+    Parameters
+    ----------
+    rows : Rows
+    facts : sequence of mapping
+        Of the problems, with their places in sequences.
+    """
+    later = {fact["id"] for fact in facts if fact["place"]}
+    steps = rows.kept(lambda row: bool(row["mode"]) and row["problem"] in later)
+    lines = []
+    for key, modes in steps.groups("label", "setting", "units").items():
+        cold = modes.at(mode=COLD)["call"]
+        for (mode,), own in modes.groups("mode").items():
+            call = _median_or_none(own["call"])
+            over = _median_or_none(cold)
+            lines.append((
+                *key, mode, str(len(own)), str(int(own["solved"].sum())),
+                tenths(own["digits"].min()), _median_known(own["iterations"]),
+                "-" if call is None else milliseconds(call),
+                "-" if call is None or over is None else f"{call / over:.2f}",
+            ))  # fmt: skip
+    names = ("solver", "setting", "units", "mode", "problems", "solved", "digits, worst",
+             "iterations, median", "time, median [ms]", "over cold")  # fmt: skip
+    title = "Steps of sequences, each from what the solver kept of the step before."
+    table = Table(title, "mode is given, place > 0", names, tuple(lines), left=4)
+    return [table] if lines else []
+
+
+def _median_or_none(values: np.ndarray) -> float | None:
+    known = values[np.isfinite(values)]
+    return float(np.median(known)) if len(known) else None
+
+
+def _median_known(values: np.ndarray) -> str:
+    median = _median_or_none(values)
+    return "-" if median is None else f"{median:g}"
+
+
+# -- What was studied, and where ------------------------------------------------------------------
+
+
+def problem_table(facts: Sequence[Mapping[str, Any]]) -> Table:
+    """What the problems are."""
+    families: dict[str, list[Mapping[str, Any]]] = {}
+    for fact in facts:
+        families.setdefault(fact["family"], []).append(fact)
+    rows = tuple(
+        (family, str(len(own)), str(sum(f["kind"] == "exact" for f in own)),
+         *(_span([f[name] for f in own if f[name] is not None]) for name in FACTS))
+        for family, own in families.items()
+    )  # fmt: skip
+    names = ("family", "problems", "exact answers", "coordinates n", "rows m", "contacts",
+             "h [s]", "mass ratio", "condition of H, raw", "condition of H, natural")  # fmt: skip
+    return Table("The problems.", "the store, problems", names, rows)
+
+
+def _span(values: Sequence[float]) -> str:
+    if not values:
+        return "-"
+    low, high = (f"{v:.0f}" if 10 <= v < 1e4 else f"{v:.2g}" for v in (min(values), max(values)))
+    return low if low == high else f"{low} to {high}"
+
+
+def place_tables(study: Mapping[str, Any]) -> list[Table]:
+    """Machine and versions."""
+    names = study.get("machines", [])
+    tables = []
+    for title, field, first, one in (
+        ("Machine", "machine", "what", "which"),
+        ("Versions", "versions", "package", "version"),
+    ):
+        parts = [study[field][name] for name in names] if names else [study[field]]
+        lines = tuple(
+            (str(key), *(str(part.get(key, "-")) for part in parts))
+            for key in dict.fromkeys(key for part in parts for key in part)
+        )
+        columns = (first, *(names or [one]))
+        tables.append(Table(f"{title}.", f"the store, {field}", columns, lines, len(columns)))
+    return tables
+
+
+def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
+    """Every solver's options at every setting."""
+    rows = tuple(
+        (s["name"], s["interface"], setting, f"`{options_words(options)}`")
+        for s in solvers
+        for setting, options in s["options"].items()
+    )
+    names = ("solver", "interface", "setting", "its own options")
+    return Table("Options.", "the store, options", names, rows, left=4)
+
+
+def settings_table(settings: Sequence[Mapping[str, Any]]) -> Table:
+    """What the settings require and promise."""
+    rows = tuple(
+        (s["name"], "its own" if s["accuracy"] is None else f"{s['accuracy']:g}",
+         f"{s['promised']:g}", "the simulator's" if s["tuned"] else "plain")
+        for s in settings
+    )  # fmt: skip
+    names = ("setting", "accuracy", "digits promised", "options")
+    return Table("The settings.", "the store, settings", names, rows)

@@ -1,0 +1,118 @@
+"""Whether dependent rows stay dependent along changes of everything at once, by null vectors.
+
+Let A hold the rows without slack, all of which bear load in some optimal lam. As long as none of
+them opens, mu'(A delta_q - b) is 0 for each mu with A'mu = 0. A change by eps with a force besides
+adds eps z to delta_q, A z = 0, any z of these for some force; of the order eps^2 the sum then
+has the term mu'dA z. That is 0 for all z only if dA'mu combines the rows of A. Where it does
+not, a row opens for one sign of z: a derivative along each coordinate may exist, but none of all.
+"""
+
+from collections.abc import Iterable, Sequence
+from typing import Final
+
+from flint import fmpq, fmpz_mat
+
+from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector, along, dot, scaled, subtract
+from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP
+from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, nearest, row_counts
+from quasistatic_ref.lab.vectors.unrounded.step import Contact, Rows, rows
+
+CLOSE: Final = fmpq(1, 1 << 50)
+"""A row that moves by more along a change of 8e-31 has jumped with the tangents [m per unit]."""
+
+
+def dependence_breaks(one: Base, found: Iterable[Quotient]) -> bool:
+    """Whether some change takes dA'mu out of what the rows without slack span.
+
+    Parameters
+    ----------
+    one : Base
+        Of which each row without slack bears load in some optimal lam.
+    found : iterable of Quotient
+        Along single coordinates and parameters. A contact that another candidate replaces
+        in a step nearby is compared with nothing.
+    """
+    tight = [i for i, sign in enumerate(one.step.optimum.slack_signs) if sign == 0]
+    if not tight:
+        return False
+    A = fmpz_mat([one.step.form.row(i) for i in tight])
+    moves = _null(A)
+    together = _null(A.transpose()) if moves else []
+    if not together:
+        return False
+    own = _blocks(one, one.contacts, one.step.rows)
+    for step, contacts in (side for change in found for side in change.sides):
+        rates = _rates(one, own, contacts, _blocks(one, contacts, step.rows))
+        for mu in together:
+            pulled = _combined(mu, [rates[i] for i in tight])
+            if any(abs(dot(pulled, z)) > BEND for z in moves):
+                return True
+    return False
+
+
+def _null(A: fmpz_mat) -> list[Vector]:
+    """Vectors z with A z = 0 that span all of these; the largest entry of each is 1 in size."""
+    table, count = A.nullspace()
+    columns = [[fmpq(x) for x in column] for column in table.transpose().tolist()[:count]]
+    return [scaled(column, 1 / max(abs(x) for x in column)) for column in columns]
+
+
+def _combined(mu: Vector, some: Matrix) -> Vector:
+    total = [fmpq(0)] * len(some[0])
+    for weight, row in zip(mu, some, strict=True):
+        total = along(total, row, weight) if weight else total
+    return total
+
+
+def _blocks(one: Base, contacts: Sequence[Contact], table: Rows) -> list[Matrix]:
+    """The rows of each contact."""
+    found, first = [], 0
+    for count in row_counts(one.at.case, contacts):
+        every = range(first, first + count)
+        entries = [[table.A[i, v] for v in range(table.A.ncols())] for i in every]
+        found.append([[fmpq(x, table.denominator) for x in row] for row in entries])
+        first += count
+    return found
+
+
+def _rates(
+    one: Base, own: list[Matrix], contacts: Sequence[Contact], nearby: list[Matrix]
+) -> Matrix:
+    """How fast each row of the step changes towards a step nearby, but for the sign."""
+    places = {(c.near.pair, c.near.index): k for k, c in enumerate(contacts)}
+    found: Matrix = []
+    for contact, block in zip(one.contacts, own, strict=True):
+        k = places.get((contact.near.pair, contact.near.index))
+        others = block if k is None else _matched(one, contact, block, contacts[k], nearby[k])
+        found += [scaled(subtract(y, x), 1 / STEP) for x, y in zip(block, others, strict=True)]
+    return found
+
+
+def _matched(one: Base, contact: Contact, block: Matrix, other: Contact, nearby: Matrix) -> Matrix:
+    """The rows of a contact nearby, in the order of its own; turned to its tangents if they jump.
+
+    Where tangents jump and q+ does not notice, the contact sticks, and its rows span as much in
+    whatever tangents; or they are the same rows again.
+    """
+    found = [nearest(row, nearby) for row in block]
+    far = (abs(x - y) for row, near in zip(block, found, strict=True)
+           for x, y in zip(row, near, strict=True))  # fmt: skip
+    if all(x <= CLOSE for x in far):
+        return found
+    return rows(one.at.case, [turned(contact, other)])[0]
+
+
+def turned(contact: Contact, other: Contact) -> Contact:
+    """A contact nearby, with tangents that differ from a contact's own by no more than n does.
+
+    Parameters
+    ----------
+    contact : Contact
+    other : Contact
+        The same candidate in a step nearby.
+    """
+    c, s = dot(contact.d1, other.d1), dot(contact.d1, other.d2)
+    n, first, second, spin = other.motion
+    motion = [n, along(scaled(first, c), second, s), along(scaled(second, c), first, -s), spin]
+    return Contact(other.near, contact.d1, contact.d2, motion)

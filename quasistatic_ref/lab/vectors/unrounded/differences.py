@@ -1,0 +1,159 @@
+"""Derivatives of q+ by central differences of steps without rounding.
+
+Column j of dq+/dq is the limit of [F(q (+) eps e_j) (-) F(q (+) -eps e_j)] / (2 eps), both taken in
+the tangent space at F(q). With eps = 2^-100 the quotient is off by eps^2, 6e-61, times a third
+derivative, and by 2^-320 / 2^-100 from the grid, 6e-67, times the condition of the program.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from flint import fmpq
+
+from quasistatic_ref.lab.program.integration import way
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, scaled
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, kept, pool
+from quasistatic_ref.lab.vectors.unrounded.step import (
+    Change,
+    Contact,
+    Solved,
+    after,
+    contact,
+    solved,
+)
+from quasistatic_ref.lab.vectors.unrounded.world import World, world
+
+Inputs = Callable[[Vector | fmpq], Json]
+"""A case moved along a coordinate or a parameter."""
+
+
+@dataclass(eq=False)
+class Base:
+    """A step, and what a step nearby has in common with it.
+
+    Parameters
+    ----------
+    at : World
+    contacts : list of Contact
+    step : Solved
+    q_next : vector
+    pools : list of list of int
+        Of each pair the candidates that can be kept nearby.
+    change : callable, optional
+        A mistake that is made with every contact.
+    """
+
+    at: World
+    contacts: list[Contact]
+    step: Solved
+    q_next: Vector
+    pools: list[list[int]]
+    change: Change | None = None
+    warm: list[int] = field(default_factory=list)
+
+    def contacts_at(self, at: World) -> list[Contact]:
+        """The contacts of a case nearby."""
+        found = [near for pair in range(len(self.pools)) for near in self._kept(at, pair)]
+        if self.change:
+            found = [self.change(at, near) for near in found]
+        return [contact(at, near) for near in found]
+
+    def _kept(self, at: World, pair: int) -> list[Near]:
+        near = candidates(at, pair, self.pools[pair])
+        return kept(near, at.case["pairs"][pair]["k"], solids=are_solids(at.case, pair))
+
+    def step_at(self, case: Json, *, moved: bool) -> tuple[Solved, list[Contact], Vector]:
+        """A step nearby: solved, its contacts, and q+ in the tangent space at the base's q+.
+
+        Parameters
+        ----------
+        case : dict
+        moved : bool
+            Whether q is another; the contacts stay where they are if not.
+        """
+        at = world(case) if moved else self.at.with_case(case)
+        contacts = self.contacts_at(at) if moved else self.contacts
+        same = not moved and case["pairs"] is self.at.case["pairs"]
+        found = solved(at, contacts, self.warm, self.step.rows if same else None)
+        return found, contacts, away(at, self.q_next, after(at, found.delta_q))
+
+
+def are_solids(case: Json, pair: int) -> bool:
+    """Whether neither side of a pair is a cloud."""
+    sides = (case["pairs"][pair][side] for side in ("alpha", "beta"))
+    return all(case["shapes"][name]["shape"]["kind"] != "cloud" for name in sides)
+
+
+def away(at: World, q_next: Vector, other: Vector) -> Vector:
+    """Difference other (-) q_next, on the grid [m, rad]."""
+    with working():
+        return vector_on_grid(way(at.case["mechanism"], q_next, other))
+
+
+def base(case: Json, change: Change | None = None) -> Base:
+    """The step of a case.
+
+    Parameters
+    ----------
+    case : dict
+        Input of the layer ``step``.
+    change : callable, optional
+    """
+    at = world(case)
+    pools, contacts = [], []
+    for pair, written in enumerate(case["pairs"]):
+        found, solids = candidates(at, pair), are_solids(case, pair)
+        pools.append(pool(found, written["k"], solids=solids))
+        near = kept(found, written["k"], solids=solids)
+        contacts += [contact(at, change(at, one) if change else one) for one in near]
+    step = solved(at, contacts)
+    warm = list(step.optimum.point.working)
+    return Base(at, contacts, step, after(at, step.delta_q), pools, change, warm)
+
+
+@dataclass(frozen=True, eq=False)
+class Quotient:
+    """A central difference.
+
+    Parameters
+    ----------
+    column : vector
+        First difference over 2 eps.
+    bend : fmpq
+        Largest entry of the second difference over eps: of the order of eps where q+ is smooth, of
+        the jump of the derivative where it is not.
+    sides : tuple of (Solved, list of Contact)
+        What the two steps were.
+    one_sided : tuple of vector
+        The quotients forward and backward.
+    """
+
+    column: Vector
+    bend: fmpq
+    sides: tuple[tuple[Solved, list[Contact]], ...]
+    one_sided: tuple[Vector, Vector]
+
+
+def quotient(
+    one: Base, inputs: Callable[[fmpq], Json], *, moved: bool, eps: fmpq = STEP
+) -> Quotient:
+    """Derivative of q+ along a curve of inputs.
+
+    Parameters
+    ----------
+    one : Base
+        Its step is that at 0.
+    inputs : callable
+        From a number to a case.
+    moved : bool
+        Whether q changes along the curve.
+    eps : fmpq
+    """
+    forward, ahead, up = one.step_at(inputs(eps), moved=moved)
+    backward, behind, down = one.step_at(inputs(-eps), moved=moved)
+    column = [(x - y) / (2 * eps) for x, y in zip(up, down, strict=True)]
+    bend = max((abs(x + y) / eps for x, y in zip(up, down, strict=True)), default=fmpq(0))
+    sides = (scaled(up, 1 / eps), scaled(down, -1 / eps))
+    return Quotient(column, bend, ((forward, ahead), (backward, behind)), sides)

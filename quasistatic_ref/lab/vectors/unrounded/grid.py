@@ -1,0 +1,60 @@
+"""Numbers of the unrounded step: multiples of 2^-320, with 96 decimal places behind the point.
+
+Roots, sines and quotients have no end; each is taken as the nearest multiple of 2^-320, and stays
+one of these multiples from the mechanism to q+. Sums and products of such numbers are exact, so
+that every comparison has an answer; what float64 writes is a multiple already. A difference
+quotient over 2 * 2^-100 thus keeps more than 60 decimal places.
+"""
+
+from collections.abc import Iterable
+from contextlib import AbstractContextManager
+from typing import Final
+
+from flint import ctx, fmpq
+
+from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
+from quasistatic_ref.lab.vectors.exact.precision import Real, number, rational_near
+
+BITS: Final = 320
+"""Places behind the binary point."""
+PRECISION: Final = BITS + 96
+"""Bits of a ball on the way to the grid."""
+SMALL: Final = fmpq(1, 1 << 200)
+"""What is smaller counts as 0: it comes from numbers that were moved to the grid."""
+STEP: Final = fmpq(1, 1 << 100)
+"""Of a central difference: 8e-31; its square is what the quotient is off by."""
+OTHER_STEP: Final = fmpq(3, 1 << 98)
+"""A second one, to prove the digits."""
+
+
+def on_grid(x: Real) -> fmpq:
+    """The nearest multiple of 2^-320; of a ball, that of its middle."""
+    exact = rational_near(number(x))
+    p, q = int(exact.p), int(exact.q)
+    return fmpq(((p << (BITS + 1)) + q) // (2 * q), 1 << BITS)
+
+
+def vector_on_grid(x: Iterable[Real]) -> Vector:
+    """The same of every number of a vector."""
+    return [on_grid(v) for v in x]
+
+
+def matrix_on_grid(A: Iterable[Iterable[Real]]) -> Matrix:
+    """The same of every number of a matrix."""
+    return [vector_on_grid(row) for row in A]
+
+
+def exact_or_on_grid(x: Real) -> Real:
+    """A rational number as it is: poses of floating bases are; a ball on the grid."""
+    return x if isinstance(x, fmpq | int) else on_grid(x)
+
+
+def is_small(x: fmpq) -> bool:
+    """Whether a number of the grid counts as 0."""
+    return bool(abs(x) < SMALL)
+
+
+def working() -> AbstractContextManager[object]:
+    """The precision in which balls are made before they are moved to the grid: a context."""
+    context: AbstractContextManager[object] = ctx.workprec(PRECISION)
+    return context

@@ -1,0 +1,151 @@
+"""Candidates of a pair of shapes without rounding, and the contacts that are kept of them.
+
+What a step keeps is decided as in the layer ``step``, but on numbers of the grid. Of all
+candidates at one configuration, a *pool* is those that a change of 1e-30 can bring among the kept
+ones: distances change by no more than bodies move.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from flint import fmpq
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.program.candidates import lateness
+from quasistatic_ref.lab.vectors.distances.candidates import parts
+from quasistatic_ref.lab.vectors.distances.shapes import Placed
+from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness, point_witness
+from quasistatic_ref.lab.vectors.distances.witness import Witness
+from quasistatic_ref.lab.vectors.exact.algebra import Vector
+from quasistatic_ref.lab.vectors.exact.precision import number
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.unrounded.grid import is_small, on_grid, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.world import World
+from quasistatic_ref.tolerances import REPEATED
+
+POOL: Final = fmpq(1, 10**6)
+"""Candidates that are farther than the kept ones by more [m] stay out."""
+REPEATS: Final = number(REPEATED)
+
+
+class Touching(InputError):
+    """Two solids meet whose normal is the difference of their closest points."""
+
+
+@dataclass(frozen=True, eq=False)
+class Near:
+    """One candidate.
+
+    Parameters
+    ----------
+    pair : int
+        Number of its pair.
+    index : int
+        Its place among the candidates of the pair.
+    phi : fmpq
+        [m].
+    alpha, beta, n : list of fmpq
+        [m], [m], [-]; of the world.
+    """
+
+    pair: int
+    index: int
+    phi: fmpq
+    alpha: Vector
+    beta: Vector
+    n: Vector
+
+
+def candidates(at: World, pair: int, wanted: Sequence[int] | None = None) -> list[Near]:
+    """Candidates of a pair in their order; of those wanted only, if they are named.
+
+    Raises
+    ------
+    Touching
+        If two solids meet of which one is curved and none is a ball or a half-space.
+    """
+    written = at.case["pairs"][pair]
+    alpha, beta = (at.shape(written[side]) for side in ("alpha", "beta"))
+    kinds = {s: at.case["shapes"][written[s]]["shape"] for s in ("alpha", "beta")}
+    found: list[Near] = []
+    with working():
+        first = 0
+        for part in parts(kinds, written["k"]):
+            points = _points(part)
+            for k in range(len(points) or 1):
+                if wanted is None or first + k in wanted:
+                    one = _witness(part, alpha, beta, points[k] if points else None)
+                    found.append(_near(pair, first + k, one))
+            first += len(points) or 1
+    return found
+
+
+def _points(part: Json) -> Json:
+    for side in ("alpha", "beta"):
+        if part[side]["kind"] == "cloud":
+            return part[side]["points"]
+    return []
+
+
+def _witness(part: Json, alpha: Placed, beta: Placed, point: Json | None) -> Witness:
+    if point is None:
+        try:
+            return pair_witness(alpha, beta)
+        except InputError as error:
+            raise Touching("meet", field="pairs", value=error.value) from None
+    local = [number(x) for x in point]
+    if part["beta"]["kind"] == "cloud":
+        return point_witness(alpha, vector_on_grid(beta.world(local)))
+    return point_witness(beta, vector_on_grid(alpha.world(local))).swapped()
+
+
+def _near(pair: int, index: int, one: Witness) -> Near:
+    phi, n = on_grid(one.phi), vector_on_grid(one.n)
+    return Near(pair, index, phi, vector_on_grid(one.alpha), vector_on_grid(one.beta), n)
+
+
+def ordered(found: Sequence[Near], k: int, *, solids: bool) -> list[tuple[bool, fmpq, int]]:
+    """Candidates from the first to be kept to the last: whether each comes late, phi, its place.
+
+    Parameters
+    ----------
+    found : sequence of Near
+        All candidates of a pair, or a pool of them, in their order.
+    k : int
+        How many are kept.
+    solids : bool
+        Whether they are corners and a closest pair, of which some may repeat others.
+    """
+    late = [False] * len(found)
+    if solids:
+        phi, alpha, n = (
+            np.array([getattr(one, key) for one in found]) for key in ("phi", "alpha", "n")
+        )
+        late = lateness(phi, alpha, n, k, REPEATS)[0].tolist()
+    return sorted((late[i], found[i].phi, i) for i in range(len(found)))
+
+
+def kept(found: Sequence[Near], k: int, *, solids: bool) -> list[Near]:
+    """Those that a step keeps, in the order of their index; parameters as for `ordered`."""
+    order = ordered(found, k, solids=solids)
+    return [found[i] for i in sorted(i for _, _, i in order[:k])]
+
+
+def pool(found: Sequence[Near], k: int, *, solids: bool) -> list[int]:
+    """Indices of the candidates that a step nearby can keep; parameters as for `ordered`."""
+    far = max(one.phi for one in kept(found, k, solids=solids)) + POOL
+    return [one.index for one in found if one.phi <= far]
+
+
+def tied(found: Sequence[Near], k: int, *, solids: bool) -> list[int]:
+    """Indices of candidates as near as one another of which some are kept and some are not."""
+    order = ordered(found, k, solids=solids)
+    if len(order) <= k or order[k][0] != order[k - 1][0]:
+        return []
+    edge = order[k - 1][1]
+    if not is_small(order[k][1] - edge):
+        return []
+    return sorted(found[i].index for late, phi, i in order
+                  if late == order[k][0] and is_small(phi - edge))  # fmt: skip

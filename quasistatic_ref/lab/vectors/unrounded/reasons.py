@@ -1,0 +1,149 @@
+"""Why q+ has no derivative: which of its parts changes its branch at the configuration.
+
+Whether there is a derivative is decided by differences of q+, and by those of rows that depend on
+each other. The reasons are then looked for in the parts: an exact tie of distances, a closest point
+or normal whose second difference does not vanish, tangents that jump and turn the cone with them, a
+row without slack that need not press.
+Only contacts that touch, with a row without slack, can be the reason.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Final
+
+from flint import fmpq
+
+from quasistatic_ref.certify.degeneracy import strictly_active
+from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.layers.rows import row_count
+from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, are_solids
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, tied
+from quasistatic_ref.lab.vectors.unrounded.step import Contact, rows
+
+KINDS: Final = ("row", "selection", "feature", "tangents", "touching", "multipliers")
+BEND: Final = fmpq(1, 10**12)
+"""A second difference over eps that is larger is a jump of the derivative: that of a smooth q+ is
+its second derivative times 8e-31."""
+
+
+def reasons(one: Base, found: Sequence[Quotient]) -> list[Json]:
+    """Reasons of each kind that are met; the quotients are those along the coordinates of q."""
+    touching = _touching(one)
+    listed = [*_rows(one), *_selections(one, touching)]
+    for k in touching:
+        contact = one.contacts[k]
+        if any(_bends(one.contacts, k, q, _place) for q in found):
+            listed.append(_reason("feature", one, contact))
+        elif any(_turns(one, k, q) for q in found):
+            listed.append(_reason("tangents", one, contact))
+    return listed or [_reason("multipliers", one, one.contacts[k]) for k in touching]
+
+
+def switches(one: Base, found: Sequence[Quotient]) -> bool:
+    """Whether some part changes its branch, whatever becomes of q+."""
+    if _rows(one) or _selections(one, range(len(one.contacts))):
+        return True
+    return any(
+        _bends(one.contacts, k, q, part)
+        for k in range(len(one.contacts))
+        for q in found
+        for part in (_place, _frame)
+    )
+
+
+def _reason(kind: str, one: Base, contact: Contact, indices: Sequence[int] = ()) -> Json:
+    pair = one.at.case["pairs"][contact.near.pair]["name"]
+    return {"kind": kind, "pair": pair, "index": [*indices] or [contact.near.index], "rows": []}
+
+
+def _touching(one: Base) -> list[int]:
+    """Numbers of the contacts that have a row without slack."""
+    signs = iter(one.step.optimum.slack_signs)
+    found = []
+    for k, count in enumerate(row_counts(one.at.case, one.contacts)):
+        own = [next(signs) for _ in range(count)]
+        found += [k] if 0 in own else []
+    return found
+
+
+def row_counts(case: Json, contacts: Iterable[Contact]) -> list[int]:
+    """Numbers of rows of each contact."""
+    return [row_count(case["cone"], case["pairs"][c.near.pair]["rows"]) for c in contacts]
+
+
+def _rows(one: Base) -> list[Json]:
+    """Weakly active rows, contact by contact."""
+    weak, first, found = weak_rows(one), 0, []
+    counts = row_counts(one.at.case, one.contacts)
+    for contact, count in zip(one.contacts, counts, strict=True):
+        own = [i - first for i in weak if first <= i < first + count]
+        if own:
+            found.append({**_reason("row", one, contact), "rows": own})
+        first += count
+    return found
+
+
+def weak_rows(one: Base) -> list[int]:
+    """Rows without slack whose multiplier is 0 in every optimal lam."""
+    point, signs = one.step.optimum.point, one.step.optimum.slack_signs
+    idle = [i for i, sign in enumerate(signs) if sign == 0 and i not in point.working]
+    spanned = point.spanned(idle)
+    unspanned = [i for i in idle if i not in spanned]
+    strict = strictly_active(one.step.form, point.working, unspanned)
+    return [i for i in unspanned if i not in strict]
+
+
+def _selections(one: Base, matters: Iterable[int]) -> list[Json]:
+    """Pairs of which a tie of distances decides what is kept."""
+    places = [(one.contacts[k].near.pair, one.contacts[k].near.index) for k in matters]
+    found = []
+    for pair, written in enumerate(one.at.case["pairs"]):
+        near = candidates(one.at, pair, one.pools[pair])
+        equal = tied(near, written["k"], solids=are_solids(one.at.case, pair))
+        if any((pair, index) in places for index in equal):
+            contact = next(c for c in one.contacts if c.near.pair == pair)
+            found.append(_reason("selection", one, contact, equal))
+    return found
+
+
+def _place(contact: Contact) -> Vector:
+    near: Near = contact.near
+    return [near.phi, *near.alpha, *near.beta, *near.n]
+
+
+def _frame(contact: Contact) -> Vector:
+    return [*contact.d1, *contact.d2]
+
+
+def _bends(
+    own: Sequence[Contact], k: int, found: Quotient, part: Callable[[Contact], Vector]
+) -> bool:
+    """Whether the second difference of a contact's numbers does not vanish; of another, no."""
+    (_, ahead), (_, behind) = found.sides
+    if len({contacts[k].near.index for contacts in (own, ahead, behind)}) > 1:
+        return False
+    both = zip(part(own[k]), part(ahead[k]), part(behind[k]), strict=True)
+    return any(abs(x + y - 2 * z) > BEND * STEP for z, x, y in both)
+
+
+def _turns(one: Base, k: int, found: Quotient) -> bool:
+    """Whether the rows of a contact, as a set, jump or bend."""
+    if len({side[1][k].near.index for side in found.sides} | {one.contacts[k].near.index}) > 1:
+        return False
+    own, *sides = (
+        rows(one.at.case, [contacts[k]])[0]
+        for contacts in (one.contacts, found.sides[0][1], found.sides[1][1])
+    )
+    for row in own:
+        ahead, behind = (nearest(row, side) for side in sides)
+        if any(
+            abs(x + y - 2 * z) > BEND * STEP for z, x, y in zip(row, ahead, behind, strict=True)
+        ):
+            return True
+    return False
+
+
+def nearest(row: Vector, others: Matrix) -> Vector:
+    """That of other rows whose numbers differ least from a row's."""
+    return min(others, key=lambda other: max(abs(x - y) for x, y in zip(row, other, strict=True)))

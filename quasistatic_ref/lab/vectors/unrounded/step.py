@@ -1,0 +1,221 @@
+"""One step from the mechanism to q+ in numbers of the grid.
+
+H, g, A and b are those of the layer ``step``, but none of them is rounded to float64; the quadratic
+program is solved by the exact method in integers, from the working set of a step nearby.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import lcm
+from typing import Final, TypeAlias
+
+import numpy as np
+from flint import arb, arb_mat, ctx, fmpq, fmpz_mat
+
+from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
+from quasistatic_ref.certify.rational import ExactForm
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.program import candidates
+from quasistatic_ref.lab.program.integration import integrate
+from quasistatic_ref.lab.program.mechanism import contact_jacobian
+from quasistatic_ref.lab.program.rotation import AXES
+from quasistatic_ref.lab.program.rows import contact_rows
+from quasistatic_ref.lab.program.step import objective
+from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
+from quasistatic_ref.lab.vectors.exact.precision import Real
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.unrounded.grid import (
+    matrix_on_grid,
+    on_grid,
+    vector_on_grid,
+    working,
+)
+from quasistatic_ref.lab.vectors.unrounded.nearby import Near
+from quasistatic_ref.lab.vectors.unrounded.world import World
+
+WIDE: Final = 1024
+"""Bits of a ball on the way to delta_q: data of the grid have 400 and more."""
+NARROW: Final = arb(2) ** -340
+"""Radius of a ball whose middle is on the grid what the number itself is [m, rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """A contact that is kept, and its motion per unit of delta_q.
+
+    Parameters
+    ----------
+    near : Near
+        Where it is.
+    d1, d2 : vector
+        Tangents.
+    motion : list of vector
+        Along n, d1, d2 and about n: 4 rows of n_v numbers.
+    """
+
+    near: Near
+    d1: Vector
+    d2: Vector
+    motion: Matrix
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """A x >= b in integers: both sides times the denominator, b in rational numbers yet.
+
+    Parameters
+    ----------
+    A : fmpz_mat
+    denominator : int
+    b : vector
+    """
+
+    A: fmpz_mat
+    denominator: int
+    b: Vector
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """A step, before (+).
+
+    Parameters
+    ----------
+    form : ExactForm
+    rows : Rows
+    optimum : Optimum
+    delta_q : vector
+        On the grid [m, rad].
+    """
+
+    form: ExactForm
+    rows: Rows
+    optimum: Optimum
+    delta_q: Vector
+
+
+Change: TypeAlias = Callable[[World, Near], Near]
+"""A mistake: from a contact to what it is taken for."""
+
+
+def contact(at: World, near: Near) -> Contact:
+    """A contact in its frame."""
+    with working():
+        d1 = vector_on_grid(candidates.tangents(np.array(near.n))[0])
+    d2 = vector_on_grid(np.cross(near.n, d1))
+    pair = at.case["pairs"][near.pair]
+    bodies = {f"{s}_body": at.case["shapes"][pair[s]]["body"] for s in ("alpha", "beta")}
+    J = contact_jacobian(at.at, {**vars(near), **bodies})
+    motion = np.vstack([np.array([near.n, d1, d2]) @ J[:3], J[3:]])
+    return Contact(near, d1, d2, matrix_on_grid(motion))
+
+
+def rows(case: Json, contacts: Sequence[Contact]) -> tuple[Matrix, Vector]:
+    """A and b of the program; each entry is exact in the contacts' motion and phi."""
+    A, b = [], []
+    for one in contacts:
+        own = dict(zip(("n", "d1", "d2"), AXES, strict=True)) | {"J": one.motion}
+        block = contact_rows({**case["pairs"][one.near.pair], **own}, case["cone"])
+        A += block.tolist()
+        b += [-one.near.phi] * len(block)
+    return A, b
+
+
+def solved(
+    at: World,
+    contacts: Sequence[Contact],
+    warm: Sequence[int] = (),
+    known: Rows | None = None,
+) -> Solved:
+    """delta_q of a step with these contacts.
+
+    Parameters
+    ----------
+    at : World
+    contacts : sequence of Contact
+    warm : sequence of int
+        Rows of A that are likely active; any will do.
+    known : Rows, optional
+        The rows of these contacts.
+
+    Raises
+    ------
+    InputError
+        If the step has no solution.
+    """
+    with working():
+        H, g = objective(at.case, *at.loads)
+        if "tau" in at.case:
+            g = g + at.case["h"] * np.array(at.case["tau"])
+        H, g = matrix_on_grid(H), vector_on_grid(g)
+    own = known or integer_rows(len(g), *rows(at.case, contacts))
+    form = form_of(H, g, own)
+    optimum = dual_active_set(form, warm)
+    if isinstance(optimum, Farkas):
+        raise InputError("the step has no solution", field="pairs")
+    return Solved(form, own, optimum, delta_q(form, optimum))
+
+
+def delta_q(form: ExactForm, optimum: Optimum) -> Vector:
+    """The displacement of an optimum, on the grid [m, rad]."""
+    near = _in_balls(form, optimum.point.working)
+    if near is not None:
+        return near
+    found = optimum.point.rational
+    return [on_grid(form.x_unit * fmpq(x, found.denominator)) for x in found.x]
+
+
+def _in_balls(form: ExactForm, working: Sequence[int]) -> Vector | None:
+    """The same from balls, a tenth of the time; None if they are too wide for the grid."""
+    n, W = form.n, len(working)
+    with ctx.workprec(WIDE):
+        A = arb_mat(W, n, [form.A[i, v] for i in working for v in range(n)])
+        b = arb_mat(W, 1, [form.b[i, 0] for i in working])
+        try:
+            across = arb_mat(form.H).solve(A.transpose())
+            alone = arb_mat(form.H).solve(arb_mat(form.g))
+            lam = (A * across).solve(b - A * alone) if W else arb_mat(0, 1)
+        except ZeroDivisionError:
+            return None
+        x = [value * form.x_unit for value in (alone + across * lam).entries()]
+        if any(value.rad() > NARROW for value in x):
+            return None
+        return [on_grid(value) for value in x]
+
+
+def integer_rows(n: int, A: Matrix, b: Vector) -> Rows:
+    """The rows of a program of n unknowns in integers."""
+    denominator = _denominator([x for row in A for x in row])
+    return Rows(_integers(A, n, denominator), denominator, b)
+
+
+def form_of(H: Matrix, g: Vector, rows: Rows) -> ExactForm:
+    """The program min 1/2 x'Hx - g'x s.t. A x >= b in integers."""
+    dH, dA = _denominator([x for row in H for x in row]), rows.denominator
+    D = _denominator([*(x * dH for x in g), *(x * dA for x in rows.b)])
+    return ExactForm(
+        H=_integers(H, len(g), dH),
+        g=_integers([[x] for x in g], 1, dH * D),
+        A=rows.A,
+        b=_integers([[x] for x in rows.b], 1, dA * D),
+        x_unit=fmpq(1, D),
+        slack_unit=fmpq(1, dA * D),
+        lam_unit=fmpq(dA, dH * D),
+        net_unit=fmpq(1, dH * D),
+    )
+
+
+def _denominator(values: Vector) -> int:
+    return lcm(*(int(x.q) for x in values)) if values else 1
+
+
+def _integers(A: Matrix, columns: int, factor: int) -> fmpz_mat:
+    return fmpz_mat(len(A), columns, [int((x * factor).p) for row in A for x in row])
+
+
+def after(at: World, step: Sequence[Real]) -> Vector:
+    """Configuration q (+) delta_q; balls where it is not rational."""
+    with working():
+        case = {"mechanism": at.case["mechanism"], "q": at.case["q"], "delta_q": step}
+        found: Vector = integrate(case)["q"].tolist()
+        return found

@@ -1,0 +1,73 @@
+"""Bodies and shapes of a case where they are, in rational numbers: exact, or of the grid."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.lab.program import step as program
+from quasistatic_ref.lab.program.mechanism import kinematics
+from quasistatic_ref.lab.vectors.distances.shapes import Placed, placed
+from quasistatic_ref.lab.vectors.exact.entered import entered
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.unrounded.grid import exact_or_on_grid, working
+
+_settled = np.frompyfunc(exact_or_on_grid, 1, 1)
+
+
+@dataclass(frozen=True, eq=False)
+class World:
+    """A case at its configuration.
+
+    Parameters
+    ----------
+    case : dict
+        Input of the layer ``step`` in exact numbers.
+    at : dict
+        By the name of each body R, t and J as the program has them, in rational numbers.
+    known : (matrix, vector), optional
+        Its loads, where they are those of another case.
+    """
+
+    case: Json
+    at: dict[str | None, Any]
+    known: tuple[Any, Any] | None = None
+
+    @cached_property
+    def loads(self) -> tuple[Any, Any]:
+        """M, and the generalised forces in addition to the stiffness."""
+        if self.known:
+            return self.known
+        with working():
+            found: tuple[Any, Any] = program.loads(self.case, self.at)
+            return found
+
+    def with_case(self, case: Json) -> "World":
+        """Another case at the same configuration, with what it has in common with this one."""
+        if case["mechanism"] is self.case["mechanism"]:
+            return World(case, self.at, self.loads)
+        return World(case, self.at)
+
+    def shape(self, name: str) -> Placed:
+        """A shape of the case where it is."""
+        entry = self.case["shapes"][name]
+        with working():
+            R, t = (_settled(part).tolist() for part in program.placed(entry, self.at))
+            here = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
+            return replace(placed(entry["shape"], here), R=R, t=t)
+
+
+def world(case: Json) -> World:
+    """A case in the world.
+
+    Parameters
+    ----------
+    case : dict
+        Input of the layer ``step``; numbers that are no float64 are rational.
+    """
+    case = entered(case)
+    with working():
+        at = kinematics(case["mechanism"], np.array(case["q"]))
+        settled = {name: tuple(map(_settled, parts)) for name, parts in at.items()}
+    return World(case, settled)

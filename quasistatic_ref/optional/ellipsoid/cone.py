@@ -1,0 +1,262 @@
+r"""The ellipsoid, :math:`f_1^2/\mu_v^2 + f_2^2/\mu_v^2 + \tau^2/\mu_\omega^2 \le f_n^2`, as a cone.
+
+What is claimed of an answer in it is verified here, without any solver.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from flint import ctx, fmpq
+
+from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
+from quasistatic_ref.certify.point import rational_solution, rounded_solution
+from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.certify.rows import contact_rows
+from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
+from quasistatic_ref.optional.ellipsoid.enclosure import (
+    BITS,
+    Enclosure,
+    checked_pair,
+    enclosed_error,
+    enclosure,
+    point,
+)
+from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
+from quasistatic_ref.step.arrays import Array, Mask, largest
+from quasistatic_ref.step.cones import ELLIPSOID, CurvedCone, Judge, Rows, Violations
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.solution import Certificate
+from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
+
+if TYPE_CHECKING:
+    from quasistatic_ref.solve.solver import Solver
+
+Active = tuple[tuple[int, int], ...]
+LARGEST = float(np.finfo(np.float64).max)
+UNSTATED = Certificate("exact", error_bound=0.0)
+"""What an answer without a certificate counts as."""
+
+CLAIMS: dict[str, tuple[str, ...]] = {
+    "exact": ("active", "error_bound", "gap"),
+    "enclosure": ("error_bound", "gap"),
+    "residual": (),
+    "none": (),
+}
+"""What a certificate of each kind holds in the ellipsoid."""
+UNPROVED = (
+    "lam", "lam_extra", "certificate.multipliers_unique", "certificate.differentiable",
+    "certificate.smallest_inactive_slack", "certificate.smallest_active_multiplier",
+)  # fmt: skip
+"""Further fields of a solution file of version 1 that nothing proves in the ellipsoid."""
+
+
+class EllipsoidCone(CurvedCone):
+    """gap >= ||(slip_1, slip_2, spin)||: one second-order cone for each contact."""
+
+    def in_rows(self, mu: Array) -> Array:
+        """1, (n_c, 3): the rows of a contact are J_n, J_1, J_2 and J_w [-]; `mu` is the cone's."""
+        return np.ones_like(mu)
+
+    def constraints(self, motion: Rows, mask: Mask) -> list[Any]:
+        """All contacts in one second-order cone constraint; arguments as of the base [m]."""
+        import cvxpy as cp  # it takes its time
+
+        gap, *slips = motion
+        return [cp.SOC(gap, cp.vstack(slips))] if len(mask) else []
+
+    def multipliers(self, constraints: Sequence[Any], mask: Mask, mu: Array) -> Array:
+        """Impulses (n, d1, d2, spin) of each contact, shape (4 n_c,) [N s, N m s]."""
+        if not constraints:
+            return np.zeros(0)
+        f_n, scaled = constraints[0].dual_value
+        return np.column_stack([f_n, mu * scaled.T]).ravel()
+
+    def judge(self, step: StepData) -> Judge:
+        """As of the base; of each contact with motion s and impulse f in one number each.
+
+        (10) reads s_n >= ||mu o s_t||, (11) f_n >= ||f_t / mu|| and (12) f's = 0.
+        """
+        return lambda slack, lam: cone_violations(step.contacts.mu, slack, lam)
+
+    def optimum(self, step: StepData, start: tuple[Array, Array] | None) -> Enclosure | None:
+        """The enclosure of the optimum; None where none can be certified.
+
+        Parameters
+        ----------
+        step : StepData
+        start : (ndarray, ndarray), optional
+            A backend's delta_q and lam, shapes (n_v,) [m, rad] and (m,) [N s].
+        """
+        return enclosure(step, start)
+
+    def certificate(
+        self, step: StepData, optimum: Enclosure, residuals: Mapping[str, float]
+    ) -> Certificate:
+        """``"exact"`` where every loaded contact is at its apex, ``"enclosure"`` otherwise.
+
+        Parameters
+        ----------
+        step, optimum
+            As of the base.
+        residuals : mapping of str to float
+            In natural units [-].
+        """
+        exact = optimum.working_set is not None
+        return Certificate(
+            kind="exact" if exact else "enclosure",
+            residuals=dict(residuals),
+            active=contact_rows(step, optimum.working_set or ()),
+            error_bound=optimum.error,
+            gap=optimum.gap,
+            step=step,
+        )
+
+    def in_words(self, certificate: Certificate) -> str:
+        """What ``"exact"`` means here."""
+        return "exact: the optimum of the step, correctly rounded; every loaded contact sticks"
+
+    def verdict(
+        self,
+        step: StepData,
+        delta_q: Array,
+        active: Sequence[tuple[int, int]],
+        lam: Array | None,
+        claims: Certificate | None,
+    ) -> Verdict:
+        """Whether an answer in the ellipsoid is what it is claimed to be.
+
+        delta_q of an exact answer is held against the rational optimum, bit for bit. Of an
+        enclosure, a feasible pair is found again and checked in balls: delta_q must be within the
+        claimed error of it. lam must be in its cones, and its duality gap no more than claimed;
+        where none is claimed, both are held to rounding alone.
+
+        Parameters
+        ----------
+        step : StepData
+        delta_q : ndarray, shape (n_v,)
+        active : sequence of (int, int)
+            Of an exact answer: the first independent rows of the contacts that bear load.
+        lam : ndarray, shape (m,), optional
+        claims : Certificate, optional
+            Without one, the answer counts as exact.
+        """
+        claims = UNSTATED if claims is None else claims
+        if claims.kind not in ("exact", "enclosure"):
+            return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing")
+        if lam is None:
+            return Verdict(False, "in the ellipsoid nothing is proved without lam")
+        form = exact_form(step)
+        if delta_q.shape != (form.n,) or lam.shape != (form.m,):
+            return Verdict(False, "delta_q or lam has another shape than the step wants")
+        if not (np.isfinite(delta_q).all() and np.isfinite(lam).all()):
+            return Verdict(False, "delta_q or lam is not finite")
+        judge = _not_exact if claims.kind == "exact" else _not_enclosed
+        x, reason = judge(step, form, delta_q, tuple(active), lam, claims)
+        reason = reason or _not_multipliers(step, form, x, lam, claims.gap)
+        return Verdict(not reason, reason)
+
+    def native_solver(self, like: StepData, name: str) -> Solver:
+        """A :class:`~quasistatic_ref.optional.ellipsoid.second_order.ConeSolver`."""
+        from quasistatic_ref.optional.ellipsoid.second_order import ConeSolver  # above certify
+
+        return ConeSolver(like, name)
+
+
+def motion(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
+    """The rows of a contact, in the unit [m] of the arguments: themselves."""
+    return gap, slip_1, slip_2, spin
+
+
+ELLIPSOID_CONE = EllipsoidCone(ELLIPSOID, ("n", "d1", "d2", "spin"), 4, motion, CLAIMS, UNPROVED)
+
+
+def cone_violations(mu: Array, slack: Array, lam: Array) -> Violations:
+    """How far each contact, then each row of the user's own, is from Eqs. :eq:`eq-10`-:eq:`eq-12`.
+
+    Parameters
+    ----------
+    mu : ndarray, shape (n_c, 3)
+        (mu_v, mu_v, mu_omega) [-, -, m].
+    slack, lam : ndarray, shape (m,)
+        Motion [m, rad] and impulse [N s, N m s] of each contact along (n, d1, d2, spin), then the
+        slacks and multipliers of the user's own rows.
+    """
+    k = 4 * len(mu)
+    s, f = slack[:k].reshape(-1, 4), lam[:k].reshape(-1, 4)
+    own, own_lam = slack[k:], lam[k:]
+    scaled = np.divide(f[:, 1:], mu, out=np.zeros_like(mu), where=mu > 0)
+    without = np.abs(np.where(mu > 0, 0.0, f[:, 1:]))  # a force that has no coefficient
+    short = np.linalg.norm(mu * s[:, 1:], axis=1) - s[:, 0]  # Eq. (10)
+    pull = np.linalg.norm(scaled, axis=1) - f[:, 0]  # Eq. (11)
+    work = np.sum(s * f, axis=1)  # Eq. (12)
+    return (
+        np.concatenate([short, -own]),
+        np.concatenate([pull, without.ravel(), -own_lam]),
+        np.concatenate([work, own * own_lam]),
+    )
+
+
+def _not_exact(
+    step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
+) -> tuple[list[fmpq], str]:
+    """Return the rational optimum in the form's units, and what is wrong with the claim of it."""
+    working = apex_rows(step, form, lam)
+    reason = apex_refutation(step, form, working, lam) or ""
+    if reason:
+        return [], reason
+    solution = rational_solution(form, working)
+    reason = (
+        wrong_bits("delta_q", delta_q, rounded_solution(form, solution)[0])
+        or wrong_claim("active", active, contact_rows(step, working))
+        or wrong_claim("error_bound", claims.error_bound, 0.0)
+    )
+    return [fmpq(v) / solution.denominator for v in solution.x], reason
+
+
+def _not_enclosed(
+    step: StepData, form: ExactForm, delta_q: Array, active: Active, lam: Array, claims: Certificate
+) -> tuple[list[fmpq], str]:
+    """Return a point next to the optimum in the form's units, and what is wrong with the claim."""
+    found = checked_pair(step)
+    if found is None:
+        return [], "no displacement strictly inside of all cones was found"
+    with ctx.workprec(BITS):
+        error, claimed = enclosed_error(form, found, delta_q), claims.error_bound
+    reason = wrong_claim("active", active, ())
+    if claimed is None or not error <= claimed:
+        reason = f"error_bound is claimed to be {claimed!r}; {error!r} is proved"
+    elif not claimed <= ENCLOSED:
+        reason = f"error_bound is {claimed!r}; an enclosure has {ENCLOSED!r} at most"
+    return point(found), reason
+
+
+def _not_multipliers(
+    step: StepData, form: ExactForm, x: Sequence[fmpq], lam: Array, claimed: float | None
+) -> str:
+    """Return what is wrong with lam: outside of its cones, or not what holds x."""
+    if claimed is None:
+        _, pull, _ = cone_violations(step.contacts.mu, np.zeros(form.m), lam)
+        allowed = IMPULSES * float(np.abs(lam).max(initial=0.0))
+        outside = "" if largest(pull) <= allowed else "its cone"
+        lam = raised(step, lam)
+    else:
+        outside = outside_of_cones(step, fractions(lam, form.lam_unit))
+    if outside:
+        return f"lam is outside of its cone at {outside}"
+    gap = duality_gap(form, x, fractions(lam, form.lam_unit))
+    if not negligible(form, x, gap):
+        return (
+            "lam does not hold the step: it does not balance it, or presses where nothing touches"
+        )
+    if claimed is None:
+        return ""
+    if not (proved := in_joules(form, gap)) <= claimed:
+        return f"gap is claimed to be {claimed!r}; {proved!r} is proved"
+    stated = fractions(np.array([min(claimed, LARGEST)]), form.net_unit * form.x_unit)
+    if not negligible(form, x, *stated):
+        return f"gap is {claimed!r}, which is more than rounding"
+    return ""

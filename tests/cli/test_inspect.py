@@ -1,0 +1,129 @@
+"""``inspect``: what of a URDF or a scenario is used, and what is ignored."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.cli.options import WIDTH
+from quasistatic_ref.formats.resources import scenario_names
+from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, robot, written
+from tests.scenes import RAIL
+from tests.tolerances import ROUNDING
+
+
+def test_inspect_shows_a_urdf(tmp_path, capsys):
+    path = str(written(tmp_path, RAIL, "rail.urdf"))
+    assert main(["inspect", path, "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    assert [c["name"] for c in record["coordinates"]] == ["rail/slide", "rail/turn"]
+    assert [c["unit"] for c in record["coordinates"]] == ["m", "rad"]
+    assert (record["n_a"], record["n_u"]) == (2, 0)
+    masses = {link["name"]: link["mass"] for link in record["links"]}
+    assert masses == {"rail/rail": 2, "rail/plate": 2, "rail/wheel": 2}
+    assert record["links"][1]["shapes"] == [
+        {"name": "rail/plate#0", "kind": "Box", "size": "box 0.02 x 0.2 x 0.2 m"}
+    ]
+    assert "rail: joint limits: position, effort and velocity (2)" in record["ignored"]
+    assert record["read_as"] == "a fixed base, all joints actuated"
+    assert main(["inspect", path]) == 0
+    text = capsys.readouterr().out
+    assert "read with a fixed base, all joints actuated" in text
+    assert "rail/slide" in text
+    assert "the model ignores:" in text
+
+
+def test_inspect_says_what_a_mimic_follows(tmp_path, capsys):
+    path = str(written(tmp_path, CHAIN, "arm.urdf"))
+    assert main(["inspect", path]) == 0
+    assert "\narm/swing_mimic = -0.7 * arm/swing + 0.2\n" in capsys.readouterr().out
+    assert main(["inspect", path, "--json"]) == 0
+    follows = {"name": "arm/swing_mimic", "of": "arm/swing", "multiplier": -0.7, "offset": 0.2}
+    assert json.loads(capsys.readouterr().out)["mimics"] == [follows]
+
+
+def test_inspect_shows_a_scenario(scene, capsys):
+    assert main(["inspect", scene, "--json", "--set", "contacts.floor.mu_omega=0.5"]) == 0
+    record = json.loads(capsys.readouterr().out)
+    stiffness = {c["name"]: c["K_q"] for c in record["coordinates"] if c["actuated"]}
+    assert stiffness == {"rail/slide": 500, "rail/turn": 2.5}
+    assert "read_as" not in record  # a scenario says how its bodies are held
+    assert [pair["mu_omega"] for pair in record["pairs"]] == [0.5, 0.0]
+    assert record["size"] == [8, 10]
+    assert main(["inspect", scene]) == 0
+    text = capsys.readouterr().out
+    assert "each step: 8 variables, 10 rows; h = 0.01 s" in text
+    assert "500 N/m" in text
+    assert "2.5 N m/rad" in text
+
+
+def test_inspect_passes_over_a_byte_order_mark_as_run_does(scene, capsys):
+    path = Path(scene)
+    assert main(["inspect", scene]) == 0
+    plain = capsys.readouterr().out
+    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
+    assert main(["inspect", scene]) == 0
+    assert capsys.readouterr().out == plain
+    path.write_bytes(b"\xff" + path.read_bytes())
+    assert main(["inspect", scene]) == 2
+    assert capsys.readouterr().err.endswith("scene.toml: line 1: is not UTF-8 text\n")
+
+
+def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, capsys):
+    assert main(["inspect", scene, "--json"]) == 0
+    fields = json.loads(capsys.readouterr().out)["fields"]
+    assert fields["h"] == 0.01
+    numbers = {
+        name: x for name, x in fields.items() if type(x) in (int, float) and name != "version"
+    }
+    assert any(name.startswith("contacts.floor.") for name in numbers)
+    for name, value in numbers.items():
+        assert main(["inspect", scene, "--json", "--set", f"{name}={value}"]) == 0
+        capsys.readouterr()
+    assert main(["inspect", scene]) == 0
+    assert "  h = 0.01\n" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", scenario_names())
+def test_what_is_inspected_fits_a_terminal(name, capsys):
+    assert main(["inspect", name]) == 0
+    assert max(map(len, capsys.readouterr().out.splitlines())) <= WIDTH
+
+
+def test_inspect_names_links_that_nothing_can_touch(tmp_path, capsys):
+    visual = "<visual><geometry><sphere radius='1'/></geometry></visual>"
+    text = robot(link("a", visual), link("b"), joint("j", "a", "b"))
+    assert main(["inspect", str(written(tmp_path, text, "one.urdf"))]) == 0
+    assert "- one: links with visual but no collision geometry: a\n" in capsys.readouterr().out
+
+
+TURNED = inertial(
+    moments=("0.1", "0.2", "0.25"),
+    origin='<origin xyz="0.5 0.25 0.125" rpy="0 0 1.5707963267948966"/>',
+)
+
+
+def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, capsys):
+    """A quarter turn about z: ixx along the frame of the inertia is iyy along the link's."""
+    path = str(written(tmp_path, robot(link("a", inertial=TURNED)), "one.urdf"))
+    assert main(["inspect", path, "--json"]) == 0
+    (found,) = json.loads(capsys.readouterr().out)["links"]
+    assert found["centre"] == [0.5, 0.25, 0.125]
+    assert np.diag(found["inertia"]) == pytest.approx([0.2, 0.1, 0.25], abs=ROUNDING)
+    assert main(["inspect", path]) == 0
+    out = capsys.readouterr().out
+    assert "inertias: about the centre of mass, along the link's axes" in out
+    assert "0.5 0.25 0.125" in out
+
+
+def test_inspect_counts_the_rows_of_the_scenario_s_cone(scene, capsys):
+    assert main(["inspect", scene, "--set", "cone=product", "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert said["cone"] == "product"
+    expected = {6: 8, 4: 4}
+    assert main(["inspect", scene, "--json"]) == 0
+    pyramid = json.loads(capsys.readouterr().out)
+    for one, two in zip(said["pairs"], pyramid["pairs"], strict=True):
+        assert one["rows"] == expected[two["rows"]]

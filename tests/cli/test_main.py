@@ -1,0 +1,119 @@
+"""The command line as a whole: help without heavy imports, quiet, interrupts, refusals."""
+
+import errno
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+
+from quasistatic_ref.cli import solve as solve_command
+from quasistatic_ref.cli.main import COMMANDS, main
+from quasistatic_ref.step.files import step_written
+from tests.helpers import one_sentence, point_on_floor
+
+
+def test_any_command_can_be_interrupted(tmp_path, capsys, monkeypatch):
+    def interrupted(*arguments, **options):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(solve_command, "solve_step", interrupted)
+    path = step_written(tmp_path / "step.json", point_on_floor())
+    assert main(["solve", str(path)]) == 130
+    assert one_sentence(capsys.readouterr().err) == "interrupted"
+
+
+def test_backends_lists_what_is_installed(capsys):
+    assert main(["backends", "--json"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert (printed["default"], printed["default_of_fast"]) == ("clarabel", "daqp")
+    assert {"clarabel", "osqp", "piqp", "daqp"} <= set(printed["installed"])
+    assert main(["backends"]) == 0
+    page = capsys.readouterr().out
+    assert "daqp (default with --fast)" in page
+    assert "clarabel (default)" in page
+
+
+def test_demo_prints_one_json_object_and_writes_what_it_names(demo):
+    assert demo.status == 0
+    printed = json.loads(demo.output)
+    assert set(printed["cases"]) == {"with torsion", "without torsion"}
+    names = {path.name for path in demo.folder.iterdir()}
+    assert names == {
+        *printed["figures"], "bunny_grasp_with_torsion.npz", "bunny_grasp_without_torsion.npz",
+    }  # fmt: skip
+    for name in printed["figures"]:
+        assert (demo.folder / name).stat().st_size > 1000
+
+
+def test_figures_are_made_by_name(out, capsys):
+    assert main(["figures", "cone_surfaces", "--out", str(out)]) == 0
+    paths = [out / "cone_surfaces.png", out / "cone_surfaces.pdf"]
+    assert capsys.readouterr().out.splitlines() == [str(path) for path in paths]
+    assert all(path.stat().st_size > 1000 for path in paths)
+    assert main(["figures", "cone_surface", "--out", str(out)]) == 2
+    assert "did you mean 'cone_surfaces'?" in one_sentence(capsys.readouterr().err)
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help(capsys, monkeypatch, command):
+    """Its first sentence is the command's line of the list, names such as URDF as they are."""
+    monkeypatch.setenv("COLUMNS", "200")  # no line of it is wrapped
+    words = COMMANDS[command]
+    with pytest.raises(SystemExit) as caught:
+        main([command, "--help"])
+    assert caught.value.code == 0
+    said = capsys.readouterr().out
+    assert f"usage: quasistatic-ref {command}" in said
+    assert f"\n{words[0].upper()}{words[1:]}.\n" in said
+
+
+HEAVY = ("cvxpy", "pinocchio", "coal", "matplotlib", "scipy", "qpsolvers")
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"]])
+def test_help_does_not_pay_for_heavy_imports(arguments):
+    code = (
+        "import sys\n"
+        "from quasistatic_ref.cli.main import main\n"
+        "try:\n"
+        f"    main({arguments!r})\n"
+        "finally:\n"
+        f"    loaded = [name for name in {HEAVY!r} if name in sys.modules]\n"
+        "    print('loaded:', loaded, file=sys.stderr)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stderr == "loaded: []\n"
+    assert done.stdout
+
+
+@pytest.mark.parametrize(
+    "words",
+    [[name] for name in COMMANDS if name not in ("study", "vectors")]
+    + [["study", "report"], ["study", "pack"], ["study", "export"]]
+    + [["vectors", name] for name in ("check", "report", "pack", "challenge")],
+    ids=" ".join,
+)
+def test_every_command_takes_quiet(words, capsys):
+    with pytest.raises(SystemExit):
+        main([*words, "--help"])
+    assert "--quiet" in capsys.readouterr().out
+
+
+def test_only_the_first_word_is_a_command(scene, tmp_path, monkeypatch):
+    """A folder called bench is a folder: the module of that command is not even imported."""
+    monkeypatch.setitem(sys.modules, "quasistatic_ref.lab.commands.bench", None)
+    monkeypatch.chdir(tmp_path)
+    assert main(["run", scene, "--out", "bench"]) == 0
+    assert (tmp_path / "bench" / "scene.npz").is_file()
+
+
+def test_an_unusable_file_is_named_and_is_not_standard_output(monkeypatch, capsys):
+    def full(options):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "study.sqlite")
+
+    monkeypatch.setattr("quasistatic_ref.cli.backends.run", full)
+    assert main(["backends"]) == 2
+    printed = capsys.readouterr().err
+    assert printed == "quasistatic-ref: study.sqlite: cannot be used: No space left on device\n"

@@ -1,0 +1,134 @@
+"""``run``: what it writes and prints, how it ends, in every cone."""
+
+import io
+import json
+import sys
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.simulate import simulator
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.files import step_read
+from tests.helpers import one_sentence
+from tests.scenes import SWING, written_scenario
+from tests.tolerances import EXACT, MULTIPLIERS
+
+
+@pytest.fixture
+def swing(tmp_path):
+    return str(written_scenario(tmp_path, SWING, "swing.toml"))
+
+
+def test_run_writes_the_trajectory_and_tells_of_it(scene, out, capsys):
+    assert main(["run", scene, "--out", str(out)]) == 0
+    printed = capsys.readouterr().out
+    assert printed.startswith(
+        "5 steps of 8 variables x 10 rows\n5 of 5 steps exact; backend clarabel, plain path, "
+    )
+    assert printed.endswith(f"wrote {out / 'scene.npz'}\n")
+    assert trajectory_read(out / "scene.npz").steps == 5
+
+
+def test_run_prints_one_json_object(scene, out, capsys):
+    assert main(["run", scene, "--out", str(out), "--json"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert printed["trajectory"] == str(out / "scene.npz")
+    assert (printed["steps"], printed["variables"], printed["rows"]) == (5, 8, 10)
+    assert (printed["backend"], printed["fast"]) == ("clarabel", False)
+    assert 0 <= printed["worst_residual"] < MULTIPLIERS
+    assert set(printed["milliseconds_per_step"]) == {"distances", "rows", "solve", "integrate"}
+
+
+def test_options_change_the_scenario(scene, out, capsys):
+    options = ["--backend", "osqp", "--certify", "off", "--set", "steps=2", "--set", "h=0.02"]
+    assert main(["run", scene, "--out", str(out), "--json", *options]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert (printed["backend"], printed["steps"], printed["worst_residual"]) == ("osqp", 2, None)
+    np.testing.assert_allclose(trajectory_read(out / "scene.npz")["t"], [0.02, 0.04], rtol=EXACT)
+
+
+def test_a_run_of_no_steps_is_good(scene, out, capsys):
+    assert main(["run", scene, "--out", str(out), "--set", "steps=0"]) == 0
+    assert capsys.readouterr().out.startswith("0 steps of 8 variables x 0 rows")
+
+
+def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(swing, out, capsys):
+    assert main(["run", swing, "--out", str(out)]) == 3
+    captured = capsys.readouterr()
+    assert captured.out == ""
+    *warned, said = [line.removeprefix("quasistatic-ref: ") for line in captured.err.splitlines()]
+    assert said.startswith("step 3: the step has no solution: floor(floor, post/club#0)/0 ")
+    step_file = out / "swing_failed_step.json"
+    assert f"the first 3 steps are in {out / 'swing.npz'}" in said
+    assert f"the failing step in {step_file}" in said
+    trajectory = trajectory_read(out / "swing.npz")
+    assert trajectory.steps == 3
+    assert trajectory.failed is not None
+    assert warned == list(trajectory.warnings)
+    assert "turns by 270 degrees, in step 2" in warned[0]
+    assert main(["run", swing, "--out", str(out), "--quiet"]) == 3
+    assert capsys.readouterr().err == captured.err
+    np.testing.assert_allclose(step_read(step_file).contacts.phi, [-0.11], rtol=MULTIPLIERS)
+    assert main(["solve", str(step_file)]) == 3  # replayed by itself, it fails again
+    assert one_sentence(capsys.readouterr().err).startswith("the step has no solution")
+
+
+def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
+    honest, calls = simulator.Simulator.step, []
+
+    def interrupted(*arguments, **options):
+        calls.append(1)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return honest(*arguments, **options)
+
+    monkeypatch.setattr(simulator.Simulator, "step", interrupted)
+    assert main(["run", scene, "--out", str(out)]) == 130
+    assert one_sentence(capsys.readouterr().err).startswith(
+        "step 2: interrupted; the first 2 steps"
+    )
+    assert trajectory_read(out / "scene.npz").steps == 2
+
+
+def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, monkeypatch):
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    for words, shown in (([], True), (["--quiet"], False)):
+        terminal = Terminal()
+        monkeypatch.setattr(sys, "stderr", terminal)
+        assert main(["run", scene, "--out", str(tmp_path), *words]) == 0
+        assert ("step/s" in terminal.getvalue()) is shown
+
+
+def test_a_quiet_run_still_says_what_it_warns_of(tmp_path, capsys):
+    assert main(["run", "block_incline", "--fast", "--quiet", "--out", str(tmp_path)]) == 0
+    warned = capsys.readouterr().err
+    assert warned.startswith("quasistatic-ref: the spurious drag")
+    assert (
+        main(["run", "block_incline", "--fast", "--quiet", "--strict", "--out", str(tmp_path)]) == 1
+    )
+
+
+NAMES = ("product", "facets-6", "frictionless", "ellipsoid")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_run_in_another_cone_can_be_replayed_from_its_file(name, scene, tmp_path, capsys):
+    assert main(["run", scene, "--cone", name, "--out", str(tmp_path), "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    trajectory = trajectory_read(tmp_path / "scene.npz")
+    assert trajectory.header["cone"] == name
+    step = trajectory.step_data(3)
+    assert step.cone == name
+    assert said["rows"] == int(step.offsets[-1]) == trajectory["lam"].shape[1]
+    again = solve_step(step, "none")
+    np.testing.assert_allclose(again.delta_q, trajectory["delta_q"][3], rtol=EXACT, atol=EXACT)
+    out = tmp_path / "step.json"
+    arguments = ["extract", str(tmp_path / "scene.npz"), "--step", "3", "-o", str(out)]
+    assert main(arguments) == 0
+    assert step_read(out) == step

@@ -1,0 +1,81 @@
+"""``solve``: the solution file, the certificate in words, and delta_q in decimals."""
+
+import json
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.step.files import step_sha256, step_written
+from tests.helpers import point_on_floor
+from tests.tolerances import EXACT, ROUNDING
+
+
+def test_a_step_taken_from_a_run_solves_to_what_the_run_did(scene, out, capsys):
+    assert main(["run", scene, "--out", str(out)]) == 0
+    capsys.readouterr()  # the ball moves fast, of which the run warns
+    step, solution = out / "step.json", out / "solution.json"
+    assert main(["extract", str(out / "scene.npz"), "--step", "4", "-o", str(step)]) == 0
+    assert main(["solve", str(step), "-o", str(solution)]) == 0
+    printed = capsys.readouterr()
+    assert printed.err.startswith("exact: the optimum of the step, correctly rounded; ")
+    read, run = json.loads(solution.read_text()), trajectory_read(out / "scene.npz")
+    np.testing.assert_allclose(read["delta_q"], run["delta_q"][4], rtol=EXACT, atol=EXACT)
+    # lam itself is not unique; A'lam is.
+    A, lam = run["A"][4], np.concatenate(read["lam"])
+    np.testing.assert_allclose(A.T @ lam, A.T @ run["lam"][4], rtol=ROUNDING, atol=0.0)
+    assert read["step_sha256"] == step_sha256(run.step_data(4))
+
+
+@pytest.fixture
+def falling(tmp_path):
+    """A point mass of 0.3 kg in the air: delta_q = h^2 force / m."""
+    return step_written(tmp_path / "step.json", point_on_floor(phi=1.0, force=(1.0, -0.7, 0.0)))
+
+
+def decimals_of(text):
+    return dict(line.split() for line in text.splitlines())
+
+
+@pytest.mark.parametrize("digits", [1, 5, 30])
+def test_decimals_are_those_of_the_exact_fraction(falling, capsys, digits):
+    assert main(["solve", str(falling), "--digits", str(digits)]) == 0
+    said = decimals_of(capsys.readouterr().out)
+    assert list(said) == ["delta_q_u[0]", "delta_q_u[1]", "delta_q_u[2]"]
+    h, m = Fraction(0.01), Fraction(0.3)
+    for text, force in zip(said.values(), (1.0, -0.7, 0.0), strict=True):
+        exact = h * h * Fraction(force) / m
+        assert len(text.lstrip("-").split("e")[0]) == digits + 1  # and a point
+        last = Fraction(10) ** (Decimal(text).adjusted() - digits + 1)
+        assert abs(Fraction(text) - exact) <= last / 2
+
+
+def test_decimals_stand_alone_and_the_solution_goes_to_its_file(falling, capsys, tmp_path):
+    solution = tmp_path / "solution.json"
+    assert main(["solve", str(falling), "--digits", "20", "-o", str(solution)]) == 0
+    printed = capsys.readouterr()
+    delta_q = json.loads(solution.read_text())["delta_q"]
+    assert [float(text) for text in decimals_of(printed.out).values()] == delta_q
+    assert printed.err.startswith("exact: the optimum of the step")
+
+
+def test_without_decimals_standard_output_is_the_solution(falling, capsys):
+    assert main(["solve", str(falling)]) == 0
+    assert json.loads(capsys.readouterr().out)["certificate"]["kind"] == "exact"
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        (["--digits", "0"], "at least 1"),
+        (["--digits", "30", "--certify", "residual"], "exact optimum"),
+    ],
+)
+def test_decimals_that_do_not_exist_are_refused(falling, capsys, options, reason):
+    assert main(["solve", str(falling), *options]) == 2
+    printed = capsys.readouterr()
+    assert reason in printed.err
+    assert printed.out == ""

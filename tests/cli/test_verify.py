@@ -1,0 +1,42 @@
+"""``verify`` tells a true answer from a false one."""
+
+import json
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.step.files import step_written
+from tests.helpers import one_sentence, pinch, point_on_floor
+
+
+def test_verify_tells_a_true_answer_from_a_false_one(tmp_path, capsys):
+    step = str(step_written(tmp_path / "step.json", point_on_floor(force=(0.5, 0.0, -3.0))))
+    true, false = tmp_path / "true.json", tmp_path / "false.json"
+    assert main(["solve", step, "-o", str(true)]) == 0
+    capsys.readouterr()
+    assert main(["verify", step, str(true)]) == 0
+    assert capsys.readouterr().out.startswith("verified: exact")
+    record = json.loads(true.read_text())
+    record["delta_q"][0] = np.nextafter(record["delta_q"][0], 1.0)
+    false.write_text(json.dumps(record))
+    assert main(["verify", step, str(false)]) == 1
+    assert capsys.readouterr().out.startswith("refuted: ")
+    assert main(["verify", step, str(false), "--json"]) == 1
+    assert json.loads(capsys.readouterr().out)["verified"] is False
+    assert main(["verify", step, str(tmp_path / "none.json")]) == 2
+    assert one_sentence(capsys.readouterr().err).endswith("none.json: no such file")
+
+
+NAMES = ("product", "facets-6", "frictionless", "ellipsoid")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_solution_in_another_cone_is_verified_in_that_cone_only(name, tmp_path, capsys):
+    step, solution = tmp_path / "step.json", tmp_path / "solution.json"
+    step_written(step, pinch(grip=5.0, offset=0.2))
+    assert main(["solve", str(step), "--cone", name, "-o", str(solution)]) == 0
+    assert main(["verify", str(step), str(solution), "--cone", name]) == 0
+    assert "verified" in capsys.readouterr().out
+    assert main(["verify", str(step), str(solution)]) == 2
+    assert "cone: must be that of the step, 'pyramid'" in capsys.readouterr().err

@@ -1,0 +1,145 @@
+"""Curved pairs: every feature by construction, every scale, faces that meet on rims.
+
+Two points are closest if and only if the line between them is a normal of both solids. So a solid
+is put with its farthest point towards the other a distance away, along a normal of the other.
+"""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
+from tests.oracles import closest
+from tests.tolerances import CURVED_PAIR, EXACT, ROUNDING, WAY_OUT
+
+SOLIDS = closest.solids()
+CURVED = {"cylinder", "cone", "ellipsoid"}
+PAIRS = [
+    names
+    for names in closest.pairs()
+    if CURVED & set(names) and not {"sphere", "half-space"} & set(names)
+]
+SCALES = (1e-5, 10.0)
+HERE = np.eye(3), np.zeros(3)
+
+
+def enlarged(solid: Shape, scale: float) -> Shape:
+    match solid:
+        case Box():
+            return Box(scale * solid.half_extents)
+        case Ellipsoid():
+            return Ellipsoid(scale * solid.half_axes)
+        case ConvexMesh():
+            return convex_hull(scale * solid.vertices)
+        case Capsule() | Cylinder() | Cone():
+            return type(solid)(scale * solid.radius, scale * solid.half_length)
+    raise AssertionError(solid)
+
+
+WEDGE = 0.1 * np.array([[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2.0]])
+
+
+def along(x: float, y: float, z: float) -> np.ndarray:
+    return np.array([x, y, z]) / np.linalg.norm([x, y, z])
+
+
+BOX, MESH = Box(np.array([0.03, 0.05, 0.08])), convex_hull(WEDGE)
+CAPSULE, CYLINDER = Capsule(0.03, 0.05), Cylinder(0.05, 0.08)
+FEATURES = {
+    "corner of a box": (BOX, (0.03, -0.05, 0.08), along(1, -2, 3)),
+    "edge of a box": (BOX, (0.03, 0.01, -0.08), along(1, 0, -2)),
+    "face of a box": (BOX, (0.01, -0.05, 0.02), along(0, -1, 0)),
+    "corner of a mesh": (MESH, (0.2, 0, 0), along(3, 1, -1)),
+    "edge of a mesh": (MESH, (0.05, 0, 0), along(0, -1, -2)),
+    "slanting edge of a mesh": (MESH, (0.05, 0.15, 0), along(2, 2, 1)),
+    "face of a mesh": (MESH, (0.05, 0.08, 0.07), along(1, 1, 1)),
+    "cap of a capsule": (CAPSULE, 0.03 * along(1, 2, -3) - [0, 0, 0.05], along(1, 2, -3)),
+    "side of a capsule": (CAPSULE, 0.03 * along(1, 2, 0) + [0, 0, 0.01], along(1, 2, 0)),
+    "cap of a cylinder": (CYLINDER, (0.01, 0.02, -0.08), along(0, 0, -1)),
+    "side of a cylinder": (CYLINDER, 0.05 * along(1, -3, 0) + [0, 0, 0.02], along(1, -3, 0)),
+    "rim of a cylinder": (CYLINDER, 0.05 * along(-1, 3, 0) + [0, 0, 0.08], along(-1, 3, 2)),
+    "other rim of a cylinder": (CYLINDER, 0.05 * along(1, 2, 0) - [0, 0, 0.08], along(1, 2, -2)),
+}
+"""A solid, a point of it, and an outward normal there, in its own frame."""
+OTHERS = Ellipsoid(np.array([0.03, 0.05, 0.08])), Cone(0.05, 0.08)
+
+
+def put(
+    feature: str, other: Shape, distance: float, scale: float = 1.0
+) -> tuple[ShapeInWorld, ...]:
+    """A solid and another next to one of its features."""
+    solid, point, own = FEATURES[feature]
+    R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix()
+    t, n = scale * np.array([0.1, 0.2, 0.3]), R @ own
+    alpha = scale * R @ point + t
+    beta = alpha + distance * n
+    there = ShapeInWorld(enlarged(other, scale), S, np.zeros(3))
+    there = there._replace(t=beta - S @ there.shape.support_point(S.T @ -n))
+    return ShapeInWorld(enlarged(solid, scale), R, t), there, Witness(distance, alpha, beta, n)
+
+
+@pytest.mark.parametrize("other", OTHERS, ids=["ellipsoid", "cone"])
+@pytest.mark.parametrize("feature", FEATURES)
+def test_closest_points_are_found_at_every_feature(feature, other) -> None:
+    for distance in (0.02, 1e-6):
+        here, there, expected = put(feature, other, distance)
+        for found in (solid_pair("p", here, there), solid_pair("p", there, here).swapped()):
+            np.testing.assert_allclose(found.phi, distance, rtol=EXACT, atol=ROUNDING)
+            for one, two in zip(found[1:], expected[1:], strict=True):
+                np.testing.assert_allclose(one, two, rtol=EXACT, atol=WAY_OUT)
+
+
+@pytest.mark.parametrize("names", PAIRS, ids="-".join)
+def test_an_enlarged_pair_has_the_same_normal_and_a_larger_distance(names) -> None:
+    a, b = (SOLIDS[name] for name in names)
+    answered = 0
+    for R, t in closest.poses(4, 23):
+        try:
+            one = solid_pair("p", ShapeInWorld(a, *HERE), ShapeInWorld(b, R, t))
+        except ContactError:
+            continue
+        answered += 1
+        for k in SCALES:
+            A, B = enlarged(a, k), enlarged(b, k)
+            other = solid_pair("p", ShapeInWorld(A, *HERE), ShapeInWorld(B, R, k * t))
+            np.testing.assert_allclose(other.phi / k, one.phi, rtol=EXACT, atol=CURVED_PAIR)
+            # Of several normals that are as good, which one is taken may be rounding.
+            gap = closest.gap(A, B, R, k * t, other.n[None])[0]
+            np.testing.assert_allclose(gap / k, one.phi, rtol=EXACT, atol=CURVED_PAIR)
+    assert answered >= 3
+
+
+def test_a_hair_of_penetration_is_not_nothing() -> None:
+    # Two ellipsoids tip to tip, 1.6e-10 m deep: along their common axis, whatever their widths.
+    a, b = Ellipsoid(np.array([0.1, 0.05, 0.04])), Ellipsoid(np.array([0.2, 0.03, 0.06]))
+    phi = -1.6e-10
+    found = solid_pair(
+        "p", ShapeInWorld(a, *HERE), ShapeInWorld(b, np.eye(3), np.array([0.3 + phi, 0, 0]))
+    )
+    # Two coordinates of 0.3 m are rounded: that of b, and that of its tip.
+    np.testing.assert_allclose(found.phi, 0.3 + phi - 0.3, rtol=EXACT, atol=2 * np.spacing(0.3))
+    np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)
+
+
+def test_faces_that_meet_in_one_point_of_a_rim_have_their_contact_there() -> None:
+    # A lying cylinder's lowest line, z = 0.09 - 0.05, runs along the rim of a cap at z = 0.08.
+    cylinder = Cylinder(0.05, 0.08)
+    lying = np.array([[0.0, 0, 1], [0, -1, 0], [1, 0, 0]])
+    at = ShapeInWorld(cylinder, lying, np.array([-0.01, 0.05, 0.09]))
+    found = solid_pair("p", ShapeInWorld(cylinder, *HERE), at)
+    np.testing.assert_allclose(found.phi, 0.04 - 0.08, rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(found.n, [0, 0, 1], rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(found.alpha, [0, 0.05, 0.08], rtol=EXACT, atol=CURVED_PAIR)
+
+
+def test_a_cone_upside_down_next_to_a_cylinder_just_touches_it() -> None:
+    # Radii of 0.05 each, axes parallel and 0.1 apart: the base's rim meets the side.
+    down = np.array([[0.0, -1, 0], [-1, 0, 0], [0, 0, -1]])
+    cone = ShapeInWorld(Cone(0.05, 0.08), down, np.array([0.1, 0, 0]))
+    found = solid_pair("p", ShapeInWorld(Cylinder(0.05, 0.08), *HERE), cone)
+    np.testing.assert_allclose(found.phi, 0.1 - 0.05 - 0.05, rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)

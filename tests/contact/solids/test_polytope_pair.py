@@ -1,0 +1,125 @@
+"""Polytopes near contact, at every scale, however the pair is turned: expected from construction.
+
+A pair is constructed about a contact whose normal is known, made larger or smaller, and moved.
+"""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.contact.cloud import signed_distance
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, Shape
+from tests.tolerances import CLOSED_FORM, EXACT, OF_DIFFERENCE
+
+SCALES = [1e-5, 1e3]
+X, _, Z = np.eye(3)
+HALF = np.array([0.1, 0.3, 0.2])
+CORNERS = HALF * [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+ROOF = np.array([[0, 0, 0], [0.03, 0.01, 0.05], [-0.02, 0.03, 0.06], [0.01, -0.03, 0.07]])
+"""A tip at the origin, and what is above it."""
+
+
+def turned(x: float, y: float, z: float) -> np.ndarray:
+    return Rotation.from_euler("xyz", [x, y, z]).as_matrix()
+
+
+def moved_pair(
+    a: Shape, R_a: np.ndarray, b: Shape, R_b: np.ndarray, t_b: np.ndarray, seed: int
+) -> Witness:
+    """The closest points after a motion of both, in the frame before it; a is at the origin."""
+    rng = np.random.default_rng(seed)
+    S, s = Rotation.random(rng=rng).as_matrix(), np.abs(t_b).max() * rng.normal(size=3)
+    found = solid_pair("p", ShapeInWorld(a, S @ R_a, s), ShapeInWorld(b, S @ R_b, S @ t_b + s))
+    return Witness(found.phi, S.T @ (found.alpha - s), S.T @ (found.beta - s), S.T @ found.n)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("gap", [0.01, -0.01])
+@pytest.mark.parametrize("angle", [1.2, 1e-3])
+def test_edges_that_cross_are_closest_where_they_cross(angle, gap, scale) -> None:
+    # Cubes on edge: the upper edge of one is the line z = 0.1 sqrt(2) along x, the lower edge of
+    # the other is turned about z. In penetration the way out by a face, (|gap| + 0.1 sin(angle)) /
+    # sqrt(2), is longer.
+    gap *= angle
+    cube, on_edge, top = Box(np.full(3, 0.1 * scale)), turned(np.pi / 4, 0, 0), 0.1 * np.sqrt(2)
+    t = scale * np.array([0.02, 0, 2 * top + gap])
+    for seed in range(2):
+        found = moved_pair(cube, on_edge, cube, turned(0, 0, angle) @ on_edge, t, seed)
+        alpha = np.array([0.02, 0, top])
+        np.testing.assert_allclose(found.phi / scale, gap, rtol=EXACT, atol=CLOSED_FORM)
+        np.testing.assert_allclose(found.n, Z, rtol=EXACT, atol=CLOSED_FORM)
+        for point, expected in ((found.alpha, alpha), (found.beta, alpha + gap * Z)):
+            np.testing.assert_allclose(
+                point / scale, expected, rtol=EXACT, atol=CLOSED_FORM / angle
+            )
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize(
+    ("angle", "apart"), [(1.0, 0.1), (1.0, 1e-7), (1e-3, 1e-7), (1.0, 0.0), (1e-3, 0.0), (1e-9, 0)]
+)
+def test_capsules_that_cross_have_the_common_normal_of_their_axes(angle, apart, scale) -> None:
+    # Axes along z, and turned about the common normal x; they cross at z = 0.02.
+    one, other = Capsule(0.03 * scale, 0.1 * scale), Capsule(0.02 * scale, 0.1 * scale)
+    own, across = turned(0, 0, 0.5), turned(angle, 0, 0)
+    t = scale * (apart * X + 0.02 * Z + 0.03 * across[:, 2])
+    for seed in range(2):
+        found = moved_pair(one, own, other, across, t, seed)
+        np.testing.assert_allclose(found.phi / scale, apart - 0.05, rtol=EXACT, atol=CLOSED_FORM)
+        along = [found.n @ Z, found.n @ across[:, 2], found.n @ found.n]
+        np.testing.assert_allclose(along, [0, 0, 1], rtol=EXACT, atol=CLOSED_FORM)
+        if apart:
+            np.testing.assert_allclose(found.n, X, rtol=EXACT, atol=CLOSED_FORM)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_capsules_end_to_end_have_their_axis_as_normal(scale) -> None:
+    capsule, apart = Capsule(0.03 * scale, 0.1 * scale), 1e-8
+    found = moved_pair(capsule, np.eye(3), capsule, np.eye(3), scale * (0.2 + apart) * Z, 1)
+    np.testing.assert_allclose(found.phi / scale, apart - 0.06, rtol=EXACT, atol=CLOSED_FORM)
+    np.testing.assert_allclose(found.n, Z, rtol=EXACT, atol=OF_DIFFERENCE / apart)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("off", [1e-9, 1e-4, 0.05])
+def test_a_tip_off_an_edge_has_the_way_from_the_edge_as_normal(off, scale) -> None:
+    n = np.array([0.6, 0, 0.8])
+    roof, edge = convex_hull(scale * ROOF), np.array([HALF[0], 0.05, HALF[2]])
+    t = scale * (edge + off * n)
+    for box in (Box(scale * HALF), convex_hull(scale * CORNERS)):
+        for seed in range(2):
+            found = moved_pair(box, np.eye(3), roof, np.eye(3), t, seed)
+            np.testing.assert_allclose(found.phi / scale, off, rtol=EXACT, atol=CLOSED_FORM)
+            np.testing.assert_allclose(found.n, n, rtol=EXACT, atol=OF_DIFFERENCE / off)
+            np.testing.assert_allclose(found.alpha / scale, edge, rtol=EXACT, atol=CLOSED_FORM)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_points_above_a_face_of_a_mesh_have_its_normal_on_the_diagonal_too(scale) -> None:
+    # Two triangles are a face, and rounding puts some points above their common edge in neither.
+    R = turned(0.3, -0.7, 1.1)
+    hull = convex_hull(scale * CORNERS @ R.T)
+    across = np.linspace(-0.9, 0.9, 101)
+    for up in (1e-9, 1e-5):
+        for sign in (1, -1):
+            diagonal = np.column_stack([across, sign * across, np.ones(101)]) * HALF + up * Z
+            phi, n = signed_distance(hull, scale * diagonal @ R.T)
+            np.testing.assert_allclose(phi / scale, up, rtol=EXACT, atol=CLOSED_FORM)
+            expected = np.tile(R[:, 2], (101, 1))
+            np.testing.assert_allclose(n, expected, rtol=EXACT, atol=CLOSED_FORM)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("off", [1e-9, 1e-5, 0.05])
+def test_points_off_an_edge_or_a_corner_of_a_mesh_have_the_way_from_it(off, scale) -> None:
+    R = turned(0.3, -0.7, 1.1)
+    hull = convex_hull(scale * CORNERS @ R.T)
+    feet = HALF * [[1, 0.2, 1], [1, -1, 0.3], [-0.4, 1, -1], [1, 1, 1], [-1, 1, -1]]
+    ways = np.array([[3, 0, 4], [4, -3, 0], [0, 3, -4], [1, 2, 2], [-2, 1, -2]])
+    ways = ways / np.sqrt(np.sum(ways * ways, axis=1))[:, None]
+    phi, n = signed_distance(hull, scale * (feet + off * ways) @ R.T)
+    np.testing.assert_allclose(phi / scale, off, rtol=EXACT, atol=CLOSED_FORM)
+    np.testing.assert_allclose(n, ways @ R.T, rtol=EXACT, atol=OF_DIFFERENCE / off)

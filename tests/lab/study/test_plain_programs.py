@@ -1,0 +1,95 @@
+"""Plain programs through CVXPY and qpsolvers, as studies ask: closed form, time, status, start."""
+
+from time import perf_counter
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.lab.study.calling.plain_programs import KEPT, PlainPrograms
+from quasistatic_ref.solve.backends import BACKENDS
+from quasistatic_ref.solve.through_qpsolvers import _account, _status, qpsolvers_reply
+from quasistatic_ref.step.standard_form import StandardForm
+from tests.tolerances import OPTIMUM
+
+X, LAM = [1.0, 1.5], [4.5, 0.0]
+"""H x - g = A'lam with x_1 = 1, where the first row bears load, and x_2 = (4 - x_1) / 2."""
+
+
+def form():
+    """H = [[3, 1], [1, 2]], g = (0, 4), x_1 >= 1 and x_2 >= -9."""
+    return StandardForm(
+        np.array([[3.0, 1.0], [1.0, 2.0]]), np.array([0.0, 4.0]), np.eye(2), np.array([1.0, -9.0])
+    )
+
+
+@pytest.mark.parametrize("name", ["clarabel", "osqp"])
+def test_a_plain_program_through_cvxpy_has_its_closed_form(name):
+    begin = perf_counter()
+    reply = PlainPrograms(name).reply(form(), BACKENDS[name].first(1e-10))
+    assert reply.solved
+    np.testing.assert_allclose(reply.x, X, rtol=0.0, atol=OPTIMUM)
+    np.testing.assert_allclose(reply.lam, LAM, rtol=0.0, atol=OPTIMUM)
+    assert 0 < reply.call_seconds < perf_counter() - begin
+
+
+def test_the_last_programs_are_kept_and_compiled_once():
+    programs, forms = PlainPrograms("clarabel"), [form() for _ in range(KEPT + 1)]
+    first = [programs._program(f) for f in forms[:KEPT]]
+    assert [programs._program(f) for f in forms[:KEPT]] == first
+    assert programs._program(forms[-1]) not in first
+    assert programs._program(forms[1]) is first[1]
+    assert len(programs._compiled) == KEPT
+    assert programs._program(forms[0]) is not first[0]
+
+
+def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():
+    programs, own, options = PlainPrograms("osqp"), form(), BACKENDS["osqp"].first(1e-10)
+    first, warm, cold = (programs.reply(own, options, warm=w) for w in (False, True, False))
+    assert cold.iterations == first.iterations > warm.iterations
+
+
+def test_a_plain_program_through_qpsolvers_has_its_closed_form():
+    begin = perf_counter()
+    reply = qpsolvers_reply(form(), "clarabel", BACKENDS["clarabel"].first(1e-10))
+    np.testing.assert_allclose(reply.x, X, rtol=0.0, atol=OPTIMUM)
+    np.testing.assert_allclose(reply.lam, LAM, rtol=0.0, atol=OPTIMUM)
+    assert 0 < reply.seconds <= reply.call_seconds < perf_counter() - begin
+
+
+def said(**extras):
+    """What qpsolvers returns of a solver."""
+    return SimpleNamespace(extras=extras, found=True)
+
+
+class Microseconds:
+    """Times of ProxQP."""
+
+    __module__ = "proxsuite.proxqp"
+    solve_time, setup_time = 5.0, 0.0
+
+
+@pytest.mark.parametrize(
+    ("solution", "seconds"),
+    [
+        (said(solve_time=4.0, setup_time=2.0), (4e-3, 2e-3)),  # SCS: ms
+        (said(info=Microseconds()), (5e-6, None)),  # zero: not measured
+        (said(info=SimpleNamespace(solve_time=0.5)), (0.5, None)),
+        (said(), (None, None)),
+    ],
+)
+def test_times_that_solvers_report_are_in_seconds(solution, seconds):
+    assert _account(solution) == pytest.approx(seconds)
+
+
+@pytest.mark.parametrize(
+    ("solution", "expected"),
+    [
+        (said(iterations=np.array([3, 1])), ("found", 3)),  # quadprog: added, dropped
+        (said(status="SolverStatus.Solved", iter=7), ("Solved", 7)),
+        (said(info=SimpleNamespace(status="solved", iter=25)), ("solved", 25)),
+        (SimpleNamespace(extras=None, found=False), ("not found", None)),
+    ],
+)
+def test_the_word_and_the_iterations_of_a_solver(solution, expected):
+    assert _status(solution) == expected

@@ -1,0 +1,45 @@
+"""One free body on shapes that are fixed in the world, and what its derivatives say."""
+
+import numpy as np
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cylinder,
+    HalfSpace,
+    PlacedShape,
+    Sphere,
+)
+from quasistatic_ref.simulate.simulator import Simulator
+
+H, G, NONE = 0.01, 9.81, np.zeros(0)
+FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+BOX = Box(np.array([0.1, 0.1, 0.05]))
+
+
+def sided(function, step=1e-6):
+    """Derivative at 0 from above of a function of one number, extrapolated once."""
+    start = function(0.0)
+    near, far = ((function(h) - start) / h for h in (step, 2 * step))
+    return 2 * near - far
+
+
+def free(shape, xyz, *fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="floating"):
+    """(simulator, q) of one free body on shapes that are fixed in the world: (shape, xyz)."""
+    solid = shape if isinstance(shape, Box | Sphere | Cylinder | Capsule) else Sphere(0.05)
+    system = System([Body.of_shape("body", solid, 0.3, xyz=xyz, rpy=rpy, base=base)])
+    placed = PlacedShape("body", system.link("body"), np.eye(3), np.zeros(3), shape)
+    pairs = [
+        ContactPair(f"c{i}", PlacedShape(f"f{i}", 0, np.eye(3), np.array(at), s), placed, *mu, 6, k)
+        for i, (s, at) in enumerate(fixed)
+    ]
+    return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
+
+
+def verdict(simulator, q, force=0.0):
+    found = derivatives(simulator, q, np.zeros(0), force)
+    return found, {why.kind for why in found.reasons}

@@ -1,0 +1,88 @@
+"""At rows that touch without load: the derivative along a direction, and those of one side."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.smoothed import smoothed
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
+from tests.optional.derivatives.free_bodies import (
+    FLOOR,
+    NONE,
+    G,
+    H,
+    free,
+    sided,
+    verdict,
+)
+from tests.oracles.differences import after
+from tests.tolerances import DIFFERENCE_OF_STEPS
+
+
+@pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (0, 0, -1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
+def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
+    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    found, _ = verdict(simulator, q)
+    e, move = np.array(way), simulator.system.integrate
+    there = sided(lambda t: after(simulator, found.result.q, move(q, t * e), np.zeros(0)))
+    assert np.abs(found.along(q=e) - there).max() <= DIFFERENCE_OF_STEPS * np.abs(e).max()
+    push = sided(lambda t: after(simulator, found.result.q, q, np.zeros(0), t * e), 1e-4)
+    assert np.abs(found.along(tau=e) - push).max() <= DIFFERENCE_OF_STEPS * H**2 / 0.3
+
+
+def test_along_a_direction_is_the_derivative_where_there_is_one():
+    simulator, q = free(Sphere(0.05), (0, 0, 0.0501), (FLOOR, (0, 0, 0)))
+    found, kinds = verdict(simulator, q)
+    assert kinds == set()
+    e = np.arange(6.0)
+    assert np.allclose(found.along(q=e), found.dq_dq @ e, rtol=0, atol=1e-12)
+    assert np.allclose(found.along(h=2.0), 2 * found.dq_dh, rtol=1e-12)
+
+
+@pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
+def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
+    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    e, down = np.array(way), np.array([0.0, 0, -1, 0, 0, 0])
+    found = derivatives(simulator, q, NONE, towards={"q": e})
+    assert found.differentiable
+    nearby = derivatives(simulator, simulator.system.integrate(q, 1e-7 * e), NONE)
+    assert nearby.differentiable
+    assert np.allclose(found.dq_dq, nearby.dq_dq, rtol=0, atol=1e-5)
+    assert np.abs(found.dq_dtau - nearby.dq_dtau).max() < 1e-5 * np.abs(nearby.dq_dtau).max()
+    # A push decides as well, but a motion along the floor leaves every row as it is.
+    pressed = derivatives(simulator, q, NONE, towards={"tau": down})
+    assert np.allclose(pressed.dq_dq[2, 2], 0, atol=1e-12)
+    along = derivatives(simulator, q, NONE, towards={"q": np.eye(6)[0]})
+    assert {why.kind for why in along.reasons} == {reason.WEAK}
+
+
+def test_just_beyond_the_limit_of_friction_the_point_slides():
+    simulator, q = free(PointCloud(np.zeros((1, 3))), (0, 0, 0), (FLOOR, (0, 0, 0)), mu=(0.5, 0.0))
+    force = np.array([0.5 * 0.3 * G, 0, 0, 0, 0, 0])
+    sticks = derivatives(simulator, q, NONE, force, {"tau": -np.eye(6)[0]})
+    slides = derivatives(simulator, q, NONE, force, {"tau": np.eye(6)[0]})
+    assert sticks.dq_dtau[0, 0] == pytest.approx(0.0, abs=1e-12)
+    # It rises by mu_v x: h^2 F = m (1 + mu_v^2) x.
+    assert slides.dq_dtau[0, 0] == pytest.approx(H**2 / (0.3 * (1 + 0.5**2)), rel=1e-9)
+
+
+def test_a_copy_has_the_same_one_sided_derivatives():
+    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    for found in (derivatives(simulator, q, NONE), smoothed(simulator, q, NONE, 1e-6)):
+        again = pickle.loads(pickle.dumps(found))
+        assert (again.along(q=np.eye(6)[2]) == found.along(q=np.eye(6)[2])).all()
+
+
+def test_a_wrong_direction_is_refused():
+    simulator, q = free(Sphere(0.05), (0, 0, 0.0501), (FLOOR, (0, 0, 0)))
+    with pytest.raises(InputError, match=r"towards\.q: must have shape"):
+        derivatives(simulator, q, NONE, towards={"q": np.zeros(5)})
+    found, _ = verdict(simulator, q)
+    with pytest.raises(InputError, match="must be one of q,"):
+        found.along(p=np.zeros(6))
+    with pytest.raises(InputError, match="must have shape"):
+        found.along(q=np.zeros(5))

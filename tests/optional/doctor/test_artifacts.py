@@ -1,0 +1,172 @@
+"""Drag, Pi and the boundary layer of a run: the formulas, the header, the sentence of warning."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.optional.doctor.artifacts import (
+    boundary_layer,
+    drag_share,
+    gap_after,
+    quasi_dynamic_number,
+    warning,
+)
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.tolerances import SLOW
+from tests.helpers import changed, pinch, point_on_floor, sphere_on_floor
+from tests.scenes import chain_scene
+from tests.tolerances import ROUNDING
+
+G, H = 9.81, 0.01
+
+
+@pytest.fixture(scope="module")
+def system(tmp_path_factory):
+    """Un-actuated floating base: the box only; the arm's base is actuated."""
+    return chain_scene(tmp_path_factory.mktemp("scene"))
+
+
+def test_pi_is_the_speed_of_the_free_base_over_mu_g_h(system):
+    (box,) = (j for j in system.joints if j.kind == "floating" and not j.actuated)
+    step = point_on_floor(mu_v=0.5, h=H)
+    delta_q = np.zeros(system.n_v)
+    delta_q[box.v] = [3e-4, 0, 4e-4, 7.0, 8.0, 9.0]  # 0.05 m/s; turning does not count
+    Pi = quasi_dynamic_number(system, step, delta_q, G)
+    np.testing.assert_allclose(Pi, 0.05 / (0.5 * G * H), rtol=ROUNDING, atol=0.0)
+    moved_arm = np.ones(system.n_v)
+    moved_arm[box.v] = 0.0
+    assert quasi_dynamic_number(system, step, moved_arm, G) == 0.0
+
+
+def test_pi_takes_the_least_friction_that_is_not_zero_and_needs_some(system):
+    step = point_on_floor(mu_v=0.5, h=H)
+    delta_q = np.full(system.n_v, 1e-3)
+    assert quasi_dynamic_number(system, step, delta_q, 0.0) is None
+    smooth = step.replace(contacts=changed(step.contacts, mu_v=[0.0]))
+    assert quasi_dynamic_number(system, smooth, delta_q, G) is None
+
+
+def free_body(m, at=0):
+    """A system of one free body of mass m whose twist starts at a column of delta_q."""
+    base = Joint("body/base", "floating", False, slice(at, at + 7), slice(at, at + 6))
+    return SimpleNamespace(joints=(base,), mass={"body": m}.__getitem__)
+
+
+def pulled_without_turning(share, m=0.3, mu_v=0.5, radius=0.04):
+    """A ball in steady sliding: pulled by F = share mu_v m g, and kept from rolling by a torque.
+
+    (R8): it rides on mu_v x, where x = h^2 (F - mu_v m g) / m is its motion of a step.
+    """
+    friction = mu_v * m * G
+    x = H**2 * (share - 1) * friction / m
+    wrench = (share * friction, 0, -m * G, 0, -radius * friction, 0)
+    return sphere_on_floor(m=m, radius=radius, mu_v=mu_v, phi=mu_v * x, wrench=wrench, h=H), x
+
+
+@pytest.mark.parametrize("share", [1.02, 4.0])
+def test_the_share_of_drag_under_weight_is_the_quasi_dynamic_number(share):
+    step, x = pulled_without_turning(share)
+    solution, body = solve_step(step), free_body(0.3)
+    Pi = (x / H) / (0.5 * G * H)
+    np.testing.assert_allclose(Pi, share - 1, rtol=ROUNDING, atol=0.0)
+    found = [
+        drag_share(body, solution, G),
+        quasi_dynamic_number(body, step, solution.delta_q, G),
+    ]
+    np.testing.assert_allclose(found, Pi, rtol=ROUNDING, atol=0.0)
+
+
+def test_the_share_of_a_lifted_body_is_drag_over_the_grip_s_friction():
+    # (R13): m v / h over mu_v 2 N. A third coordinate lifts both fingers through a stiffness K:
+    # K (target - z) = m g + m z / h^2.
+    m, mu_v, grip, K, target = 0.2, 0.4, 40.0, 2000.0, 3e-3
+    held = pinch(m=m, grip=grip, offset=0.0, mu_v=mu_v)
+    J = np.insert(held.contacts.J, 2, 0.0, axis=2)
+    J[:, 2, 2] = -1.0
+    step = held.replace(
+        K_q=np.diag([1000.0, 1000.0, K]),
+        tau_a=np.zeros(3),
+        delta_q_bar_a=[*held.delta_q_bar_a, target],
+        contacts=changed(held.contacts, J=J),
+        extra=None,
+    )
+    z = (K * target - m * G) / (K + m / H**2)
+    expected = (m * z / H**2) / (mu_v * 2 * grip)
+    solution = solve_step(step)
+    found = drag_share(free_body(m, at=3), solution, G)
+    np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=0.0)
+
+
+def test_the_drag_of_a_falling_body_is_its_weight():
+    step = sphere_on_floor(m=0.3, phi=1.0, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)
+    found = drag_share(free_body(0.3), solve_step(step), G)
+    np.testing.assert_allclose(found, 1.0, rtol=ROUNDING, atol=0.0)
+
+
+def test_a_body_without_freedom_friction_or_weight_has_no_share_of_drag():
+    step = sphere_on_floor(m=0.3, phi=1.0, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)
+    solution, body = solve_step(step), free_body(0.3)
+    assert drag_share(body, solution, 0.0) is None
+    (base,) = body.joints
+    for other in (replace(base, actuated=True), replace(base, kind="planar")):
+        body.joints = (other,)
+        assert drag_share(body, solution, G) is None
+
+
+def test_the_layer_of_a_spun_sphere_is_mu_omega_times_its_turn():
+    m, mu = 0.3, 0.02
+    step = sphere_on_floor(m=m, mu_omega=mu, wrench=(0, 0, -m * G, 0, 0, 3 * mu * m * G))
+    solution = solve_step(step)
+    expected = mu * solution.delta_q[5]
+    assert expected > 1e-5
+    found = boundary_layer(gap_after(solution), solution)
+    np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=0.0)
+
+
+def test_a_contact_without_load_has_no_layer_however_far_it_is():
+    step = point_on_floor(phi=1.0, force=(0, 0, -0.3 * G))
+    solution = solve_step(step)
+    assert boundary_layer(gap_after(solution), solution) == 0.0
+
+
+@pytest.mark.parametrize(("share", "warned"), [(None, False), (SLOW, False), (2 * SLOW, True)])
+def test_only_a_number_that_is_not_small_is_worth_a_word(share, warned):
+    said = warning({"largest_drag_share": share, "quasi_dynamic_number": 1.0})
+    assert (said is not None) is warned
+
+
+def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, capsys):
+    # Until t = 0.4 s the sphere sticks: neither speed nor layer. At the end it turns at
+    # (tau - mu m g) h / I = 14.7 rad/s and rises by mu_omega h omega = 1.47 mm.
+    arguments = ["run", "sphere_spin", "--out", str(tmp_path)]
+    assert main([*arguments, "--set", "steps=39"]) == 0
+    printed = capsys.readouterr()
+    expected = "largest drag 0 of what friction can bear, largest quasi-dynamic number 0, "
+    assert f"{expected}largest boundary layer 0 um" in printed.out
+    assert printed.err == ""
+    assert main(arguments) == 0
+    header = trajectory_read(tmp_path / "sphere_spin.npz").header
+    expected = 0.01 * H**2 * 4 * 0.01 * 0.3 * G / 8e-5
+    np.testing.assert_allclose(header["largest_boundary_layer"], expected, rtol=3e-3, atol=0.0)
+    assert 0 < header["quasi_dynamic_number"] < SLOW
+    assert 0 < header["largest_drag_share"] < SLOW
+
+
+def test_a_falling_body_is_warned_of_in_one_sentence_on_standard_error(tmp_path, capsys):
+    # It falls at h g: Pi = h g / (mu g h) = 1 / mu = 1, and its drag is its weight.
+    settings = ["bodies.sphere.pose.xyz=[0, 0, 5]", "steps=3"]
+    flags = [part for setting in settings for part in ("--set", setting)]
+    assert main(["run", "sphere_spin", "--out", str(tmp_path), *flags, "--json"]) == 0
+    errors = capsys.readouterr().err
+    assert errors.count("\n") == 1
+    assert errors.startswith("quasistatic-ref: the spurious drag m v / h on a free body reaches 1 ")
+    run = load_scenario("sphere_spin", settings, fast=True).run(progress=False)
+    np.testing.assert_allclose(run.header["quasi_dynamic_number"], 1.0, rtol=ROUNDING, atol=0.0)
+    np.testing.assert_allclose(run.header["largest_drag_share"], 1.0, rtol=ROUNDING, atol=0.0)
+    assert capsys.readouterr().err == ""  # nor is it said where no progress is shown

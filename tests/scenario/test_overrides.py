@@ -1,0 +1,116 @@
+"""Changes of a scenario: the command line's strings, mappings and keywords say the same."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError, ScenarioError
+from quasistatic_ref.scenario.scenario import load_scenario
+from tests.model.urdf.urdf_texts import written
+from tests.scenes import BALL, written_scenario
+from tests.tolerances import EXACT
+
+
+@pytest.fixture
+def path(tmp_path):
+    return written_scenario(tmp_path)
+
+
+def test_strings_mappings_and_keywords_say_the_same(path):
+    strings = [
+        "steps=3", "h=0.02", "cone=product", "contacts.floor.mu_v=0.25", "gravity=[0, 0, -1.5]",
+        "solver.backend=piqp", "bodies.rail.K_q = { slide = 7, turn = 8.5 }", "record=light",
+    ]  # fmt: skip
+    mapping = {
+        "contacts.floor.mu_v": 0.25,
+        "solver.backend": "piqp",
+        "bodies.rail.K_q": {"slide": 7, "turn": np.float64(8.5)},
+        "gravity": np.array([0, 0, -1.5]),
+    }
+    one = load_scenario(path, strings)
+    two = load_scenario(path, mapping, steps=np.int64(3), h=0.02, cone="product", record="light")
+    for scenario in (one, two):
+        assert (scenario.steps, scenario.h, scenario.cone) == (3, 0.02, "product")
+        assert (scenario.backend, scenario.record) == ("piqp", "light")
+        assert scenario.pairs[0].mu_v == 0.25
+        np.testing.assert_allclose(scenario.gravity, [0, 0, -1.5], rtol=EXACT)
+        np.testing.assert_allclose(scenario.K_q, np.diag([7, 8.5]), rtol=EXACT)
+
+
+def test_the_same_run_comes_of_both(path):
+    one = load_scenario(path, ["contacts.push.mu_v=0.1"]).run(progress=False)
+    two = load_scenario(path, {"contacts.push.mu_v": 0.1}).run(progress=False)
+    three = load_scenario(path).run(progress=False)
+    np.testing.assert_array_equal(one["q"], two["q"])
+    np.testing.assert_array_equal(one["mu_v"], [0.5, 0.1])
+    np.testing.assert_array_equal(three["mu_v"], [0.5, 0.3])
+
+
+def test_keywords_are_made_last_and_a_table_may_be_given_whole(path):
+    scenario = load_scenario(path, {"steps": 3, "solver": {"backend": "osqp"}}, steps=4)
+    assert (scenario.steps, scenario.backend) == (4, "osqp")
+    assert load_scenario(path, solver={"certify": "off"}).certify == "off"
+
+
+def test_what_is_given_is_not_changed(path):
+    K_q = {"slide": [7.0], "turn": 8.5}
+    settings = {"bodies.rail.K_q": K_q}
+    load_scenario(path, settings)
+    load_scenario(path, settings)
+    assert settings == {"bodies.rail.K_q": {"slide": [7.0], "turn": 8.5}}
+
+
+@pytest.mark.parametrize("kind", [str, Path])
+def test_a_path_from_python_is_the_callers_own_and_may_lead_anywhere(path, tmp_path, kind):
+    elsewhere = tmp_path.parent / f"{tmp_path.name}_elsewhere"
+    elsewhere.mkdir()
+    urdf = written(elsewhere, BALL.replace('"0.3"', '"0.7"'))
+    scenario = load_scenario(path, {"bodies.ball.urdf": kind(urdf)})
+    assert scenario.system.mass("ball") == 0.7
+    within = {"urdf": kind(urdf), "base": "floating", "pose": {"xyz": (0.065, 0, 0.05)}}
+    assert load_scenario(path, {"bodies.ball": within}).system.mass("ball") == 0.7
+
+
+def test_a_path_from_the_file_itself_still_may_not(path, tmp_path):
+    text = path.read_text().replace('"ball.urdf"', '"../ball.urdf"')
+    path.write_text(text)
+    with pytest.raises(ScenarioError, match="leaves the scenario's folder"):
+        load_scenario(path)
+
+
+RECURSIVE: dict[str, object] = {}
+RECURSIVE["inner"] = RECURSIVE
+
+REFUSED = {
+    "a number": (5, {}, "settings: must be a list of dotted.key=value, or a mapping"),
+    "a value that holds itself": ({"h": RECURSIVE}, {}, "h: is nested too deeply, or holds itself"),
+    "a keyword that holds itself": ((), {"solver": RECURSIVE}, "solver: is nested too deeply"),
+    "a contact that is not there": (
+        ["contacts.flor.mu_v=1"],
+        {},
+        "contacts.flor: is no table of this file; did you mean",
+    ),
+    "a body that is not there": (
+        {"bodies.bal.base": "fixed"},
+        {},
+        "bodies.bal: is no table of this file; did you mean",
+    ),
+    "no key": ({"": 3}, {}, "settings: must read dotted.key=value"),
+    "too deep": ({".".join("a" * 33): 3}, {}, "settings: names a key of more than 32 parts"),
+    "unknown keyword": ((), {"step": 3}, "step: is unknown; did you mean 'steps'"),
+    "a function": ({"h": abs}, {}, "h: must be a number"),
+}
+
+
+@pytest.mark.parametrize(("settings", "named", "says"), REFUSED.values(), ids=REFUSED)
+def test_changes_that_cannot_be_made_are_one_sentence(path, settings, named, says):
+    with pytest.raises(InputError) as caught:
+        load_scenario(path, settings, **named)
+    assert str(caught.value).startswith(f"{path}: {says}")
+
+
+def test_a_contact_may_be_made_of_changes_alone(path):
+    contact = {"alpha": "floor", "beta": "rail/plate", "mu_v": 0.5, "rows": 4}
+    changes = {f"contacts.flor.{name}": value for name, value in contact.items()}
+    assert len(load_scenario(path, changes).pairs) == 3

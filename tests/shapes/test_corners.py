@@ -1,0 +1,63 @@
+"""Corners of solids and how far solids extend; in which order corners are candidates."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HalfSpace,
+    PointCloud,
+    Shape,
+)
+from tests.tolerances import CLOSED_FORM, EXACT, ROUNDING
+
+BOX = Box(np.array([0.1, 0.2, 0.3]))
+MESH = convex_hull(np.array([[1.0, 1, 1], [2, 1, 1], [1, 1.5, 1], [1, 1, 1.25]]))
+TOWARDS = np.array([0.6, 0.8, 0.0])
+# Four points of a circle of radius 0.5 from TOWARDS on, each a quarter turn (x, y) -> (-y, x) after
+# the one before.
+RIM = [(0.3, 0.4), (-0.4, 0.3), (-0.3, -0.4), (0.4, -0.3)]
+CORNERS = {
+    "box": (BOX, [(x, y, z) for z in (-0.3, 0.3) for y in (-0.2, 0.2) for x in (-0.1, 0.1)], 0.0),
+    "mesh": (MESH, [tuple(corner) for corner in MESH.vertices], 0.0),
+    "capsule": (Capsule(0.5, 0.7), [(0, 0, -0.7), (0, 0, 0.7)], 0.5),
+    "cylinder": (Cylinder(0.5, 0.7), [(*p, z) for z in (-0.7, 0.7) for p in RIM], 0.0),
+    "cone": (Cone(0.5, 0.7), [(0, 0, 0.7), *((*p, -0.7) for p in RIM)], 0.0),
+    "ellipsoid": (Ellipsoid(np.array([0.1, 0.2, 0.3])), [], 0.0),
+}
+
+
+@pytest.mark.parametrize(("shape", "points", "radius"), CORNERS.values(), ids=CORNERS)
+def test_corners_are_vertices_ends_and_quarters_of_rims(shape, points, radius) -> None:
+    found, ball = shape.corners(TOWARDS)
+    assert shape.corner_count == len(points)
+    np.testing.assert_allclose(found, np.reshape(points, (-1, 3)), rtol=EXACT, atol=CLOSED_FORM)
+    assert ball == radius
+
+
+def test_an_upright_rim_begins_on_the_x_axis() -> None:
+    found, _ = Cone(0.5, 0.7).corners(np.array([0.0, 0.0, -1.0]))
+    around = [(0.5, 0, -0.7), (0, 0.5, -0.7), (-0.5, 0, -0.7), (0, -0.5, -0.7)]
+    np.testing.assert_allclose(found[1:], around, rtol=EXACT, atol=CLOSED_FORM)
+
+
+EXTENTS: dict[str, tuple[Shape, float]] = {
+    "box": (BOX, 2 * 0.3),
+    "mesh away from its origin": (MESH, 2 - 1),
+    "ellipsoid": (Ellipsoid(np.array([0.1, 0.4, 0.2])), 2 * 0.4),
+    "flat cone": (Cone(0.5, 0.1), 2 * 0.5),
+    "slim cone": (Cone(0.5, 0.7), 2 * 0.7),
+    "capsule": (Capsule(0.5, 0.7), 2 * (0.5 + 0.7)),
+    "cloud": (PointCloud(np.array([[1.0, 3, 5], [1.2, 3.1, 5.3], [1.1, 3, 5]])), 5.3 - 5),
+    "half-space": (HalfSpace(np.array([0.0, 0, 1]), 0.1), np.inf),
+}
+
+
+@pytest.mark.parametrize(("shape", "longest"), EXTENTS.values(), ids=EXTENTS)
+def test_the_extent_is_the_longest_edge_of_the_box_about_a_shape(shape, longest) -> None:
+    np.testing.assert_allclose(shape.extent, longest, rtol=ROUNDING)
