@@ -110,7 +110,7 @@ def installed(python: str, folder: str) -> str:
     """The Python of a new environment of another one, with the package and what it needs."""
     made = f"{folder}/newest"
     subprocess.run([python, "-m", "venv", made], check=True)
-    subprocess.run([f"{made}/bin/pip", "install", "-q", str(ROOT)], check=True)
+    subprocess.run([f"{made}/bin/pip", "install", "-q", f"{ROOT}[robots]"], check=True)
     return f"{made}/bin/python"
 
 

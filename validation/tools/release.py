@@ -119,6 +119,7 @@ RESULTS = (
     printed("pair_distances", "pair_distances.md"),
     printed("step_profile", "step_profile.md"),
     printed("random_mechanisms", "random_mechanisms.md"),
+    printed("run_hashes", "run_hashes.md"),
     to_file("exact_everywhere", "exact_everywhere.txt"),
     to_file("attacks", "attacks.md"),
     to_file("verifier", "verifier.md", "validation.tools.check_verifier --all"),

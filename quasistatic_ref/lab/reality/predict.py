@@ -24,7 +24,7 @@ class Prediction:
     kinds : dict of str to int
         How many steps have a certificate of each kind.
     error_bound : float
-        The largest of the enclosed steps [-].
+        The largest of all steps [-]; infinity if a step has none.
     sticks, slides : int
         Steps in which the finger touched without slipping, and slipping.
     """
@@ -68,7 +68,8 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
         finger, body = finger + found.delta_q[:2], body + found.delta_q[2:]
         kind = found.certificate.kind
         kinds[kind] = kinds.get(kind, 0) + 1
-        error = max(error, found.certificate.error_bound or 0.0)
+        bound = found.certificate.error_bound
+        error = max(error, np.inf if bound is None else bound)
         loaded, slips = grip(step, found)
         sticks, slides = sticks + (loaded and not slips), slides + (loaded and slips)
     R = rotation(body[3])

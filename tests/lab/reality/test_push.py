@@ -76,3 +76,8 @@ def test_steps_in_polyhedral_cones_are_exact(cone):
     found = predicted(Settings(cone=cone).pushed(PAIR, RATIO), START, PATH)
     assert set(found.kinds) == {"exact"}
     assert found.error_bound == 0.0
+
+
+def test_a_push_whose_steps_have_no_bound_has_none():
+    found = predicted(Settings().pushed(PAIR, RATIO), START, PATH, certify="off")
+    assert found.error_bound == np.inf
