@@ -160,7 +160,12 @@ class FollowedCloud:
         raise ContactError("has distances that are not numbers", field=self.pair.name)
 
     def measured(self, relative: Array) -> tuple[Array, Array, Array]:
-        """Of the listed points at a pose, shape (3, 4): where they are, and what is measured.
+        """Of the listed points: where they are, and what is measured.
+
+        Parameters
+        ----------
+        relative : ndarray, shape (3, 4)
+            [R, t] from the cloud's frame to the solid's; t [m].
 
         Returns
         -------
@@ -172,14 +177,14 @@ class FollowedCloud:
         return x, *signed_distance(self.solid.shape, x)
 
     def first_list(self, relative: Array) -> Shortlist:
-        """A list that starts from some points of the cloud; the pose has shape (3, 4)."""
+        """A list that starts from some points of the cloud; `relative` (3, 4) as above."""
         some = self.points[:: max(1, len(self.points) // SOME)]
         x = rotated(relative[:, :3], some) + relative[:, 3]
         phi, normal = signed_distance(self.solid.shape, x)
         return self.new_list(relative, normal[phi.argmin()], np.inf, self.width)
 
     def new_list(self, relative: Array, n: Array, phi_k: float, width: int) -> Shortlist:
-        """A list at a pose, shape (3, 4), of :func:`shortlist`'s n, phi_k and width."""
+        """A list at `relative`, (3, 4), of :func:`shortlist`'s n, phi_k [m] and width."""
         self.lists_made += 1
         self.made_at = self.steps
         R, t = relative[:, :3], relative[:, 3]
