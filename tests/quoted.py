@@ -26,11 +26,6 @@ def printed(page):
     return [re.sub(rf"^{indent}", "", block, flags=re.MULTILINE) for indent, block in blocks]
 
 
-def filled(held):
-    """The phrases of (phrase with braces, function that returns what fills them), as they read."""
-    return [phrase.format(*values()) for phrase, values in held]
-
-
 def stale(page, phrases):
     """The phrases, as they ought to read, that do not stand on a page."""
     return [phrase for phrase in phrases if phrase not in flat(page)]

@@ -110,104 +110,98 @@ def tripod_row(name):
     )  # fmt: skip
 
 
-PHRASES = {
-    "summary": ("**{:.2f} mm and {:.2f} degrees** (95 %: {:.2f} to {:.2f} mm, {:.2f} to {:.2f} "
-                "degrees) where objects moved by {:.1f} mm and {:.1f} degrees",
-                lambda: [*pooled("error"), pooled("error", "low")[0], pooled("error", "high")[0],
-                         pooled("error", "low")[1], pooled("error", "high")[1],
-                         *pooled("moved")]),
-    "published": ("the published simulator, which has a fitted 3 x 3 matrix for each pair, {:.2f} "
-                  "mm and {:.2f} degrees on the same pushes", lambda: pooled("published")),
-    "more": ("The difference, push by push, is {:+.2f} mm ({:+.2f} to {:+.2f}) and {:+.2f} degrees "
-             "({:+.2f} to {:+.2f})", lambda: [pooled("more", part)[k] for k in (0, 1)
-                                              for part in ENDS]),
-    "pushes": ("{:,} of the 5,374 pushes", lambda: [result("reality")["pairs"]["all"]["pushes"]]),
-    "steps": ("{:,} steps, of which {:,} are enclosed, {:,} exact and none is unproved",
-              lambda: [sum((s := result("reality")["steps"]).values()), s["enclosure"],
-                       s["exact"]]),
-    "bound": ("the largest bound of an error is {:.0e}",
-              lambda: [result("reality")["largest_error_bound"]]),
-    "range": ("between {:.1f} and {:.1f} mm", lambda: [min(ratios().values()),
-                                                      max(ratios().values())]),
-    "lost": ("the ellipsoid loses {:.1f} % of the dissipation, the bicone over a polygon of 16 "
-             "sides {:.1f} %, of 8 sides {:.1f} %, the pyramid {:.1f} % and the product {:.1f} %",
-             lambda: [lost(c) for c in ("ellipsoid", "facets-16", "facets-8", "pyramid",
-                                        "product")]),
-    "axes": ("at the best angle of its axes for each pair {:.1f} %",
-             lambda: [100 * np.mean([entry["pyramid, best axes"] for entry in
-                                     identified().values()])]),
-    "undecided": ("are not identifiable for {} pairs in the pyramid, {} in facets-8 and {} in "
-                  "facets-16", lambda: unidentified("pyramid", "facets-8", "facets-16")),
-    "pyramid": ("the pyramid is off by {:.1f} to {:.1f} mm and {:.1f} to {:.1f} degrees",
-                lambda: [f([variant(f"pyramid, axes at {a} degrees")[k] for a in ("0", "22.5",
-                         "45")]) for k in (0, 1) for f in (min, max)]),
-    "base": ("the ellipsoid by {:.1f} mm and {:.1f} degrees", lambda: variant("ellipsoid")),
-    "cancel": ("less than {:.2f} mm and {:.2f} degrees", lambda: farthest(*CANCEL) + 0.005),
-    "steps_changed": ("{:.2f} mm and {:.2f} degrees", lambda: farthest("steps of 0.5 mm")),
-    "ties_changed": ("{:.2f} mm and {:.2f} degrees", lambda: np.abs(
-        [np.array(variant(name)) - variant("pyramid, axes at 0 degrees") for name in tie_breaks()]
-    ).max(0)),
-    "ties_spread": ("{:.1f} mm and {:.1f} degrees", lambda: [ties("95th percentile [mm]"),
-                                                            ties("95th percentile [deg]")]),
-    "facets": ("facets-16 is off by {:.1f} mm and {:.1f} degrees, with the ratio identified for it "
-               "by {:.1f} mm and {:.1f} degrees",
-               lambda: [*variant("facets-16"), *variant("facets-16, ratio identified for it")]),
-    "torsion": ("predictions are off by {:.1f} mm and {:.1f} degrees, with half of it by {:.1f} mm "
-                "and {:.1f} degrees",
-                lambda: [*variant("no torsion"), *variant("half of the torsion")]),
-    "finger": ("With 0.15 in its place predictions are off by {:.2f} mm and {:.2f} degrees, with "
-               "0.35 by {:.2f} mm and {:.2f} degrees, with the fitted values by {:.2f} mm and "
-               "{:.2f} degrees", lambda: [x for value in ("0.15", "0.35", "fitted")
-                                   for x in variant(f"finger's friction {value}")]),
-    "ratio": ("with the published ratios in place of ours by {:.2f} mm and {:.2f} degrees, with "
-              "the reverse ones by {:.2f} mm and {:.2f} degrees",
-              lambda: [*variant("ratio published"), *variant("ratio reverse")]),
-    "clouds_more": ("{:+.2f} degrees ({:+.2f} to {:+.2f}) with 9 points, {:+.2f} ({:+.2f} to "
-                    "{:+.2f}) with 25 and {:+.2f} ({:+.2f} to {:+.2f}) with 100",
-                    lambda: [result("reality_ablations")["variants"][f"{n} points"]["more"][end][1]
-                             for n in (9, 25, 100) for end in ENDS]),
-    "clouds": ("9 points are off by {:.2f} mm and {:.2f} degrees, 25 points by {:.2f} mm and "
-               "{:.2f} degrees, 100 points by {:.2f} mm and {:.2f} degrees, the patch by {:.2f} mm "
-               "and {:.2f} degrees",
-               lambda: [x for name in ("9 points", "25 points", "100 points", "ellipsoid")
-                        for x in variant(name)]),
-    "tripods": ("{:.0f} to {:.0f} % of the median turn", lambda: [min(tripods()),
-                                                                    max(tripods())]),
-    "tripods_pyramid": ("With the pyramid it is {:.0f} to {:.0f} %", pyramids),
-    "tripods_16": ("with 16 facets {:.0f} to {:.0f} %", lambda: [min(tripods("facets-16")),
-                                                                max(tripods("facets-16"))]),
-    "frame": ("({:.2f}, {:.2f}) mm, {:.2f} degrees and a radius of {:.2f} mm", lambda: [
-        *(t := result("reality_tripods"))["offset [mm]"], t["angle [deg]"], t["radius [mm]"]]),
-}  # fmt: skip
-"""Name -> a phrase of the page, and what fills it."""
-
-
-def rows():
-    """Rows of the page's tables."""
-    names = list(result("reality_ablations")["variants"])
+def held():
+    """What docs/reality.md has to say: phrases, and rows of its tables."""
     return [
+        "**{:.2f} mm and {:.2f} degrees** (95 %: {:.2f} to {:.2f} mm, {:.2f} to {:.2f} degrees) "
+        "where objects moved by {:.1f} mm and {:.1f} degrees".format(
+            *pooled("error"),
+            pooled("error", "low")[0],
+            pooled("error", "high")[0],
+            pooled("error", "low")[1],
+            pooled("error", "high")[1],
+            *pooled("moved"),
+        ),
+        "the published simulator, which has a fitted 3 x 3 matrix for each pair, {:.2f} mm and "
+        "{:.2f} degrees on the same pushes".format(*pooled("published")),
+        "The difference, push by push, is {:+.2f} mm ({:+.2f} to {:+.2f}) and {:+.2f} degrees "
+        "({:+.2f} to {:+.2f})".format(*[pooled("more", part)[k] for k in (0, 1) for part in ENDS]),
+        f"{result('reality')['pairs']['all']['pushes']:,} of the 5,374 pushes",
+        f"{sum((s := result('reality')['steps']).values()):,} steps, of which {s['enclosure']:,} "
+        f"are enclosed, {s['exact']:,} exact and none is unproved",
+        f"the largest bound of an error is {result('reality')['largest_error_bound']:.0e}",
+        f"between {min(ratios().values()):.1f} and {max(ratios().values()):.1f} mm",
+        "the ellipsoid loses {:.1f} % of the dissipation, the bicone over a polygon of 16 sides "
+        "{:.1f} %, of 8 sides {:.1f} %, the pyramid {:.1f} % and the product {:.1f} %".format(
+            *[lost(c) for c in ("ellipsoid", "facets-16", "facets-8", "pyramid", "product")]
+        ),
+        "at the best angle of its axes for each pair "
+        f"{100 * np.mean([entry['pyramid, best axes'] for entry in identified().values()]):.1f} %",
+        "are not identifiable for {} pairs in the pyramid, {} in facets-8 and {} "
+        "in facets-16".format(*unidentified("pyramid", "facets-8", "facets-16")),
+        "the pyramid is off by {:.1f} to {:.1f} mm and {:.1f} to {:.1f} degrees".format(
+            *[
+                f([variant(f"pyramid, axes at {a} degrees")[k] for a in ("0", "22.5", "45")])
+                for k in (0, 1)
+                for f in (min, max)
+            ]
+        ),
+        "the ellipsoid by {:.1f} mm and {:.1f} degrees".format(*variant("ellipsoid")),
+        "less than {:.2f} mm and {:.2f} degrees".format(*farthest(*CANCEL) + 0.005),
+        "{:.2f} mm and {:.2f} degrees".format(*farthest("steps of 0.5 mm")),
+        "{:.2f} mm and {:.2f} degrees".format(
+            *np.abs(
+                [
+                    np.array(variant(name)) - variant("pyramid, axes at 0 degrees")
+                    for name in tie_breaks()
+                ]
+            ).max(0)
+        ),
+        f"{ties('95th percentile [mm]'):.1f} mm and {ties('95th percentile [deg]'):.1f} degrees",
+        "facets-16 is off by {:.1f} mm and {:.1f} degrees, with the ratio identified for it by "
+        "{:.1f} mm and {:.1f} degrees".format(
+            *variant("facets-16"), *variant("facets-16, ratio identified for it")
+        ),
+        "predictions are off by {:.1f} mm and {:.1f} degrees, with half of it by {:.1f} mm and "
+        "{:.1f} degrees".format(*variant("no torsion"), *variant("half of the torsion")),
+        "With 0.15 in its place predictions are off by {:.2f} mm and {:.2f} degrees, with 0.35 by "
+        "{:.2f} mm and {:.2f} degrees, with the fitted values by {:.2f} mm and "
+        "{:.2f} degrees".format(
+            *[
+                x
+                for value in ("0.15", "0.35", "fitted")
+                for x in variant(f"finger's friction {value}")
+            ]
+        ),
+        "with the published ratios in place of ours by {:.2f} mm and {:.2f} degrees, with the "
+        "reverse ones by {:.2f} mm and {:.2f} degrees".format(
+            *variant("ratio published"), *variant("ratio reverse")
+        ),
+        "{:+.2f} degrees ({:+.2f} to {:+.2f}) with 9 points, {:+.2f} ({:+.2f} to {:+.2f}) with 25 "
+        "and {:+.2f} ({:+.2f} to {:+.2f}) with 100".format(
+            *[
+                result("reality_ablations")["variants"][f"{n} points"]["more"][end][1]
+                for n in (9, 25, 100)
+                for end in ENDS
+            ]
+        ),
+        "9 points are off by {:.2f} mm and {:.2f} degrees, 25 points by {:.2f} mm and {:.2f} "
+        "degrees, 100 points by {:.2f} mm and {:.2f} degrees, the patch by {:.2f} mm and {:.2f} "
+        "degrees".format(
+            *[
+                x
+                for name in ("9 points", "25 points", "100 points", "ellipsoid")
+                for x in variant(name)
+            ]
+        ),
+        f"{min(tripods()):.0f} to {max(tripods()):.0f} % of the median turn",
+        "With the pyramid it is {:.0f} to {:.0f} %".format(*pyramids()),
+        f"with 16 facets {min(tripods('facets-16')):.0f} to {max(tripods('facets-16')):.0f} %",
+        "({:.2f}, {:.2f}) mm, {:.2f} degrees and a radius of {:.2f} mm".format(
+            *(t := result("reality_tripods"))["offset [mm]"], t["angle [deg]"], t["radius [mm]"]
+        ),
         *map(identified_row, identified()),
         *map(error_row, result("reality")["pairs"]),
-        *map(ablation_row, names),
+        *map(ablation_row, result("reality_ablations")["variants"]),
         *map(tripod_row, result("reality_tripods")["variants"]["ellipsoid"]),
     ]
-
-
-def held():
-    """What docs/reality.md has to say: phrases, and rows as phrases without braces."""
-    return [*PHRASES.values(), *((row, list) for row in rows())]
-
-
-CHOSEN = [
-    "a round finger of 9.5 mm",
-    "about 44 mm",
-    "a 95 % interval",
-    "| 95 % |",
-    "(95 %)",
-    "with 95 % intervals",
-    "in steps of 1 mm",
-    "1 mm / ($\\mu_v g h^2$) = 0.0014",
-    "the same to 1 mm",
-    "it is not 4.75 mm",
-]
-"""What of the page is no result."""

@@ -96,37 +96,42 @@ def clarabel_dense():
     return [float(row["clarabel dense"]) / float(row["clarabel sparse"])]
 
 
-HELD = [
-    *((row(*pair).replace("{", "{{"), list) for pair in NAMES.items()),
-    ("all {:,.0f}, in NumPy, or the tracker's", lambda: distances()[:1]),
-    ("{:.0f} in the mean |", lambda: distances()[1:]),
-    ("takes {:.0f} us in the mean, {:.1f} times 90 us; if it evaluates what the paper's does, "
-     "{:.0f} us, {:.1f} times; Clarabel's, with a proof, {:.1f} ms, {:.0f} times", factors),
-    ("all distances, {:.0f} us in NumPy,",
-     lambda: parts("Medians", "daqp", "distances")[1:]),
-    ("the solve is {:.0f} % with the tracker and {:.0f} % without",
-     lambda: parts("Means", "osqp", "solve [%]")),
-    *((of_ways(n), list) for n in SHOWN),
-    ("take about {} ms a step: the exponent in the number of bodies is {:.2f}, with Clarabel "
-     "{:.2f}. With 16 boxes and 62 to 992 contacts the exponent in the number of contacts is "
-     "{:.2f}, with Clarabel {:.2f}", chains),
-    ("5 x 5 x 4 boxes, {:,} contacts, {} coordinates, {:,} rows: {:.0f} ms at first with PIQP, "
-     "{:.0f} ms over 100 steps (99th percentile {:.0f}), {:.0f} ms with the bound; {:.0f} ms at "
-     "first with Clarabel", heap),
-    ("at most {:.1e} in all of these scenes with PIQP", bounds),
-    ("Clarabel takes {:.1f} times as long for a row of 8 boxes if its arrays are dense",
-     clarabel_dense),
-    ("Whole they take {:.1f} MB each for 100 free bodies, {:.0f} MB each for 300",
-     lambda: [8e-6 * (6 * bodies) ** 2 for bodies in (100, 300)]),
-    ("13 x 80 step takes {:.1f} times the bare DAQP call",
-     lambda: [promise("step over the bare solver")]),
-    ("through CVXPY takes {:.1f} times as long", lambda: [promise("through CVXPY over native")]),
-    ("**Compiled**, every target is met: a step takes {:.0f} us, less than the paper's 90 us on "
-     "another machine, and {:.0f} us with its proof",
-     lambda: [promise("compiled step [us]"), promise("compiled step, certified [us]")]),
-    ("The step takes {:.1f} times the bare call; the target is 4",
-     lambda: [promise("compiled step over the bare solver")]),
-    ("Of the 250 proved steps of `bench` the slowest three take {:.0f} us or more; the target is "
-     "at most 350 us",
-     lambda: [promise("compiled step, certified, 99th percentile [us]")]),
-]  # fmt: skip
+def held():
+    """What docs/speed.md has to say."""
+    return [
+        *(row(*pair) for pair in NAMES.items()),
+        "all {:,.0f}, in NumPy, or the tracker's".format(*distances()[:1]),
+        "{:.0f} in the mean |".format(*distances()[1:]),
+        "takes {:.0f} us in the mean, {:.1f} times 90 us; if it evaluates what the paper's does, "
+        "{:.0f} us, {:.1f} times; Clarabel's, with a proof, {:.1f} ms, {:.0f} times".format(
+            *factors()
+        ),
+        "all distances, {:.0f} us in NumPy,".format(*parts("Medians", "daqp", "distances")[1:]),
+        "the solve is {:.0f} % with the tracker and {:.0f} % without".format(
+            *parts("Means", "osqp", "solve [%]")
+        ),
+        *map(of_ways, SHOWN),
+        "take about {} ms a step: the exponent in the number of bodies is {:.2f}, with Clarabel "
+        "{:.2f}. With 16 boxes and 62 to 992 contacts the exponent in the number of contacts is "
+        "{:.2f}, with Clarabel {:.2f}".format(*chains()),
+        "5 x 5 x 4 boxes, {:,} contacts, {} coordinates, {:,} rows: {:.0f} ms at first with PIQP, "
+        "{:.0f} ms over 100 steps (99th percentile {:.0f}), {:.0f} ms with the bound; {:.0f} ms at "
+        "first with Clarabel".format(*heap()),
+        "at most {:.1e} in all of these scenes with PIQP".format(*bounds()),
+        "Clarabel takes {:.1f} times as long for a row of 8 boxes if its arrays are dense".format(
+            *clarabel_dense()
+        ),
+        "Whole they take {:.1f} MB each for 100 free bodies, {:.0f} MB each for 300".format(
+            *[8e-6 * (6 * bodies) ** 2 for bodies in (100, 300)]
+        ),
+        f"13 x 80 step takes {promise('step over the bare solver'):.1f} times the bare DAQP call",
+        f"through CVXPY takes {promise('through CVXPY over native'):.1f} times as long",
+        f"**Compiled**, every target is met: a step takes {promise('compiled step [us]'):.0f} us, "
+        "less than the paper's 90 us on another machine, and "
+        f"{promise('compiled step, certified [us]'):.0f} us with its proof",
+        f"The step takes {promise('compiled step over the bare solver'):.1f} times the bare call; "
+        "the target is 4",
+        "Of the 250 proved steps of `bench` the slowest three take "
+        f"{promise('compiled step, certified, 99th percentile [us]'):.0f} us or more; the target "
+        "is at most 350 us",
+    ]

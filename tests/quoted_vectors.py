@@ -11,19 +11,24 @@ def passed(*layers):
     return [count for layer in layers for count in 2 * [of.cases_of(layer)]]
 
 
-CHECK = [
-    *(("| `{}` | {} |", lambda layer=layer: [layer, of.cases_of(layer)]) for layer in LAYERS),
-    ("| all {} layers: {}/{} |", lambda: [len(LAYERS), *2 * [sum(map(of.cases_of, LAYERS))]]),
-    ("| 2 of {} layers: rows {}/{}, wrench {}/{} |",
-     lambda: [len(LAYERS), *passed("rows", "wrench")]),
-    ("1 of {} layers: rows {}/{} to 6 digits |", lambda: [len(LAYERS), *passed("rows")]),
-    ("step 0/{} and {} in part |", lambda: passed("step")),
-    ("this package brings version {}.", lambda: [RELEASE]),
-    ("`quasi-dynamic-vectors-{}.zip`", lambda: [RELEASE]),
-]  # fmt: skip
-CHALLENGE = [("the plain program, without any mistake, {:,} cases", lambda: [ANSWERS])]
+def check():
+    whole = sum(map(of.cases_of, LAYERS))
+    return [
+        *(f"| `{layer}` | {of.cases_of(layer)} |" for layer in LAYERS),
+        f"| all {len(LAYERS)} layers: {whole}/{whole} |",
+        "| 2 of {} layers: rows {}/{}, wrench {}/{} |".format(
+            len(LAYERS), *passed("rows", "wrench")
+        ),
+        "1 of {} layers: rows {}/{} to 6 digits |".format(len(LAYERS), *passed("rows")),
+        "step 0/{} and {} in part |".format(*passed("step")),
+        f"this package brings version {RELEASE}.",
+        f"`quasi-dynamic-vectors-{RELEASE}.zip`",
+    ]
+
+
+CHALLENGE = [f"the plain program, without any mistake, {ANSWERS:,} cases"]
 
 HELD = {
-    "docs/guides/check_your_implementation.md": lambda: CHECK,
+    "docs/guides/check_your_implementation.md": check,
     "docs/guides/challenge_your_program.md": lambda: CHALLENGE,
 }

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import BISECTOR, OF_CLOUD, SAYS
 from quasistatic_ref.errors import ContactError
@@ -26,7 +25,6 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.tolerances import CLOSED_FORM
-from tests.model.urdf.urdf_texts import inertial, link, robot
 from validation.make.aligned_poses import tries
 
 H, G, MASS = 0.01, 9.81, 1.0
@@ -118,16 +116,6 @@ def test_a_round_shape_on_a_base_and_a_base_on_a_round_shape(low, top) -> None:
     for k in (1, 4):
         lifted(one_on_another(FLAT[low](), R, ROUND[top], 1e-6, k), 1e-6)
         lifted(one_on_another(ROUND[top], np.eye(3), FLAT[low](), 1e-6, k), 1e-6)
-
-
-def test_one_contact_carries_what_its_place_lets_it() -> None:
-    # At r from the centre of mass a force f along n lifts by f h^2 (1 / m + (r x n)' I^-1 (r x n)).
-    result = one_on_another(cube(1e-6), np.eye(3), cube(), 1e-6, 1)
-    r = result.points.beta[0] - [0.0, 0.0, SIDE - 1e-6]
-    arm, inertia = np.cross(r, UP), MASS * SIDE**2 / 6
-    f = (G + 1e-6 / H**2) / (1 / MASS + arm @ arm / inertia)
-    np.testing.assert_allclose(result.solution.wrench[0, 2], f, rtol=CLOSED_FORM)
-    np.testing.assert_allclose(result.points.n, [UP], rtol=0, atol=CLOSED_FORM)
 
 
 def standing_bodies(places):
@@ -235,41 +223,3 @@ def test_a_sample_of_the_aligned_poses() -> None:
     tried, wrong = tries(range(63))
     assert wrong == []
     assert len(tried) == 5
-
-
-SCENE = """
-format = "quasistatic-ref/scenario"
-version = 1
-h = 0.01
-steps = 1
-[bodies.top]
-urdf = "top.urdf"
-base = "floating"
-pose = { xyz = [X, 0, Z] }
-[shapes.low]
-box = { size = [0.1, 0.1, 0.1] }
-[contacts.c]
-alpha = "low"
-beta = "top"
-mu_v = 0.0
-rows = 4
-k = 4
-"""
-
-
-@pytest.mark.parametrize(
-    ("x", "z", "says"),
-    [
-        ("0", "0.1", "another face is as near: the pair's normal"),
-        ("0.1", "0.1", "touches with two faces or edges at once"),
-        ("0.09", "0.09", "the bodies are as deep in each other along"),
-    ],
-)
-def test_inspect_says_which_normals_are_tied(tmp_path, capsys, x, z, says) -> None:
-    text = '<collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>'
-    (tmp_path / "top.urdf").write_text(robot(link("top", text, inertial("1", ("2e-3",) * 3))))
-    (tmp_path / "scene.toml").write_text(SCENE.replace("X", x).replace("Z", z))
-    assert main(["inspect", str(tmp_path / "scene.toml")]) == 0
-    said = " ".join(capsys.readouterr().out.split())
-    assert "normals that are one of several at the start: - " in said
-    assert says in said

@@ -56,7 +56,7 @@ def pulled(force, phi=0.0, angle=0.0):
 
 def assert_moves(step, truth, tolerance=OPTIMUM):
     """The answer of a step is this motion, in the one definition of error; it is returned."""
-    answer = solve_step(step)
+    answer = solve_step(step, "none")
     gap = error(step, answer.delta_q, truth)
     np.testing.assert_allclose(gap, 0.0, rtol=0.0, atol=tolerance)
     return answer
@@ -84,7 +84,7 @@ def test_below_the_limit_the_sphere_sticks(phi, share):
 def test_sticking_ends_exactly_at_mu_omega_m_g(beyond):
     # delta_theta is compared with itself: the smallest excess torque turns by the closed form.
     expected = turn((1 + beyond) * LIMIT)
-    turned = solve_step(spun((1 + beyond) * LIMIT)).delta_q[5]
+    turned = solve_step(spun((1 + beyond) * LIMIT), "none").delta_q[5]
     np.testing.assert_allclose(turned, expected, rtol=MULTIPLIERS, atol=1e-16)
     assert_moves(spun((1 - beyond) * LIMIT), np.zeros(6), STICKING * beyond + 1e-16)
 
@@ -92,7 +92,7 @@ def test_sticking_ends_exactly_at_mu_omega_m_g(beyond):
 @every_step_size
 def test_the_boundary_layer_at_a_fixed_torque_is_proportional_to_h_squared(h):
     # delta_z = mu_omega delta_theta from phi = 0; the paper speaks of a rate, the next test.
-    lift = solve_step(spun(2 * LIMIT, h=h)).delta_q[2]
+    lift = solve_step(spun(2 * LIMIT, h=h), "none").delta_q[2]
     expected = h**2 * MU_OMEGA * LIMIT / (INERTIA + M * MU_OMEGA**2)
     np.testing.assert_allclose(lift, expected, rtol=MULTIPLIERS, atol=0.0)
 
@@ -102,7 +102,7 @@ def test_the_boundary_layer_at_a_fixed_rate_is_proportional_to_h(h):
     # Repeated, phi goes to where delta_z = 0: phi* = mu_omega delta_theta = mu_omega h |omega|.
     phi, tau = 0.0, 2 * LIMIT
     for _ in range(30):
-        delta_q = solve_step(spun(tau, phi, h)).delta_q
+        delta_q = solve_step(spun(tau, phi, h), "none").delta_q
         phi += delta_q[2]
     np.testing.assert_allclose(phi, MU_OMEGA * delta_q[5], rtol=MULTIPLIERS, atol=0.0)
     # and (I + m mu^2) theta = h^2 (tau - limit) + m mu phi  =>  I theta = h^2 (tau - limit)
@@ -130,7 +130,7 @@ def test_the_pyramid_is_weaker_by_the_square_root_of_two_between_its_axes(angle)
     limit = MU_V * M * G / (1.0 if angle == 0 else np.sqrt(2.0))
     for share in (0.0, 0.5, 0.99):
         assert_moves(pulled(share * limit, angle=np.radians(angle)), np.zeros(3), STICKING)
-    moved = solve_step(pulled(1.01 * limit, angle=np.radians(angle))).delta_q[:2]
+    moved = solve_step(pulled(1.01 * limit, angle=np.radians(angle)), "none").delta_q[:2]
     assert np.linalg.norm(moved) > 1e-3 * H**2 * G
 
 

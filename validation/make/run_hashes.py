@@ -6,8 +6,8 @@ Runs are taken in processes of their own: with the kernels of OpenBLAS for other
 (``OPENBLAS_CORETYPE``), without the vector code of NumPy and of the C library
 (``NPY_DISABLE_CPU_FEATURES``, ``GLIBC_TUNABLES``), and with the oldest NumPy that the package
 supports, which pip fetches into a temporary folder. ``--python`` names another Python, for which
-pip installs the package with the newest of all that it needs. Takes some five minutes.
-Exit status 1 if a hash differs.
+pip installs the package with the newest of all that it needs. Takes some five minutes. Exit status
+1 if a hash differs.
 """
 
 from __future__ import annotations
@@ -37,8 +37,7 @@ KERNELS = ("SkylakeX", "Haswell", "Nehalem")
 OLD_C_LIBRARY = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX2_Usable,-FMA_Usable"}
 WORDS = """SHA-256 of the bytes of q, shape (steps + 1, n_q), float64, little-endian, of each
 scenario's run with its own settings, in which each answer is certified; x86-64 Linux. Kernels are
-those of OpenBLAS; "no vector code" is NumPy without its own, and the C library without FMA and
-AVX2.
+those of OpenBLAS; "no vector code": NumPy without its own, and the C library without FMA and AVX2.
 
 Poses, the joints' columns and gravity are formed by pinocchio's compiled code, of cosines and sines
 that are correctly rounded; pin and coal are of one version in all rows. Of what no scenario has

@@ -177,7 +177,7 @@ class FollowedCloud:
         return x, *signed_distance(self.solid.shape, x)
 
     def first_list(self, relative: Array) -> Shortlist:
-        """A list that starts from some points of the cloud; `relative` (3, 4) as above."""
+        """A list that starts from some points of the cloud; `relative` (3, 4), [R, t] [-, m]."""
         some = self.points[:: max(1, len(self.points) // SOME)]
         x = rotated(relative[:, :3], some) + relative[:, 3]
         phi, normal = signed_distance(self.solid.shape, x)
