@@ -50,9 +50,6 @@ LAB = (
     "lab/commands",
 )
 
-# Imports that cross a wall today: none.
-REMAINING: dict[str, set[str]] = {}
-
 # The only file of core and command line that may name the lab, as a string.
 LAB_DOOR = "cli/main.py"
 
@@ -182,11 +179,10 @@ def within(inside, places):
     return any(inside == place or inside.startswith(place + "/") for place in places)
 
 
-def violations(root: Path, remaining=REMAINING):
+def violations(root: Path):
     """Sentences, one for each import that crosses a wall."""
     found = []
     package = root.name
-    crossed = {}
     for path in sorted(root.rglob("*.py")):
         inside = path.relative_to(root)
         name = inside.as_posix()
@@ -215,14 +211,9 @@ def violations(root: Path, remaining=REMAINING):
                 elif own is None:
                     found.append(f"{name}:{line}: imports {imported}, from a later folder")
                 elif wrong := crosses(own, other):
-                    crossed.setdefault(name, set()).add(other)
-                    if other not in remaining.get(name, ()):
-                        found.append(f"{name}:{line}: imports {imported}, from {wrong}")
+                    found.append(f"{name}:{line}: imports {imported}, from {wrong}")
                 elif within("/".join(rest), CLOSED.get(own, ())):
                     found.append(f"{name}:{line}: imports {imported}, which is closed to {own}")
             elif top in WALLS and not within(name, WALLS[top]):
                 found.append(f"{name}:{line}: imports {top}")
-    for name, others in remaining.items():
-        for other in sorted(others - crossed.get(name, set())):
-            found.append(f"{name}: no longer imports {other}: take it off the list")
     return found

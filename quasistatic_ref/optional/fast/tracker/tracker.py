@@ -190,7 +190,7 @@ class FollowedCloud:
         return self.new_list(relative, normal[phi.argmin()], np.inf, self.width)
 
     def new_list(self, relative: Array, n: Array, phi_k: float, width: int) -> Shortlist:
-        """A list at a pose, of :func:`shortlist`'s n, phi_k and width.
+        """A list at a pose.
 
         Parameters
         ----------
