@@ -83,7 +83,8 @@ class World(Plain):
     def models(self) -> tuple[Any, list[Any], list[list[int]]]:
         """All bodies in one pinocchio model; in groups, and the frames of the links of these.
 
-        The groups have cosine and sine in place of angles, as :func:`~quasistatic_ref.model.urdf.urdf.with_turns` says.
+        The groups have cosine and sine in place of angles, as
+        :func:`~quasistatic_ref.model.urdf.urdf.with_turns` says.
         """
         texts = self.texts, map(with_turns, self.texts)
         one, other = (
