@@ -5,9 +5,9 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.measures import link_motion
 from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
 
 CASES: Final[dict[str, list[str]]] = {

@@ -35,6 +35,7 @@ LAB = (
     "lab/grasp",
     "lab/runs",
     "lab/measures",
+    "lab/json_schema",
     "lab/parallel",
     "lab/processes",
     "lab/supervised",

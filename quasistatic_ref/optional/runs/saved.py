@@ -21,12 +21,13 @@ import numpy as np
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.fields import Fields
-from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.formats.files import is_stream, written_whole
 from quasistatic_ref.formats.npz import json_array, npz_header, npz_record
 from quasistatic_ref.formats.plain import fingerprint
+from quasistatic_ref.simulate import trajectory as whole_run
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import EXTRA, PER_STEP, PROGRAM
-from quasistatic_ref.simulate.trajectory import Trajectory, steps_in
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import QPSOLVERS
 from quasistatic_ref.step.data import Array
 
@@ -291,3 +292,23 @@ def saved_steps(path: str | Path) -> int:
 
 def _files(folder: Path) -> list[Path]:
     return sorted(folder.glob("[0-9]*.npz")) if os.path.isdir(folder) else []
+
+
+def steps_in(path: str | Path) -> int:
+    """How many steps the trajectory in a file has; 0 if there is no such file, or an empty one.
+
+    Raises
+    ------
+    InputError
+        If the file holds something else.
+    """
+    path = Path(path)
+    if not os.path.isfile(path) or is_stream(path) or not path.stat().st_size:
+        return 0
+    try:
+        top = Fields(npz_header(path, whole_run.WHAT))
+        top.check_format(whole_run.FORMAT, whole_run.VERSION)
+        return top.integer("steps", least=0)
+    except InputError as error:
+        remedy = "it is not replaced by one; choose another folder, or remove it"
+        raise InputError(f"{error.problem}; {remedy}", file=path) from None

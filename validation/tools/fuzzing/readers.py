@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, toml_read
@@ -33,7 +34,6 @@ from quasistatic_ref.simulate.trajectory import certified, trajectory_read, wors
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.files import step_read, step_text
-from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
 from tests.lab.study import made_store
 from tests.model.readers.test_mesh_files import COLLADA
 from tests.model.urdf.urdf_texts import collision, link, written
