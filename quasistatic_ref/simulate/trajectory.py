@@ -243,11 +243,3 @@ def certified(trajectory: Trajectory) -> str:
     exact, enclosed = kinds.count("exact"), kinds.count("enclosure")
     rest = f", {enclosed} enclosed" if enclosed else ""
     return f"{exact} of {trajectory.steps} steps exact{rest}"
-
-
-def worst_residual(trajectory: Trajectory) -> float | None:
-    """Largest residual of all steps, in natural units [-]; None where none was computed."""
-    residuals = trajectory["worst_residual"]
-    if not residuals.size or np.isnan(residuals).any():
-        return None
-    return float(residuals.max())

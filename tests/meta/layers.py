@@ -36,6 +36,7 @@ LAB = (
     "lab/runs",
     "lab/measures",
     "lab/json_schema",
+    "lab/digits",
     "lab/parallel",
     "lab/processes",
     "lab/supervised",

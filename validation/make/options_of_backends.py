@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
-from quasistatic_ref.certify.digits import correct_digits
+from quasistatic_ref.lab.digits import correct_digits
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.scaled import DenseStep

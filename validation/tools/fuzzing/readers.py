@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.cli.measures import worst_residual
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError
@@ -30,7 +31,7 @@ from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.trajectory import certified, trajectory_read, worst_residual
+from quasistatic_ref.simulate.trajectory import certified, trajectory_read
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.files import step_read, step_text

@@ -58,7 +58,7 @@ certify/optimality.py
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
-certify/rounding.py certify/exact.py certify/warm.py certify/certificate.py
+certify/rounding.py cli/decimals.py certify/exact.py certify/warm.py certify/certificate.py
     EXACT
 certify/point.py
     balls EXACT
