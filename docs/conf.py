@@ -100,7 +100,7 @@ doctest_global_setup = """
 from fractions import Fraction
 import numpy as np
 from quasistatic_ref.certify.digits import digits_of_error
-from quasistatic_ref.certify.rounding import decimal_string
+from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.step.cones import direction
 """
 

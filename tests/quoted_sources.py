@@ -7,10 +7,10 @@ from functools import cache
 
 import numpy as np
 
+from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.lab.examples.grasp_against_mu_omega import needed, rotations
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
 from quasistatic_ref.lab.runs import grasp
-from quasistatic_ref.simulate.measures import link_motion
 from tests.quoted import ROOT, cells, claim
 from validation.make.options_of_backends import NATURAL
 from validation.make.options_of_backends import records_read as options

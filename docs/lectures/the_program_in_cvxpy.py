@@ -8,7 +8,7 @@ import cvxpy as cp
 import numpy as np
 
 import quasistatic_ref as qr
-from quasistatic_ref.certify.digits import correct_digits
+from quasistatic_ref.lab.digits import correct_digits
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 
 STEPS = [

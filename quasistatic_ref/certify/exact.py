@@ -7,7 +7,6 @@ choices where the multipliers are not unique.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -29,10 +28,9 @@ from quasistatic_ref.certify.point import (
     BallSolution,
     Point,
     RationalSolution,
-    rational_solution,
 )
 from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import decimal_string, nearest_fraction, nearest_in
+from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -105,28 +103,6 @@ def exact_optimum(
     """
     end = dual_active_set(form, warm, violated)
     return end if isinstance(end, Farkas) else _rounded(form, end)
-
-
-def decimal_strings(
-    form: ExactForm, working_set: Sequence[int], digits: int = 30
-) -> tuple[str, ...]:
-    """Each delta_q of an optimum in decimal digits, correctly rounded.
-
-    Parameters
-    ----------
-    form : ExactForm
-    working_set : sequence of int
-        That of the optimum.
-    digits : int
-        Significant digits.
-
-    Returns
-    -------
-    tuple of str
-    """
-    solution = rational_solution(form, tuple(working_set))
-    values = [form.x_unit * x / solution.denominator for x in solution.x]
-    return tuple(decimal_string(Fraction(int(v.p), int(v.q)), digits) for v in values)
 
 
 def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:

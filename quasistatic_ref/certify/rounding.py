@@ -1,7 +1,6 @@
 """From exact numbers and from balls to float64, rounded correctly (half to even)."""
 
 import math
-from fractions import Fraction
 
 from flint import arb, fmpq
 
@@ -51,26 +50,6 @@ def nearest_above(ball: arb) -> float:
     if not top.is_finite():
         return float("inf")
     return math.nextafter(_exact(top), math.inf) if top != 0 else 0.0
-
-
-def decimal_string(x: Fraction, digits: int) -> str:
-    """A number in `digits` significant decimal digits, correctly rounded, half to even.
-
-    Examples
-    --------
-    >>> decimal_string(Fraction(-1, 3), 5)
-    '-3.3333e-01'
-    """
-    if not x:
-        return f"0.{'0' * (digits - 1)}e+00"
-    size = abs(x)
-    exponent = len(str(size.numerator)) - len(str(size.denominator))
-    exponent -= size < Fraction(10) ** exponent  # now 10**exponent <= size
-    scaled = round(size / Fraction(10) ** (exponent - digits + 1))  # half to even
-    if scaled == 10**digits:
-        scaled, exponent = scaled // 10, exponent + 1
-    text = str(scaled)
-    return f"{'-' if x < 0 else ''}{text[0]}.{text[1:]}e{exponent:+03d}"
 
 
 def _exact(point: arb) -> float:

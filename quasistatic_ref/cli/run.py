@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.cli.measures import free_body_motions, worst_residual
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.measures import free_body_motions
-from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
+from quasistatic_ref.simulate.trajectory import Trajectory, certified
 from quasistatic_ref.step.cones import cone
 
 PRINTED = 4

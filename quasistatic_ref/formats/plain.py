@@ -1,8 +1,7 @@
 """Plain data: fields that are compared bit for bit, copied and pickled."""
 
-import hashlib
 import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import Field, fields
 from typing import Any
 
@@ -78,28 +77,3 @@ def bits(value: Any) -> Any:
     if isinstance(value, slice):
         return slice, value.start, value.stop, value.step
     return type(value), value
-
-
-def fingerprint(value: Any) -> str:
-    """SHA-256 of what :func:`bits` compares, in hexadecimal: the same in every process."""
-    digest = hashlib.sha256()
-    for part in _flat(bits(value)):
-        digest.update(part)
-    return digest.hexdigest()
-
-
-def _flat(value: Any) -> Iterator[bytes]:
-    """The bits of a value as bytes, which differ from those of any other value."""
-    if isinstance(value, tuple):
-        yield b"("
-        for inner in value:
-            yield from _flat(inner)
-        yield b")"
-    elif isinstance(value, frozenset):
-        yield from sorted(b"".join(_flat(inner)) for inner in value)
-    else:
-        if isinstance(value, type):
-            value = value.__qualname__
-        content = value if isinstance(value, bytes) else repr(value).encode()
-        yield b"%d:" % len(content)
-        yield content

@@ -5,10 +5,10 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.cli.measures import link_motion, worst_residual
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.measures import link_motion
-from quasistatic_ref.simulate.trajectory import Trajectory, certified, worst_residual
+from quasistatic_ref.simulate.trajectory import Trajectory, certified
 
 CASES: Final[dict[str, list[str]]] = {
     "with torsion": [],

@@ -2,9 +2,9 @@
 
 from functools import cache
 
+from quasistatic_ref.cli.measures import LinkMotion, link_motion
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.measures import LinkMotion, link_motion
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 

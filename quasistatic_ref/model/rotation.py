@@ -1,4 +1,4 @@
-"""Roll, pitch and yaw, as URDF and scenarios give them, and the angle of a rotation."""
+"""Roll, pitch and yaw, as URDF and scenarios give them."""
 
 import numpy as np
 
@@ -29,22 +29,3 @@ def quaternion(rpy: Array) -> Array:
             cr * cp * cy + sr * sp * sy,
         ]
     )
-
-
-def rotation_angle(R: Array) -> Array:
-    """Angle of rotation matrices [rad], shape (...,), accurate near 0 and near pi.
-
-    Parameters
-    ----------
-    R : ndarray, shape (..., 3, 3)
-    """
-    axial = np.stack(
-        [
-            R[..., 2, 1] - R[..., 1, 2],
-            R[..., 0, 2] - R[..., 2, 0],
-            R[..., 1, 0] - R[..., 0, 1],
-        ],
-        axis=-1,
-    )
-    trace = np.trace(R, axis1=-2, axis2=-1)
-    return np.asarray(np.arctan2(np.linalg.norm(axial, axis=-1), trace - 1))

@@ -1,17 +1,12 @@
 """Every field of a scenario, said once: the loader, the JSON Schema and the reference page read it.
 
-Rules about several fields, such as that rows = 6 needs mu_omega, are checked by the loader;
-``RULES`` holds those of them that a JSON Schema can express.
+Rules about several fields, such as that rows = 6 needs mu_omega, are checked by the loader.
 """
-
-from collections.abc import Mapping
-from typing import Any
 
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.fields import Fields
-from quasistatic_ref.formats.schema import json_schema
 from quasistatic_ref.model.body import BASES
 from quasistatic_ref.scenario.world_solids import SOLIDS
 from quasistatic_ref.simulate.limits import Limits
@@ -35,7 +30,7 @@ _TURN = "roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll)"
 _SIDE = {"anyOf": [TEXT, {"type": "array", "items": TEXT, "minItems": 1}]}
 _NAMES = "a link (body/link), a body, a shape, a list of these, or a pattern of links (hand/*)"
 _STIFF = {"anyOf": [{"type": "number", "minimum": 0, "exclusiveMinimum": True}, LIST, MATRIX]}
-_TARGET = {"anyOf": [NUMBER, {"$ref": f"#/definitions/{POSE}"}]}
+TARGET = {"anyOf": [NUMBER, {"$ref": f"#/definitions/{POSE}"}]}
 
 TABLES = Tables({
     TOP: {
@@ -147,19 +142,6 @@ TABLES = Tables({
 })  # fmt: skip
 """The fields of each kind of table, in the order of the reference page."""
 
-RULES: dict[str, Mapping[str, Any]] = {
-    CONTACT: {
-        "anyOf": [
-            {"required": ["mu_omega"]},
-            {"required": ["rows"], "properties": {"rows": {"enum": [4]}}},
-        ]
-    },
-    WRENCH: {"anyOf": [{"required": ["force"]}, {"required": ["torque"]}]},
-    SHAPE: {"oneOf": [{"required": [kind]} for kind in SOLIDS]},
-    WAYPOINT: {"additionalProperties": _TARGET, "minProperties": 2},
-}
-"""What a kind of table asks for beyond its fields, in JSON Schema."""
-
 value = TABLES.value
 
 
@@ -168,8 +150,3 @@ def pose(table: Fields, xyz: ArrayLike = ORIGIN) -> tuple[Array, Array]:
     found = value(table, POSE, "xyz", xyz), value(table, POSE, "rpy")
     table.close()
     return found
-
-
-def scenario_schema() -> dict[str, Any]:
-    """The JSON Schema of a scenario file."""
-    return json_schema("A scenario", TABLES, RULES, TOP)

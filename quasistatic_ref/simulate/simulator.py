@@ -1,21 +1,21 @@
 """The simulator: one step as the algorithm of the paper."""
 
+import time
 from collections.abc import Callable, Sequence
-from typing import Any
+from functools import wraps
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.limits import Limits
-from quasistatic_ref.simulate.one_thread import by_one_thread
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.stopwatch import Stopwatch
 from quasistatic_ref.solve.backends import DEFAULT, check_backend
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
@@ -27,6 +27,43 @@ from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 
 GRAVITY = (0.0, 0.0, -9.81)
+Step = TypeVar("Step", bound=Callable[..., Any])
+
+
+def by_one_thread(step: Step) -> Step:
+    """The same method of a simulator, refused while another thread takes a step of its system.
+
+    Raises
+    ------
+    InputError
+    """
+
+    @wraps(step)
+    def alone(simulator: Any, *given: Any, **named: Any) -> Any:
+        lock = simulator.system.lock
+        if not lock.acquire(blocking=False):
+            problem = "another thread is taking a step of the same system; "
+            problem += "give each thread a simulator of its own, which copy.deepcopy makes"
+            raise InputError(problem, field="simulator")
+        try:
+            return step(simulator, *given, **named)
+        finally:
+            lock.release()
+
+    return cast("Step", alone)
+
+
+class Stopwatch:
+    """Wall time between laps, by name."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self._last = time.perf_counter()
+
+    def __call__(self, name: str) -> None:
+        """End the lap of that name."""
+        now = time.perf_counter()
+        self.seconds[name], self._last = now - self._last, now
 
 
 def _remade(

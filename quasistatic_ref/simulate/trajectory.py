@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,8 +12,8 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.fields import Fields
-from quasistatic_ref.formats.files import is_stream, written_whole
-from quasistatic_ref.formats.npz import json_array, npz_header, npz_record
+from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.formats.npz import json_array, npz_record
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import Shown
@@ -235,26 +234,6 @@ def trajectory_read(path: str | Path) -> Trajectory:
     return Trajectory(header, arrays)
 
 
-def steps_in(path: str | Path) -> int:
-    """How many steps the trajectory in a file has; 0 if there is no such file, or an empty one.
-
-    Raises
-    ------
-    InputError
-        If the file holds something else.
-    """
-    path = Path(path)
-    if not os.path.isfile(path) or is_stream(path) or not path.stat().st_size:
-        return 0
-    try:
-        top = Fields(npz_header(path, WHAT))
-        top.check_format(FORMAT, VERSION)
-        return top.integer("steps", least=0)
-    except InputError as error:
-        remedy = "it is not replaced by one; choose another folder, or remove it"
-        raise InputError(f"{error.problem}; {remedy}", file=path) from None
-
-
 def certified(trajectory: Trajectory) -> str:
     """How many steps are certified exactly, e.g. ``"300 of 300 steps exact"``.
 
@@ -264,11 +243,3 @@ def certified(trajectory: Trajectory) -> str:
     exact, enclosed = kinds.count("exact"), kinds.count("enclosure")
     rest = f", {enclosed} enclosed" if enclosed else ""
     return f"{exact} of {trajectory.steps} steps exact{rest}"
-
-
-def worst_residual(trajectory: Trajectory) -> float | None:
-    """Largest residual of all steps, in natural units [-]; None where none was computed."""
-    residuals = trajectory["worst_residual"]
-    if not residuals.size or np.isnan(residuals).any():
-        return None
-    return float(residuals.max())

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.optimality import optimality_residuals
+from quasistatic_ref.cli.measures import rotation_angle
 from quasistatic_ref.formats.resources import models_folder
-from quasistatic_ref.model.rotation import rotation_angle
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.trajectory import trajectory_read

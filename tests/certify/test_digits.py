@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.digits import correct_digits, digits_of_error
+from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.lab.digits import correct_digits
 from quasistatic_ref.step.data import Extra
 from tests.certify.test_farkas import EAST, point_between_walls
 from tests.tolerances import ROUNDING

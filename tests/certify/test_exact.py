@@ -12,8 +12,9 @@ from quasistatic_ref.certify.degeneracy import (
     multipliers_unique,
     strictly_active,
 )
-from quasistatic_ref.certify.exact import decimal_strings, exact_optimum, exact_step
+from quasistatic_ref.certify.exact import exact_optimum, exact_step
 from quasistatic_ref.certify.rational import exact_form, exact_form_of
+from quasistatic_ref.cli.decimals import decimal_strings
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step

@@ -9,12 +9,12 @@ import pytest
 from flint import arb, ctx, fmpq
 
 from quasistatic_ref.certify.rounding import (
-    decimal_string,
     nearest,
     nearest_above,
     nearest_fraction,
     nearest_in,
 )
+from quasistatic_ref.cli.decimals import decimal_string
 
 LEAST = F(5e-324)
 ULP = F(2) ** -52

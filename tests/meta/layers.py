@@ -35,6 +35,8 @@ LAB = (
     "lab/grasp",
     "lab/runs",
     "lab/measures",
+    "lab/json_schema",
+    "lab/digits",
     "lab/parallel",
     "lab/processes",
     "lab/supervised",

@@ -51,7 +51,7 @@ SAMPLE = (
     f"{DEPENDENCE} combination: solution[j, 0] -> solution[0, j]",
     f"{POINT} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
     f"{POINT} Point.zero_coordinates: i == v -> i != v",
-    f"{ROUNDING} decimal_string: exponent - digits + 1 -> exponent - digits - 1",
+    "cli/decimals.py decimal_string: exponent - digits + 1 -> exponent - digits - 1",
     f"{ROUNDING} nearest_in: low == high -> low != high",
     f"{EXACT} _rounded: signs == 0 -> signs != 0",
     f"{FARKAS} farkas_refutation: y_i < 0 -> y_i > 0",

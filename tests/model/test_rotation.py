@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.model.rotation import quaternion, rotation, rotation_angle
+from quasistatic_ref.cli.measures import rotation_angle
+from quasistatic_ref.model.rotation import quaternion, rotation
 from tests.tolerances import ROUNDING
 
 RPY = np.random.default_rng(0).uniform(-3.0, 3.0, (20, 3))

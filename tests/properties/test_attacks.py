@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.certificate import in_words
+from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.errors import QuasistaticError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
@@ -15,7 +16,6 @@ from quasistatic_ref.optional.fast import solver as fast_solvers
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.files import step_text
-from quasistatic_ref.step.solution_files import infeasible_text, solution_text
 from tests.oracles.attacked_steps import steps
 from validation.make.attacks import Attack, bounds, exact_answers, matrices
 

@@ -6,10 +6,11 @@ import json
 import numpy as np
 import pytest
 
+from quasistatic_ref.cli.measures import worst_residual
 from quasistatic_ref.errors import InputError, RunFailed, StepNotSolved
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.rollout import rollout
-from quasistatic_ref.simulate.trajectory import trajectory_read, worst_residual
+from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.step.files import step_read, step_written
 from tests.scenes import SWING, written_scenario
 from tests.tolerances import EXACT

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.cli.solution_files import solution_read
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.step.files import step_from_record
-from quasistatic_ref.step.solution_files import solution_read
 
 FILES = json.loads(Path(__file__).with_name("solutions_of_version_1.json").read_text())
 PROVED = ("exact", "exact in the ellipsoid", "enclosure", "infeasible")

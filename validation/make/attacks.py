@@ -30,6 +30,7 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
+from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
 from quasistatic_ref.formats.files import text_written
@@ -39,7 +40,6 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_text
-from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
 from tests.oracles.attacked_steps import FAMILIES, singular, steps
 from tests.oracles.random_steps import any_step
 from tests.oracles.solution_truth import (

@@ -21,8 +21,8 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from tqdm import tqdm
 
-from quasistatic_ref.certify.digits import correct_digits
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.digits import correct_digits
 from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.optional.show.figures.style import figure_written

@@ -2,9 +2,40 @@
 
 import argparse
 import json
+from collections.abc import Mapping
+from typing import Any
 
+from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.file.fields import study_schema
-from quasistatic_ref.scenario.scenario_table import scenario_schema
+from quasistatic_ref.scenario.scenario_table import (
+    CONTACT,
+    SHAPE,
+    TABLES,
+    TARGET,
+    TOP,
+    WAYPOINT,
+    WRENCH,
+)
+from quasistatic_ref.scenario.world_solids import SOLIDS
+
+RULES: dict[str, Mapping[str, Any]] = {
+    CONTACT: {
+        "anyOf": [
+            {"required": ["mu_omega"]},
+            {"required": ["rows"], "properties": {"rows": {"enum": [4]}}},
+        ]
+    },
+    WRENCH: {"anyOf": [{"required": ["force"]}, {"required": ["torque"]}]},
+    SHAPE: {"oneOf": [{"required": [kind]} for kind in SOLIDS]},
+    WAYPOINT: {"additionalProperties": TARGET, "minProperties": 2},
+}
+"""What a kind of table of a scenario asks for beyond its fields."""
+
+
+def scenario_schema() -> dict[str, Any]:
+    """The JSON Schema of a scenario file."""
+    return json_schema("A scenario", TABLES, RULES, TOP)
+
 
 SCHEMAS = {"scenario": scenario_schema, "study": study_schema}
 

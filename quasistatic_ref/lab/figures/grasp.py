@@ -6,13 +6,13 @@ from typing import Any, Final
 import numpy as np
 from matplotlib.figure import Figure
 
+from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.draw import draw_scene
 from quasistatic_ref.optional.show.figures.moments import moment
 from quasistatic_ref.optional.show.figures.style import panels
 from quasistatic_ref.scenario.scenario import Scenario
-from quasistatic_ref.simulate.measures import link_motion
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 CAMERA = Camera(azimuth=-62, elevation=12)

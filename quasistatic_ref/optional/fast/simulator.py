@@ -11,9 +11,8 @@ from quasistatic_ref.optional.fast.geometry import posed_geometry
 from quasistatic_ref.optional.fast.posed import constants
 from quasistatic_ref.optional.fast.spare import Spare
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
-from quasistatic_ref.simulate.one_thread import by_one_thread
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.simulator import Simulator, by_one_thread
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.solution import StepSolution
 

@@ -7,6 +7,7 @@ it: it is a function of q, and made again. docs/guides/file_formats.md describes
 
 from __future__ import annotations
 
+import hashlib
 import os
 import shutil
 import sys
@@ -21,12 +22,13 @@ import numpy as np
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.fields import Fields
-from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.formats.files import is_stream, written_whole
 from quasistatic_ref.formats.npz import json_array, npz_header, npz_record
-from quasistatic_ref.formats.plain import fingerprint
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.simulate import trajectory as whole_run
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import EXTRA, PER_STEP, PROGRAM
-from quasistatic_ref.simulate.trajectory import Trajectory, steps_in
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import QPSOLVERS
 from quasistatic_ref.step.data import Array
 
@@ -291,3 +293,48 @@ def saved_steps(path: str | Path) -> int:
 
 def _files(folder: Path) -> list[Path]:
     return sorted(folder.glob("[0-9]*.npz")) if os.path.isdir(folder) else []
+
+
+def steps_in(path: str | Path) -> int:
+    """How many steps the trajectory in a file has; 0 if there is no such file, or an empty one.
+
+    Raises
+    ------
+    InputError
+        If the file holds something else.
+    """
+    path = Path(path)
+    if not os.path.isfile(path) or is_stream(path) or not path.stat().st_size:
+        return 0
+    try:
+        top = Fields(npz_header(path, whole_run.WHAT))
+        top.check_format(whole_run.FORMAT, whole_run.VERSION)
+        return top.integer("steps", least=0)
+    except InputError as error:
+        remedy = "it is not replaced by one; choose another folder, or remove it"
+        raise InputError(f"{error.problem}; {remedy}", file=path) from None
+
+
+def fingerprint(value: Any) -> str:
+    """SHA-256 of what :func:`bits` compares, in hexadecimal: the same in every process."""
+    digest = hashlib.sha256()
+    for part in _flat(bits(value)):
+        digest.update(part)
+    return digest.hexdigest()
+
+
+def _flat(value: Any) -> Iterator[bytes]:
+    """The bits of a value as bytes, which differ from those of any other value."""
+    if isinstance(value, tuple):
+        yield b"("
+        for inner in value:
+            yield from _flat(inner)
+        yield b")"
+    elif isinstance(value, frozenset):
+        yield from sorted(b"".join(_flat(inner)) for inner in value)
+    else:
+        if isinstance(value, type):
+            value = value.__qualname__
+        content = value if isinstance(value, bytes) else repr(value).encode()
+        yield b"%d:" % len(content)
+        yield content

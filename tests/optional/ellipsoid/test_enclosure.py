@@ -8,6 +8,7 @@ import pytest
 from quasistatic_ref.certify.certificate import in_words, verify
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
@@ -16,7 +17,6 @@ from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.solution_files import solution_read, solution_text
 from quasistatic_ref.tolerances import ENCLOSED
 from tests.helpers import (
     error,

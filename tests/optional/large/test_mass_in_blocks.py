@@ -5,6 +5,7 @@ import pinocchio as pin
 import pytest
 from scipy.sparse import csc_matrix
 
+from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.errors import ModelError, StepDataError
 from quasistatic_ref.lab.scenes.piles import BOX, pile
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
@@ -20,7 +21,6 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.arrays import whole
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_text
-from quasistatic_ref.step.solution_files import solution_text
 from tests.helpers import always_in_blocks
 from tests.tolerances import ROUNDING
 

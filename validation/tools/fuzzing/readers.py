@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.cli.measures import worst_residual
+from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, toml_read
@@ -29,11 +31,10 @@ from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
-from quasistatic_ref.simulate.trajectory import certified, trajectory_read, worst_residual
+from quasistatic_ref.simulate.trajectory import certified, trajectory_read
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.files import step_read, step_text
-from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
 from tests.lab.study import made_store
 from tests.model.readers.test_mesh_files import COLLADA
 from tests.model.urdf.urdf_texts import collision, link, written

@@ -58,7 +58,7 @@ certify/optimality.py
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
-certify/rounding.py certify/exact.py certify/warm.py certify/certificate.py
+certify/rounding.py cli/decimals.py certify/exact.py certify/warm.py certify/certificate.py
     EXACT
 certify/point.py
     balls EXACT
@@ -193,7 +193,7 @@ optional/show/show.py optional/show/step_words.py
     words DATA
 step/solution.py
     kept_and_shown certificate newton
-step/solution_files.py
+cli/solution_files.py
     kept_and_shown solution_files solutions_of_version_1 FORGED
 optional/derivatives/step/optimum_rates.py optional/derivatives/step/reason.py
 optional/derivatives/step/touching.py optional/derivatives/contact/couples.py

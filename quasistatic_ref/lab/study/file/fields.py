@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from quasistatic_ref.formats.declared import Field, Tables
-from quasistatic_ref.formats.schema import json_schema
+from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, SETTINGS
 from quasistatic_ref.lab.study.problems.families.dials import DIALS, HARVESTED

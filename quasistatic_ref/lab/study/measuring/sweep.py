@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.lab.parallel import results, workers
@@ -23,7 +24,6 @@ from quasistatic_ref.lab.study.measuring.environment import machine, versions
 from quasistatic_ref.lab.study.store.rows import Row, key_of
 from quasistatic_ref.lab.study.store.store import Store
 from quasistatic_ref.scenario.scenario import Scenario
-from quasistatic_ref.simulate.measures import link_motion
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.trajectory import Trajectory
 

@@ -9,7 +9,8 @@ from flint import arb, arb_mat, ctx, fmpq
 
 from quasistatic_ref.certify.point import square_root
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.certify.rounding import decimal_string, nearest_in
+from quasistatic_ref.certify.rounding import nearest_in
+from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.exact.precision import DIGITS
 from quasistatic_ref.lab.vectors.exact.rational import tolerance

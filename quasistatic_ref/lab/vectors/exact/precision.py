@@ -17,7 +17,8 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 from flint import arb, ctx, fmpq
 
-from quasistatic_ref.certify.rounding import decimal_string, nearest_fraction, nearest_in
+from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
+from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.lab.program import number as kinds
 
 Real: TypeAlias = Any

@@ -21,7 +21,7 @@ from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep
 from quasistatic_ref.optional.fast.solver import FastSolver, KeptStep
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.stopwatch import Stopwatch
+from quasistatic_ref.simulate.simulator import Stopwatch
 from quasistatic_ref.solve.native import native_backends
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.units import Units

@@ -7,9 +7,9 @@ import pytest
 from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
+from quasistatic_ref.cli.measures import rotation_angle
 from quasistatic_ref.lab.examples import boundary_layer
 from quasistatic_ref.lab.figures.grasp import CAMERA, grasp_strip, rotation_plot
-from quasistatic_ref.model.rotation import rotation_angle
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.style import figure_written
 from quasistatic_ref.optional.show.figures.surfaces import surface_points

@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.files import (
     step_sha256,
 )
-from quasistatic_ref.step.solution_files import infeasible_text, solution_read, solution_text
 from tests.helpers import random_step, record_changed
 from tests.tolerances import EXACT, ROUNDING
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.cli.measures import free_body_motions
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.lab.grasp import grasp_scenarios
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.measures import free_body_motions
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from tests.tolerances import ROUNDING
 

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.model.rotation import rotation_angle
 from quasistatic_ref.model.system import System
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
@@ -65,3 +64,30 @@ def _motions(system: System, trajectory: Trajectory, links: Sequence[str]) -> di
     times = np.concatenate([[0.0], trajectory["t"]])
     at = {link: system.link(link) for link in links}
     return {link: LinkMotion(times=times, R=R[:, i], t=t[:, i]) for link, i in at.items()}
+
+
+def rotation_angle(R: Array) -> Array:
+    """Angle of rotation matrices [rad], shape (...,), accurate near 0 and near pi.
+
+    Parameters
+    ----------
+    R : ndarray, shape (..., 3, 3)
+    """
+    axial = np.stack(
+        [
+            R[..., 2, 1] - R[..., 1, 2],
+            R[..., 0, 2] - R[..., 2, 0],
+            R[..., 1, 0] - R[..., 0, 1],
+        ],
+        axis=-1,
+    )
+    trace = np.trace(R, axis1=-2, axis2=-1)
+    return np.asarray(np.arctan2(np.linalg.norm(axial, axis=-1), trace - 1))
+
+
+def worst_residual(trajectory: Trajectory) -> float | None:
+    """Largest residual of all steps, in natural units [-]; None where none was computed."""
+    residuals = trajectory["worst_residual"]
+    if not residuals.size or np.isnan(residuals).any():
+        return None
+    return float(residuals.max())
