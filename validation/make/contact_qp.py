@@ -28,7 +28,7 @@ from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.figures.line_styles import pens
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.calling.calls import tried
-from quasistatic_ref.lab.study.calling.sessions import Native
+from quasistatic_ref.lab.study.calling.native import Native
 from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 from quasistatic_ref.lab.study.problems.problem import SOCP, SPARSE, Problem
 from quasistatic_ref.optional.show.figures import figure_style
@@ -73,7 +73,7 @@ def replied(natural: Problem, solver: str) -> Reply:
     if natural.facts["kind"] == SOCP:
         H, g, A, b = natural.form
         return Clarabel(Program(H, -g, A, b, cones=len(b) // 4), options).reply(True, False)
-    return Native(solver, "cold", BACKENDS[solver].plain(ACCURACY))(natural.form, None)
+    return Native(solver)(natural.form, options)
 
 
 def digits(natural: Problem, x: np.ndarray) -> float:

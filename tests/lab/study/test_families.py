@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.rational import exact_form, exact_form_of
-from quasistatic_ref.lab.study.calling.sessions import Native
+from quasistatic_ref.lab.study.calling.native import Native
 from quasistatic_ref.lab.study.problems import making
 from quasistatic_ref.lab.study.problems.families.dials import DIALS, one_turned, turned
 from quasistatic_ref.lab.study.problems.families.shaped import copied
@@ -65,7 +65,7 @@ def test_exact_copies_cost_an_active_set_method_no_step_and_no_bit(seed):
     """Of 16 copies one bears; the others are then met without rounding."""
     forms = [standard_form(copied(np.random.default_rng(seed), copies)) for copies in (1, 4, 16)]
     own = [natural_form(form, units_of(forms[0], natural_hessian(forms[0].H))) for form in forms]
-    replies = [Native("daqp", "cold", BACKENDS["daqp"].plain(1e-9))(form, None) for form in own]
+    replies = [Native("daqp")(form, BACKENDS["daqp"].plain(1e-9)) for form in own]
     assert [len(form.b) // len(own[0].b) for form in own] == [1, 4, 16]
     assert len({reply.iterations for reply in replies}) == 1
     assert replies[0].iterations > 5

@@ -1,6 +1,7 @@
 """Six interfaces to a solver: CVXPY, qpsolvers, its own, a package, a callable, an executable."""
 
 import importlib
+import inspect
 import json
 import shutil
 import subprocess
@@ -15,17 +16,18 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.lab.study.calling.guests import GUESTS, Native, natively
+from quasistatic_ref.lab.study.calling.guests import GUESTS, natively
+from quasistatic_ref.lab.study.calling.native import Native
 from quasistatic_ref.lab.study.calling.packages import loaded
 from quasistatic_ref.lab.study.calling.solvers import Solver
-from quasistatic_ref.solve.adapters.program import Program, Reply
-from quasistatic_ref.solve.backends import BACKENDS
+from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
 Options = dict[str, Any]
-Call = Callable[[StandardForm, Options, StandardForm | None, float], Reply]
-"""(problem, options, neighbour to start from or None, time limit [s]) -> reply."""
+Call = Callable[[StandardForm, Options, Reply | None, float], Reply]
+"""(problem, options, reply to start from or None, time limit [s]) -> reply: to start from it is of
+a solver that can; others look only at the problem."""
 
 NEAR = 0.01
 """How far the neighbour's g is from the problem's, entry by entry and relative: a warm start comes
@@ -64,16 +66,15 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
     InputError
         If a package, a callable or a guest cannot be imported, or there is no such executable.
     """
+    name = str(solver.target)
     if solver.interface == "cvxpy":
-        return _by_cvxpy(str(solver.target))
+        return _by_cvxpy(name)
     if solver.interface == "qpsolvers":
-        return _directly(str(solver.target))
+        return _directly(name)
     if solver.interface == "native":
-        name = str(solver.target)
-        return _by_itself(natively(name) if name in GUESTS else _adapted(name))
+        return _guest(name) if name in GUESTS else Native(name)
     if solver.interface in ("package", "callable"):
-        function = function_of(solver)
-        return lambda form, options, start, limit: function_reply(function, form, options)
+        return _function(function_of(solver))
     return _running(_command(tuple(solver.target), folder), folder)
 
 
@@ -96,11 +97,27 @@ def imported(target: str) -> Callable[..., Any]:
     return function
 
 
-def tried(call: Callable[[], Reply]) -> Reply:
-    """The reply of a call; of one that raises, what it raised and when."""
+class Crashed(Exception):
+    """An executable was ended by a signal, after some `seconds` [s]."""
+
+    def __init__(self, words: str, seconds: float) -> None:
+        self.seconds = seconds
+        super().__init__(words)
+
+
+def tried(call: Callable[..., Reply], *given: Any) -> Reply:
+    """The reply of a call; of one that raises, what it raised and when.
+
+    Raises
+    ------
+    Crashed, subprocess.TimeoutExpired
+        If an executable was ended.
+    """
     begin = perf_counter()
     try:
-        return call()
+        return call(*given)
+    except (Crashed, subprocess.TimeoutExpired):
+        raise
     except Exception as error:  # whatever another package raises
         return _failed(words_of(error), perf_counter() - begin)
 
@@ -113,57 +130,31 @@ def _by_cvxpy(name: str) -> Call:
     from quasistatic_ref.lab.study.calling.plain_programs import PlainPrograms  # heavy: CVXPY
 
     programs = PlainPrograms(name)
-
-    def call(
-        form: StandardForm, options: Options, start: StandardForm | None, limit: float
-    ) -> Reply:
-        if start is not None:
-            tried(lambda: programs.reply(start, options))
-        return tried(lambda: programs.reply(form, options, warm=start is not None))
-
-    return call
+    return lambda form, options, before, _: programs.reply(form, options, warm=before is not None)
 
 
 def _directly(name: str) -> Call:
     from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 
-    def call(
-        form: StandardForm, options: Options, start: StandardForm | None, limit: float
-    ) -> Reply:
-        guess = None
-        if start is not None:
-            guess = tried(lambda: qpsolvers_reply(start, name, options)).x
-        return tried(lambda: qpsolvers_reply(form, name, options, guess))
-
-    return call
-
-
-def _adapted(name: str) -> Native:
-    adapter = getattr(
-        importlib.import_module(f"quasistatic_ref.solve.adapters.{name}"), BACKENDS[name].adapter
+    return lambda form, options, before, _: qpsolvers_reply(
+        form, name, options, None if before is None else before.x
     )
 
-    def reply(form: StandardForm, options: Options) -> Reply:
-        program = Program(
-            np.array(form.H, order=adapter.ORDER), -form.g, np.array(form.A, order=adapter.ORDER),
-            form.b.copy(),
-        )  # fmt: skip
-        begin = perf_counter()
-        solver = adapter(program, options)
-        ready = perf_counter()
-        said: Reply = solver.reply(True, False)
-        end = perf_counter()
-        said.call_seconds, said.own, said.setup = end - begin, said.seconds, ready - begin
-        return said
 
-    return reply
+def _guest(name: str) -> Call:
+    native = natively(name)
+    return lambda form, options, before, limit: native(form, options)
 
 
-def _by_itself(reply: Native) -> Call:
-    def call(
-        form: StandardForm, options: Options, start: StandardForm | None, limit: float
-    ) -> Reply:
-        return tried(lambda: reply(form, options))
+def _function(function: Callable[..., Any]) -> Call:
+    """A function, which starts from its own answer where it takes one."""
+    starts = takes_start(function)
+
+    def call(form: StandardForm, options: Options, before: Reply | None, limit: float) -> Reply:
+        if not starts or before is None or before.x is None or before.lam is None:
+            return function_reply(function, form, options)
+        start = (before.x.copy(), before.lam.copy())
+        return function_reply(function, form, options | {"start": start})
 
     return call
 
@@ -180,14 +171,19 @@ def function_of(solver: Solver) -> Callable[..., Any]:
     return loaded(target) if solver.interface == "package" else imported(target)
 
 
+def takes_start(function: Callable[..., Any]) -> bool:
+    """Whether a function takes ``start=(x, z)``; a compiled one may not say what it takes."""
+    try:
+        return "start" in inspect.signature(function).parameters
+    except ValueError:
+        return False
+
+
 def function_reply(function: Callable[..., Any], form: StandardForm, options: Options) -> Reply:
     """What a function ``(P, q, G, h, **options) -> (x, z)`` returns."""
     P, q, G, h = form.H.copy(), -form.g, -form.A, -form.b
     begin = perf_counter()
-    try:
-        returned = function(P, q, G, h, **options)
-    except Exception as error:  # whatever a user's solver raises
-        return _failed(words_of(error), perf_counter() - begin)
+    returned = function(P, q, G, h, **options)
     seconds = perf_counter() - begin
     if returned is None or isinstance(returned, str):
         said = "returned None" if returned is None else returned
@@ -208,9 +204,7 @@ def _command(words: tuple[str, ...], folder: str) -> tuple[str, ...]:
 
 
 def _running(command: tuple[str, ...], folder: str) -> Call:
-    def call(
-        form: StandardForm, options: Options, start: StandardForm | None, limit: float
-    ) -> Reply:
+    def call(form: StandardForm, options: Options, before: Reply | None, limit: float) -> Reply:
         text = json_text({"H": form.H, "g": form.g, "A": form.A, "b": form.b})
         begin = perf_counter()
         done = subprocess.run(
@@ -231,14 +225,6 @@ def _running(command: tuple[str, ...], folder: str) -> Call:
         return _written(done.stdout, seconds)
 
     return call
-
-
-class Crashed(Exception):
-    """An executable was ended by a signal, after some `seconds` [s]."""
-
-    def __init__(self, words: str, seconds: float) -> None:
-        self.seconds = seconds
-        super().__init__(words)
 
 
 def _written(output: bytes, seconds: float) -> Reply:

@@ -16,8 +16,8 @@ from typing import Any
 
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.processes import adopt_orphans
-from quasistatic_ref.lab.study.calling.calls import Crashed, Options, call_of, on_path, words_of
-from quasistatic_ref.lab.study.calling.sessions import Session, modes_of, session_of
+from quasistatic_ref.lab.study.calling.calls import Crashed, Options, call_of, on_path, tried
+from quasistatic_ref.lab.study.calling.sessions import kept, modes_of
 from quasistatic_ref.lab.study.calling.solvers import Solver
 from quasistatic_ref.lab.study.measuring.messages import NOTHING, Response, to_bytes
 from quasistatic_ref.solve.adapters.program import Reply
@@ -64,8 +64,7 @@ class Called:
 
     def __init__(self, solver: Solver, folder: str) -> None:
         self.solver, self.call = solver, call_of(solver, folder)
-        self.session: Session | None = None
-        self.before: Reply | None = None
+        self.before = NOTHING
 
     def response(self, form: StandardForm, request: dict[str, Any]) -> Response:
         """What is sent back; a request for no call gets the modes that the solver can be called in.
@@ -80,45 +79,38 @@ class Called:
             return Response(Reply(None, None, False, ",".join(modes_of(self.solver))))
         limit = float(request["limit"])
         options = self.solver.settings_of(request["setting"], limit)
-        if request["mode"]:
-            return self._next(form, request, options, limit)
-        return self._alone(form, request, options, limit)
+        measured = self._next if request["mode"] else self._alone
+        try:
+            return measured(form, request, options, limit)
+        except subprocess.TimeoutExpired as late:
+            reply = Reply(None, None, False, f"no answer in {limit:g} s")
+            return Response(reply, (late.timeout,), "timeout")
+        except Crashed as crash:
+            return Response(Reply(None, None, False, str(crash)), (crash.seconds,), "crashed")
 
     def _next(
         self, form: StandardForm, request: dict[str, Any], options: Options, limit: float
     ) -> Response:
         """The next step of a sequence."""
-        if request["first"] or self.session is None:
-            self.session = session_of(self.solver, request["mode"], options, self.call, limit)
-            self.before = None
+        before = None if request["first"] else kept(request["mode"], self.before)
         begin = perf_counter()
-        try:
-            self.before = self.session(form, self.before)
-        except Exception as error:  # whatever another package raises
-            self.before, self.session = Reply(None, None, False, words_of(error)), None
+        self.before = tried(self.call, form, options, before, limit)
         return Response(self.before, (perf_counter() - begin,))
 
     def _alone(
         self, form: StandardForm, request: dict[str, Any], options: Options, limit: float
     ) -> Response:
         """One problem, as often as it is asked for."""
-        start = None
         # The matrices stay the same arrays: what is compiled of them is kept, and a start is taken.
         if request["g"] is not None:
-            form = StandardForm(form.H, request["g"], form.A, form.b)
-        if request["start"] is not None:
-            start = StandardForm(form.H, request["start"], form.A, form.b)
-        reply, times, begin = NOTHING, [], perf_counter()
-        try:
-            for _ in range(request["count"]):
-                begin = perf_counter()
-                reply = self.call(form, options, start, limit)
-                times.append(reply.call_seconds)
-        except subprocess.TimeoutExpired:
-            late = Reply(None, None, False, f"no answer in {limit:g} s")
-            return Response(late, (perf_counter() - begin,), "timeout")
-        except Crashed as crash:
-            return Response(Reply(None, None, False, str(crash)), (crash.seconds,), "crashed")
+            form = form._replace(g=request["g"])
+        before, reply, times = None, NOTHING, []
+        for _ in range(request["count"]):
+            if request["start"] is not None:
+                start = form._replace(g=request["start"])
+                before = tried(self.call, start, options, None, limit)
+            reply = tried(self.call, form, options, before, limit)
+            times.append(reply.call_seconds)
         return Response(reply, tuple(times))
 
 

@@ -145,7 +145,7 @@ def reply_of(natural: StandardForm, solver: str) -> Reply | None:
     if solver not in installed("qpsolvers"):
         return None
     options = BACKENDS[solver].first(ACCURACY)
-    return tried(lambda: qpsolvers_reply(natural, solver, options))
+    return tried(qpsolvers_reply, natural, solver, options)
 
 
 def step_of(form: StandardForm) -> StepData:

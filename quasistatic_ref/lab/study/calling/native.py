@@ -1,0 +1,64 @@
+"""Backends in their own interfaces: set up for a problem, or kept from the problem before."""
+
+import importlib
+from time import perf_counter
+from typing import Final
+
+import numpy as np
+
+from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply
+from quasistatic_ref.solve.backends import BACKENDS, Options
+from quasistatic_ref.step.standard_form import StandardForm
+
+QUIET: Final[dict[str, Options]] = {"osqp": {"verbose": False}}
+"""What keeps a backend from printing, which it does by default."""
+
+
+class Native:
+    """One backend, called through its adapter.
+
+    Parameters
+    ----------
+    name : str
+        Of a backend with an adapter.
+    """
+
+    def __init__(self, name: str) -> None:
+        module = importlib.import_module(f"quasistatic_ref.solve.adapters.{name}")
+        self.kind: type[Adapter] = getattr(module, BACKENDS[name].adapter)
+        self.quiet = QUIET.get(name, {})
+
+    def __call__(
+        self, form: StandardForm, options: Options, before: Reply | None = None, limit: float = 0.0
+    ) -> Reply:
+        """The reply to a problem.
+
+        Parameters
+        ----------
+        form : StandardForm
+        options : dict
+            In the backend's own names.
+        before : Reply, optional
+            To the problem before: its memory and factors are kept, and where it has an x, the
+            backend starts from what it found. By default the backend is set up.
+        limit : float
+            Of a call [s]; it is among the options, if the backend has one.
+        """
+        if before is None:
+            return self._set_up(form, options)
+        p = self.program
+        same_H = np.array_equal(p.H, form.H)
+        p.H[:], p.f[:], p.A[:], p.b[:] = form.H, -form.g, form.A, form.b
+        return self.adapter.reply(same_H=same_H, warm=before.x is not None)
+
+    def _set_up(self, form: StandardForm, options: Options) -> Reply:
+        order = self.kind.ORDER
+        self.program = Program(form.H.copy(order=order), -form.g, form.A.copy(order=order),
+                               form.b.copy())  # fmt: skip
+        begin = perf_counter()
+        self.adapter = self.kind(self.program, options | self.quiet)
+        ready = perf_counter()
+        said = self.adapter.reply(same_H=True, warm=False)
+        end = perf_counter()
+        said.call_seconds, said.own, said.setup = end - begin, said.seconds, ready - begin
+        return said
