@@ -5,6 +5,7 @@ same bits whatever the warm start was. lam and the working set are one of severa
 choices where the multipliers are not unique.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -248,12 +249,17 @@ def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = No
     """
     form, h, n_a = standard_form(step), step.h, step.n_a
     norm = energy_norm(form.H) if norm is None else norm
+    b = np.maximum(form.b, 0.0)
+    asked = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, b])
+    # All lengths are linear in these and delta_q. Of subnormal loads h tau could be zero.
+    scale = 2.0 ** min(-math.frexp(np.abs(asked).max(initial=0.0))[1], 1000)
     loads = np.zeros((3, step.n_v))
-    loads[0, :n_a], loads[1, :n_a] = h * step.K_q @ step.delta_q_bar_a, h * step.tau_a
-    loads[2, n_a:] = h * step.tau_u
-    pushed = form.b > 0
+    loads[0, :n_a] = h * step.K_q @ (scale * step.delta_q_bar_a)
+    loads[1, :n_a] = h * (scale * step.tau_a)
+    loads[2, n_a:] = h * (scale * step.tau_u)
+    pushed = b > 0
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        push_out = form.b[pushed] / norm.impulses(form.A[pushed])
+        push_out = scale * b[pushed] / norm.impulses(form.A[pushed])
         wanted = float(max(norm.impulses(loads).max(), push_out.max(initial=0.0)))
-        length = norm.displacement(delta_q)
+        length = norm.displacement(scale * delta_q)
         return length / wanted if wanted else (0.0 if length == 0 else float("inf"))

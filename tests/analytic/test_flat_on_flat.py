@@ -179,6 +179,43 @@ def test_a_brick_bond_and_a_flush_wall_stand() -> None:
     at_rest([(x * SIDE, 0.0, z[row]) for row in range(2) for x in range(2)], 4)
 
 
+@pytest.mark.parametrize("k", [4, 8, 12])
+def test_each_shape_of_a_flush_corner_bears_its_share_alone(k) -> None:
+    # A floor and two walls push along one axis each: f_i = m (g_i + d / h^2), and the box goes
+    # d out along all three.
+    pull = np.array([1.5, 2.5, G])
+    system = System([body("box", (0.0, 0.0, 0.0))])
+    none = np.zeros((0, 0))
+    for inset, depth in INSETS:
+        own = PlacedShape("box", system.link("box/solid"), np.eye(3), np.zeros(3), cube(inset))
+        # Each face of the corner is `depth` inside the box; the walls follow a box with an inset.
+        corner = [
+            fixed(cube(), (depth + shift - SIDE) * way, name=f"side{i}")
+            for i, (way, shift) in enumerate(zip(np.eye(3), (inset, inset, 0.0), strict=True))
+        ]
+        pairs = [ContactPair(f"p{i}", side, own, 0.0, 0.0, 4, k) for i, side in enumerate(corner)]
+        simulator = Simulator(system, pairs, h=H, K_q=none, gravity=-pull, backend="none")
+        solution = simulator.step(system.q_start, np.zeros(0)).solution
+        forces = solution.wrench[:, 2].reshape(3, k).sum(axis=1)
+        np.testing.assert_allclose(forces, MASS * (pull + depth / H**2), rtol=CLOSED_FORM)
+        np.testing.assert_allclose(solution.delta_q, [depth] * 3 + [0.0] * 3, atol=1e-15)
+
+
+@pytest.mark.parametrize("low", ["box", "hull", "cylinder", "cone"])
+def test_one_contact_bears_what_its_lever_leaves(low) -> None:
+    # A contact that is r off the centre of a cube of inertia I = m s^2 / 6 turns it, too:
+    # f (1/m + |r x n|^2 / I) = g + d / h^2.
+    R = OVER if low in ("hull", "cone") else np.eye(3)
+    for top in ("box", "cylinder"):
+        for inset, depth in INSETS[::3]:
+            result = one_on_another(FLAT[low](), R, FLAT[top](inset), depth, 1)
+            lever = result.points.beta[0] - [0.0, 0.0, SIDE - depth]
+            share = 1 / MASS + np.sum(np.cross(lever, UP) ** 2) / (MASS * SIDE**2 / 6)
+            np.testing.assert_allclose(result.points.n, [UP], atol=CLOSED_FORM)
+            force = (G + depth / H**2) / share
+            np.testing.assert_allclose(result.solution.wrench[0, 2], force, rtol=CLOSED_FORM)
+
+
 def test_equal_gaps_of_zero_have_the_normal_between_and_deeper_ones_none() -> None:
     across = one_on_another(cube(), np.eye(3), cube(), 0.0, 4, (SIDE, 0.0))
     np.testing.assert_allclose(across.points.n, [[np.sqrt(0.5), 0, np.sqrt(0.5)]] * 4, atol=1e-15)

@@ -122,6 +122,18 @@ def test_length_is_relative_to_the_unconstrained_step():
     assert relative_length(idle, np.ones(3)) == np.inf
 
 
+@pytest.mark.parametrize("tau", [5e-324, 1e-322, 1e-300])
+def test_a_free_body_is_not_ill_posed_however_small_its_load(tau):
+    """M = 2^-20, h = 2^-10: delta_q = h^2 tau / M = tau, the whole of the unconstrained step.
+
+    Of the first two loads the impulse h tau rounds to zero.
+    """
+    step = free_step(2.0**-20 * np.eye(1), [tau], no_contacts(1), 2.0**-10)
+    delta_q = exact_step(step).delta_q
+    assert delta_q.tolist() == [tau]
+    assert relative_length(step, delta_q) == pytest.approx(1, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("target", "tau_a", "tau_u"),
     [(3.0, 1.0, 2.0), (1.0, 3.0, 2.0), (1.0, 2.0, 3.0), (0.0, 3.0, 4.0)],

@@ -1,0 +1,92 @@
+"""Between steps numbers are formed by + - * / and square roots in one written order.
+
+Which order BLAS and NumPy's sums take, and what the C library makes of a sine, depend on the
+processor (docs/exactness.md, "Whole runs"): the source of the path between steps calls none of them
+but in the functions below.
+"""
+
+import ast
+from pathlib import Path
+
+import quasistatic_ref
+
+PACKAGE = Path(quasistatic_ref.__file__).parent
+FOLDERS = ("model", "contact", "step", "simulate")
+SUMS = {"dot", "vdot", "inner", "outer", "einsum", "matmul", "tensordot", "linalg", "trace"}
+REDUCTIONS = {"sum", "mean", "average", "prod", "cumsum"}
+FUNCTIONS = {"sin", "cos", "tan", "arcsin", "arccos", "arctan", "arctan2", "asin", "acos", "atan"}
+UNORDERED = SUMS | REDUCTIONS | FUNCTIONS | {"atan2", "hypot", "exp", "log"}
+"""Names of what is called; ``@`` is found as an operator."""
+EXCEPTIONS = {
+    "pairs of curved solids, for which coal and LAPACK are the method": (
+        "contact/solids/by_coal.py",
+        "contact/solids/faces.py",
+        "contact/solids/settle.py",
+        "contact/solids/ways_out.py",
+    ),
+    "files, read and checked before a run": (
+        "model/readers/pcd.py",
+        "model/readers/point_table.py",
+        "model/urdf/urdf_file.py",
+        "model/urdf/urdf_inertia.py",
+        "model/urdf/urdf_tree.py",
+    ),
+    "angles by balls of flint, rounded correctly": ("model/angles.py:angle_of",),
+    "sums of whole numbers": ("step/data.py:row_layout",),
+    "a check that refuses; no number goes on from it": (
+        "model/mass.py:regular",
+        "simulate/limits.py:Limits.out_of_reach",
+        "step/arrays.py:finite",
+        "step/contacts.py:Contacts._check_frames",
+        "step/pivots.py:_diagonal",
+        "step/pivots.py:_surely_positive",
+    ),
+    "what the backend is given; the proof forms its own, without rounding": (
+        "step/problem.py:StepProblem.__init__",
+        "step/problem.py:StepProblem.fill",
+        "step/standard_form.py:load",
+    ),
+    "measured of an answer or of a run; the next step does not read it": (
+        "model/rotation.py:rotation_angle",
+        "model/system.py:System.mass",
+        "simulate/measures.py:LinkMotion.rotation_since",
+        "simulate/recorder.py:Recorder.__init__",
+        "simulate/wrenches.py:_forces",
+        "simulate/wrenches.py:pair_forces",
+        "simulate/wrenches.py:wrench_on",
+        "step/contacts.py:Contacts.motion",
+        "step/data.py:StepData.momentum",
+        "step/friction.py:_wrenches",
+    ),
+}
+"""Reason -> files, or functions of files."""
+
+
+def unordered(node, owner=""):
+    """Names of the functions below a node that use one of UNORDERED or ``@``; "" is the module."""
+    if isinstance(node, ast.FunctionDef | ast.ClassDef):
+        owner = f"{owner}.{node.name}".lstrip(".")
+    called = isinstance(node, ast.Attribute) and node.attr in UNORDERED
+    if called or isinstance(getattr(node, "op", None), ast.MatMult):
+        yield owner
+    for child in ast.iter_child_nodes(node):
+        yield from unordered(child, owner)
+
+
+def test_only_the_exceptions_use_sums_and_sines_of_an_order_that_is_not_written():
+    excepted = {place for places in EXCEPTIONS.values() for place in places}
+    found = set()
+    for folder in FOLDERS:
+        for path in (PACKAGE / folder).rglob("*.py"):
+            file = path.relative_to(PACKAGE).as_posix()
+            for owner in unordered(ast.parse(path.read_text("utf-8"))):
+                found.add(file if file in excepted else f"{file}:{owner}")
+    assert found == excepted
+
+
+def test_what_is_planted_is_found():
+    planted = "a @ b", "a @= b", "np.dot(a, b)", "a.sum()", "np.linalg.norm(a)", "math.sin(a)"
+    for line in planted:
+        tree = ast.parse(f"class C:\n    def f(self):\n        {line}")
+        assert list(unordered(tree)) == ["C.f"]
+    assert list(unordered(ast.parse("a + b * total(c)"))) == []
