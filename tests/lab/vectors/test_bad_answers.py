@@ -80,19 +80,6 @@ def test_a_case_that_is_missing_unknown_or_answered_twice_is_named(folder):
     assert "twice" in by_layer(check_answers(folder, VECTORS))["rows"].trouble
 
 
-def test_the_command_prints_a_table_and_ends_with_status_1(folder, capsys):
-    assert main(["vectors", "check", str(folder), "--vectors", str(VECTORS)]) == 0
-    assert "rows" in capsys.readouterr().out
-    answers = right_answers("rows")
-    name = next(name for name, output in answers.items() if output["b"])
-    wrong = {**answers[name], "b": [v + 1.0 for v in answers[name]["b"]]}
-    answer_file(folder, "rows", {**answers, name: wrong})
-    assert main(["vectors", "check", str(folder), "--vectors", str(VECTORS)]) == 1
-    printed = capsys.readouterr()
-    assert name in printed.out
-    assert f"{name}: b[" in printed.err
-
-
 def test_the_json_report_says_all_of_it(folder, capsys):
     answers = right_answers("rows")
     name = next(name for name, output in answers.items() if output["b"])

@@ -2,7 +2,6 @@
 
 import io
 import json
-import re
 import shlex
 import sys
 
@@ -17,29 +16,15 @@ from quasistatic_ref.lab.vectors.challenge.shrink import shrunk
 from quasistatic_ref.lab.vectors.challenge.simpler import MOVES
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
-from tests.lab.vectors.material import NUMPY, ROOT
+from tests.lab.vectors.material import ROOT
 from tests.lab.vectors.programs import command
-from validation.make import challenges, planted_bugs
+from validation.make import planted_bugs
 
 TABLE = ROOT / "validation" / "results" / "planted_bugs.md"
-CHALLENGES = TABLE.with_name("challenges.md")
-ANSWERED = {"numpy": NUMPY, "javascript": [name for name in NUMPY if name != "distance"]}
-"""Layers that each answers; whole steps of simple shapes in JavaScript."""
-
-
-def plain_program(name, case):
-    return program()(name, case) if name in NUMPY else None
-
-
-def test_a_right_function_is_found_right_in_every_layer():
-    found = challenge(plain_program, cases=66)
-    assert found.findings == []
-    assert sum(found.verdicts.values()) == found.sent.total() == 66
-    assert set(found.sent) == set(LAYERS)
 
 
 def without_spin(name, case):
-    output = plain_program(name, case)
+    output = program()(name, case)
     if name == "jacobian":
         output["J"] = [[*J[:3], [-x for x in J[3]]] for J in output["J"]]
     return output
@@ -142,7 +127,6 @@ def test_the_command_writes_counterexamples_that_can_be_sent_again(tmp_path, cap
     ("given", "says"),
     [
         ([], "--command: is missing"),
-        (["--command", "./no_such_program"], "cannot be started"),
         (["--command", "x", "--cases", "0"], "--cases: must be positive"),
         (["--command", "x", "--timeout", "nan"], "--timeout: must be positive"),
         (["--command", "x", "--seed", "-1"], "--seed: must be 0 or more"),
@@ -173,27 +157,14 @@ def test_serving_answers_each_line_and_survives_what_is_no_case():
     assert all("error" in answer for answer in answers[1:])
 
 
-def test_the_package_is_found_right_over_its_own_protocol(tmp_path, capsys):
-    serve = f"{sys.executable} -m quasistatic_ref.cli.main vectors challenge --serve own"
-    given = [
-        "vectors",
-        "challenge",
-        "--command",
-        serve,
-        "--cases",
-        "44",
-        "--quiet",
-        "--timeout",
-        "100",
-    ]
-    assert main([*given, "--out", str(tmp_path)]) == 0, capsys.readouterr().err
+OWN = f"{sys.executable} -m quasistatic_ref.cli.main vectors challenge --serve own"
 
 
-@pytest.mark.parametrize("name", planted_bugs.COMMANDS)
-def test_the_programs_are_found_right(name, tmp_path, capsys):
-    words = planted_bugs.COMMANDS[name]
-    given = ["vectors", "challenge", "--command", words, "--cases", "44", "--seed", "1"]
-    assert main([*given, "--quiet", "--out", str(tmp_path)]) == 0, capsys.readouterr().err
+@pytest.mark.parametrize("program", [*planted_bugs.COMMANDS.values(), OWN])
+def test_the_programs_and_the_package_are_found_right(program, tmp_path, capsys):
+    given = ["vectors", "challenge", "--command", program, "--cases", "44", "--seed", "1"]
+    given += ["--timeout", "100", "--quiet", "--out", str(tmp_path)]
+    assert main(given) == 0, capsys.readouterr().err
 
 
 def test_a_planted_bug_is_found_named_and_small():
@@ -219,15 +190,3 @@ def test_the_committed_table_of_planted_bugs_keeps_its_promises():
     assert max(int(row[4]) for row in rows) <= 2
     assert max(int(row[5]) for row in rows) <= 2
     assert np.median([float(row[6]) for row in rows]) <= 3
-
-
-def test_the_committed_challenges_of_20_000_cases_found_nothing():
-    page = CHALLENGES.read_text()
-    rows = [row.strip("| ").split(" | ") for row in page.splitlines() if row.count(" | ") == 7]
-    for name in planted_bugs.COMMANDS:
-        counts = [[int(n.replace(",", "")) for n in row[2:]] for row in rows if row[0] == name]
-        given, passed, acceptable, failed, unsupported, other = map(sum, zip(*counts, strict=True))
-        assert (failed, other) == (0, 0)
-        assert passed + acceptable == given - unsupported >= challenges.ANSWERS
-        assert {row[1] for row in rows if row[0] == name} == set(ANSWERED[name])
-        assert re.search(rf"{name}: seeds 1 to \d+, [\d,]+ answers judged, no findings.", page)

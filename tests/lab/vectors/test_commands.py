@@ -61,7 +61,6 @@ def test_programs_are_exported_with_their_exact_answers(few, tmp_path):
     [
         (["own", "--layer", "row", "--out", "{0}"], "did you mean 'rows'?"),
         (["generate", "--vectors", "{0}/nowhere", "--out", "{0}"], "no such file"),
-        (["check", "{0}/nowhere"], "nowhere"),
     ],
 )
 def test_bad_input_is_one_sentence_and_status_2(arguments, says, tmp_path, capsys):

@@ -15,15 +15,14 @@ import pytest
 from flint import fmpq, fmpz_mat
 
 from quasistatic_ref.lab.vectors.challenge.fresh import record_of
-from quasistatic_ref.lab.vectors.exact.algebra import add, dot, scaled
+from quasistatic_ref.lab.vectors.exact.algebra import add, scaled
 from quasistatic_ref.lab.vectors.families import derivative_kinks as kinks
 from quasistatic_ref.lab.vectors.families.derivative_kinks import squeezed
 from quasistatic_ref.lab.vectors.families.step_scenes import FLOOR
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.lab.vectors.unrounded.dependent import CLOSE, dependence_breaks, turned
+from quasistatic_ref.lab.vectors.unrounded.dependent import dependence_breaks
 from quasistatic_ref.lab.vectors.unrounded.derivatives import PROVED, derivatives
 from quasistatic_ref.lab.vectors.unrounded.differences import base, quotient
-from quasistatic_ref.lab.vectors.unrounded.grid import STEP
 from quasistatic_ref.lab.vectors.unrounded.moved_inputs import (
     with_force,
     with_held_wrenches,
@@ -137,17 +136,6 @@ def test_rows_that_go_on_to_depend_on_each_other_leave_the_derivative(scene, con
         size = max(map(abs, total))
         assert whole.bend < BEND
         assert max(abs(x - y) for x, y in zip(whole.column, total, strict=True)) < PROVED * size
-
-
-def test_tangents_that_jump_are_turned_back_to_a_contact_s_own():
-    one = step_of(stuck("facets-6"))
-    found = along(one, way(Y), [fmpq(0)] * 6)
-    for _, others in found.sides:
-        for own, other in zip(one.contacts, others, strict=True):
-            assert abs(dot(own.d1, other.d1)) < CLOSE
-            back = turned(own, other).motion
-            for row, was in zip(back, own.motion, strict=True):
-                assert max(abs(x - y) for x, y in zip(row, was, strict=True)) < 2 * STEP
 
 
 def test_a_contact_that_is_replaced_is_compared_with_nothing():

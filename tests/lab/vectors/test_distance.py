@@ -64,22 +64,53 @@ def answer(*args):
     return {key: value[0] for key, value in output.items()}, unique[0]
 
 
-def test_two_balls_three_four_five_apart():
-    # Centres (0.3, 0.4, 0) apart in exact eighths: |(0.375, 0.5)| = 0.625.
-    found, unique = answer(sphere(0.25), ORIGIN, sphere(0.125), at(0.375, 0.5, 0.0))
-    wanted = {"phi": 0.25, "alpha": [0.15, 0.2, 0.0], "n": [0.6, 0.8, 0.0]}
-    assert unique
-    assert {key: found[key] for key in wanted} == wanted
-    np.testing.assert_allclose(found["beta"], [0.3, 0.4, 0.0], rtol=0, atol=1e-16)
+CUBE = box(1, 1, 1)
+SMALL = box(0.5, 0.5, 0.5)
+EIGHTH = np.sqrt(2) - 1
+"""tan(pi / 8): a quaternion's part of the eighth of a turn."""
+CLOSED_FORMS = {
+    # name: (alpha, its pose, beta, its pose, unique, fields)
+    # Centres (0.375, 0.5, 0) apart, of length 0.625.
+    "balls": (
+        sphere(0.25), ORIGIN, sphere(0.125), at(0.375, 0.5, 0.0), True,
+        {"phi": 0.25, "alpha": [0.15, 0.2, 0.0], "beta": [0.3, 0.4, 0.0], "n": [0.6, 0.8, 0.0]},
+    ),
+    # (0.25, 0.375, 0.75) apart, of length 0.875.
+    "corners": (
+        CUBE, ORIGIN, SMALL, at(1.0, 1.125, 1.5), True,
+        {"phi": 0.875, "alpha": [0.5, 0.5, 0.5], "beta": [0.75, 0.875, 1.25]},
+    ),
+    # 0.1875 deep along x, 0.25 along y, 0.5 along z: out along x; the faces share a rectangle.
+    "penetration": (
+        CUBE, ORIGIN, SMALL, at(0.5625, 0.5, 0.25), False,
+        {"phi": -0.1875, "n": [1.0, 0.0, 0.0]},
+    ),
+    # Edges of half diagonal sqrt(1/2), turned about x and about y, 2 apart.
+    "crossed edges": (
+        CUBE, at(0.0, 0.0, 0.0, [EIGHTH, 0.0, 0.0, 1.0]),
+        CUBE, at(0.0, 0.0, 2.0, [0.0, EIGHTH, 0.0, 1.0]), True,
+        {"phi": 2 - np.sqrt(2), "n": [0.0, 0.0, 1.0]},
+    ),
+    # The side's normal is (4, 3) / 5 in (r, z): from (1.5, 0) + 2 (4, 3) / 5 it is 2 away.
+    "cone": (
+        cone(3.0, 4.0), ORIGIN, sphere(0.5), at(3.1, 0.0, 1.2), True,
+        {"phi": 1.5, "n": [0.8, 0.0, 0.6]},
+    ),
+    # The axes cross at right angles, 1 apart.
+    "cylinders": (
+        cylinder(0.25, 2.0), ORIGIN, cylinder(0.5, 2.0), at(1.0, 0, 0, ON_SIDE), True,
+        {"phi": 0.25, "alpha": [0.25, 0, 0], "beta": [0.5, 0, 0], "n": [1, 0, 0]},
+    ),
+}  # fmt: skip
 
 
-def test_a_corner_before_a_corner():
-    # (0.25, 0.375, 0.75) apart: of length 0.875.
-    found, unique = answer(box(1, 1, 1), ORIGIN, box(0.5, 0.5, 0.5), at(1.0, 1.125, 1.5))
-    assert unique
-    assert found["phi"] == 0.875
-    assert found["alpha"] == [0.5, 0.5, 0.5]
-    assert found["beta"] == [0.75, 0.875, 1.25]
+@pytest.mark.parametrize("name", CLOSED_FORMS)
+def test_pairs_have_the_distance_of_their_closed_form(name):
+    *given, is_unique, wanted = CLOSED_FORMS[name]
+    found, unique = answer(*given)
+    assert unique is is_unique
+    for field, value in wanted.items():
+        np.testing.assert_allclose(found[field], value, rtol=0, atol=1e-15, err_msg=field)
 
 
 @pytest.mark.parametrize("axis", [(2, 1, 2), (1, -2, 2), (6, 3, -2)])
@@ -102,36 +133,6 @@ def test_a_pose_rounded_in_its_hundredth_digit_still_has_flat_faces(axis):
         assert abs(found.phi + fmpq(3, 4) - number(0.65)) < NINETY_DIGITS
 
 
-def test_penetration_is_the_shortest_way_out():
-    # 0.1875 along x, 0.25 along y, 0.5 along z: out along x, n from alpha to beta all the same.
-    found, unique = answer(box(1, 1, 1), ORIGIN, box(0.5, 0.5, 0.5), at(0.5625, 0.5, 0.25))
-    assert (found["phi"], found["n"]) == (-0.1875, [1.0, 0.0, 0.0])
-    assert not unique  # the faces overlap in a rectangle
-    assert found["alpha"][0] == 0.5
-    assert found["beta"][0] == 0.3125
-
-
-def test_crossed_edges_meet_in_one_point():
-    # Two squares on edge, of half diagonal sqrt(1/2), 2 apart: phi = 2 - 2 sqrt(1/2) but for the
-    # eighth of a turn about x and y, tan(pi / 8) = sqrt(2) - 1 in float64.
-    eighth = np.sqrt(2) - 1
-    one = at(0.0, 0.0, 0.0, [eighth, 0.0, 0.0, 1.0])
-    other = at(0.0, 0.0, 2.0, [0.0, eighth, 0.0, 1.0])
-    found, unique = answer(box(1, 1, 1), one, box(1, 1, 1), other)
-    assert unique
-    np.testing.assert_allclose(found["phi"], 2 - np.sqrt(2), rtol=0, atol=1e-15)
-    np.testing.assert_allclose(found["n"], [0, 0, 1], rtol=0, atol=1e-15)
-
-
-def test_a_ball_in_the_plane_of_a_cone_is_as_far_as_from_its_side():
-    # A cone of radius 3 and height 4: its side's normal is (4, 3) / 5 in the half-plane (r, z).
-    # From (r, z) = (1.5, 0) + 2 (4, 3) / 5 the side is 2 away.
-    found, unique = answer(cone(3.0, 4.0), ORIGIN, sphere(0.5), at(3.1, 0.0, 1.2))
-    assert unique
-    np.testing.assert_allclose(found["phi"], 1.5, rtol=0, atol=1e-15)
-    np.testing.assert_allclose(found["n"], [0.8, 0, 0.6], rtol=0, atol=1e-15)
-
-
 def test_on_the_medial_plane_of_an_ellipsoid_two_sides_are_as_near():
     # x = (0, 1/2, 1) of half-axes 1/4, 1/2, 1 at p = (0, 0.1, 0): t = -1/16 gives
     # x_y = p_y / (1 - 1/4), x_x^2 = 1/16 (1 - 4 x_y^2).
@@ -142,12 +143,6 @@ def test_on_the_medial_plane_of_an_ellipsoid_two_sides_are_as_near():
     assert not unique
     np.testing.assert_allclose(np.abs(found["alpha"]), [x, y, 0], rtol=0, atol=1e-15)
     np.testing.assert_allclose(found["phi"], -np.hypot(x, y - 0.1), rtol=0, atol=1e-15)
-
-
-def test_cylinders_crossed_at_right_angles_are_as_far_as_their_axes():
-    found, unique = answer(cylinder(0.25, 2.0), ORIGIN, cylinder(0.5, 2.0), at(1.0, 0, 0, ON_SIDE))
-    assert unique
-    assert found == {"phi": 0.25, "alpha": [0.25, 0, 0], "beta": [0.5, 0, 0], "n": [1, 0, 0]}
 
 
 def test_two_rims_askew_are_where_a_fine_search_finds_them():

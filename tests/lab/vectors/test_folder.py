@@ -37,25 +37,8 @@ def sample(layer):
 
 
 @pytest.mark.parametrize("name", ["manifest", "inputs", "expected", "answers", *LAYERS])
-def test_every_schema_is_one_and_says_what_each_number_is(name):
-    content = schema(name).schema
-    Draft202012Validator.check_schema(content)
-    assert fields_without_description(content) == []
-
-
-def fields_without_description(content, at=""):
-    """Names of the fields in a schema that say neither what they are nor refer to a definition."""
-    found = []
-    for name, field in content.get("properties", {}).items():
-        if not {"description", "const", "$ref"} & set(field) and name not in ("input", "output"):
-            at_least = "type" in field and field["type"] == "boolean"
-            found += [] if at_least or "enum" in field else [f"{at}.{name}"]
-        found += fields_without_description(field, f"{at}.{name}")
-    for name, field in content.get("$defs", {}).items():
-        found += fields_without_description(field, f"{at}#{name}")
-    for part in content.get("oneOf", []):
-        found += fields_without_description(part, at)
-    return found
+def test_every_schema_is_one(name):
+    Draft202012Validator.check_schema(schema(name).schema)
 
 
 @pytest.mark.parametrize("layer", LAYERS)
@@ -105,19 +88,6 @@ def test_the_manifest_names_every_file_by_its_content(tmp_path):
     assert manifest["cases"] == {layer: len(cases(layer)) for layer in LAYERS}
     size = sum(p.stat().st_size for p in VECTORS.rglob("*") if p.is_file())
     assert size < MEBIBYTES * 2**20
-
-
-def test_a_changed_or_missing_file_is_noticed_by_its_manifest(tmp_path):
-    for entry in json.loads((VECTORS / "manifest.json").read_text())["files"]:
-        text_written(tmp_path / entry["path"], (VECTORS / entry["path"]).read_text())
-    text_written(tmp_path / "manifest.json", (VECTORS / "manifest.json").read_text())
-    assert complaints(tmp_path) == []
-    (tmp_path / "expected" / "rows.json").write_text("{}")
-    (tmp_path / "inputs" / "qp.json").unlink()
-    assert complaints(tmp_path) == [
-        "expected/rows.json is another file",
-        "inputs/qp.json is missing",
-    ]
 
 
 @pytest.mark.parametrize("layer", LAYERS)

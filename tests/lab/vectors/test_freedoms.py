@@ -72,12 +72,10 @@ WALLS = {
         ([1.0, 1.0, 1.0, 0.0], "passed"),
         (["1", "1", "1", "0"], "passed"),
         (["1/3", "1", "1", "2/3"], "acceptable"),
-        ([0.25, 1.0, 1.0, 0.75], "acceptable"),
         ([1 / 3, 1.0, 1.0, 2 / 3], "acceptable"),  # A'y = 1e-16 at most
         (["1/3", "1", "1", "333/500"], "failed"),  # fractions have to add up
         ([0.5, 1.0, 1.0, 0.4], "failed"),
         ([2.0, 2.0, 2.0, 0.0], "failed"),
-        ([1.0, 1.0, 1.0, -0.0], "passed"),
         ([1.5, 1.0, 1.0, -0.5], "failed"),
         ([0.0, 0.0, 0.0, 0.0], "failed"),
         ([1.0, 1.0, 1.0], "failed"),
@@ -112,7 +110,6 @@ def test_a_contradiction_below_rounding_need_not_be_seen():
     [
         ([2, 0], "passed"),
         ([2, 1], "acceptable"),
-        ([2, 3], "acceptable"),
         ([0, 2], "failed"),  # not the nearest first
         ([2, 2], "failed"),
         ([2, 4], "failed"),

@@ -117,16 +117,6 @@ def test_float32_is_right_to_six_digits_and_not_to_twelve(layer):
     assert inexact > 0.3 * len(cases(layer)) or layer == "selection"
 
 
-def test_an_error_beyond_the_digits_fails():
-    case = cases("rows")[0]
-    record, answer = expected("rows")[case.id], right_answers("rows")[case.id]
-    size = np.abs(answer["A"]).max()
-    off = {**answer, "A": (np.array(answer["A"]) + 3e-5 * size).tolist()}
-    # 16 roundings of 2^-53 are allowed: 1.8e-15, or 1.8e-6 where 1e-7 is in the place of 1e-16.
-    assert judged("rows", case.input, record, off, 4).verdict == "acceptable"
-    assert judged("rows", case.input, record, off, 7).verdict == "failed"
-
-
 @pytest.fixture
 def answers(tmp_path):
     """Right answers to the layer rows, but for one number."""

@@ -5,11 +5,9 @@ import json
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.challenge.findings import Finding
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.check.multipliers import multipliers_problem
-from tests.lab.vectors.programs import command
 
 # min x^2/2 - g x with x + 1 >= 0, x* = g: at g = 1/64 the row is idle. The free step's energy is
 # g^2 = 2^-12; float64 leaves 2^-53 of it in the gap, so that lam * slack of 1e-20 is rounding.
@@ -56,11 +54,3 @@ def test_cases_that_are_not_supported_are_named_with_their_layer():
     assert not found.findings
     (remark,) = found.remarks
     assert remark.startswith("selection: 3 cases are not supported, selection/")
-
-
-def test_a_quiet_challenge_still_prints_what_came_of_it(tmp_path, capsys):
-    given = ["vectors", "challenge", "--command", command("right", tmp_path), "--cases", "3"]
-    assert main([*given, "--layer", "selection", "--quiet", "--out", str(tmp_path / "o")]) == 0
-    printed = capsys.readouterr()
-    assert "selection" in printed.out
-    assert not printed.err

@@ -1,49 +1,22 @@
-"""Phenomena for engines: data by their formulas, answers judged, committed results."""
+"""Phenomena for engines: answers judged, and committed results that reproductions show."""
 
 import json
 import math
 import subprocess
 import sys
 from importlib.metadata import version
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from validation.programs.engines import phenomena
-from validation.programs.engines.judge import ENGINES, HERE, RESULTS
+from validation.programs.engines.judge import ENGINES, RESULTS
 from validation.programs.engines.reproduce import FOLDER, LIST, missing, printed_for, unlike
 from validation.programs.engines.tables import phenomena_page
 
 G, M = 9.81, 0.3
-RECORDS = {
-    name: json.loads(path.read_text("utf-8"))
-    for name in ENGINES
-    if (path := RESULTS / f"{name}.json").exists()
-}
+RECORDS = {name: json.loads((RESULTS / f"{name}.json").read_text("utf-8")) for name in ENGINES}
 MUJOCO = sorted(e["file"] for e in LIST if e["engines"][0] == "mujoco" and e["phenomena"])
-SETTLED = 1e-9
-"""Digits with which the file's loads are written, against their formulas [N, N m]."""
-
-
-def loads(name, body):
-    runs = phenomena.PHENOMENA[name]["runs"]
-    return [(run["x"], load) for run in runs for load in run["loads"] if load["body"] == body]
-
-
-@pytest.mark.parametrize("name", ["sticks_on_slope", "incline_angle", "incline_diagonal"])
-def test_a_slope_is_the_weight_turned_by_its_angle(name):
-    way = np.array([1, 1]) / math.sqrt(2) if name == "incline_diagonal" else np.array([1, 0])
-    for tangent, load in loads(name, "sled"):
-        a = math.atan(tangent)
-        turned = M * G * np.array([*(math.sin(a) * way), 1 - math.cos(a)])
-        assert np.allclose(load["force"], turned, atol=SETTLED, rtol=0)
-
-
-def test_torques_are_shares_of_mu_omega_m_g():
-    for name in ("sticks_in_torsion", "torsional_limit"):
-        for share, load in loads(name, "ball"):
-            assert load["torque"][2] == pytest.approx(share * 0.01 * M * G, abs=SETTLED)
 
 
 def test_the_grips_lie_about_the_limits_of_the_three_cones():
@@ -51,7 +24,7 @@ def test_the_grips_lie_about_the_limits_of_the_three_cones():
     u, w = 0.2 * G / (2 * 0.6), 0.2 * G * 0.03 / (2 * 0.005)
     limits = [max(u, w), math.hypot(u, w), u + w]
     pinch = phenomena.PHENOMENA["pinch"]
-    assert np.allclose(pinch["expected"], limits, atol=SETTLED, rtol=0)
+    assert np.allclose(pinch["expected"], limits, rtol=1e-9, atol=0)
     grips = [run["x"] for run in pinch["runs"][:-1]]
     assert np.allclose(grips, [k * N for N in limits for k in (0.99, 1.01)], rtol=2e-4)
 
@@ -105,12 +78,8 @@ def test_poses_that_are_no_numbers_are_no_answer():
     assert cell.words.startswith("no answer")
 
 
-def test_every_red_cell_has_a_reproduction():
-    assert missing(RECORDS) == []
-
-
 def test_every_red_cell_is_shown_by_its_reproduction_in_its_setting():
-    assert unlike(RECORDS) == []
+    assert missing(RECORDS) == unlike(RECORDS) == []
 
 
 def test_a_reproduction_that_prints_another_number_shows_no_cell():
@@ -128,7 +97,6 @@ def test_a_reproduction_that_prints_another_number_shows_no_cell():
 
 
 def test_the_page_is_that_of_the_results():
-    assert set(RECORDS) == set(ENGINES)
     assert (RESULTS / "phenomena.md").read_text("utf-8") == phenomena_page(RECORDS)
 
 
@@ -138,38 +106,10 @@ def test_every_setting_of_the_table_is_one_that_is_asked():
         assert record["requires"] == ENGINES[name]["requires"]
 
 
-def test_every_cause_that_is_blamed_was_tried_on_a_cell_of_the_table():
-    for name, record in RECORDS.items():
-        planned = [{**one, "words": None} for one in ENGINES[name].get("tried", ())]
-        assert [{**one, "words": None} for one in record.get("tried", ())] == planned
-        for one in planned:
-            setting = {**ENGINES[name]["settings"][one["setting"]]}
-            assert one["phenomenon"] in asked_of(record, one["setting"])
-            assert any(setting.get(key) != value for key, value in one["values"].items())
-
-
-def asked_of(record, setting):
-    return {cell["phenomenon"] for cell in record["settings"][setting]}
-
-
-def lines(path):
-    """Lines of a program that are not blank, after its docstring."""
-    return sum(1 for line in path.read_text("utf-8").splitlines()[1:] if line.strip())
-
-
-def test_reproductions_have_at_most_fifteen_lines_and_adapters_a_hundred():
-    files = sorted(FOLDER.glob("*.py"))
-    assert {path.name for path in files} == {entry["file"] for entry in LIST}
-    assert {path.name: lines(path) for path in files if lines(path) > 15} == {}
-    assert [
-        p.name for p in HERE.glob("*_adapter.py") if len(p.read_text("utf-8").splitlines()) > 100
-    ] == []
-
-
 @pytest.mark.parametrize("file", MUJOCO)
 def test_a_reproduction_of_mujoco_prints_what_is_committed(file):
     if f"mujoco=={version('mujoco')}" not in ENGINES["mujoco"]["requires"]:
         pytest.skip("the committed lines are another version's")  # digits differ by version
-    command = [sys.executable, str(Path(FOLDER) / file)]
+    command = [sys.executable, str(FOLDER / file)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
     assert done.stdout.rstrip() == RECORDS["mujoco"]["printed"][file]
