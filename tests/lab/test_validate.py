@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
@@ -20,12 +19,10 @@ from quasistatic_ref.lab.claims.claim import (
     finding,
     sum_of_terms,
 )
-from quasistatic_ref.lab.claims.closed_forms import planar_push
 from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS
 from quasistatic_ref.lab.claims.report import claims_page, summary
 from quasistatic_ref.lab.commands import validate as command
-from quasistatic_ref.lab.figures.validation import PICTURES
-from quasistatic_ref.lab.measures import grid, threshold
+from quasistatic_ref.lab.measures import threshold
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -135,24 +132,3 @@ def test_a_claim_that_fails_ends_with_status_one_and_a_sentence(tmp_path, capsys
 def test_an_unknown_claim_is_bad_input(tmp_path, capsys):
     assert main(["validate", "aproach", "--out", str(tmp_path)]) == 2
     assert "did you mean 'approach'" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize(
-    ("name", "cone"),
-    [
-        ("flat_patch", "pyramid"),
-        ("planar_push", "ellipsoid"),
-    ],
-)
-def test_a_figure_says_its_quantities_its_time_step_and_the_cone(name, cone, monkeypatch):
-    # What a figure says does not depend on how many points and steps its claim has.
-    monkeypatch.setattr(planar_push, "grid", lambda *axes: grid(*axes)[::9])
-    figure = PICTURES[name](BY_NAME[name].measure().picture)
-    titles = [axes.get_title(loc="right") for axes in figure.axes]
-    labels = [label for axes in figure.axes for label in axes.get_legend_handles_labels()[1]]
-    keys = [axes.get_legend().get_title().get_text() for axes in figure.axes if axes.get_legend()]
-    said = " ".join(titles + labels + keys)
-    plt.close(figure)
-    assert "h = " in said
-    assert cone in said
-    assert all(axes.get_xlabel() and axes.get_ylabel() for axes in figure.axes)

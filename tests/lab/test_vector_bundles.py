@@ -1,4 +1,4 @@
-"""Quadratic programs in qpbenchmark's format and in one bundle."""
+"""Quadratic programs in qpbenchmark's format."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ from pyarrow.parquet import read_table
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors import parquet
-from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
+from quasistatic_ref.lab.vectors.parquet import Program, parquet_written
 
 PROGRAMS = [
     Program(
@@ -40,16 +40,6 @@ def test_without_pyarrow_the_extra_is_named(tmp_path, monkeypatch):
     monkeypatch.setattr(parquet, "import_module", _missing)
     with pytest.raises(InputError, match=r"pip install 'quasistatic-ref\[parquet\]'"):
         parquet_written(tmp_path / "qps.parquet", PROGRAMS)
-
-
-def test_the_bundle_holds_each_program_and_its_optimum_without_pickles(tmp_path):
-    with np.load(npz_written(tmp_path / "qps.npz", PROGRAMS), allow_pickle=False) as bundle:
-        assert bundle["name"].tolist() == ["two rows", "no rows"]
-        for k, program in enumerate(PROGRAMS):
-            for key in ("H", "g", "A", "b"):
-                assert np.array_equal(bundle[f"{k}/{key}"], getattr(program, key))
-        assert bundle["0/delta_q"].tolist() == [0.5, -0.25]
-        assert "1/delta_q" not in bundle
 
 
 def _missing(name):

@@ -62,12 +62,6 @@ def test_a_joint_stops_at_its_limit_exactly():
     np.testing.assert_allclose(answer.lam_extra, [0.0, push], rtol=ROUNDING, atol=0.0)
 
 
-def test_a_velocity_limit_holds_exactly():
-    answer = solve_step(joint(), extension=velocity_limit(0.01, np.array([0.5])))
-    assert answer.certificate.kind == "exact"
-    assert answer.delta_q[0] == 0.01 * 0.5
-
-
 @pytest.mark.parametrize("target", [0.001, 0.003, 0.05])
 def test_a_saturated_actuator_presses_with_tau_max_and_no_more(target):
     # On the wall the contact carries min(K target, tau_max).

@@ -63,7 +63,7 @@ def test_pushes_that_the_model_made_are_predicted_from_planted_loads(folder, tmp
     assert json.loads((tmp_path / "reality.json").read_text()) == record
 
 
-def test_a_run_that_was_ended_goes_on_to_the_same_rows(folder, tmp_path, capsys):
+def test_a_run_that_was_ended_goes_on_and_one_of_other_settings_does_not(folder, tmp_path, capsys):
     assert command(folder, tmp_path) == 0
     assert "glass/tile" in capsys.readouterr().out
     (path,) = tmp_path.glob("*.jsonl")
@@ -72,11 +72,6 @@ def test_a_run_that_was_ended_goes_on_to_the_same_rows(folder, tmp_path, capsys)
     assert command(folder, tmp_path) == 0
     assert path.read_bytes() == whole
     assert len(records_read(path)) == 1 + 3  # the settings, and a line a push
-
-
-def test_rows_of_other_settings_are_not_mixed(folder, tmp_path, capsys):
-    assert command(folder, tmp_path) == 0
-    (path,) = tmp_path.glob("*.jsonl")
     path.write_text(path.read_text().replace('"advance": 0.001', '"advance": 0.002'))
     assert command(folder, tmp_path) == 2
     assert "other settings" in capsys.readouterr().err

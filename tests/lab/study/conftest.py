@@ -7,14 +7,17 @@ import pytest
 
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import solver_study
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.lab.study.measuring.measure import Limits, measured
 from quasistatic_ref.lab.study.measuring.run import run_study
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.making import problem_of
+from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study import made_store
+from tests.lab.study.plain_report import parsed
 from tests.lab.study.planted import ANY, FAKES, setting, slab
 
 
@@ -105,12 +108,30 @@ def members():
     return set_read(problem_set_folder())
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def store(tmp_path_factory):
     """The folder of a study that nobody ran: rows at random, of every outcome."""
     folder = tmp_path_factory.mktemp("report") / "store"
     made_store.written(folder)
     return folder
+
+
+@pytest.fixture(scope="session")
+def rows(store):
+    """Those of it that are compared: what was repeated is for the noise."""
+    return [row for row in contents(store).rows if row["repetition"] == 0]
+
+
+@pytest.fixture(scope="session")
+def report(store):
+    """The report on it."""
+    return study_report(store)
+
+
+@pytest.fixture(scope="session")
+def tables(report):
+    """Its tables, read from the page."""
+    return parsed(markdown_page(report))
 
 
 @pytest.fixture

@@ -17,10 +17,6 @@ def honest(P, q, G, h):
     x, _, _, _, z, _ = quadprog.solve_qp(P, -q, -G.T.copy(), -h)
     return x, z
 
-def loops(P, q, G, h):
-    while True:
-        pass
-
 def loops_in_c(P, q, G, h):
     ctypes.PyDLL(None).sleep(1000)  # holds the interpreter: no signal handler, no thread runs
 

@@ -7,15 +7,8 @@ import pytest
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.rational import exact_form, exact_form_of
-from quasistatic_ref.lab.study.calling.native import Native
-from quasistatic_ref.lab.study.problems import making
 from quasistatic_ref.lab.study.problems.families.dials import DIALS, one_turned, turned
-from quasistatic_ref.lab.study.problems.families.shaped import copied
-from quasistatic_ref.lab.study.problems.folder import problems_begun, set_read
-from quasistatic_ref.lab.study.problems.making import family_problems, problem_of, recipe_made
-from quasistatic_ref.lab.study.problems.recipe import Recipe
-from quasistatic_ref.solve.backends import BACKENDS
-from quasistatic_ref.solve.units import natural_form, natural_hessian, units_of
+from quasistatic_ref.lab.study.problems.making import family_problems, problem_of
 from quasistatic_ref.step.standard_form import standard_form
 
 SHORT = [name for name in DIALS if name not in ("sparse", "ellipsoid", "near_copies", "condition")]
@@ -60,19 +53,6 @@ def test_copies_multiply_rows_and_leave_the_answer():
         np.testing.assert_array_equal(form.A[:m], form.A[-m:])
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_exact_copies_cost_an_active_set_method_no_step_and_no_bit(seed):
-    """Of 16 copies one bears; the others are then met without rounding."""
-    forms = [standard_form(copied(np.random.default_rng(seed), copies)) for copies in (1, 4, 16)]
-    own = [natural_form(form, units_of(forms[0], natural_hessian(forms[0].H))) for form in forms]
-    replies = [Native("daqp")(form, BACKENDS["daqp"].plain(1e-9)) for form in own]
-    assert [len(form.b) // len(own[0].b) for form in own] == [1, 4, 16]
-    assert len({reply.iterations for reply in replies}) == 1
-    assert replies[0].iterations > 5
-    for reply in replies[1:]:
-        np.testing.assert_array_equal(reply.x, replies[0].x)
-
-
 @pytest.mark.parametrize("overlap", [1e-2, 1e-6, 1e-13])
 def test_walls_that_overlap_leave_no_solution(overlap):
     """Rows a x >= -phi and -a x >= phi + overlap, whose sum is 0 >= overlap."""
@@ -104,27 +84,3 @@ def test_a_wall_of_bricks_is_bounded_and_has_few_entries():
     assert one.facts["n"] == 120
     assert one.A.nnz < 13 * one.facts["m"]
     assert 0 < one.answer.error < 1e-6
-
-
-def test_a_set_that_was_interrupted_is_made_from_where_it_stopped(tmp_path, monkeypatch):
-    """No answer is sought twice, but for that of the problem in which the keys were pressed."""
-    recipe, sought = Recipe("mine", 1, {"wedge": 2, "gaps": 3, "infeasible": 2}), []
-    honest = making.dense_answer
-
-    def interrupted(form):
-        sought.append(form)
-        if len(sought) == 4:
-            raise KeyboardInterrupt
-        return honest(form)
-
-    monkeypatch.setattr(making, "dense_answer", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        recipe_made(recipe, tmp_path, progress=False)
-    assert len(problems_begun(tmp_path)) == 3
-    made = recipe_made(recipe, tmp_path, progress=False)
-    assert len(sought) == 7 + 1
-    assert [one.facts["family"] for one in made] == [
-        *["wedge"] * 2, *["gaps"] * 3, *["infeasible"] * 2
-    ]  # fmt: skip
-    assert [one.id for one in set_read(tmp_path)] == [one.id for one in made]
-    assert not problems_begun(tmp_path)

@@ -17,7 +17,7 @@ from quasistatic_ref.lab.study.calling.guests import GUESTS, installed_here, nat
 from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.file.solver_lists import solvers_named
-from quasistatic_ref.solve.backends import BACKENDS, installed
+from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.tolerances import ROUNDING
 
@@ -42,21 +42,6 @@ def float64():
     before = jax.config.jax_enable_x64
     yield
     jax.config.update("jax_enable_x64", before)
-
-
-def test_the_table_is_none_of_the_cores_and_says_how_each_is_called():
-    assert set(GUESTS) == {"exact", "qoco", "cvxopt", "ecos", "qpax", "mpax"}
-    assert not set(GUESTS) & set(BACKENDS)
-    for guest in GUESTS.values():
-        assert guest.interfaces
-        assert ("native" in guest.interfaces) == (guest.native is not None)
-        assert not guest.steps
-
-
-def test_the_exact_method_has_no_options_and_one_setting():
-    solver = Solver("exact", "native", "exact")
-    assert [s.name for s in SETTINGS if solver.takes(s)] == ["default"]
-    assert solver.settings_of(SETTINGS[0], 1.0) == {}
 
 
 def test_the_exact_method_answers_or_says_that_there_is_no_solution():
@@ -93,16 +78,13 @@ def test_a_star_is_the_backends_and_the_guests_that_are_installed(only, interfac
         assert targets == [*installed(interface), *own]
 
 
-def test_a_guest_that_is_not_installed_is_no_backend_of_an_extra(only):
+@pytest.mark.parametrize(("name", "words"), [
+    ("native:qoco", r"is not installed; pip install qoco \(got"),
+    ("qpsolvers:qpax", "holds no solver of"),  # what would compile in every call is not called
+])  # fmt: skip
+def test_a_guest_that_cannot_be_called_is_refused(only, name, words):
     only()
-    with pytest.raises(InputError, match=r"is not installed; pip install qoco \(got"):
-        solvers_named("native:qoco")
-
-
-@pytest.mark.parametrize("name", ["qpsolvers:qpax", "cvxpy:mpax", "qpsolvers:qoco"])
-def test_what_would_compile_in_every_call_is_not_called(only, name):
-    only(*GUESTS)
-    with pytest.raises(InputError, match="holds no solver of"):
+    with pytest.raises(InputError, match=words):
         solvers_named(name)
 
 

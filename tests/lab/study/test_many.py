@@ -46,22 +46,6 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, capsys):
     assert [line["run"] for line in table(tmp_path)] == [line["run"] for line in lines]
 
 
-IMPOSSIBLE = {
-    "a value": ({"contacts.rough.mu_v": np.array([0.5, -1.0])}, "mu_v: must be at least 0"),
-    "a cone that the backend does not take": (
-        {"solver.backend": ["daqp"], "cone": ["pyramid", "ellipsoid"]}, "takes linear rows only",
-    ),
-}  # fmt: skip
-
-
-@pytest.mark.parametrize(("variations", "says"), IMPOSSIBLE.values(), ids=IMPOSSIBLE)
-def test_a_grid_with_a_run_that_cannot_be_is_refused_before_any(tmp_path, variations, says):
-    folder = tmp_path / "map"
-    with pytest.raises(InputError, match=says):
-        simulate_many("block_incline", variations, folder, workers=1, progress=False)
-    assert not folder.exists()
-
-
 def test_a_list_is_set_for_every_run_and_no_two_columns_have_one_name(tmp_path):
     sideways = "gravity=[0.0, 0.5, -9.81]"
     argv = ["run", "block_incline", "--set", sideways, "--sweep", "steps=1,2", "--jobs", "1"]
@@ -88,7 +72,7 @@ def test_values_are_read_as_a_range_or_a_list(text, values):
     assert swept_values(text) == ("a.b", values)
 
 
-@pytest.mark.parametrize("text", ["a.b", "=1", "a.b=", "a.b=0:1", "a.b=0:1:0", "a.b=x:1:2"])
+@pytest.mark.parametrize("text", ["a.b", "a.b=", "a.b=0:1:0"])
 def test_values_that_are_none_are_refused(text):
     with pytest.raises(InputError, match="--sweep: must read FIELD=FIRST:LAST:COUNT"):
         swept_values(text)
@@ -96,19 +80,22 @@ def test_values_that_are_none_are_refused(text):
 
 BAD = {
     "no value": ({"h": []}, "h: must be a list of finite numbers or words"),
-    "no number": ({"h": [float("nan")]}, "h: must be a list of finite numbers or words"),
     "nothing varied": ({}, "variations: must make 1 to 100000 runs"),
     "too many": ({"h": range(1000), "K": range(1000)}, "must make 1 to 100000 runs"),
     "an unknown field": ({"contacts.rouhg.mu_v": [0.5]}, "rouhg"),
+    "a value": ({"contacts.rough.mu_v": np.array([0.5, -1.0])}, "mu_v: must be at least 0"),
+    "a cone that the backend does not take": (
+        {"solver.backend": ["daqp"], "cone": ["pyramid", "ellipsoid"]},
+        "takes linear rows only",
+    ),
 }
 
 
 @pytest.mark.parametrize(("variations", "sentence"), BAD.values(), ids=BAD)
 def test_bad_variations_are_one_sentence(variations, sentence, tmp_path):
     with pytest.raises(InputError, match=sentence):
-        simulate_many("block_incline", variations, tmp_path, progress=False)
-    with pytest.raises(InputError, match="workers: must be at least 1"):
-        simulate_many("block_incline", {"h": [0.01]}, tmp_path, workers=0, progress=False)
+        simulate_many("block_incline", variations, tmp_path / "map", workers=1, progress=False)
+    assert not (tmp_path / "map").exists()
 
 
 def test_options_of_one_run_are_refused_beside_a_sweep(tmp_path, capsys):

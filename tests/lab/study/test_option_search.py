@@ -12,10 +12,8 @@ import pytest
 import qpalm
 
 from quasistatic_ref.solve.backends import BACKENDS
-from validation.make import option_search
 from validation.make.option_report import report
 from validation.make.option_search import (
-    LIMITS,
     MOST_SETTINGS,
     Score,
     halves,
@@ -99,7 +97,7 @@ def test_the_sentences_on_options_are_made_of_the_committed_log(spaces, log, tex
 
 def test_what_to_set_is_what_the_log_found_best(spaces, log, text):
     """Shares of the best setting and of the defaults, of each solver that was searched."""
-    for solver, space in spaces.items():
+    for solver in spaces:
         own = lines_of(log, solver)
         (found,) = re.findall(rf"^- \*\*{solver}\*\* at (.*)$", text, re.M) or [None]
         assert (found is None) == (solver in NOT_SEARCHED)
@@ -112,64 +110,6 @@ def test_what_to_set_is_what_the_log_found_best(spaces, log, text):
             f"{plain['six']:.1f}", f"{plain['nine']:.1f}",
         ]  # fmt: skip
         assert ("This is the start" in found) == (best["options"] == start["options"])
-        tried = [one for one in own["training"] if _changes(space, one) <= 1]
-        for mean in re.findall(r"soonest: mean (\S+) ms", found):
-            assert mean == f"{1e3 * min(one['time_to_6'] for one in tried[1:]):.3g}"
-        for most in re.findall(r"most frequent with `.*?`: on (\S+) %", found):
-            assert most == f"{max(one['nine'] for one in tried):.1f}"
-
-
-def _changes(space, line):
-    return sum(space["start"].get(name) != value for name, value in line["options"].items())
-
-
-# -- The command ----------------------------------------------------------------------------------
-@pytest.fixture
-def command(tmp_path, monkeypatch):
-    """The command on two solvers and two problems; a = 2 halves the time, `broken` raises."""
-    (tmp_path / "space.toml").write_text(
-        "\n".join(f'{name} = {{ source = "https://example.org", start = {{ a = 1 }}, options = '
-                  "{ a = [2], b = [1] }, findings = [{ base = { a = 1 }, change = { b = 1 } }] }"
-                  for name in ("broken", "good"))
-    )  # fmt: skip
-    called = []
-
-    def scored(solver, options, problems, function):
-        called.append(solver)
-        if solver == "broken":
-            raise RuntimeError("this solver is broken")
-        return replace(NOTHING, time_to_6=0.5 if options.get("a") == 2 else 1.0)
-
-    monkeypatch.setattr(option_search, "SPACE", tmp_path / "space.toml")
-    monkeypatch.setattr(option_search, "scored", scored)
-    every = [SimpleNamespace(id=f"contacts/{k}/0") for k in range(8)]
-    monkeypatch.setattr(option_search, "problems", lambda folder: every)
-    out = tmp_path / "log.jsonl"
-    return lambda *names: (option_search.main([*names, "--out", str(out)]), called), out
-
-
-def test_a_solver_that_fails_stops_no_other_and_is_named(command, capsys):
-    run, out = command
-    with pytest.raises(SystemExit, match="not searched: broken"):
-        run()
-    log = [json.loads(line) for line in out.read_text().splitlines()]
-    assert {one["solver"] for one in log} == {"good"}
-    judged = [one["options"] for one in log if one["half"] == "judging"]
-    assert judged == [{}, {"a": 1}, {"a": 2}]
-    words = out.with_suffix(".md").read_text()
-    assert "- **good** at `a=2`" in words
-    assert words.endswith("not searched yet, of: broken.\n")
-    assert "good, training: a=2: 0 % with 6 digits" in capsys.readouterr().out
-
-
-def test_a_search_goes_on_with_the_solvers_that_the_log_does_not_have(command):
-    run, out = command
-    run("good")
-    before = out.read_text()
-    with pytest.raises(SystemExit, match="not searched: broken"):
-        run("--missing")
-    assert out.read_text() == before
-    assert run("good", "--missing")[1].count("broken") == 1
 
 
 # -- The search ----------------------------------------------------------------------------------
@@ -208,20 +148,7 @@ def test_what_helps_alone_is_put_together_while_it_helps():
     assert len(set(options)) == len(options)
 
 
-def test_a_search_ends_after_so_many_settings_and_so_many_seconds():
-    many = {f"o{k}": list(range(10)) for k in range(10)}
-    assert len(searched({}, many, lambda _: NOTHING)) == MOST_SETTINGS
-    assert len(searched({}, many, lambda _: NOTHING, seconds=0.0)) == 1
-
-
 def test_a_setting_is_scored_by_its_digits_on_the_problems(problem):
     score = scored("quadprog", {}, [problem])
     assert (score.problems, score.six, score.nine, score.solved) == (1, 100.0, 100.0, 1)
     assert score.median > 12
-
-
-def test_what_patience_does_not_reach_counts_as_not_delivered(problem, monkeypatch):
-    monkeypatch.setattr(option_search, "PATIENCE", 0.0)
-    score = scored("daqp", {}, [problem, problem])
-    assert (score.problems, score.six, score.solved) == (2, 0.0, 0)
-    assert score.time_to_6 == pytest.approx(LIMITS.call)

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.study.calling.plain_programs import KEPT, PlainPrograms
+from quasistatic_ref.lab.study.calling.plain_programs import PlainPrograms
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.through_qpsolvers import _account, _status, qpsolvers_reply
 from quasistatic_ref.step.standard_form import StandardForm
@@ -31,16 +31,6 @@ def test_a_plain_program_through_cvxpy_has_its_closed_form(name):
     np.testing.assert_allclose(reply.x, X, rtol=0.0, atol=OPTIMUM)
     np.testing.assert_allclose(reply.lam, LAM, rtol=0.0, atol=OPTIMUM)
     assert 0 < reply.call_seconds < perf_counter() - begin
-
-
-def test_the_last_programs_are_kept_and_compiled_once():
-    programs, forms = PlainPrograms("clarabel"), [form() for _ in range(KEPT + 1)]
-    first = [programs._program(f) for f in forms[:KEPT]]
-    assert [programs._program(f) for f in forms[:KEPT]] == first
-    assert programs._program(forms[-1]) not in first
-    assert programs._program(forms[1]) is first[1]
-    assert len(programs._compiled) == KEPT
-    assert programs._program(forms[0]) is not first[0]
 
 
 def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():

@@ -1,7 +1,6 @@
 """A set in the formats of others: each read back by its own reader, and qpbenchmark's command."""
 
 import csv
-import json
 import runpy
 import subprocess
 import sys
@@ -13,7 +12,6 @@ from scipy.io import loadmat
 from scipy.sparse import csr_matrix
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.commands.study_problems import FORMATS
 from quasistatic_ref.lab.study.problems import exports
 
 
@@ -26,10 +24,6 @@ def few(members):
 
 def export(to, folder, problems):
     assert exports.exported("contact-qp-1", problems, to, folder)
-
-
-def test_the_formats_of_the_command_are_those_of_the_writer():
-    assert FORMATS == exports.FORMATS
 
 
 def test_the_bundle_has_every_number_of_the_problems(few, tmp_path):
@@ -55,17 +49,6 @@ def test_matlabs_file_has_every_number_of_the_problems(few, tmp_path):
         A = row["A"].toarray() if "sparse" in one.facts["tags"] else row["A"]
         np.testing.assert_array_equal(A, one.A.toarray())
         np.testing.assert_array_equal(row["x"].ravel(), one.answer.x)
-
-
-def test_the_lines_of_json_have_every_number_of_the_problems(few, tmp_path):
-    export("json", tmp_path, few)
-    lines = (tmp_path / "contact-qp-1.jsonl").read_text().splitlines()
-    for line, one in zip(lines, few, strict=True):
-        said = json.loads(line)
-        assert said["g"] == one.g.tolist()
-        assert ("farkas" in said) == bool(one.answer.farkas)
-        if "sparse" not in one.facts["tags"]:
-            assert said["H"] == one.H.toarray().tolist()
 
 
 def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.problems import making
 from quasistatic_ref.lab.study.problems.families.drawn import FAMILIES, drawn
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, problems_begun, set_read
@@ -49,12 +48,6 @@ def test_ctrl_c_keeps_the_problems_that_were_made(folder, tmp_path, monkeypatch)
     assert [dict(one.facts) for one in read] == [dict(one.facts) for one in whole]
 
 
-def test_another_seed_makes_other_problems():
-    one, two = (next(drawn("contacts", 2, seed, ())) for seed in (1, 2))
-    assert one.id == two.id
-    assert not np.array_equal(one.step.tau_u, two.step.tau_u)
-
-
 def test_the_scaled_families_span_what_they_say():
     contacts = [one.step.contacts.n_c for one in drawn("contacts", 4, 1, ())]
     assert contacts == [1, 10, 100, 1000]
@@ -67,11 +60,6 @@ def test_the_condition_number_grows_with_the_mass_ratio(folder):
     found = {one.facts["mass_ratio"]: one.facts["measures"]["condition"]
              for one in set_read(folder / FOLDER, ["mass_ratio"])}  # fmt: skip
     assert found[1e9] / found[1e6] == pytest.approx(1e3, rel=0.01)
-
-
-def test_another_test_set_in_the_folder_is_refused(folder):
-    with pytest.raises(InputError, match="holds another test set"):
-        study_problems(TestSet(2, EACH, ("block_incline",)), folder, progress=False)
 
 
 def test_the_exported_bundle_holds_the_exact_answers(folder, tmp_path):

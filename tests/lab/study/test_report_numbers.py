@@ -8,18 +8,7 @@ import pyarrow.parquet
 import pytest
 
 from quasistatic_ref.lab.page.html import sorting
-from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.numbers import COLUMNS, csv_text, parquet_bytes
-from quasistatic_ref.lab.page.parts import Report
-from quasistatic_ref.lab.study.report.report import study_report
-from tests.lab.study import made_store, plain_report
-
-
-@pytest.fixture(scope="module")
-def report(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("numbers") / "store"
-    made_store.written(folder)
-    return study_report(folder)
 
 
 @pytest.fixture(scope="module")
@@ -27,14 +16,13 @@ def lines(report):
     return list(csv.DictReader(io.StringIO(csv_text(report))))
 
 
-def test_every_cell_of_every_table_is_a_line(report, lines):
+def test_every_cell_of_every_table_is_a_line(report, tables, lines):
     """Cells right of a table's text, counted on the page in Markdown."""
-    pages = plain_report.parsed(markdown_page(report))
     left = {t.title: t.left for s in report.sections for t in s.blocks if hasattr(t, "left")}
-    count = sum(len(body) * (len(names) - left[title]) for title, _, names, body in pages)
+    count = sum(len(body) * (len(names) - left[title]) for title, _, names, body in tables)
     assert len(lines) == count > 500
     shown = {(title, where, tuple(row[: left[title]]), name): cell
-             for title, where, names, body in pages for row in body
+             for title, where, names, body in tables for row in body
              for name, cell in zip(names, row, strict=True)}  # fmt: skip
     for line in lines:
         first = tuple(part.partition(" = ")[2] for part in line["of"].split(", "))
@@ -61,12 +49,6 @@ def test_parquet_has_the_same_lines(report, lines):
     assert len(found) == len(lines)
     for one, line in zip(found, lines, strict=True):
         assert {k: "" if v is None else str(v) for k, v in one.items()} == line
-
-
-def test_a_report_without_tables_has_no_lines():
-    empty = Report("nothing", ())
-    assert csv_text(empty) == ",".join(COLUMNS) + "\n"
-    assert pyarrow.parquet.read_table(io.BytesIO(parquet_bytes(empty))).num_rows == 0
 
 
 PAGE = """

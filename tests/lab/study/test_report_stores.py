@@ -8,7 +8,6 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.figures.study_images import drawn
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.report.report import study_report
-from quasistatic_ref.lab.study.report.rows import rows_of
 from quasistatic_ref.lab.study.store.pack import shorter
 from quasistatic_ref.lab.study.store.store import Store, contents
 from tests.lab.study import made_store, plain_report
@@ -42,20 +41,6 @@ def test_a_packed_store_says_the_same_of_digits_and_claims(store, tmp_path, caps
         for k, column in enumerate(columns):
             if ">=" in column or "wrong" in title:
                 assert [line[k] for line in body] == [line[k] for line in whole], title
-
-
-def test_clocks_that_were_not_compared_do_not_disagree(rows):
-    of_three = [rows[0] | {"clock_agrees": agrees} for agrees in (True, None, False)]
-    assert rows_of(of_three, 1.0)["clock_agrees"].tolist() == [True, True, False]
-
-
-def test_a_packed_store_that_was_cut_off_is_refused(store, tmp_path, capsys):
-    main(["study", "pack", str(store), "--out", str(tmp_path)])
-    capsys.readouterr()
-    path = tmp_path / "study.json.xz"
-    path.write_bytes(path.read_bytes()[:-40])
-    with pytest.raises(InputError, match="is no xz file, or was cut off"):
-        study_report(tmp_path)
 
 
 def test_a_store_without_rows_is_refused(tmp_path):

@@ -144,12 +144,3 @@ def test_every_study_that_comes_along_is_valid(name, validator):
 def test_the_command_prints_the_schema_of_studies(capsys):
     assert main(["schema", "study"]) == 0
     assert json.loads(capsys.readouterr().out) == json.loads(json.dumps(study_schema()))
-
-
-@pytest.mark.parametrize(("name", "path"), [
-    ("a word for a time", ["time_limit"]), ("a misspelt name", ["sweeps", 0]),
-    ("less than nothing again", ["runs", 0, "again"]),
-])  # fmt: skip
-def test_the_schema_marks_what_is_wrong_and_not_the_whole_file(name, path, validator):
-    errors = validator.iter_errors(tomllib.loads(MISTAKES[name][0]))
-    assert [list(error.absolute_path) for error in errors] == [path]

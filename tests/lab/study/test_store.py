@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.store import store as stores
-from quasistatic_ref.lab.study.store.rows import flat, key_of, nested, table
+from quasistatic_ref.lab.study.store.rows import flat, key_of, nested
 from quasistatic_ref.lab.study.store.store import PACKED, STORE, Store, contents, packed_tables
 from tests.lab.study import made_store
 
@@ -73,12 +73,6 @@ def test_a_full_disk_is_reported_by_the_name_of_the_file_and_loses_no_row(folder
         finally:
             resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert contents(folder).rows == rows
-
-
-def test_a_table_leaves_out_times_and_nothing_else(rows):
-    (kept,) = table(rows[:1])
-    measured = ("seconds", "calls", "clock_agrees", "memory")
-    assert kept == {k: v for k, v in rows[0].items() if k not in measured}
 
 
 def test_solvers_come_and_go_while_a_study_goes_on(folder, rows):

@@ -11,7 +11,6 @@ from quasistatic_ref.lab.study.problems.answers import dense_answer, step_of
 from quasistatic_ref.optional.large.bound import enclosed_answer
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
-from tests.lab.study.planted import slab
 
 
 def planted(rng, n=6, m=20):
@@ -29,6 +28,7 @@ def test_the_answer_of_a_planted_program_is_what_it_was_made_around():
     answer = dense_answer(form)
     np.testing.assert_allclose(answer.x, x, rtol=0, atol=1e-12)
     np.testing.assert_allclose(answer.net, form.A.T @ lam, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(answer.slack, form.A @ x - form.b, rtol=0, atol=1e-11)
     assert answer.error == 0.0
 
 
@@ -81,7 +81,7 @@ def lam_of(form, x):
 
 
 @pytest.mark.parametrize("units", ["raw", "natural"])
-@pytest.mark.parametrize("exponent", [3, 6, 9])
+@pytest.mark.parametrize("exponent", [3, 6])
 def test_digits_are_those_that_were_spoilt(problem, units, exponent):
     """X = x* + 10^-e ||H^-1 g||_H v with ||v||_H = 1 has an error of 10^-e, whatever the units."""
     ready = prepared(problem)
@@ -116,15 +116,10 @@ def test_residuals_are_those_of_qpbenchmark(problem):
 
 
 def test_a_solver_that_gave_up_has_failed_and_keeps_its_digits(problem):
-    row = grades(prepared(problem), "raw", reply_of(problem.answer.x, None, False), 3.0)
-    assert (row["outcome"], row["wrong"]) == ("failed", False)
-    assert row["digits"] == {"delta_q": 16.0, "net_wrench": None, "multipliers": None}
-
-
-def test_a_solver_that_gave_up_and_left_no_numbers_has_failed_too(problem):
-    x = np.full(len(problem.form.g), np.nan)
-    row = grades(prepared(problem), "raw", reply_of(x, None, False), 3.0)
-    assert (row["outcome"], row["wrong"], row["digits"]["delta_q"]) == ("failed", False, None)
+    for x, digits in ((problem.answer.x, 16.0), (np.full(len(problem.form.g), np.nan), None)):
+        row = grades(prepared(problem), "raw", reply_of(x, None, False), 3.0)
+        assert (row["outcome"], row["wrong"]) == ("failed", False)
+        assert row["digits"] == {"delta_q": digits, "net_wrench": None, "multipliers": None}
 
 
 def test_a_neighbour_differs_in_g_alone_by_one_percent_at_most(problem):
@@ -135,7 +130,3 @@ def test_a_neighbour_differs_in_g_alone_by_one_percent_at_most(problem):
     change = np.abs(near.g / form.g - 1)[form.g != 0]
     assert 0 < change.max() <= NEAR * (1 + 1e-12)
     np.testing.assert_array_equal(near.g, neighbour(form, problem.id).g)
-
-
-def test_the_slabs_gaps_are_never_negative():
-    assert min(slab(seed).step.contacts.phi.min() for seed in range(5)) >= 0

@@ -21,8 +21,7 @@ from tests.lab.study.plain_report import delivered, picked, seconds
 WEDGE = "wedge/0.1/0"
 
 
-def worst_tables(folder):
-    tables = plain_report.parsed(markdown_page(study_report(folder)))
+def worst(tables):
     return [table for table in tables if table[0].startswith("Worst")]
 
 
@@ -31,14 +30,11 @@ def most(bound):
     return min(16.0, -math.log10(bound)) if bound else 16.0
 
 
-def test_the_ten_worst_miss_the_most_digits_and_then_take_longest(tmp_path):
+def test_the_ten_worst_miss_the_most_digits_and_then_take_longest(tables, rows):
     """Sorted again by plain loops, both downwards; 12 problems, of which 10 are shown."""
-    rows = made_store.written(tmp_path / "store")
     bounds = {fact["id"]: fact["bound"] for fact in made_store.facts(12)}
-    rows = [row for row in rows if row["repetition"] == 0]
-    tables = worst_tables(tmp_path / "store")
-    assert len(tables) == 3  # ant, bee and cat, each by one interface
-    for _, where, _, body in tables:
+    assert len(worst(tables)) == 3  # ant, bee and cat, each by one interface
+    for _, where, _, body in worst(tables):
         own = picked(rows, where)
         assert len(own) == 12
         key = {}
@@ -59,7 +55,9 @@ def test_each_command_runs_the_same_again_and_finds_the_same(whole, monkeypatch,
     """Digits of a deterministic solver to the last; its options are those of the study."""
     monkeypatch.chdir(whole.parent)  # of the planted solvers
     rows = [row for row in contents(whole).rows if row["repetition"] == 0]
-    tables = worst_tables(whole)
+    tables = worst(plain_report.parsed(markdown_page(study_report(whole))))
+    with pytest.raises(InputError, match="is no solver of the study"):
+        question("mass_ratio/1/0", "qpsolvers:osqp", "default", store=whole)
     labels = {re.search(r"label = (\S+?)[,.]?$", where)[1] for _, where, *_ in tables}
     assert labels == {"qpsolvers:daqp", "callable:mine"}
     for _, where, _, ((problem, _, _, _, command, *_), *_) in tables:
@@ -84,12 +82,6 @@ def test_a_problem_of_the_set_is_run_without_any_store(capsys):
     assert "none (5.5 digits are promised by an optimal)" in out
 
 
-def test_a_callable_of_ones_own_is_run_by_its_name_and_its_claim_judged(whole, monkeypatch, capsys):
-    monkeypatch.chdir(whole.parent)
-    assert main(["study", "ask", WEDGE, "planted_solvers:liar", "--units", "raw"]) == 1
-    assert "said optimal, was wrong" in capsys.readouterr().out
-
-
 @pytest.mark.parametrize(("words", "problem"), [
     ((WEDGE, "qpsolvers:dapq", "default"), "did you mean 'daqp'"),
     ((WEDGE, "daqp", "default"), "neither interface:name nor module:function"),
@@ -100,14 +92,3 @@ def test_a_callable_of_ones_own_is_run_by_its_name_and_its_claim_judged(whole, m
 def test_what_cannot_be_run_is_refused_in_a_sentence(words, problem):
     with pytest.raises(InputError, match=problem):
         question(*words)
-
-
-def test_cones_are_refused(members):
-    (name, *_) = (one.id for one in members if one.facts["family"] == "ellipsoid")
-    with pytest.raises(InputError, match="has cones or sparse matrices"):
-        question(name, "qpsolvers:daqp", "default")
-
-
-def test_a_stranger_to_a_store_is_refused(whole):
-    with pytest.raises(InputError, match="is no solver of the study"):
-        question("mass_ratio/1/0", "qpsolvers:osqp", "default", store=whole)
