@@ -13,7 +13,6 @@ from quasistatic_ref.lab.study.problems.families.dials import DIALS, one_turned,
 from quasistatic_ref.lab.study.problems.families.shaped import copied
 from quasistatic_ref.lab.study.problems.folder import problems_begun, set_read
 from quasistatic_ref.lab.study.problems.making import family_problems, problem_of, recipe_made
-from quasistatic_ref.lab.study.problems.recipe import Recipe
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.units import natural_form, natural_hessian, units_of
 from quasistatic_ref.step.standard_form import standard_form
@@ -108,7 +107,7 @@ def test_a_wall_of_bricks_is_bounded_and_has_few_entries():
 
 def test_a_set_that_was_interrupted_is_made_from_where_it_stopped(tmp_path, monkeypatch):
     """No answer is sought twice, but for that of the problem in which the keys were pressed."""
-    recipe, sought = Recipe("mine", 1, {"wedge": 2, "gaps": 3, "infeasible": 2}), []
+    recipe, sought = ("mine", {"wedge": 2, "gaps": 3, "infeasible": 2}, 1, tmp_path), []
     honest = making.dense_answer
 
     def interrupted(form):
@@ -119,9 +118,9 @@ def test_a_set_that_was_interrupted_is_made_from_where_it_stopped(tmp_path, monk
 
     monkeypatch.setattr(making, "dense_answer", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        recipe_made(recipe, tmp_path, progress=False)
+        recipe_made(*recipe, progress=False)
     assert len(problems_begun(tmp_path)) == 3
-    made = recipe_made(recipe, tmp_path, progress=False)
+    made = recipe_made(*recipe, progress=False)
     assert len(sought) == 7 + 1
     assert [one.facts["family"] for one in made] == [
         *["wedge"] * 2, *["gaps"] * 3, *["infeasible"] * 2
