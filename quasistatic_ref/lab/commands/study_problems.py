@@ -129,8 +129,9 @@ def _check(options: argparse.Namespace) -> int:
 
 def _make(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.making import recipe_made
-    from quasistatic_ref.lab.study.problems.recipe import CONTACT_QP_1
+    from quasistatic_ref.lab.study.problems.recipe import FAMILIES, SEED
+    from quasistatic_ref.lab.study.problems.selection import CONTACT_QP_1
 
-    problems = recipe_made(CONTACT_QP_1, options.out, not options.quiet)
+    problems = recipe_made(CONTACT_QP_1, FAMILIES, SEED, options.out, not options.quiet)
     print(f"wrote {options.out}: {len(problems)} problems")
     return 0

@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.problems import making
-from quasistatic_ref.lab.study.problems.families.drawn import FAMILIES, drawn
+from quasistatic_ref.lab.study.problems.families.dials import turned
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, problems_begun, set_read
 from quasistatic_ref.lab.study.problems.for_study import (
     FOLDER,
@@ -14,8 +14,8 @@ from quasistatic_ref.lab.study.problems.for_study import (
     study_problems,
 )
 
-EACH = dict.fromkeys(FAMILIES, 0) | {"scenarios": 3, "contacts": 3, "mass_ratio": 4, "bodies": 1}
-SET = TestSet(1, EACH, ("block_incline",), "", {"contacts": 30})
+EACH = {"scenarios": 3, "contacts": 3, "mass_ratio": 4, "bodies": 1}
+SET = TestSet(1, EACH, ("block_incline",), "", {"contacts": 30, "bodies": 2})
 
 
 @pytest.fixture(scope="module")
@@ -48,18 +48,17 @@ def test_ctrl_c_keeps_the_problems_that_were_made(folder, tmp_path, monkeypatch)
     assert [dict(one.facts) for one in read] == [dict(one.facts) for one in whole]
 
 
-def test_the_scaled_families_span_what_they_say():
-    contacts = [one.step.contacts.n_c for one in drawn("contacts", 4, 1, ())]
-    assert contacts == [1, 10, 100, 1000]
-    steps = list(drawn("mass_ratio", 4, 1, ()))
-    ratios = [one.step.M_u[6, 6] / one.step.M_u[0, 0] for one in steps]
-    np.testing.assert_allclose(ratios, [1, 1e3, 1e6, 1e9], rtol=1e-12)
+def test_the_mass_ratio_is_what_the_dial_says():
+    """J, K_q and M_u have 24 bits."""
+    ratios = [one.step.M_u[6, 6] / one.step.M_u[0, 0] for one in turned("mass_ratio", 4, 1)]
+    np.testing.assert_allclose(ratios, [1, 1e3, 1e6, 1e9], rtol=2.0**-23)
 
 
 def test_the_condition_number_grows_with_the_mass_ratio(folder):
+    """But for the inertias' own axes, whose moments differ by less than ten."""
     found = {one.facts["mass_ratio"]: one.facts["measures"]["condition"]
              for one in set_read(folder / FOLDER, ["mass_ratio"])}  # fmt: skip
-    assert found[1e9] / found[1e6] == pytest.approx(1e3, rel=0.01)
+    assert 1e2 < found[1e9] / found[1e6] < 1e4
 
 
 def test_the_exported_bundle_holds_the_exact_answers(folder, tmp_path):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.problems.families.drawn import drawn
+from quasistatic_ref.lab.study.problems.families.dials import turned
 from quasistatic_ref.lab.study.problems.for_study import study_problems
 from quasistatic_ref.lab.study.problems.selection import chosen, problems_taken
 
@@ -62,7 +62,7 @@ def test_families_that_studies_have_no_place_for_are_refused(family):
 
 
 @pytest.mark.parametrize(("text", "words"), [
-    ("families = { wedge = 3 }", "is a family of sets; say set"),
+    ("families = { sequences = 12 }", "is a family of sets; say set"),
     ("families = { time_step = { count = 3, most = 0.01 } }", "has no dial to be turned"),
     ('set = "contact-qp-2"\nfamilies = { wedge = 3 }', "is neither a folder nor a set"),
     ('set = "contact-qp-1"\nfamilies = { wedges = 3 }', "wedges"),
@@ -79,7 +79,5 @@ def test_what_cannot_be_taken_is_said(study, tmp_path, text, words):
 def test_a_dial_of_a_study_without_a_set_may_end_elsewhere(study):
     text = "[problems]\nfamilies = { contacts = { count = 4, most = 27 }, mass_ratio = 2 }"
     test_set = study(f"{text}\n[[runs]]\nsolvers = ['qpsolvers:daqp']").problems
-    found = [
-        one.step.contacts.n_c for one in drawn("contacts", 4, 1, (), test_set.most["contacts"])
-    ]
-    assert found == [1, 3, 9, 27]
+    found = [one.step.contacts.n_c for one in turned("contacts", 4, 1, test_set.most["contacts"])]
+    assert found == [2, 5, 11, 27]  # 2 (27 / 2)^(i / 3): 2, 4.76, 11.34, 27

@@ -11,7 +11,7 @@ from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, SETTINGS
-from quasistatic_ref.lab.study.problems.families.dials import DIALS, HARVESTED
+from quasistatic_ref.lab.study.problems.families.dials import DIALS, HARVESTED, ends
 from quasistatic_ref.lab.study.problems.problem import UNITS
 from quasistatic_ref.tolerances import LARGE
 
@@ -30,13 +30,6 @@ PROBLEMS, COUNTS, COUNT, SETTING, SOLVER = (
 )
 RUN, SWEEP, AXIS = "[[runs]]", "[[sweeps]]", "[sweeps.axes.NAME]"
 TEXT = {"type": "string"}
-OF_SETS = {
-    name: own[0] if own else "none"
-    for name in ("sequences", *DIALS)
-    if name not in ("contacts", "mass_ratio", "bodies")
-    for own in [(DIALS[name].name,) if name in DIALS else HARVESTED[name]]
-}
-"""Families that only a set has, and their dials."""
 
 
 def _head(kind: str, **default: Any) -> dict[str, Field]:
@@ -85,12 +78,8 @@ TABLES = Tables({
     },
     COUNTS: {
         "scenarios": _family("steps of the scenarios"),
-        "contacts": _family("1 to 1,000 contacts"),
-        "mass_ratio": _family("masses of a ratio of 1 to 1e9"),
-        "time_step": _family("h from 0.1 to 1e-4 s"),
-        "closest_points": _family("k from 1 to 50"),
-        "bodies": _family("towers of 2 to 40 slabs"),
-        **{name: _family(f"of a set: dial {says}") for name, says in OF_SETS.items()},
+        **{name: _family("dial: {name}, {first:g} to {most:g} {unit}".format(**own))
+           for name in (*HARVESTED, *DIALS) if (own := ends(name))},
     },
     COUNT: {
         "count": Field("integer", "how many problems", least=0, most=MOST_PROBLEMS),

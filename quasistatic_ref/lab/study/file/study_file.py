@@ -23,7 +23,8 @@ from quasistatic_ref.lab.study.file.fields import (
     VERSION,
 )
 from quasistatic_ref.lab.study.file.solver_lists import chosen_solvers, own_solvers
-from quasistatic_ref.lab.study.problems.families.drawn import FAMILIES, MOST
+from quasistatic_ref.lab.study.problems.families.dials import DIALS
+from quasistatic_ref.lab.study.problems.families.drawn import FAMILIES
 from quasistatic_ref.lab.study.problems.for_study import TestSet
 from quasistatic_ref.lab.study.problems.problem import UNITS
 
@@ -185,9 +186,9 @@ def _counts(table: Fields, of_a_set: bool) -> tuple[dict[str, int], dict[str, fl
         count = TABLES.all_values(inner, COUNT)
         if count["count"] and not of_a_set and name not in FAMILIES:
             raise table.fail(name, 'is a family of sets; say set = "contact-qp-1"')
-        if count["most"] is not None and not (of_a_set or name in MOST):
+        if count["most"] is not None and not (of_a_set or name in DIALS):
             raise table.fail(name, "has no dial to be turned, unless it is taken from a set")
-        if count["count"] or name in FAMILIES:
+        if count["count"]:
             counts[name] = count["count"]
         if count["most"] is not None:
             most[name] = count["most"]

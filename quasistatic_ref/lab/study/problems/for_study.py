@@ -9,7 +9,8 @@ from typing import Any, Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.lab.study.problems.families.drawn import drawn, scenarios_run
+from quasistatic_ref.lab.study.problems.families.dials import DIALS
+from quasistatic_ref.lab.study.problems.families.drawn import family_steps, scenarios_run
 from quasistatic_ref.lab.study.problems.families.harvest import Count, scenario_of
 from quasistatic_ref.lab.study.problems.folder import (
     MANIFEST,
@@ -18,7 +19,13 @@ from quasistatic_ref.lab.study.problems.folder import (
     set_read,
     set_written,
 )
-from quasistatic_ref.lab.study.problems.making import Family, Kept, problem_of, set_made
+from quasistatic_ref.lab.study.problems.making import (
+    Family,
+    Kept,
+    dial_problems,
+    problem_of,
+    set_made,
+)
 from quasistatic_ref.lab.study.problems.problem import INFEASIBLE, Problem
 from quasistatic_ref.lab.study.problems.selection import problems_taken, set_identity
 
@@ -96,9 +103,13 @@ def study_problems(test_set: TestSet, study: str | Path, progress: bool = True) 
 
 
 def _family(test_set: TestSet, family: str, count: int) -> Family:
+    seed, scenarios = test_set.seed, test_set.scenarios
+
     def problems(kept: Kept, count_steps: Count) -> Iterator[Problem]:
-        most = test_set.most.get(family)
-        for one in drawn(family, count, test_set.seed, test_set.scenarios, most, count_steps):
+        if family in DIALS:
+            yield from dial_problems(family, count, seed, kept, test_set.most.get(family))
+            return
+        for one in family_steps(family, count, seed, scenarios, count_steps=count_steps):
             yield problem_of(one, kept)
 
     return problems

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix, triu
 
+from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.study.problems.answers import (
     NONE,
     NotKnown,
@@ -18,12 +19,13 @@ from quasistatic_ref.lab.study.problems.answers import (
 )
 from quasistatic_ref.lab.study.problems.difficulty import measures, tags
 from quasistatic_ref.lab.study.problems.families.cones import cone_rows
-from quasistatic_ref.lab.study.problems.families.dials import DIALS, HARVESTED, one_turned
+from quasistatic_ref.lab.study.problems.families.dials import DIALS, HARVESTED, one_turned, turned
+from quasistatic_ref.lab.study.problems.families.drawn import family_steps
 from quasistatic_ref.lab.study.problems.families.harvest import Count
 from quasistatic_ref.lab.study.problems.families.made import Made
 from quasistatic_ref.lab.study.problems.folder import family_written, problems_begun, set_written
 from quasistatic_ref.lab.study.problems.problem import QP, SOCP, SPARSE, Answer, Problem
-from quasistatic_ref.lab.study.problems.recipe import CONTACT_QP_1, Recipe, family_steps
+from quasistatic_ref.lab.study.problems.recipe import FAMILIES
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.solve.units import (
@@ -94,18 +96,20 @@ def set_made(
     return [one for own in every.values() for one in own]
 
 
-def recipe_made(recipe: Recipe, folder: Path, progress: bool = True) -> list[Problem]:
-    """Make the set of a recipe, as :func:`set_made` does."""
+def recipe_made(
+    name: str, families: Mapping[str, int], seed: int, folder: Path, progress: bool = True
+) -> list[Problem]:
+    """Make a set of so many problems of each family, as :func:`set_made` does."""
 
-    def family(name: str, count: int) -> Family:
-        return lambda kept, _: family_problems(name, count, recipe.seed, kept)
+    def family(one: str, count: int) -> Family:
+        return lambda kept, _: family_problems(one, count, seed, kept)
 
-    families = {name: family(name, count) for name, count in recipe.families.items()}
-    return set_made(recipe.name, families, folder, sum(recipe.families.values()), progress)
+    each = {one: family(one, count) for one, count in families.items()}
+    return set_made(name, each, folder, sum(families.values()), progress)
 
 
 def family_problems(family: str, count: int, seed: int, kept: Kept = NOTHING) -> Iterator[Problem]:
-    """The problems of one family of a recipe with their answers.
+    """The problems of one family of a set with their answers.
 
     Steps of runs that move nothing are left out, but for those of sequences, and steps that are
     there already, in this family or in one of runs before it.
@@ -119,19 +123,27 @@ def family_problems(family: str, count: int, seed: int, kept: Kept = NOTHING) ->
         Made before.
     """
     if family in DIALS:
-        for i, one in enumerate(family_steps(family, count, seed)):
-            yield _good(one, i, seed, kept)
+        yield from dial_problems(family, count, seed, kept)
         return
     seen: set[bytes] = set()
+    names = scenario_names()
     for before in list(HARVESTED)[: list(HARVESTED).index(family)]:
-        seen |= {_digest(one) for one in family_steps(before, CONTACT_QP_1.families[before], seed)}
-    for one in family_steps(family, count, seed):
+        seen |= {_digest(one) for one in family_steps(before, FAMILIES[before], seed, names)}
+    for one in family_steps(family, count, seed, names):
         if (digest := _digest(one)) in seen and one.sequence is None:
             continue
         seen.add(digest)
         found = problem_of(one, kept)
         if found.answer.x.any() or one.sequence is not None:
             yield found
+
+
+def dial_problems(
+    family: str, count: int, seed: int, kept: Kept = NOTHING, most: float | None = None
+) -> Iterator[Problem]:
+    """The problems of a family whose number is turned, up to `most` [its unit] or its hard end."""
+    for i, one in enumerate(turned(family, count, seed, most)):
+        yield _good(one, i, seed, kept)
 
 
 def _digest(one: Made) -> bytes:

@@ -1,1 +1,1 @@
-"""Where the problems of a study come from: scenarios, and families scaled on purpose."""
+"""Where problems come from: scenarios, and scenes in which one number is turned."""

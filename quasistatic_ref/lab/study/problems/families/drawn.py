@@ -1,4 +1,4 @@
-"""The families that a study makes for itself: which scene, and which number is scaled."""
+"""The steps of each family: which scene, which scenario, and which number is turned."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -6,6 +6,8 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.lab.scenes.slabs import slab_step
+from quasistatic_ref.lab.study.problems.families.dials import DIALS, HARVESTED, turned
 from quasistatic_ref.lab.study.problems.families.harvest import (
     Count,
     harvested,
@@ -14,15 +16,16 @@ from quasistatic_ref.lab.study.problems.families.harvest import (
     stepped_again,
 )
 from quasistatic_ref.lab.study.problems.families.made import Made
-from quasistatic_ref.lab.study.problems.families.scaled import slabs, towers
+from quasistatic_ref.lab.study.problems.families.windows import windows
 
 AGAIN: Final = "bunny_grasp"
 """The scenario whose steps are formed again at other h and k: the paper's own."""
 CLOSEST: Final = (1, 2, 3, 5, 8, 13, 20, 32, 50)
 TIME_STEPS: Final = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
-MOST: Final = {"contacts": 1000.0, "mass_ratio": 1e9, "bodies": 40.0}
-"""Hard ends of the dials that a study file may end elsewhere."""
-FAMILIES: Final = ("scenarios", "contacts", "mass_ratio", "time_step", "closest_points", "bodies")
+OF_SETS: Final = ("sequences", "ellipsoid", "sparse")
+"""Families of which a study makes no problems: whole runs, cones, and sparse matrices."""
+FAMILIES: Final = tuple(name for name in (*HARVESTED, *DIALS) if name not in OF_SETS)
+"""Families that a study may make."""
 
 
 def scenarios_run(families: Mapping[str, int], scenarios: Sequence[str]) -> list[str]:
@@ -33,7 +36,7 @@ def scenarios_run(families: Mapping[str, int], scenarios: Sequence[str]) -> list
     return list(dict.fromkeys(found))
 
 
-def drawn(
+def family_steps(
     family: str,
     count: int,
     seed: int,
@@ -46,30 +49,30 @@ def drawn(
     Parameters
     ----------
     family : str
-        One of ``FAMILIES``.
     count, seed : int
+        ``sequences`` takes whole windows of every scenario.
     scenarios : sequence of str
-        Whose steps the family ``scenarios`` has.
+        Whose steps the families ``scenarios`` and ``sequences`` have.
     most : float, optional
-        Where the dial ends [its unit]; else at its hard end.
+        Where the dial of a scene ends [its unit]; else at its hard end.
     count_steps : callable
         Is called with the number of steps of scenarios that were just simulated.
     """
+    if family in DIALS:
+        yield from turned(family, count, seed, most)
+        return
     for name in scenarios_run({family: count}, scenarios):
         scenario_run(name, count_steps)
-    end = MOST.get(family, 0.0) if most is None else most
-    if family == "scenarios":
+    if family == "sequences":
+        for name in scenarios:
+            yield from windows(name, count=count_steps)
+    elif family == "scenarios":
         for name, share in zip(scenarios, _shares(count, len(scenarios)), strict=True):
             yield from harvested(name, share)
-    elif family == "contacts":
-        yield from slabs(family, "contacts", np.geomspace(1, end, count).round(), seed)
-    elif family == "mass_ratio":
-        yield from slabs(family, "ratio", np.geomspace(1, end, count), seed)
-    elif family == "bodies":
-        yield from towers([int(v) for v in np.geomspace(2, end, count).round()], seed)
     elif family == "time_step":
-        steps = np.geomspace(TIME_STEPS[0], TIME_STEPS[-1], -(-count // 2))
-        yield from slabs(family, "h", steps, seed)
+        for i, h in enumerate(np.geomspace(TIME_STEPS[0], TIME_STEPS[-1], -(-count // 2))):
+            step = slab_step(np.random.default_rng([seed, i, 1]), 12, 10.0, float(h))
+            yield Made(f"{family}/{h:.6g}/{i}", family, step, 10.0, 0, float(h))
         shares = _shares(count // 2, len(TIME_STEPS))
         for i, (h, share) in enumerate(zip(TIME_STEPS, shares, strict=True)):
             for one in stepped_again(family, AGAIN, [f"h={h}"], share, i):
