@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import shlex
 import sys
 
@@ -18,7 +19,7 @@ from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from tests.lab.vectors.material import ROOT
 from tests.lab.vectors.programs import command
-from validation.make import planted_bugs
+from validation.make import challenges, planted_bugs
 
 TABLE = ROOT / "validation" / "results" / "planted_bugs.md"
 
@@ -190,3 +191,11 @@ def test_the_committed_table_of_planted_bugs_keeps_its_promises():
     assert max(int(row[4]) for row in rows) <= 2
     assert max(int(row[5]) for row in rows) <= 2
     assert np.median([float(row[6]) for row in rows]) <= 3
+
+
+@pytest.mark.parametrize("name", planted_bugs.COMMANDS)
+def test_the_committed_challenges_found_nothing(name):
+    page = TABLE.with_name("challenges.md").read_text()
+    said = rf"{name}: seeds 1 to \d+, ([\d,]+) answers judged, no findings"
+    (count,) = re.findall(said, page)
+    assert int(count.replace(",", "")) >= challenges.ANSWERS
