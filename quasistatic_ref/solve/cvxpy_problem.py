@@ -3,12 +3,9 @@
 import cvxpy as cp
 import numpy as np
 
-from quasistatic_ref.solve.scaled import out_of_range
-from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.extension import Own, none
-from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.step.problem import StepProblem
 
 
@@ -56,42 +53,6 @@ class CvxpyProblem(StepProblem):
         super().fill(step)
         self.parameters["A_x"].value = step.extra.A
         self.parameters["b_x"].value = step.extra.b
-
-    def fill_natural(self, step: StepData, units: Units, phi: Array) -> None:
-        """Set every parameter from one step in natural units.
-
-        Parameters
-        ----------
-        step : StepData
-            Of this problem's kind, which is not looked at again; SI units.
-        units : Units
-        phi : ndarray, shape (n_c,)
-            Its signed distances in natural units, perhaps moved nearer [-].
-
-        Raises
-        ------
-        StepDataError
-            If a number leaves the range of float64.
-        """
-        n_a = step.n_a
-        S, ell, rho = units
-        J = frame_jacobian(step.contacts, step.contacts.J * (S / ell))
-        K_q = step.K_q * np.outer(S[:n_a], S[:n_a])
-        values = {
-            "K_q": K_q,
-            "M_u": step.M_u * np.outer(S[n_a:], S[n_a:]),
-            "tau_k": K_q @ (step.delta_q_bar_a / (rho * S[:n_a])),  # Eq. (1)
-            "tau_a": step.tau_a * S[:n_a] / rho,
-            "tau_u": step.tau_u * S[n_a:] / rho,
-            "phi": phi,
-            **dict(zip(("J_n", "J_1", "J_2", "J_w"), J, strict=True)),
-            "A_x": step.extra.A * (S / ell),
-            "b_x": step.extra.b / (rho * ell),
-        }
-        if not all(np.isfinite(value).all() for value in values.values()):
-            raise out_of_range(step)
-        for name, value in values.items():
-            self.parameters[name].value = value
 
     def primal(self) -> Array:
         """delta_q of the last solve, shape (n_v,)."""

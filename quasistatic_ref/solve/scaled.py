@@ -13,6 +13,7 @@ from quasistatic_ref.solve.units import (
     natural_form,
     natural_hessian,
     squared_lengths,
+    to_natural,
     units_of,
 )
 from quasistatic_ref.step.cones import cone
@@ -53,6 +54,14 @@ class DenseStep:
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None
         check_units(self.units, step, self.metric.usable)
+
+    @cached_property
+    def natural(self) -> StepData:
+        """The step in its natural units."""
+        try:
+            return to_natural(self.step, self.units)
+        except StepDataError:
+            raise out_of_range(self.step) from None
 
     @cached_property
     def natural_form(self) -> StandardForm:

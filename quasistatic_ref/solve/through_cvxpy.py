@@ -12,7 +12,7 @@ from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import KIND, OptionSet, Solver
-from quasistatic_ref.solve.units import reach
+from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.data import Array, Mask, StepData
 
 CANON = cp.CPP_CANON_BACKEND
@@ -52,11 +52,9 @@ class CvxpySolver(Solver):
 
     def write(self, scaled: DenseStep) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
-        step, units = scaled.step, scaled.units
-        phi = step.contacts.phi / (units.size * units.length)
-        near = np.minimum(phi, reach(step, units))
-        self.problem.fill_natural(step, units, near)
-        return np.repeat(near < phi, step.counts)
+        natural = scaled.natural
+        self.problem.fill(within_reach(natural))
+        return np.repeat(out_of_reach(natural), natural.counts)
 
     def reply(self, attempt: OptionSet, scaled: DenseStep) -> Reply:
         """What the backend says, from a cold start.

@@ -11,9 +11,9 @@ from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import OptionSet, Solver
-from quasistatic_ref.solve.units import reach_of_rows
+from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 
 class QpsolversSolver(Solver):
@@ -32,9 +32,9 @@ class QpsolversSolver(Solver):
 
     def write(self, scaled: DenseStep) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
-        form, least = scaled.natural_form, -reach_of_rows(scaled.step, scaled.units)
-        self.form = form._replace(b=np.maximum(form.b, least))
-        return np.asarray(form.b < least)
+        natural = scaled.natural
+        self.form = standard_form(within_reach(natural))
+        return np.repeat(out_of_reach(natural), natural.counts)
 
     def reply(self, attempt: OptionSet, scaled: DenseStep) -> Reply:
         """What the backend says, from a cold start."""

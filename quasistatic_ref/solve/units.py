@@ -13,14 +13,15 @@ conversion loses nothing, unless a number leaves the range of float64.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.certify.norm import float_inverse
-from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.standard_form import StandardForm
+from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.data import Array, Extra, Mask, StepData
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR
 
 STANDSTILL = 2.0**-100
@@ -85,6 +86,23 @@ def coordinate_units(diagonal: Array) -> Array:
     return np.exp2(np.round(np.log2(1 / np.sqrt(diagonal))))
 
 
+def natural_units(step: StepData) -> Units:
+    """Units in which the diagonal of H, the rows of A and the unconstrained step are about one.
+
+    Parameters
+    ----------
+    step : StepData
+        In SI units.
+
+    Returns
+    -------
+    Units
+        A function of the step alone, so that a step replayed by itself gives the same numbers.
+    """
+    form = standard_form(step)
+    return units_of(form, natural_hessian(form.H))
+
+
 def squared_lengths(form: StandardForm, of_H: NaturalHessian) -> Array:
     """Squared lengths of the rows of A S [m^2/(N m s)], shape (m,), ascending; NaN comes last."""
     # Squares and sums are rounded, which is enough to choose a power of two.
@@ -130,7 +148,7 @@ def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Un
 
 
 def natural_form(form: StandardForm, units: Units, H: Array | None = None) -> StandardForm:
-    """The same quadratic program in natural units.
+    """The same quadratic program in natural units, bit for bit that of :func:`to_natural`.
 
     Parameters
     ----------
@@ -144,16 +162,52 @@ def natural_form(form: StandardForm, units: Units, H: Array | None = None) -> St
     return StandardForm(H, form.g * (S / rho), form.A * (S / ell), form.b * (1 / (rho * ell)))
 
 
-def reach(step: StepData, units: Units) -> Array:
-    """How far each contact may be in natural units before it is too far to matter, shape (n_c,)."""
-    J = step.contacts.J * (units.coordinate / units.length)
+def to_natural(step: StepData, units: Units) -> StepData:
+    """The same step in natural units; h, n, d1, d2, mu_v and mu_omega stay as they are.
+
+    Raises
+    ------
+    StepDataError
+        If a number leaves the range of float64.
+    """
+    S, ell, rho = units.coordinate, units.length, units.size
+    S_a, S_u = S[: step.n_a], S[step.n_a :]
+    c, extra = step.contacts, step.extra
+    phi, J = c.phi / (rho * ell), c.J * (S / ell)
+    return step.replace(
+        K_q=step.K_q * np.outer(S_a, S_a),
+        M_u=step.M_u * np.outer(S_u, S_u),
+        tau_a=step.tau_a * S_a / rho,
+        tau_u=step.tau_u * S_u / rho,
+        delta_q_bar_a=step.delta_q_bar_a / (rho * S_a),
+        contacts=Contacts(c.name, phi, c.n, c.d1, c.d2, J, c.mu_v, c.mu_omega, c.rows),
+        extra=Extra(extra.names, extra.A * (S / ell), extra.b / (rho * ell)),
+    )
+
+
+def within_reach(natural: StepData) -> StepData:
+    """The same step with contacts that are too far to matter moved nearer, for solvers' sake."""
+    far = out_of_reach(natural)
+    if not far.any():
+        return natural
+    near = np.where(far, _reach(natural.contacts.J), natural.contacts.phi)
+    return natural.replace(contacts=replace(natural.contacts, phi=near))
+
+
+def out_of_reach(natural: StepData) -> Mask:
+    """Which contacts are too far to matter, shape (n_c,)."""
+    return np.asarray(natural.contacts.phi > _reach(natural.contacts.J))
+
+
+def _reach(J: Array) -> Array:
     return np.asarray(FAR * np.maximum(1.0, np.sqrt(np.einsum("cij,cij->c", J, J))))
 
 
 def reach_of_rows(step: StepData, units: Units) -> Array:
-    """The same for each row, shape (m,)."""
+    """How far each row may be in natural units before its contact is out of reach, shape (m,)."""
+    reach = _reach(step.contacts.J * (units.coordinate / units.length))
     own = np.full(len(step.extra.names), np.inf)  # a user's own rows are no contacts
-    return np.concatenate([np.repeat(reach(step, units), step.counts), own])
+    return np.concatenate([np.repeat(reach, step.counts), own])
 
 
 def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:

@@ -18,10 +18,10 @@ from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import SHAPES, changed, error, pinch, planted_step, random_step
-from tests.oracles.natural_step import natural_units, to_natural, within_reach
 from tests.tolerances import ACTIVE_SET, EXACT, FOUR_ULP, OPTIMUM
 
 every_backend = pytest.mark.parametrize("backend", installed("native"))

@@ -35,10 +35,9 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
-from quasistatic_ref.solve.units import Units
+from quasistatic_ref.solve.units import Units, natural_units, to_natural
 from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.standard_form import standard_form
-from tests.oracles.natural_step import natural_units, to_natural
 from tests.oracles.random_steps import mixed_step
 
 CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")

@@ -22,7 +22,7 @@ from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
-from quasistatic_ref.solve.units import from_natural, reach_of_rows
+from quasistatic_ref.solve.units import from_natural, within_reach
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from validation.make.digits_of_backends import steps_of
@@ -89,9 +89,7 @@ def answered(step: StepData, units: str, backend: str, options: Options) -> Arra
         reply = qpsolvers_reply(standard_form(step), backend, options)
         return reply.x if reply.solved else None
     scaled = DenseStep(step)
-    form, least = scaled.natural_form, -reach_of_rows(step, scaled.units)
-    near = form._replace(b=np.maximum(form.b, least))
-    reply = qpsolvers_reply(near, backend, options)
+    reply = qpsolvers_reply(standard_form(within_reach(scaled.natural)), backend, options)
     if reply.x is None or not reply.solved:
         return None
     return from_natural(reply.x, np.zeros(0), scaled.units)[0]

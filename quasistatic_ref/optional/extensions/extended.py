@@ -18,11 +18,10 @@ from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residu
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import DEFAULT, backend, cone_backend
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
-from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
 from quasistatic_ref.solve.through_cvxpy import CANON
-from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural
+from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural_units, to_natural
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.extension import Extension, Own, Symbols
@@ -156,11 +155,12 @@ def extended_solution(
         If it does not solve the problem, or its residuals are not small.
     """
     cone_backend(name, "an extension with nonlinear constraints or costs")
-    units = DenseStep(step).units
+    units = natural_units(step)
     if units.size <= STANDSTILL:  # nothing but the extension drives the step
         units = units._replace(size=1.0)
-    problem = CvxpyProblem(step, *_own_terms(extension, step, units))
-    problem.fill_natural(step, units, step.contacts.phi / (units.size * units.length))
+    natural = to_natural(step, units)
+    problem = CvxpyProblem(natural, *_own_terms(extension, step, units))
+    problem.fill(natural)
     if extension.without_stiffness:  # nothing is left of Eq. (1)
         for parameter in (problem.parameters["K_q"], problem.parameters["tau_k"]):
             parameter.value = np.zeros(parameter.shape)

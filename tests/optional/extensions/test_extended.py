@@ -9,11 +9,11 @@ from quasistatic_ref.optional.extensions import extended
 from quasistatic_ref.optional.extensions.extended import _symbols, extended_solution, with_rows
 from quasistatic_ref.solve.backends import cone_backend
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.units import natural_units, to_natural
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, point_on_floor, random_step
-from tests.oracles.natural_step import natural_units, to_natural
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
 
 

@@ -17,9 +17,8 @@ from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.rounded_bound import FloatBound
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.units import Units, from_natural, in_natural
+from quasistatic_ref.solve.units import Units, from_natural, in_natural, to_natural
 from tests.helpers import point_on_floor
-from tests.oracles.natural_step import to_natural
 from tests.oracles.random_steps import any_step
 from validation.make.confirmed_bits import CONES
 

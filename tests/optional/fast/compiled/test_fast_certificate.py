@@ -14,10 +14,10 @@ from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve.units import natural_units
 from tests.helpers import changed, random_step
 from tests.optional.fast.compiled.changed_c import changed_sources
 from tests.optional.fast.compiled.test_fast import needs_compiler
-from tests.oracles.natural_step import natural_units
 from validation.make.confirmed_bits import CONES, checked, differing, random_case
 
 pytestmark = needs_compiler

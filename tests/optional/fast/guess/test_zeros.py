@@ -9,8 +9,8 @@ from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.zeros import zeros_hold
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve.units import natural_units
 from tests.certify.test_exact import resting_point
-from tests.oracles.natural_step import natural_units
 from validation.make.confirmed_bits import differing
 
 SPINS, SLIPS = [4, 5], [0, 1, 2, 3]
