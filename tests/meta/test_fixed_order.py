@@ -47,9 +47,7 @@ EXCEPTIONS = {
         "step/standard_form.py:load",
     ),
     "measured of an answer or of a run; the next step does not read it": (
-        "model/rotation.py:rotation_angle",
         "model/system.py:System.mass",
-        "simulate/measures.py:LinkMotion.rotation_since",
         "simulate/recorder.py:Recorder.__init__",
         "simulate/wrenches.py:_forces",
         "simulate/wrenches.py:pair_forces",
