@@ -80,8 +80,8 @@ autodoc_mock_imports = ["mujoco", "pydrake", *([] if find_spec("quadprog") else 
 nitpick_ignore_regex = [
     (r"py:.*", r"(numpy|scipy|cvxpy|clarabel|flint|pinocchio|coal|matplotlib|mujoco|pydrake)\..*"),
     # Bases of classes in the standard library, for the same reason.
-    (r"py:.*", r"(abc|argparse|collections|concurrent|contextlib|enum|fractions|json|pathlib)\..*"),
-    (r"py:.*", r"(types|typing)\..*"),
+    (r"py:.*", r"(abc|argparse|collections|concurrent|contextlib|enum|fractions|json)\..*"),
+    (r"py:.*", r"(pathlib|subprocess|types|typing)\..*"),
     (r"py:(class|exc|obj)", r"(object|Exception|ValueError|TypeError|ImportError|RuntimeError)"),
 ]
 

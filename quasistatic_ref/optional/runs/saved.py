@@ -316,7 +316,10 @@ def steps_in(path: str | Path) -> int:
 
 
 def fingerprint(value: Any) -> str:
-    """SHA-256 of what :func:`bits` compares, in hexadecimal: the same in every process."""
+    """SHA-256 of what :func:`~quasistatic_ref.formats.plain.bits` compares, in hexadecimal.
+
+    It is the same in every process.
+    """
     digest = hashlib.sha256()
     for part in _flat(bits(value)):
         digest.update(part)
