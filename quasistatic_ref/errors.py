@@ -18,7 +18,6 @@ from quasistatic_ref.formats.quoting import clipped, one_line, short_words, show
 if TYPE_CHECKING:
     from quasistatic_ref.certify.farkas import FarkasVector
     from quasistatic_ref.certify.optimality import Residuals
-    from quasistatic_ref.optional.derivatives.step.reason import Reason
     from quasistatic_ref.step.data import Array, StepData
 
 
@@ -198,11 +197,11 @@ class NotDifferentiable(QuasistaticError):
 
     Parameters
     ----------
-    reasons : tuple of Reason
-        Why: at least one.
+    reasons : tuple
+        Why, each in words as its text: at least one. The part that raises it says of what type.
     """
 
-    def __init__(self, reasons: tuple[Reason, ...]) -> None:
+    def __init__(self, reasons: tuple[Any, ...]) -> None:
         self.reasons = reasons
         more = f" (and {len(reasons) - 1} more)" if len(reasons) > 1 else ""
         super().__init__(f"the step has no derivative here: {reasons[0]}{more}")

@@ -247,7 +247,9 @@ def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = No
     -------
     float
     """
-    form, h, n_a = standard_form(step), step.h, step.n_a
+    form = standard_form(step)
+    h = step.h
+    n_a = step.n_a
     norm = energy_norm(form.H) if norm is None else norm
     b = np.maximum(form.b, 0.0)
     asked = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, b])

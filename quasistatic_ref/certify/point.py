@@ -118,7 +118,8 @@ def equality_solution(balls: BallForm, working: Sequence[int]) -> BallSolution |
         except ZeroDivisionError:
             return None
         x = balls.x_free + range_.transpose() * lam
-        net, slack = A_w.transpose() * lam, balls.A * x - balls.b
+        net = A_w.transpose() * lam
+        slack = balls.A * x - balls.b
         return BallSolution(x.entries(), lam.entries(), net.entries(), slack.entries())
 
 
@@ -181,7 +182,8 @@ def rational_solution(form: ExactForm, working: tuple[int, ...]) -> RationalSolu
     ZeroDivisionError
         If the rows are not independent.
     """
-    n, k = form.n, len(working)
+    n = form.n
+    k = len(working)
     K = fmpz_mat(n + k, n + k)
     right = fmpz_mat(n + k, 1)
     for i in range(n):
@@ -195,8 +197,10 @@ def rational_solution(form: ExactForm, working: tuple[int, ...]) -> RationalSolu
             K[j, row] = -form.A[i, j]
     numerators, denominator = cast("fmpq_mat", K.solve(right)).numer_denom()  # positive
     entries = numerators.entries()
-    x, lam = fmpz_mat(n, 1, entries[:n]), entries[n:]
-    net, slack = form.H * x - form.g * denominator, form.A * x - form.b * denominator
+    x = fmpz_mat(n, 1, entries[:n])
+    lam = entries[n:]
+    net = form.H * x - form.g * denominator
+    slack = form.A * x - form.b * denominator
     return RationalSolution(x.entries(), lam, net.entries(), slack.entries(), denominator)
 
 

@@ -93,7 +93,8 @@ def dyadic(array: Array | float) -> Dyadic:
     m = (fraction * 2.0**53).astype(np.int64)  # |fraction| < 1: 53 bits, without rounding
     e = exponent.astype(np.int64) - 53
     trailing = np.frexp((m & -m).astype(np.float64))[1] - 1  # trailing zero bits; -1 of a zero
-    m, e = m >> np.maximum(trailing, 0), e + trailing
+    m = m >> np.maximum(trailing, 0)
+    e = e + trailing
     least = int(e[m != 0].min()) if m.any() else 0
     shift = np.where(m == 0, 0, e - least)
     integers = np.empty(m.shape, dtype=object)
@@ -254,7 +255,8 @@ def contact_motion(contacts: Contacts, of: Which = ALL) -> Dyadic:
 
 def friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
     """The rows n~' J + d~_i' J of Eq. :eq:`eq-4`, all of each contact, shape (n_c, R, n_v)."""
-    motion, kind = contact_motion(contacts, of), cone(name)
+    motion = contact_motion(contacts, of)
+    kind = cone(name)
     mu = dyadic(kind.in_rows(contacts.mu[of]))
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
     mu_v, mu_omega = mu[:, :1, None], mu[:, 2:, None]

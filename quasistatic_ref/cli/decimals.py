@@ -44,6 +44,7 @@ def decimal_string(x: Fraction, digits: int) -> str:
     exponent -= size < Fraction(10) ** exponent  # now 10**exponent <= size
     scaled = round(size / Fraction(10) ** (exponent - digits + 1))  # half to even
     if scaled == 10**digits:
-        scaled, exponent = scaled // 10, exponent + 1
+        scaled = scaled // 10
+        exponent = exponent + 1
     text = str(scaled)
     return f"{'-' if x < 0 else ''}{text[0]}.{text[1:]}e{exponent:+03d}"

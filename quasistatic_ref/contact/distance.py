@@ -94,7 +94,8 @@ def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     """The contacts of one pair, in ascending distance; R (L, 3, 3), t (L, 3) are the links'."""
-    a, b = in_world(pair.alpha, R, t), in_world(pair.beta, R, t)
+    a = in_world(pair.alpha, R, t)
+    b = in_world(pair.beta, R, t)
     if isinstance(b.shape, PointCloud):
         return _cloud_on_solid(pair, a, b, b.shape.points)
     if isinstance(a.shape, PointCloud):
@@ -146,7 +147,8 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
     Where the closest point is on a rim, the point itself gives this direction more accurately than
     the normal does: near contact the normal is computed from a difference that cancels.
     """
-    local, way = product(body.R.T, nearest - body.t), product(body.R.T, n)
+    local = product(body.R.T, nearest - body.t)
+    way = product(body.R.T, n)
     radius = body.shape.rim_radius
     if radius is None:
         return way

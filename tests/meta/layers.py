@@ -176,6 +176,15 @@ def names_of(dotted, tree):
             yield node.lineno
 
 
+def typed_parts(tree):
+    """Lines on which an optional part or the lab is imported for a type checker alone."""
+    for node in under_type_checking(tree):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(
+            ("quasistatic_ref.optional", "quasistatic_ref.lab")
+        ):
+            yield node.lineno
+
+
 def within(inside, places):
     """Whether a file is one of some places, or below one of them."""
     return any(inside == place or inside.startswith(place + "/") for place in places)
@@ -202,6 +211,8 @@ def violations(root: Path):
             found += [f"{name}:{line}: names the lab" for line in names_of("lab", tree)]
         if parts[0] not in {"lab", "optional"} and name != PARTS_DOOR:
             found += [f"{name}:{line}: names a part" for line in names_of("optional", tree)]
+        if own is not None and rank(own) < len(CORE):
+            found += [f"{name}:{line}: types by a part" for line in typed_parts(tree)]
         for line, imported in imports(tree, package, (package, *inside.with_suffix("").parts)):
             top, *rest = imported.split(".")
             if top == package:

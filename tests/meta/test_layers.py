@@ -54,6 +54,11 @@ PLANTED = {
         "x = 'quasistatic_ref.optional.fast'",
         "names a part",
     ),
+    "an optional part for a type checker": (
+        "errors.py",
+        "if TYPE_CHECKING:\n    from quasistatic_ref.optional.show import words",
+        "types by a part",
+    ),
     "a later folder of the lab": (
         "lab/vectors/a.py",
         "from quasistatic_ref.lab.claims import claim",

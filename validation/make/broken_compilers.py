@@ -66,7 +66,7 @@ def no_passwd_entry() -> None:
     def unknown(_: int) -> None:
         raise KeyError
 
-    pwd.getpwuid = unknown  # type: ignore[assignment]
+    pwd.getpwuid = unknown  # type: ignore[assignment]  # a fault planted in the standard library
     for name in ("HOME", "XDG_CACHE_HOME"):
         os.environ.pop(name, None)
 

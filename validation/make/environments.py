@@ -161,7 +161,7 @@ def left_by_backend(name: str, count: int) -> Counter[str]:
     words: Counter[str] = Counter()
     for seed in range(1, count + 1):
         solver = solver_for(step := mixed_step(seed), "daqp", fast=True)
-        solver.reply = partial(reply_and_leave, solver.reply, name)  # type: ignore[method-assign]
+        solver.reply = partial(reply_and_leave, solver.reply, name)  # type: ignore[method-assign]  # a planted fault
         for certify in ("full", "residual", "off"):
             before = set_mode(0)
             set_mode(before)

@@ -53,7 +53,7 @@ class Result:
 
 
 def script(name: str, *endings: str, extra: str = "") -> Result:
-    """What ``validation/make/NAME.py`` writes, without being told where: ``results/NAME.*``."""
+    """What ``validation/make/NAME.py`` writes by default: ``results/NAME.*``."""
     files = (f"validation/results/{name}.{ending}" for ending in endings)
     return Result(name, f"validation.make.{name} {extra}", tuple(files))
 

@@ -97,11 +97,11 @@ def _best(a: ShapeInWorld, b: ShapeInWorld, start: Judged) -> Judged:
     every = [start]
     if np.isfinite(start.n).all():
         every += [judged(a, b, *way) for way in settled(a, b, Witness(*start[:4]))]
-    for room in (ENOUGH, WITNESS):
-        proved = [found for found in every if found.defect <= room]
+    for tolerance in (ENOUGH, WITNESS):
+        proved = [found for found in every if found.defect <= tolerance]
         if proved:  # no gap exceeds the distance
             widest = max(found.phi for found in proved)
-            level = [found for found in proved if found.phi >= widest - room]
+            level = [found for found in proved if found.phi >= widest - tolerance]
             return min(level, key=lambda found: found.defect)
     return min(every, key=lambda found: found.defect)
 

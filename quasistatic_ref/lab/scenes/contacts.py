@@ -10,7 +10,7 @@ from quasistatic_ref.step.data import Array, Contacts
 X, Y, Z = np.eye(3)
 
 GRAVITY: Final = 9.81
-"""Acceleration of free fall in every scene of this room [m/s^2]."""
+"""Acceleration of free fall in every scene of this folder [m/s^2]."""
 
 NUMBERS: Final = ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
 """The fields of contacts that have one entry for each."""

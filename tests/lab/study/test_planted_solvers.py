@@ -45,7 +45,11 @@ def folder(tmp_path_factory):
     return place
 
 
-def row_of(solver, problem, folder, limits=Limits(30.0, 30.0, 2), **options):  # noqa: B008
+LIMITS = Limits(30.0, 30.0, 2)
+"""Of patience: no planted solver comes near, but where it waits."""
+
+
+def row_of(solver, problem, folder, limits=LIMITS, **options):
     """The row of a planted solver in a process of its own."""
     solver = fake(solver) if isinstance(solver, str) else solver
     with Keeper(solver, folder, **options) as keeper:

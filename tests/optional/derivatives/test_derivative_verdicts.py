@@ -20,36 +20,11 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.simulate.simulator import Simulator
 from tests.model.urdf.urdf_texts import joint, link, robot
+from tests.optional.derivatives.free_bodies import BOX, FLOOR, NONE, G, H, free, sided, verdict
 from tests.oracles.differences import after, rate
 from tests.tolerances import DIFFERENCE_OF_STEPS
 
-H, G, NONE = 0.01, 9.81, np.zeros(0)
-FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
 WHEEL = robot(link("rail"), link("wheel"), joint("turn", "rail", "wheel", "continuous", "0 0 1"))
-
-
-def sided(function, step=1e-6):
-    """Derivative at 0 from above of a function of one number, extrapolated once."""
-    start = function(0.0)
-    near, far = ((function(h) - start) / h for h in (step, 2 * step))
-    return 2 * near - far
-
-
-def free(shape, xyz, *fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="floating"):
-    """(simulator, q) of one free body on shapes that are fixed in the world: (shape, xyz)."""
-    solid = shape if isinstance(shape, Box | Sphere | Cylinder | Capsule) else Sphere(0.05)
-    system = System([Body.of_shape("body", solid, 0.3, xyz=xyz, rpy=rpy, base=base)])
-    placed = PlacedShape("body", system.link("body"), np.eye(3), np.zeros(3), shape)
-    pairs = [
-        ContactPair(f"c{i}", PlacedShape(f"f{i}", 0, np.eye(3), np.array(at), s), placed, *mu, 6, k)
-        for i, (s, at) in enumerate(fixed)
-    ]
-    return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
-
-
-def verdict(simulator, q, force=0.0):
-    found = derivatives(simulator, q, np.zeros(0), force)
-    return found, {why.kind for why in found.reasons}
 
 
 def test_a_ball_that_just_reaches_the_floor_has_weak_rows():
@@ -100,7 +75,6 @@ def test_a_box_that_lies_flat_and_sticks_on_four_corners_has_a_derivative():
     assert np.allclose(found.dq_dq[:, 2], 0, atol=1e-12)
 
 
-BOX = Box(np.array([0.1, 0.1, 0.05]))
 SLAB, SMALL = Box(np.array([0.3, 0.3, 0.05])), Box(np.array([0.01, 0.02, 0.03]))
 LONG, BAR = Box(np.array([0.2, 0.02, 0.01])), Box(np.array([0.02, 0.2, 0.05]))
 PLATE, DISC = Box(np.array([0.3, 0.3, 0.005])), Cylinder(0.3, 0.005)

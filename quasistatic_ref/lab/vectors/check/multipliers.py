@@ -100,8 +100,8 @@ def wrench_problem(case: Json, record: Json, answer: Json) -> str | None:
         wrench = np.array(contact_wrench({**pair, "lam": lam}, case["cone"], case["h"]))
         size = float(np.abs(np.array(lam, dtype=np.float64) / case["h"]).sum())
         off = float(np.abs(wrench - np.array(answer["wrench"][j])).max())
-        room = tolerance_of(record["tolerance"], "wrench")
-        if not off <= room + 16 * EPS * size < np.inf:
+        allowed = tolerance_of(record["tolerance"], "wrench") + 16 * EPS * size
+        if not off <= allowed < np.inf:
             return f"wrench[{j}] is not what its lam makes: it is off by {off:.2g}"
     return None
 

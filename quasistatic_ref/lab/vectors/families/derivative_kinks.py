@@ -54,7 +54,7 @@ def squeezed(
 ) -> Json:
     """A free ball of 1/2 kg between two fixed ones: a kink that no single coordinate shows.
 
-    Moved across by eps it has room, of second order, on both sides; a force across of the order eps
+    Moved across by eps it is free of both, by gaps of second order; a force across of the order eps
     takes it back by half of eps, whatever the force. h is 1/8 s, and nothing falls.
 
     Parameters

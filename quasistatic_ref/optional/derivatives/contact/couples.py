@@ -85,7 +85,8 @@ def couples(
     """The contacts of all pairs at their closest points; R (L, 3, 3), t (L, 3) are the links'."""
     found, at = [], 0
     for pair in pairs:
-        a, b = in_world(pair.alpha, R, t), in_world(pair.beta, R, t)
+        a = in_world(pair.alpha, R, t)
+        b = in_world(pair.beta, R, t)
         sizes = _extents(a, b)
         for j in range(at, at + pair.n_c):
             found.append(_couple(pair, a, b, points.chosen(np.array([j])), sizes))
