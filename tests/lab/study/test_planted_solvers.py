@@ -46,7 +46,7 @@ def folder(tmp_path_factory):
 
 
 LIMITS = Limits(30.0, 30.0, 2)
-"""Of patience: no planted solver comes near, but where it waits."""
+"""30 s a call and 30 s its first one; two timed calls."""
 
 
 def row_of(solver, problem, folder, limits=LIMITS, **options):
