@@ -71,6 +71,6 @@ def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object
         "lift_mm": 1e3 * float(motion.t[b, 2] - motion.t[a, 2]),
         "drag_share": trajectory.header["largest_drag_share"],
         "worst_residual": worst_residual(trajectory),
-        "warnings": list(trajectory.warnings),
+        "findings": [str(finding) for finding in trajectory.findings],
         **parts,
     }
