@@ -56,7 +56,7 @@ def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object
     dict
         rotation_deg (largest since the grip closed), lift_mm, drag_share (largest of the whole run:
         drag over the friction that contacts can bear), variables, rows, worst_residual (natural
-        units), warnings, and the milliseconds of each part of a step.
+        units), findings, and the milliseconds of each part of a step.
     """
     motion = link_motion(scenario.system, trajectory, "bunny")
     a, b = motion.index(CLOSED), motion.index(TOP)

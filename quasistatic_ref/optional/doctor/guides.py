@@ -48,6 +48,7 @@ def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
     turns = J_w > TINY
     clearance = np.where(contacts.phi > REPEATED, contacts.phi, 0.0)
     fixed = (np.abs(J_n) <= TINY * scale[:, None] + TINY).all(axis=1)
+    fixed[start.raised] = False
     mu_v, mu_omega = contacts.mu[:, 0], contacts.mu[:, 2]
     for j in np.flatnonzero(fixed).tolist():
         if mu_v[j] > 0 and slides[j].any():
@@ -80,9 +81,9 @@ def guided(start: Start) -> Iterator[Said]:
         if fastest >= CRAWL or key in said:
             continue
         said.add(key)
-        unit, mu = ("rad", "mu_omega") if guide.turns else ("m", "mu_v")
+        unit = "rad" if guide.turns else "m"
         yield Said(
-            f"leave out {' or '.join(names)}, give it {mu} = 0, or more clearance",
+            _remedy(start, guide),
             f"{' and '.join(_joints(start, guide))} cannot open the gap of {' and '.join(names)}, "
             f"{1e3 * guide.clearance:.3g} mm, and a contact that slides has to rise: it moves by "
             f"at most {fastest:.3g} {unit}/s, whatever the force",
@@ -93,6 +94,16 @@ def guided(start: Start) -> Iterator[Said]:
 def _joints(start: Start, guide: Guide) -> list[str]:
     coordinates = start.system.coordinates
     return list(dict.fromkeys(coordinates[i].joint for i in np.flatnonzero(guide.moved)))
+
+
+def _remedy(start: Start, guide: Guide) -> str:
+    names = [start.simulator.layout.names[j] for j in guide.contacts]
+    tables = " or ".join(sorted({f"contacts.{name.partition('(')[0]}" for name in names}))
+    joint = start.system.joint(_joints(start, guide)[0])
+    if joint.kind == "floating":
+        return f"give {tables} {'mu_omega' if guide.turns else 'mu_v'} = 0, or more clearance"
+    instead = "support" if joint.kind == "planar" else "joint_friction"
+    return f"leave out {tables}, and say {instead} in [bodies.{joint.name.partition('/')[0]}]"
 
 
 def locked(run: Run) -> Iterator[Said]:
@@ -138,7 +149,7 @@ def locked(run: Run) -> Iterator[Said]:
         name, coordinate = run.simulator.layout.names[j], run.system.coordinates[i]
         unit = "N" if coordinate.unit == "m" else "N m"
         yield Said(
-            f"leave out contacts.{name.partition('(')[0]} or give it mu_v = 0",
+            _remedy(run, guide),
             f"{coordinate.name} does not move under {abs(force[i]):.3g} {unit} in step {k}, where "
             f"its contacts could bear {could[i]:.3g} {unit}: {name} presses with "
             f"{wrench[j, 2]:.3g} N, because a contact that slides has to rise and it cannot",

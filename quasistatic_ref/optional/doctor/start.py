@@ -16,7 +16,8 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.extension import NO_RISES
 
 SEARCHED = 200_000
 """Most entries of a step's J, 4 n_c n_v, of a scene in which J is formed and a step is solved once
@@ -68,6 +69,12 @@ class Start:
             return closest_points(self.pairs, self.kinematics)
         except ContactError:
             return None
+
+    @cached_property
+    def raised(self) -> Indices:
+        """Numbers of the contacts whose gap a private rise opens, shape (n,)."""
+        extension = self.simulator.extension
+        return NO_RISES.contacts if extension is None else extension(self.q_start).rises.contacts
 
     @property
     def small(self) -> bool:
