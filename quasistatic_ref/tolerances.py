@@ -289,3 +289,6 @@ stays inside when the normal of the cone turns by TIED and float64 rounds."""
 TIED: Final = 1e-10
 """Difference of two distances, relative to the pair's size, at which they count as equal [-]:
 REPEATED for sizes of some decimetres."""
+
+LIGHT: Final = 1e-6
+"""Mass of a private rise over that of what it lies on [-]: sliding is slower by as much, (R60)."""

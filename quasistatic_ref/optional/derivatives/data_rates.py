@@ -62,7 +62,7 @@ def data_rates(
 
 
 def parameter_units(simulator: Simulator, step: StepData) -> dict[str, Array]:
-    """The natural units of the parameters, by each field of the derivatives.
+    """The natural units of the parameters, by each field of the derivatives, shape (P,) of each.
 
     Coordinates and forces have those of the step, coefficients of friction 1 and its length, and
     stiffness, time step and masses are measured by their own size.

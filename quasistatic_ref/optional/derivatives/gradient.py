@@ -57,7 +57,7 @@ class Parts:
     carried, onward : ndarray, shape (n_v, n_v)
         Derivatives of q (+) delta_q by q and by delta_q [m, rad per m or rad].
     units : ndarray, shape (P,)
-        Natural units of the parameters.
+        Natural units of the parameters [each in its parameter's unit].
     reach : Reach or None
         The distances to kinks; None of a smoothed step, which has none.
     """

@@ -115,7 +115,13 @@ class Reach:
         return min((self.ahead(column, sign) for sign in (1, -1)), key=lambda one: one.t)
 
     def within(self, distance: Array) -> Indices:
-        """The rows of all kinks nearer than a `distance` of each parameter (P,), shape (k, 2)."""
+        """The contact and row of every kink nearer than a distance, shape (k, 2).
+
+        Parameters
+        ----------
+        distance : ndarray, shape (P,)
+            One for each parameter [each in its parameter's unit].
+        """
         slack, rates = self.touching.slack[:, None], np.abs(self.closing)
         found = [self.touching.open[(slack < distance * rates).any(axis=1)]]
         for column in np.flatnonzero(self.loaded < distance):
