@@ -21,7 +21,7 @@ from quasistatic_ref.optional.derivatives.step.optimum_rates import (
     Equations,
     OptimumRates,
 )
-from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import DEPENDENT, FACET, SPLIT
 
 TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
@@ -146,7 +146,22 @@ class Reach:
         if found.status != 0:
             return NEVER
         u = np.asarray(found.x)
-        off = rows @ u > FACET * np.linalg.norm(u)
-        u = u - np.linalg.pinv(rows[~off], rcond=DEPENDENT) @ (rows[~off] @ u)
-        t = max(float(u @ v) / -float(u @ dv), 0.0) * float(size / speed)
-        return Distance(t, self.held[off])
+        on = rows[rows @ u <= FACET * np.linalg.norm(u)]
+        u = u - np.linalg.pinv(on, rcond=DEPENDENT) @ (on @ u)
+        t = max(float(u @ v) / -float(u @ dv), 0.0)
+        return Distance(t * float(size / speed), self.held[_unused(rows, v + t * dv)])
+
+
+def _unused(rows: Array, force: Array) -> Mask:
+    """Which rows (k, n) bear nothing of a `force` (n,) on the rim of their cone, shape (k,).
+
+    They are off one of the facets that hold it; normals of all of these add up to that of a plane.
+    """
+    k, n = rows.shape
+    found = linprog(
+        np.concatenate([np.zeros(n), -np.ones(k)]),
+        A_ub=np.hstack([-rows, np.eye(k)]), b_ub=np.zeros(k),
+        A_eq=np.concatenate([force, np.zeros(k)])[None], b_eq=[0.0],
+        bounds=[(None, None)] * n + [(0.0, 1.0)] * k, options=TIGHT,
+    )  # fmt: skip
+    return np.asarray(found.x[n:] > 0.5)
