@@ -25,9 +25,18 @@ def material(colour: int, opacity: float) -> dict[str, Any]:
 def thing(
     points: Array, kind: str, look: dict[str, Any], colours: Array | None = None
 ) -> dict[str, Any]:
-    """An object of three.js: points, or triangles as triples of points [m].
+    """An object of three.js.
 
-    Each point may have a colour of its own, (N, 3), from 0 to 1 [-].
+    Parameters
+    ----------
+    points : ndarray, shape (N, 3)
+        Points, or the corners of triangles, three each [m].
+    kind : str
+        ``"Points"`` or ``"Mesh"``.
+    look : dict
+        Its material.
+    colours : ndarray, shape (N, 3), optional
+        Of each point, from 0 to 1 [-].
     """
     attributes = {"position": _attribute(points)}
     if colours is not None:
@@ -62,9 +71,15 @@ def transform_set(path: str, R: Array, t: Array) -> dict[str, Any]:
 
 
 def colour_clip(path: str, fps: float, colours: Array) -> dict[str, Any]:
-    """How the colour of what is at a path changes, at fps frames a second [1/s].
+    """How the colour of what is at a path changes.
 
-    Colours have the shape (N, 3), from 0 to 1 [-]; each stays until the next.
+    Parameters
+    ----------
+    path : str
+    fps : float
+        Frames a second [1/s].
+    colours : ndarray, shape (N, 3)
+        One a frame, from 0 to 1 [-]; each stays until the next.
     """
     track = _track(".material.color", "color", colours) | {"interpolation": DISCRETE}
     return {"path": f"{path}/<object>", "clip": {"fps": fps, "name": "default", "tracks": [track]}}

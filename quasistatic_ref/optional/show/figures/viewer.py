@@ -37,7 +37,6 @@ from quasistatic_ref.optional.show.figures.visuals import AROUND, FIXED, UP, col
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.shapes.shape import ball
-from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.data import Array
@@ -66,7 +65,7 @@ PAGE: Final = Path(__file__).parent / "viewer.html"
 
 
 def view_written(
-    shown: Scenario | Simulator | Trajectory, path: str | Path, run: Trajectory | None = None
+    shown: HasScene | Trajectory, path: str | Path, run: Trajectory | None = None
 ) -> Path:
     """Write a scene, or a run of it, as one HTML file for a browser, without network.
 
@@ -108,7 +107,7 @@ def view_written(
 
 
 def _scene(
-    shown: Scenario | Simulator | Trajectory, run: Trajectory | None
+    shown: HasScene | Trajectory, run: Trajectory | None
 ) -> tuple[HasScene, Trajectory | None]:
     if not isinstance(shown, Trajectory):
         return shown, run

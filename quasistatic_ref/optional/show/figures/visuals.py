@@ -4,12 +4,11 @@ from collections.abc import Iterator, Sequence
 from typing import Any, Final, NamedTuple
 from xml.etree.ElementTree import Element
 
-import coal
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.readers.mesh_files import mesh_path
+from quasistatic_ref.model.readers.mesh_files import mesh_corners, mesh_path
 from quasistatic_ref.model.urdf.urdf_file import FileMesh, urdf_file, written_shape
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.optional.show.figures.surfaces import triangles
@@ -75,14 +74,7 @@ def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
     if not isinstance(shape, FileMesh):
         points = shape.surface(AROUND, UP)
         return np.asarray(points[triangles(points)].reshape(-1, 3))
-    path = mesh_path(shape.uri, folder, package_dirs)
-    try:
-        mesh = coal.MeshLoader().load(str(path), shape.scale)
-    except (ValueError, RuntimeError) as error:
-        raise ModelError("cannot be read as a mesh", file=path) from error
-    each = (mesh.tri_indices(i) for i in range(mesh.num_tris))
-    corners = np.array([(c[0], c[1], c[2]) for c in each], dtype=np.int64)
-    return np.array(mesh.vertices())[corners.ravel()]
+    return mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
 
 
 def _colour(material: Element | None, named: dict[str | None, Element]) -> int | None:
