@@ -49,6 +49,8 @@ def product(A: Array, B: Array) -> Array:
     ndarray, shape (..., m, n), without m or n where a factor is a vector
     """
     if B.ndim == 1:
+        if not len(B):
+            return np.zeros(A.shape[:-1])
         return total(A[..., i] * B[i] for i in range(len(B)))
     if A.ndim == 1:
         return total(A[i] * B[..., i, :] for i in range(len(A)))

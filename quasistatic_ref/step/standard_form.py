@@ -10,6 +10,7 @@ import numpy as np
 
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import friction_rows, row_gaps
+from quasistatic_ref.step.ordered import product
 
 
 class StandardForm(NamedTuple):
@@ -52,6 +53,6 @@ def standard_form(step: StepData) -> StandardForm:
 
 def load(step: StepData) -> Array:
     """The linear term g of Eq. :eq:`eq-13`, shape (n_v,) [N s of a length, N m s of an angle]."""
-    tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
+    tau_k = product(step.K_q, step.delta_q_bar_a)  # Eq. (1)
     g: Array = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])
     return g

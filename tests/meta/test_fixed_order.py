@@ -44,7 +44,6 @@ EXCEPTIONS = {
     "what the backend is given; the proof forms its own, without rounding": (
         "step/problem.py:StepProblem.__init__",
         "step/problem.py:StepProblem.fill",
-        "step/standard_form.py:load",
     ),
     "measured of an answer or of a run; the next step does not read it": (
         "model/system.py:System.mass",

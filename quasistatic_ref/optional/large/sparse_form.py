@@ -12,6 +12,7 @@ from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.data import Array, StepData, hessian_blocks
 from quasistatic_ref.step.friction import row_gaps, rows_along
+from quasistatic_ref.step.ordered import product
 
 
 class Pattern:
@@ -123,7 +124,7 @@ def upper_triangle(step: StepData) -> csc_matrix:
 def sparse_form(step: StepData, pattern: Pattern) -> SparseForm:
     """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`; of H and A the pattern's places only."""
     blocks = in_blocks(step)
-    tau_k = step.K_q @ step.delta_q_bar_a  # Eq. (1)
+    tau_k = product(step.K_q, step.delta_q_bar_a)  # Eq. (1)
     g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
     rows = rows_along(step.contacts, blocks.J, step.cone)[step.mask]  # Eqs. (4), (8), (m, w)
     entries = rows.ravel()[pattern.entry]

@@ -64,7 +64,15 @@ static void load(Scene *s)
 {
     for (int64_t v = 0; v < s->n_v; v++) {
         s->tau[v] = s->weighs[v] * (0.0 - *s->gravity[v]) + s->force[v];
-        s->g[v] = *s->h * (v < s->n_a ? s->tau_k[v] + s->tau[v] : s->tau[v]);
+        double pull = s->tau[v];
+        if (v < s->n_a) { /* Eq. (1) */
+            const double *K = s->K_q + v * s->n_a, *to = s->delta_q_bar_a;
+            double tau_k = K[0] * to[0];
+            for (int64_t j = 1; j < s->n_a; j++)
+                tau_k = tau_k + K[j] * to[j];
+            pull = tau_k + pull;
+        }
+        s->g[v] = *s->h * pull;
     }
 }
 

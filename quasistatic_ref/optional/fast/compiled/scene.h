@@ -50,8 +50,8 @@ typedef struct {
     double *phi, *n, *alpha, *beta, *d1, *d2, *J, *A, *b;
     double *work; /* 14 n_x + 4 n_v */
     /* The load: h; which coordinates weigh; gravity on the left of M dv + g = tau, as pinocchio
-       keeps it; other forces; K_q delta_q_bar_a. Then tau and g, which are written. */
-    const double *h, *weighs, *const *gravity, *force, *tau_k;
+       keeps it; other forces; K_q and delta_q_bar_a. Then tau and g, which are written. */
+    const double *h, *weighs, *const *gravity, *force, *K_q, *delta_q_bar_a;
     double *tau, *g;
 } Scene;
 

@@ -30,7 +30,7 @@ ARRAYS = (
     "coefficient", "has",
     "world", "nearest", "rank", "point",
     "phi", "n", "alpha", "beta", "d1", "d2", "J", "A", "b", "work",
-    "h", "weighs", "gravity", "force", "tau_k", "tau", "g",
+    "h", "weighs", "gravity", "force", "K_q", "delta_q_bar_a", "tau", "g",
 )  # fmt: skip
 """The fields of ``Scene`` in scene.h, one for one."""
 
@@ -91,7 +91,7 @@ class Scene(Structure):
                 **cone_terms(constant.cone), **{name: written[name] for name in given.names or ()},
                 "A": np.zeros((m, n_v)), "b": np.zeros(m), "work": np.zeros(14 * n_x + 4 * n_v),
                 "h": np.array([constant.h]), "weighs": weighs, "gravity": poses.gravity,
-                "force": np.zeros(n_v), "tau_k": np.zeros(n_a),
+                "force": np.zeros(n_v), "K_q": constant.K_q, "delta_q_bar_a": np.zeros(n_a),
             },
         )  # fmt: skip
         if tracker is not None:

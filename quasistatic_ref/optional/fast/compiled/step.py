@@ -111,7 +111,7 @@ class CompiledStep:
         tracker = None if measured_by_numpy(simulator) else simulator.tracker
         constant, weighs = simulator.constant, simulator.gravity_acts
         self.scene = Scene(self.poses, self.geometry, constant, weighs, tracker)
-        self.force, self.tau_k = self.scene["force"], self.scene["tau_k"]
+        self.force, self.target = self.scene["force"], self.scene["delta_q_bar_a"]
         found = library()
         self.find, self.form, self.reach = found.closest_points, found.step_data, found.reach
         self.screws = Screws(simulator.system, self.poses)
@@ -192,7 +192,7 @@ class CompiledStep:
         scene, constant = self.scene, simulator.constant.at(simulator.system.M_u(q))
         delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
         delta_q_bar_a.setflags(write=False)
-        constant.K_q.dot(delta_q_bar_a, self.tau_k)  # in BLAS's order
+        self.target[:] = delta_q_bar_a
         self.poses.weigh(simulator.gravity)
         self.force[:] = force
         gap = self.form(scene.address)
