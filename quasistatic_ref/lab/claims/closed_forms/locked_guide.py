@@ -17,14 +17,20 @@ ACROSS = [0.0, 1.0, 0.0]
 
 
 def slid(force: float, angle: float, clearance: float) -> StepSolution:
-    """One step of a point midway between the walls, pushed in their plane, angle [rad] from d1."""
+    """One step of a point midway between the walls, with a clearance to each [m].
+
+    The force [N] is in their plane, at an angle [rad] from d1.
+    """
     push = force * np.array([np.cos(angle), 0.0, np.sin(angle)])
     contacts = contacts_of(clearance, WALLS, np.tile(np.eye(4, 3), (2, 1, 1)), MU_V)
     return exact(free_step(M * np.eye(3), push, contacts, H))
 
 
 def turned(torque: float, clearance: float) -> float:
-    """Turn about y [rad] of a body that moves along y and turns about it, between soft walls."""
+    """Turn about y [rad] of a body under a torque [N m], with a clearance to each wall [m].
+
+    It moves along y and turns about it.
+    """
     J = np.zeros((2, 4, 2))
     J[:, :3, 0] = ACROSS
     J[:, 3, 1] = [1.0, -1.0]
