@@ -1,5 +1,7 @@
 """The contact points of one step."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -70,7 +72,7 @@ class Contacts(Plain, Shown):
         self._check_friction()
         self._check_frames(n_c)
 
-    def checked(self) -> "Contacts":
+    def checked(self) -> Contacts:
         """Contacts of the same numbers, each of which has been checked: these themselves."""
         return self
 
