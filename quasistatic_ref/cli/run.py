@@ -100,7 +100,7 @@ def run(options: argparse.Namespace) -> int:
         return shared.failed_run(failure, path)
     view = None
     if viewer is not None:
-        view = viewer.view_written(scenario, trajectory, path.with_suffix(".html"))
+        view = viewer.view_written(scenario, path.with_suffix(".html"), trajectory)
     if table is not None:
         table.table_written(trajectory, options.table)
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}

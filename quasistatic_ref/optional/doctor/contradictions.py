@@ -5,7 +5,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.optional.doctor.start import Said, Start, body, sizes
-from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.step.data import Array
 
@@ -21,7 +20,7 @@ RATIO = 1000.0
 def density(start: Start) -> Iterator[Said]:
     """Free links that are lighter than foam or heavier than gold."""
     for link, name, shapes in _free_links(start):
-        volume = sum(convex_hull(placed.shape.surface(16, 8)).volume for placed in shapes)
+        volume = sum(placed.shape.coal.computeVolume() for placed in shapes)
         mass = float(start.system.masses[link])
         if not DENSITIES[0] <= mass / volume <= DENSITIES[1]:
             yield Said(
