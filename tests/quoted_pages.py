@@ -127,6 +127,7 @@ QUOTED = {
         f"{1e3 * H**2 * G * (math.sin(a := math.radians(25)) - 0.2 * math.cos(a)):.2f} mm a "
         "step of 10 ms",
         f"{100 * (1 - math.sqrt(0.5)):.0f} % less at 45°",
+        f"h = 10 ms: {1e3 * 1e-4 / (0.5 * H):.0f} mm/s under 1 N and under 100 kN",
         f"0.1 mm, h = 10 ms: {1e-4 / H**2:.0f} N per kilogram",
         f"r = 50 mm rolling 0.6 mm a step: {(x := 1e6 * 0.05 * 0.012**2 / 2):.0f} µm, "
         f"{1e-6 * x / H**2:.2f} N per kilogram",

@@ -7,6 +7,8 @@ the answer the formation of H, g, A and b, the rational solution of that system,
 positive definite, and the decisions on degeneracy; it does not search for a working set.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 
 import numpy as np

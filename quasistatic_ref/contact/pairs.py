@@ -1,5 +1,7 @@
 """Which shapes may touch, and their friction: all that a user says about contacts is kept here."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -35,7 +37,8 @@ class ContactPair(Plain):
     Raises
     ------
     ContactError
-        If the two shapes can never make a contact that this model understands.
+        If the two shapes can never make a contact that this model understands, or a number is none
+        that the notation allows.
     """
 
     name: str
@@ -48,6 +51,15 @@ class ContactPair(Plain):
     hull: bool = False
 
     def __post_init__(self) -> None:
+        for key in ("mu_v", "mu_omega"):
+            if not 0 <= getattr(self, key) < np.inf:
+                value = getattr(self, key)
+                raise ContactError("must be >= 0", field=f"{self.name}.{key}", value=value)
+        if self.rows not in (4, 6):
+            raise ContactError("must be 4 or 6", field=f"{self.name}.rows", value=self.rows)
+        if not isinstance(self.k, int | np.integer) or self.k < 1:
+            problem = "must be a whole number, 1 or more"
+            raise ContactError(problem, field=f"{self.name}.k", value=self.k)
         clouds = [isinstance(s.shape, PointCloud) for s in (self.alpha, self.beta)]
         if all(clouds):
             problem = (

@@ -1,5 +1,7 @@
 """What a user says about one URDF: where it stands and what of it is actuated."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -87,7 +89,7 @@ class Body(Plain):
         object.__setattr__(self, "package_dirs", tuple(self.package_dirs))
 
     @classmethod
-    def of_shape(cls, name: str, shape: Homogeneous, mass: float, **more: Any) -> "Body":
+    def of_shape(cls, name: str, shape: Homogeneous, mass: float, **more: Any) -> Body:
         """A homogeneous solid: one link, ``NAME/solid``, with one collision shape.
 
         Parameters

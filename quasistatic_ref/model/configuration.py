@@ -14,6 +14,9 @@ from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 UNIT_PART = {"floating": 3, "planar": 2, "continuous": 0}
 """Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
 
+W_FIRST = [1.0, 0.0, 0.0, 0.0]
+"""The quaternion of no turn where w comes first, as in MuJoCo and Drake."""
+
 
 def normalised(joints: Sequence[Joint], q: Array) -> Array:
     """Copy of q, shape (n_q,), its quaternions of length one, however long they were.
@@ -63,6 +66,12 @@ def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
             what = "quaternion" if joint.kind == "floating" else "(cos, sin)"
             problem = f"its {what} must have length one"
             raise ModelError(problem, field=field, value=unit.tolist())
+        if joint.kind == "floating" and unit.tolist() == W_FIRST:
+            problem = (
+                "looks like [w x y z] of no turn; quaternions are [x y z w], so that no turn is "
+                "[0 0 0 1] (and half a turn about x [1 0 0 1e-16])"
+            )
+            raise ModelError(problem, field=field, value=W_FIRST)
         if abs(size - 1) > UNIT_ROUNDING:
             unit /= size
     return checked

@@ -6,6 +6,8 @@ twist [linear; angular] in its own frame [m, rad], and q (+) delta_q = q exp6(de
 base has x, y and the angle of the same twist, in the plane.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from threading import RLock
 

@@ -120,4 +120,8 @@ def check_motion(system: System, pairs: Sequence[ContactPair]) -> None:
         scale = 1 + np.abs(arm).max()
         if max(np.abs(nu_b - nu_at_b).max(), np.abs(omega_b - omega_a).max()) <= WELDED * scale:
             problem = "its two sides cannot move relative to each other, so it can never act"
+            names = {system.links[link].partition("/")[0] for link in (a, b)}
+            still = [body.name for body in system.bodies if body.base == "fixed"]
+            if fixed := [name for name in still if name in names]:
+                problem += f'; if {fixed[-1]} is to move freely, give it base = "floating"'
             raise ScenarioError(problem, field=f"contacts.{pair.name}")

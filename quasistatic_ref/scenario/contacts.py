@@ -29,9 +29,10 @@ def placed_shapes(
 ) -> Shapes:
     """Every name that ``[contacts]`` may use, with its shapes.
 
-    A link has the collision shapes of its URDF; a body's name means its cloud, or else its root
-    link; a name from ``[shapes]`` is fixed in the world. A pattern such as ``hand/*`` means every
-    link that it matches and that has shapes. ScenarioError if a name is taken.
+    A link has the collision shapes of its URDF, each of which has a name, too; a body's name means
+    its cloud, or else its root link; a name from ``[shapes]`` is fixed in the world. A pattern such
+    as ``hand/*`` means every link that it matches and that has shapes. ScenarioError if a name is
+    taken.
     """
     named: Shapes = {}
     for name in world.names():
@@ -40,6 +41,7 @@ def placed_shapes(
     for i, link in enumerate(system.links):
         if i != WORLD:
             named[link] = [shape for shape in system.shapes if shape.link == i]
+    named |= {shape.name: [shape] for shape in system.shapes}
     for name, entry in entries.items():
         if name in named:
             raise ScenarioError("is the name of a body as well", field=f"shapes.{name}")
@@ -129,7 +131,9 @@ def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
 
 def _matching(table: Fields, key: str, pattern: str, shapes: Shapes) -> list[PlacedShape]:
     """Shapes of all links that a pattern matches, in the order of the links."""
-    names = [name for name in shapes if "/" in name and fnmatchcase(name, pattern)]
+    single = {shape.name for found in shapes.values() for shape in found}
+    links = [name for name in shapes if "/" in name and name not in single]
+    names = [name for name in links if fnmatchcase(name, pattern)]
     if not names:
         raise table.fail(key, "matches no link; a pattern looks like 'hand/*'", pattern)
     found = [shape for name in names for shape in shapes[name]]

@@ -1,5 +1,7 @@
 """A scenario file (TOML, version 1): bodies, shapes, contacts and targets, ready to simulate."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -8,10 +10,11 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import BackendError, ScenarioError, about_file
+from quasistatic_ref.errors import BackendError, InputError, ScenarioError, about_file
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import System
@@ -48,6 +51,9 @@ from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.extension import NO_RISES, Extension, Rises
 from quasistatic_ref.step.ordered import total
 from quasistatic_ref.tolerances import ACCURACY
+
+SAVING = ("save", "save_every", "resume", "observers")
+"""What `run` hands on to a rollout."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,14 +176,23 @@ class Scenario(Plain, Shown):
         ----------
         progress : bool
         saving : object
-            `save`, `save_every` and `resume` of
+            `save`, `save_every`, `resume` and `observers` of
             :func:`~quasistatic_ref.simulate.rollout.rollout`, which takes `progress` as well.
 
         Raises
         ------
         RunFailed
             If a step fails.
+        InputError
+            If anything else is given, such as a field of the scenario.
         """
+        for name in saving:
+            if name not in SAVING:
+                problem = (
+                    f"is no argument of run ({known_names(SAVING)}); a field is set where the "
+                    "scenario is loaded, as in load_scenario(path, record='light')"
+                )
+                raise InputError(problem, field=name)
         return rollout(
             self.simulator(),
             self.system.q_start,

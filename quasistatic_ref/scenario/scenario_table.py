@@ -29,7 +29,10 @@ LIST = {"type": "array", "items": NUMBER}
 MATRIX = {"type": "array", "items": LIST}
 _TURN = "roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll)"
 _SIDE = {"anyOf": [TEXT, {"type": "array", "items": TEXT, "minItems": 1}]}
-_NAMES = "a link (body/link), a body, a shape, a list of these, or a pattern of links (hand/*)"
+_NAMES = (
+    "a link (body/link), one of its shapes (body/NAME of the URDF's collision), a body, a shape, "
+    "a list of these, or a pattern of links (hand/*)"
+)
 _STIFF = {"anyOf": [{"type": "number", "minimum": 0, "exclusiveMinimum": True}, LIST, MATRIX]}
 URDF = "urdf"
 """In place of a table: what the URDF says."""

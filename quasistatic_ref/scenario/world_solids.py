@@ -50,12 +50,12 @@ SOLIDS: dict[str, Kind] = {
         },
         lambda _, __, normal, offset: shapes.HalfSpace(normal, offset),
     ),
-    "box": Kind({"size": _SIZE}, lambda _, __, size: shapes.Box(size / 2)),
+    "box": Kind({"size": _SIZE}, lambda _, __, size: shapes.Box(size=size)),
     "sphere": Kind({"radius": _RADIUS}, lambda _, __, radius: shapes.Sphere(radius)),
-    "cylinder": Kind(_ROUND, lambda _, __, radius, length: shapes.Cylinder(radius, length / 2)),
-    "capsule": Kind(_ROUND, lambda _, __, radius, length: shapes.Capsule(radius, length / 2)),
-    "cone": Kind(_ROUND, lambda _, __, radius, length: shapes.Cone(radius, length / 2)),
-    "ellipsoid": Kind({"size": _SIZE}, lambda _, __, size: shapes.Ellipsoid(size / 2)),
+    "cylinder": Kind(_ROUND, lambda _, __, radius, length: shapes.Cylinder(radius, length=length)),
+    "capsule": Kind(_ROUND, lambda _, __, radius, length: shapes.Capsule(radius, length=length)),
+    "cone": Kind(_ROUND, lambda _, __, radius, length: shapes.Cone(radius, length=length)),
+    "ellipsoid": Kind({"size": _SIZE}, lambda _, __, size: shapes.Ellipsoid(size=size)),
     "mesh": Kind(
         {
             "file": Field("text", "file in the scenario's folder, whose convex hull is taken"),

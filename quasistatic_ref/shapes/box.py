@@ -1,25 +1,34 @@
 """The box."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import coal
 import numpy as np
+from numpy.typing import ArrayLike
 
-from quasistatic_ref.shapes.frozen import freeze_lengths
+from quasistatic_ref.shapes.frozen import freeze_lengths, halved
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import AXES, lengths
 from quasistatic_ref.step.arrays import Array
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Box(Rounded):
-    """A cuboid along the axes of its frame: |x_i| <= half_extents_i, shape (3,) [m]."""
+    """A cuboid along the axes of its frame: |x_i| <= half_extents_i = size_i / 2, shape (3,) [m].
+
+    It is made of its half extents or, as in files, of its `size`, shape (3,) [m].
+    """
 
     half_extents: Array
 
-    def __post_init__(self) -> None:
+    def __init__(
+        self, half_extents: ArrayLike | None = None, *, size: ArrayLike | None = None
+    ) -> None:
+        halved(self, "half_extents", half_extents, "size", size)
         freeze_lengths(self, "half_extents")
 
     @cached_property
@@ -42,7 +51,7 @@ class Box(Rounded):
         bits = (np.arange(8)[:, None] >> np.array([0, 1, 2])) & 1
         return (2 * bits - 1) * self.half_extents, 0.0
 
-    def resized(self, scale: float) -> "Box":
+    def resized(self, scale: float) -> Box:
         """All lengths by a scale [-]."""
         return Box(scale * self.half_extents)
 

@@ -1,5 +1,7 @@
 """Convex polytopes: the hull of a mesh's vertices, and how far the mesh is from being it."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -88,7 +90,7 @@ class ConvexMesh(Shape):
         """Its vertices, shape (V, 3) [m], whichever way `towards` [-] is."""
         return self.vertices, 0.0
 
-    def resized(self, scale: float) -> "ConvexMesh":
+    def resized(self, scale: float) -> ConvexMesh:
         """All lengths by a scale [-]."""
         vertices, offsets = scale * self.vertices, scale * self.offsets
         return replace(self, vertices=vertices, offsets=offsets, volume=scale**3 * self.volume)

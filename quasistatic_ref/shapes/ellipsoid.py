@@ -1,13 +1,16 @@
 """The ellipsoid."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import coal
 import numpy as np
+from numpy.typing import ArrayLike
 
-from quasistatic_ref.shapes.frozen import freeze_lengths
+from quasistatic_ref.shapes.frozen import freeze_lengths, halved
 from quasistatic_ref.shapes.shape import Shape, ball, lengths
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import dot, norm, total
@@ -16,13 +19,19 @@ STEPS = 100
 """Most Newton steps to the root of an ellipsoid's sum; about ten are usual."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Ellipsoid(Shape):
-    """All x with sum (x_i / half_axes_i)^2 <= 1; half_axes has shape (3,) [m]."""
+    """All x with sum (x_i / half_axes_i)^2 <= 1; half_axes has shape (3,) [m].
+
+    It is made of its half axes or, as in files, of its `size`, twice these, shape (3,) [m].
+    """
 
     half_axes: Array
 
-    def __post_init__(self) -> None:
+    def __init__(
+        self, half_axes: ArrayLike | None = None, *, size: ArrayLike | None = None
+    ) -> None:
+        halved(self, "half_axes", half_axes, "size", size)
         freeze_lengths(self, "half_axes")
 
     @cached_property
@@ -44,7 +53,7 @@ class Ellipsoid(Shape):
         scaled = directions * self.half_axes
         return norm(scaled)
 
-    def resized(self, scale: float) -> "Ellipsoid":
+    def resized(self, scale: float) -> Ellipsoid:
         """All lengths by a scale [-]."""
         return Ellipsoid(scale * self.half_axes)
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.step.arrays import freeze
+from quasistatic_ref.step.arrays import freeze, numbers
 from quasistatic_ref.tolerances import SHORT
 
 
@@ -18,6 +18,14 @@ def finite(value: Any, key: str) -> float:
     if not np.isfinite(number):
         raise ModelError("must be a finite number", field=key, value=value)
     return number
+
+
+def halved(owner: Any, key: str, half: Any, name: str, whole: Any) -> None:
+    """Set a field to half of a length that is given by either name; ModelError unless by one."""
+    if (half is None) == (whole is None):
+        problem = f"must be given, or {name}, twice as long, and not both"
+        raise ModelError(problem, field=key)
+    object.__setattr__(owner, key, numbers(whole, name, ModelError) / 2 if half is None else half)
 
 
 def freeze_size(owner: Any, key: str) -> None:

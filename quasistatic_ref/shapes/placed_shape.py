@@ -1,5 +1,7 @@
 """Every shape that comes along, and a shape placed in the frame of a link."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

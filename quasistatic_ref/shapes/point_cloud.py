@@ -1,5 +1,7 @@
 """The cloud of points, which is not solid."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,10 +1,12 @@
 """Solids of revolution about z, and their rims."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.shapes.frozen import freeze_size
+from quasistatic_ref.shapes.frozen import freeze_size, halved
 from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import norm, product
@@ -14,18 +16,25 @@ QUARTERS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
 """(cos, sin) of the four points of a rim, from the one nearest to the other body."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Round(Shape):
-    """A solid of revolution about its local z axis; radius and half_length in [m]."""
+    """A solid of revolution about its local z axis; radius and half_length in [m].
+
+    It is made of its half_length or, as in files, of its `length` [m].
+    """
 
     radius: float
     half_length: float
 
-    def __post_init__(self) -> None:
+    def __init__(
+        self, radius: float, half_length: float | None = None, *, length: float | None = None
+    ) -> None:
+        object.__setattr__(self, "radius", radius)
+        halved(self, "half_length", half_length, "length", length)
         freeze_size(self, "radius")
         freeze_size(self, "half_length")
 
-    def resized(self, scale: float) -> "Round":
+    def resized(self, scale: float) -> Round:
         """All lengths by a scale [-]."""
         return type(self)(scale * self.radius, scale * self.half_length)
 

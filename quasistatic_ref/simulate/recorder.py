@@ -1,5 +1,7 @@
 """Steps as they are taken, collected into a trajectory."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -60,7 +62,7 @@ class Recorder:
 
     def __init__(
         self,
-        simulator: "Simulator",
+        simulator: Simulator,
         q: Array,
         record: str = "full",
         observers: Sequence[Observer] | None = None,
@@ -83,7 +85,7 @@ class Recorder:
         """End of the step that comes next [s]."""
         return (self.steps + 1) * self.h
 
-    def add(self, q_bar_a: Array, result: "StepResult") -> None:
+    def add(self, q_bar_a: Array, result: StepResult) -> None:
         """Record one step that succeeded.
 
         Parameters

@@ -1,5 +1,7 @@
 """What one step of a simulator came to."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 
 from quasistatic_ref.contact.distance import ClosestPoints

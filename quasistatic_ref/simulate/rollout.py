@@ -1,11 +1,15 @@
 """Steps in sequence: where a step becomes a trajectory."""
 
+from __future__ import annotations
+
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from quasistatic_ref.errors import QuasistaticError, RunFailed, StepNotSolved
+import numpy as np
+
+from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
 from quasistatic_ref.simulate.interrupt import Interrupt
@@ -26,7 +30,7 @@ multipliers, and of answers that are not certified, and a run that is resumed ha
 
 
 def rollout(
-    simulator: "Simulator",
+    simulator: Simulator,
     q: Array,
     target: Target,
     steps: int,
@@ -79,7 +83,8 @@ def rollout(
     Raises
     ------
     InputError
-        If the target or the force takes other arguments than these, or q is no configuration; if
+        If the target or the force takes other arguments than these, q is no configuration, or steps
+        no whole number; if
         the saved steps are of another run; if steps that are there would be lost, see
         :func:`~quasistatic_ref.optional.runs.saved.first_step`; if there is no ``optional/runs``
         for `save`.
@@ -87,6 +92,8 @@ def rollout(
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.
     """
+    if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
+        raise InputError("must be a whole number, 0 or more", field="steps", value=steps)
     recorder = Recorder(simulator, q, record, [*doctors(printed=progress), *observers])
     q_bar_a = target_function(simulator.system, simulator.h, target, steps)
     pushed = force_function(simulator.system, force)
@@ -128,7 +135,7 @@ def rollout(
     return recorder.trajectory()
 
 
-def start_cold(simulator: "Simulator") -> None:
+def start_cold(simulator: Simulator) -> None:
     """Let a simulator forget what its solver keeps of earlier steps, if answers depend on it."""
     if simulator.solver is not None and simulator.solver.remembers:
         simulator.solver = None

@@ -1,9 +1,12 @@
 """The simulator: one step as the algorithm of the paper."""
 
+from __future__ import annotations
+
 import time
 from collections.abc import Callable, Sequence
 from functools import wraps
-from typing import Any, TypeVar, cast
+from inspect import Signature, signature
+from typing import Any, ClassVar, TypeVar, cast
 
 import numpy as np
 
@@ -67,8 +70,8 @@ class Stopwatch:
 
 
 def _remade(
-    kind: type["Simulator"], system: System, pairs: Sequence[ContactPair], settings: dict[str, Any]
-) -> "Simulator":
+    kind: type[Simulator], system: System, pairs: Sequence[ContactPair], settings: dict[str, Any]
+) -> Simulator:
     """A simulator from what it was made of: the arguments that a deep copy copies."""
     return kind(system, pairs, **settings)
 
@@ -123,13 +126,15 @@ class Simulator(Shown):
     BackendError
         If the backend is unknown or not installed, or does not take the cone.
     InputError
-        If `fast` is wanted, and its folder is not there.
+        If `fast` is wanted, and its folder is not there, or the extension is no function.
     """
 
-    def __new__(cls, *given: Any, fast: bool = False, **settings: Any) -> "Simulator":
-        """A simulator, or the one of `optional/fast`."""
+    def __new__(cls, *given: Any, fast: bool = False, **settings: Any) -> Simulator:
+        """A simulator, or the one of `optional/fast`; its arguments are those of the class."""
         kind: type[Simulator] = needed_part("fast.simulator", "fast").FastSimulator if fast else cls
         return super().__new__(kind)
+
+    __signature__: ClassVar[Signature]
 
     def __init__(
         self,
@@ -160,6 +165,9 @@ class Simulator(Shown):
         self.accuracy = accuracy
         self.certify = certify
         self.cone = cone
+        if extension is not None and not callable(extension):
+            problem = "must be a function of q that returns an Extension, such as lambda q: own"
+            raise InputError(problem, field="extension", value=type(extension).__name__)
         self.extension = extension
         self.limits = Limits() if limits is None else limits
         self.named_backend = backend
@@ -293,3 +301,7 @@ class Simulator(Shown):
     def solution(self, step: StepData) -> StepSolution:
         """A step solved, by the solver that is kept."""
         return solve_step(step, self.fitting(step), accuracy=self.accuracy, certify=self.certify)
+
+
+# Python would show what __new__ takes.
+Simulator.__signature__ = signature(Simulator.__init__.__get__(object()))

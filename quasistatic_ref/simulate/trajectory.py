@@ -78,6 +78,9 @@ class Trajectory(Plain, Shown):
             array.setflags(write=False)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
+        if name not in self.arrays:
+            near = nearest_name(str(name), self.arrays)
+            raise InputError(f"is no array of this trajectory{near}", field=str(name))
         return self.arrays[name]
 
     def __getattr__(self, name: str) -> NDArray[Any]:

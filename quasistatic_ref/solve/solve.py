@@ -1,5 +1,7 @@
 """One step, solved: natural units, a solver, the judge, and back to SI units."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 

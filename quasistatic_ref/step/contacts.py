@@ -1,5 +1,7 @@
 """The contact points of one step."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -79,7 +81,7 @@ class Contacts(Plain, Shown):
         self._check_friction()
         self._check_frames(n_c)
 
-    def checked(self) -> "Contacts":
+    def checked(self) -> Contacts:
         """Contacts of the same numbers, each of which has been checked: these themselves."""
         return self
 
@@ -102,7 +104,7 @@ class Contacts(Plain, Shown):
         moves: Mask = (self.J != 0).any(axis=1)
         return moves
 
-    def some(self, contacts: Indices, coordinates: Indices) -> "Contacts":
+    def some(self, contacts: Indices, coordinates: Indices) -> Contacts:
         """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""
         return Contacts(
             name=tuple(self.name[j] for j in contacts.tolist()),

@@ -4,6 +4,8 @@ Conventions: coordinates are in the paper's order, q = [q_a; q_u]; positions, no
 tangents are in the world frame; SI units. The JSON form is version 1 of ``quasistatic-ref/step``.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
@@ -229,7 +231,7 @@ class StepData(Plain, Shown):
         """H of Eq. :eq:`eq-13`, shape (n_v, n_v)."""
         return hessian(self.h, self.K_q, self.M_u)
 
-    def replace(self, **changes: Any) -> "StepData":
+    def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated again."""
         return StepData(**(field_values(self) | changes))
 

@@ -1,5 +1,7 @@
 """The answer of one step, and what is claimed about it."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property

@@ -27,6 +27,7 @@ MODULES: Final = {
         "closed_forms.patch_torsion",
         "closed_forms.flat_patch",
         "closed_forms.peg",
+        "closed_forms.locked_guide",
         "closed_forms.couple",
         "closed_forms.planar_push",
     ),

@@ -229,11 +229,30 @@ def mujoco_friction(picture: Picture, within: Any = None) -> Figure:
     return figure
 
 
+def locked_guide(picture: Picture, within: Any = None) -> Figure:
+    """What a force does to a body in a guide, and how far any force takes it in a step."""
+    figure, (left, right) = panels(6.3, 3.0, columns=2, within=within)
+    forces = picture["forces"]
+    left.plot(forces, np.minimum(forces, 1.0), label=r"slip / (c / $\mu_v$), (R38)")
+    left.plot(forces, picture["slips"], linestyle="", **_open("o"), label="of steps")
+    left.plot(
+        forces, picture["loads"] * picture["mu"], linestyle=":", label="friction of the walls"
+    )
+    of_force = r"force / ($m\,c\,/\,\mu_v h^2$) [-]"
+    labelled(left, of_force, "slip and friction [-]", caption(picture["h"]))
+    corners = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])
+    right.plot(*corners.T, label=r"$c / \mu_v$ along $d_1$ and $d_2$")
+    right.plot(*picture["reached"].T, linestyle="", **_open("s"), label="1 MN in 24 directions")
+    right.set(xlim=(-1.6, 1.6), ylim=(-1.6, 1.9), aspect="equal")
+    labelled(right, r"slip along $d_1$ / ($c / \mu_v$) [-]", r"along $d_2$ [-]", "one step")
+    return figure
+
+
 PICTURES: Final[dict[str, Callable[..., Figure]]] = {
     draw.__name__: draw
     for draw in (
         grasp, contact_geometry, boundary_layer, step_time, sliding_threshold, pushed_block,
-        patch_torsion, flat_patch, peg_wedging, mujoco_friction, planar_push,
+        patch_torsion, flat_patch, peg_wedging, locked_guide, mujoco_friction, planar_push,
     )
 }  # fmt: skip
 """Claim -> its figure, of what was measured, drawn into given axes."""

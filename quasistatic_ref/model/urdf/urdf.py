@@ -45,7 +45,8 @@ class Urdf:
     links : tuple of str
         Its links, the root first, parents before children.
     shapes : tuple of PlacedShape
-        Its collision shapes; `link` counts in `links`, names are ``left_finger#0``.
+        Its collision shapes; `link` counts in `links`, names are ``left_finger#0``, or those
+        of their ``collision``.
     notes : tuple of str
         Where the model differs from its file: meshes as hulls, inertias that no body can have and
         that M_u does not need.

@@ -60,6 +60,8 @@ class FileLink:
         About the centre of mass, along the link's axes [kg m^2].
     collisions : tuple of (Shape or FileMesh, R (3, 3), t (3,))
         Each shape and its frame in the link's [m].
+    named : tuple of (str or None)
+        The name of each, where its ``collision`` has one.
     defect : Defect or None
         Why no rigid body has this inertia; an error where an un-actuated joint moves the link.
     """
@@ -70,6 +72,7 @@ class FileLink:
     inertia: Array
     collisions: tuple[tuple[Shape | FileMesh, Array, Array], ...]
     defect: Defect | None = None
+    named: tuple[str | None, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +154,8 @@ def _link(element: Element, ignored: list[str]) -> FileLink:
         ignored += collision.ignored("origin", "geometry")
         R, t = collision.frame()
         collisions.append((written_shape(collision), R, t))
-    return FileLink(name, mass, com, inertia, tuple(collisions), defect)
+    named = tuple(each.get("name") for each in element.findall("collision"))
+    return FileLink(name, mass, com, inertia, tuple(collisions), defect, named)
 
 
 def _inertial(link: Tag, ignored: list[str]) -> tuple[float, Array, Array, Defect | None]:

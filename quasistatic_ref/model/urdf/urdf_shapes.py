@@ -51,6 +51,7 @@ def checked_shapes(
         If shapes are missing, or differ from what the file says.
     """
     shapes, notes = [], []
+    every = [name for link in file.links.values() for name in (link.name, *link.named)]
     for number, (link, frame) in enumerate(zip(links, frames, strict=True)):
         collisions = file.links[link].collisions
         loaded = [shape for shape in geometry.geometryObjects if shape.parentFrame == frame]
@@ -70,12 +71,18 @@ def checked_shapes(
             if solid is None:
                 problem = "was not loaded as written"
                 raise ModelError(problem, field=f"{where}[{count}]", value=shape)
-            name = f"{link}#{count}"
+            own = file.links[link].named[count]
+            name = own if own and _usable(own, every) else f"{link}#{count}"
             if isinstance(shape, FileMesh):
                 notes.append(hull_note(name, solid))
             at = (placement.rotation, placement.translation)
             shapes.append(PlacedShape(name, number, *at, solid))
     return tuple(shapes), tuple(notes)
+
+
+def _usable(name: str, every: Sequence[str | None]) -> bool:
+    """Whether a collision's name means nothing else among the links and shapes of its file."""
+    return every.count(name) == 1 and not any(c in "/#*?[" or c.isspace() for c in name)
 
 
 def same_pose(placement: Any, R: Array, t: Array) -> bool:

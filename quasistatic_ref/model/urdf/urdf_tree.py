@@ -105,7 +105,10 @@ def _check_mimic(joint: FileJoint, named: Mapping[str, FileJoint]) -> None:
         problem = "must be a joint that moves by itself, neither fixed nor a mimic"
         raise ModelError(problem, field=field, value=of)
     if (joint.kind == "continuous") != (leader.kind == "continuous"):
-        problem = "a continuous joint can only mimic, and be mimicked by, a continuous one"
+        problem = (
+            "a continuous joint can only mimic, and be mimicked by, a continuous one; write "
+            'type="revolute" with limits in its place'
+        )
         raise ModelError(problem, field=field, value=of)
 
 

@@ -6,6 +6,8 @@ its working set. docs/derivatives.md says what the numbers mean, how right they 
 there are none.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 
 import numpy as np

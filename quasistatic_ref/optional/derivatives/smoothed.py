@@ -1,5 +1,7 @@
 """The smoothed step as a differentiable map: contacts push from afar, and none lets go."""
 
+from __future__ import annotations
+
 from functools import partial
 
 import numpy as np

@@ -6,6 +6,8 @@ entries of q: with E as in
 E(q+) dq_dq E(q)^+. Quaternions are normalised first: their length has no gradient.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial

@@ -17,6 +17,8 @@ for independent rows W that span S. Whether they stay is decided for each parame
 - A friction coefficient that is zero cannot become smaller.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

@@ -1,0 +1,95 @@
+"""A body between two walls: how far it can slide or turn in a step, whatever pushes it."""
+
+import numpy as np
+
+from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
+from quasistatic_ref.lab.measures import exact, grid
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.solution import StepSolution
+from quasistatic_ref.tolerances import CLOSED_FORM
+
+M, INERTIA, MU_V, MU_OMEGA, H = 0.5, 2e-4, 0.5, 0.01, 0.01
+WALLS = [[[1, 0, 0], [0, 0, -1], [0, 1, 0]], [[1, 0, 0], [0, 0, 1], [0, -1, 0]]]
+"""Rows d1, d2, n of two walls that face each other along y."""
+ACROSS = [0.0, 1.0, 0.0]
+
+
+def slid(force: float, angle: float, clearance: float) -> StepSolution:
+    """One step of a point midway between the walls, with a clearance to each [m].
+
+    The force [N] is in their plane, at an angle [rad] from d1.
+    """
+    push = force * np.array([np.cos(angle), 0.0, np.sin(angle)])
+    contacts = contacts_of(clearance, WALLS, np.tile(np.eye(4, 3), (2, 1, 1)), MU_V)
+    return exact(free_step(M * np.eye(3), push, contacts, H))
+
+
+def turned(torque: float, clearance: float) -> float:
+    """Turn about y [rad] of a body under a torque [N m], with a clearance to each wall [m].
+
+    It moves along y and turns about it.
+    """
+    J = np.zeros((2, 4, 2))
+    J[:, :3, 0] = ACROSS
+    J[:, 3, 1] = [1.0, -1.0]
+    contacts = contacts_of(clearance, WALLS, J, 0.0, MU_OMEGA, 6)
+    step = free_step(np.diag([M, INERTIA]), [0.0, torque], contacts, H)
+    return float(exact(step).delta_q[1])
+
+
+def evidence() -> Evidence:
+    """Forces from a hundredth of what reaches the limit to a million times that."""
+    shares, clearances = [0.01, 0.5, 0.99, 1.01, 2.0, 1e3, 1e6], [0.0, 1e-5, 1e-3]
+    found, expected, pressed, balance = [], [], [], []
+    for share, angle, c in grid(shares, np.radians([0.0, 20.0, 45.0, 90.0]), clearances):
+        force = share * M * max(c, 1e-5) / (MU_V * H**2)
+        free, most = H**2 * force / M * np.array([np.cos(angle), np.sin(angle)]), c / MU_V
+        answer = slid(force, angle, c)
+        found.append(answer.delta_q[[0, 2]])
+        expected.append(np.minimum(free, most))
+        # What does not move the body, the walls bear: mu_v N along each tangent.
+        pressed.append(MU_V * answer.wrench[:, 2].sum() / force)
+        balance.append((M / H**2 * (free - expected[-1])).sum() / force)
+    turns, limits = [], []
+    for share, c in grid(shares, clearances):
+        torque = share * INERTIA * max(c, 1e-5) / (MU_OMEGA * H**2)
+        turns.append(turned(torque, c))
+        limits.append(min(H**2 * torque / INERTIA, c / MU_OMEGA))
+    drawn = np.linspace(0.0, 3.0, 13)
+    reach = np.linspace(0.0, 2 * np.pi, 25)
+    unit = M * 1e-3 / (MU_V * H**2)
+    picture = {
+        "h": H,
+        "forces": drawn,
+        "slips": np.array([slid(x * unit, 0.0, 1e-3).delta_q[0] for x in drawn]) * MU_V / 1e-3,
+        "loads": np.array([slid(x * unit, 0.0, 1e-3).wrench[:, 2].sum() for x in drawn]) / unit,
+        "mu": MU_V,
+        "reached": np.array([_reached(angle) for angle in reach]) * MU_V / 1e-3,
+    }
+    scale = np.abs(expected).max(axis=1, keepdims=True) + 1e-5
+    return Evidence.of(
+        comparison("slip along d1 and d2 [m]", found, expected, CLOSED_FORM, scale),
+        comparison("mu_v times the load of the walls, over the force [-]", pressed, balance,
+                   CLOSED_FORM, 1.0),
+        comparison("turn [rad]", turns, limits, CLOSED_FORM, 1.0),
+        **picture,
+    )  # fmt: skip
+
+
+def _reached(angle: float) -> Array:
+    """Where a force of 1 MN takes the body, along d1 and d2 [m]."""
+    return slid(1e6, angle, 1e-3).delta_q[[0, 2]]
+
+
+CLAIM = Claim(
+    name="locked_guide",
+    sentence="With a clearance c to each of two walls a body moves by at most c / mu_v a step "
+    "along each tangent, sqrt 2 of that between them, and turns by at most c / mu_omega, whatever "
+    "the force; the walls bear the rest.",
+    where="docs/derivations.md (R38)",
+    sweep="seven forces up to a million times the limit's, four directions, three clearances",
+    reason="CLOSED_FORM, relative to the larger of motion and 10 um.",
+    measure=evidence,
+)

@@ -1,0 +1,144 @@
+"""Mistakes in Python get one sentence of the package, as those in TOML do."""
+
+import inspect
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Ellipsoid
+from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
+from tests.scenes import PUSH, written_scenario
+
+
+@pytest.fixture(scope="module")
+def scenario(tmp_path_factory):
+    return load_scenario(written_scenario(tmp_path_factory.mktemp("scene")), steps=1, fast=True)
+
+
+def simulator(scenario, **given):
+    return qr.Simulator(scenario.system, scenario.pairs, h=0.01, K_q=scenario.K_q, **given)
+
+
+def paired(scenario, **given):
+    same = {"name": "push", "alpha": scenario.pairs[0].alpha, "beta": scenario.pairs[0].beta}
+    return qr.ContactPair(**(same | {"mu_v": 0.5, "mu_omega": 0.0, "rows": 4, "k": 1} | given))
+
+
+def w_first(scenario):
+    q = scenario.system.q_start.copy()
+    q[-4:] = [1, 0, 0, 0]
+    return qr.rollout(scenario.simulator(), q, scenario.targets, 1, progress=False)
+
+
+def wheels(kind):
+    """Two wheels, of which the second mimics the first and is continuous or revolute."""
+    follows = '<mimic joint="one"/>'
+    text = robot(
+        link("axle"), link("a"), link("b"),
+        joint("one", "axle", "a", "revolute", "0 0 1"),
+        joint("two", "axle", "b", kind, "0 0 1", follows),
+    )  # fmt: skip
+    return System([Body("cart", text, actuated="all")])
+
+
+MISTAKES = {
+    "an extension in place of a function": (
+        lambda s: simulator(s, extension=qr.Extension()),
+        "extension: must be a function of q that returns an Extension, such as lambda q: own "
+        "(got 'Extension')",
+    ),
+    "steps that are no whole number": (
+        lambda s: qr.rollout(s.simulator(), s.system.q_start, s.targets, 3.0),
+        "steps: must be a whole number, 0 or more (got 3.0)",
+    ),
+    "no contacts": (lambda s: paired(s, k=0), "push.k: must be a whole number, 1 or more (got 0)"),
+    "negative friction": (lambda s: paired(s, mu_v=-1.0), "push.mu_v: must be >= 0 (got -1.0)"),
+    "five rows": (lambda s: paired(s, rows=5), "push.rows: must be 4 or 6 (got 5)"),
+    "a misspelt array": (
+        lambda s: s.run(progress=False)["wrenchs"],
+        "wrenchs: is no array of this trajectory; did you mean 'wrench'?",
+    ),
+    "a field as an argument of run": (
+        lambda s: s.run(record="light"),
+        "record: is no argument of run (known: observers, resume, save, save_every); a field is "
+        "set where the scenario is loaded, as in load_scenario(path, record='light')",
+    ),
+    "w first": (
+        w_first,
+        "q[ball/base]: looks like [w x y z] of no turn; quaternions are [x y z w], so that no turn "
+        "is [0 0 0 1] (and half a turn about x [1 0 0 1e-16]) (got [1.0, 0.0, 0.0, 0.0])",
+    ),
+    "no size": (
+        lambda s: Box(),
+        "half_extents: must be given, or size, twice as long, and not both",
+    ),
+    "two lengths": (
+        lambda s: Cylinder(0.1, 0.2, length=0.4),
+        "half_length: must be given, or length, twice as long, and not both",
+    ),
+    "a continuous mimic of a revolute joint": (
+        lambda s: wheels("continuous"),
+        "joint[two].mimic: a continuous joint can only mimic, and be mimicked by, a continuous "
+        "one; write type=\"revolute\" with limits in its place (got 'one')",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", MISTAKES)
+def test_a_mistake_in_python_gets_one_sentence(scenario, case):
+    made, sentence = MISTAKES[case]
+    with pytest.raises(InputError) as caught:
+        made(scenario)
+    assert sentence in str(caught.value)
+
+
+def test_a_revolute_mimic_of_a_revolute_joint_is_taken():
+    assert wheels("revolute").n_a == 1
+
+
+def test_a_body_that_is_not_said_to_float_is_offered_a_base(tmp_path):
+    head, _, rest = PUSH.replace('base = "floating"\n', "").partition("[[bodies.ball")
+    path = written_scenario(tmp_path, head + rest[rest.index("[shapes.floor]") :])
+    with pytest.raises(InputError, match=r'if ball is to move freely, give it base = "floating"$'):
+        load_scenario(path)
+
+
+def test_shapes_are_made_of_whole_sizes_as_in_files():
+    size, length = np.array([0.1, 0.2, 0.3]), 0.4
+    assert Box(size=size) == Box(size / 2)
+    assert Ellipsoid(size=size) == Ellipsoid(size / 2)
+    assert Cylinder(0.1, length=length) == Cylinder(0.1, length / 2)
+    assert Capsule(0.1, length=length) == Capsule(0.1, length / 2)
+
+
+def test_a_collision_keeps_its_name_and_contacts_may_use_it(tmp_path):
+    ball = collision('<sphere radius="0.01"/>', '<origin xyz="0.04 0 0"/>')
+    named = ball.replace("<collision>", '<collision name="handle">')
+    mug = link("mug", collision('<sphere radius="0.03"/>') + named, inertial("0.2", ("1e-4",) * 3))
+    written(tmp_path, robot(mug), "mug.urdf")
+    path = tmp_path / "mug.toml"
+    path.write_text(
+        'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
+        '[bodies.mug]\nurdf = "mug.urdf"\nbase = "floating"\n'
+        "[shapes.floor]\nhalfspace = { normal = [0, 0, 1] }\n"
+        '[contacts.floor]\nalpha = "floor"\nbeta = "mug/handle"\nmu_v = 0.5\nrows = 4\n'
+    )
+    scenario = load_scenario(path)
+    assert [shape.name for shape in scenario.system.shapes] == ["mug/mug#0", "mug/handle"]
+    assert [pair.name for pair in scenario.pairs] == ["floor(floor, mug/handle)"]
+    # The name of a link, or one that is there twice, would mean two things.
+    for taken in ("mug", "a#b"):
+        text = robot(mug.replace('name="handle"', f'name="{taken}"'))
+        assert System([Body("mug", text)]).shapes[1].name == "mug/mug#1"
+
+
+def test_help_shows_short_signatures():
+    for name in set(qr.__all__) - {"__version__"}:
+        value = getattr(qr, name)
+        if not (isinstance(value, type) and issubclass(value, Exception)):
+            assert "numpy." not in str(inspect.signature(value)), name
+    assert str(inspect.signature(qr.Simulator)).startswith("(system: 'System', pairs: ")
