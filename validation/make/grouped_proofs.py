@@ -20,10 +20,11 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import exact_optimum, exact_step
+from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum, exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.scenes.at_random import divided
 from quasistatic_ref.lab.scenes.piles import SIDE, pile
@@ -175,14 +176,15 @@ def faults(step: StepData) -> list[str]:
         if isinstance(whole, Farkas):
             return ["feasible by group only"]
         return [] if failure.delta_q.tobytes() == whole.delta_q.tobytes() else ["delta_q"]
+    return unlike(grouped, whole)
+
+
+def unlike(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
+    """In what of that no choice is left of an optimum is not that of the whole step."""
     if isinstance(whole, Farkas):
         return ["feasible by group only"]
     names = (*SAME, "lam") if whole.multipliers_unique else SAME
-    return [name for name in names if _bits(getattr(whole, name)) != _bits(getattr(grouped, name))]
-
-
-def _bits(value: object) -> object:
-    return value.tobytes() if isinstance(value, np.ndarray) else value
+    return [name for name in names if bits(getattr(one, name)) != bits(getattr(whole, name))]
 
 
 def compared(random: int, every: int) -> list[str]:
