@@ -68,6 +68,8 @@ class Scene(NamedTuple):
         Largest turn of a box about the vertical [rad].
     pushed : bool
         Whether the first is.
+    before : int
+        Steps of which nothing is certified, before those that are measured.
     """
 
     name: str
@@ -75,6 +77,7 @@ class Scene(NamedTuple):
     gap: float = 1e-4
     yaw: float = 0.0
     pushed: bool = False
+    before: int = 0
 
 
 SEPARATE = [
@@ -86,7 +89,9 @@ CONNECTED = [
     Scene("12 boxes in a row, pushed", (12, 1, 1), pushed=True),
     Scene("12 yawed boxes in a row, pushed", (12, 1, 1), 0.004, 0.1, True),
     Scene("25 yawed boxes in a row, pushed", (25, 1, 1), 0.004, 0.1, True),
-    Scene("a stack of 40", (1, 1, 40)),
+    Scene("12 boxes in a row, after 60 steps", (12, 1, 1), pushed=True, before=60),
+    Scene("a stack of 40, falling", (1, 1, 40)),
+    Scene("a stack of 10 at rest", (1, 1, 10), before=150),
     Scene("a heap of 3 x 3 x 3, pushed", (3, 3, 3), pushed=True),
     Scene("a heap of 5 x 5 x 4, pushed", (5, 5, 4), pushed=True),
 ]
@@ -118,11 +123,17 @@ class Cost:
 
 def cost(scene: Scene, certify: str) -> Cost:
     """What the steps of a scene cost, with `fast` and the backend that it takes by itself."""
-    some = pile(scene.shape, backend=None, certify=certify, gap=scene.gap, yaw=scene.yaw)
+    some, other = (
+        pile(scene.shape, backend=None, certify=word, gap=scene.gap, yaw=scene.yaw)
+        for word in (certify, "off")
+    )
     q, times, exact = some.q, [], 0
+    force = float(scene.pushed) * some.force
+    for _ in range(scene.before):
+        q = other.simulator.step(q, np.zeros(0), force).q
     for _ in range(1 + STEPS):
         begin = time.process_time()
-        result = some.simulator.step(q, np.zeros(0), float(scene.pushed) * some.force)
+        result = some.simulator.step(q, np.zeros(0), force)
         times.append(time.process_time() - begin)
         exact += result.solution.certificate.kind == "exact"
         q = result.q
