@@ -186,6 +186,14 @@ LEAP: Final = 0.25
 warning: to first order the motion is wrong by 1 - cos 0.25 = 3 % of the size. The spun sphere of
 sphere_spin reaches 0.15."""
 
+CRAWL: Final = 0.1
+"""Speed [m/s, rad/s] up to which contacts that cannot rise may hold a body without a finding: what
+is moved slowly enough for the model is slower."""
+
+LOCKED: Final = 0.1
+"""Share of the motion without a guide's own friction [-] below which a body is locked by it. A
+block that begins to slide has 1 / (1 + mu_v^2) of it, one in a guide the guide's clearance."""
+
 BEYOND: Final = 1e-9
 """How far a target may exceed a limit of its URDF [m, rad] without a warning: rounding of its
 interpolation between waypoints is 1e-16."""

@@ -23,7 +23,7 @@ from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import NaturalStep, check_units
 from quasistatic_ref.solve.solver import NaturalAnswer, OptionSet
-from quasistatic_ref.solve.units import coordinate_units, in_natural, units_from
+from quasistatic_ref.solve.units import coordinate_units, in_natural, small_power, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
@@ -168,8 +168,11 @@ class SparseStep:
         rows = form.A.data * S[solver.pattern.column]
         squares = np.bincount(form.A.indices, rows * rows, minlength=len(form.b))
         y = form.g * S
-        energy = math.sqrt(max(float(y @ solver.of_H.factor.solve(y)), 0.0))  # ||H^-1 g||_H
-        self.units = units = units_from(S, np.sort(squares), energy, form.b)
+        power = small_power(y)
+        near_one = np.ldexp(y, -power)
+        energy = math.sqrt(max(float(near_one @ solver.of_H.factor.solve(near_one)), 0.0))
+        length = math.ldexp(energy, power)  # ||H^-1 g||_H
+        self.units = units = units_from(S, np.sort(squares), length, form.b)
         check_units(units, step)
         self.A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
         self.g, self.b = y / units.size, form.b / (units.size * units.length)
