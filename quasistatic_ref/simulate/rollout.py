@@ -58,14 +58,9 @@ def rollout(
         ``"full"``, or ``"light"`` to leave out the quadratic programs.
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal, and to print
-<<<<<<< HEAD
         there that `fast` would save ten seconds or more, and, at the end of a run, that most of its
-        time went into proofs, and what it warns of
-        (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.warnings`).
-=======
-        there that `fast` would save ten seconds or more, and, at the end of a run, its findings
+        time went into proofs, and its findings
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`).
->>>>>>> main
     save : str or Path, optional
         The trajectory's file, written when the run ends, also when it ends early: then next to it,
         as ``NAME_failed.npz``, if a longer run is there. While the run goes on, its steps are saved
