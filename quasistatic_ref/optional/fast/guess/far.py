@@ -68,7 +68,17 @@ def far_slacks(step: StepData, far: Indices, solved: Sequence[Solved]) -> tuple[
 
 
 def with_far(step: StepData, optimum: ExactOptimum, near: Mask, slacks: Array) -> ExactOptimum:
-    """An optimum completed by the slacks [m] of the contacts that are not `near`, all positive."""
+    """An optimum with the `slacks` of the contacts that are not `near`, which are all positive.
+
+    Parameters
+    ----------
+    step : StepData
+    optimum : ExactOptimum
+        With zeros in their places.
+    near : ndarray of bool, shape (n_c,)
+    slacks : ndarray, shape (rows of these contacts,)
+        [m].
+    """
     slack = optimum.slack.copy()
     slack[: step.offsets[-1]][np.repeat(~near, step.counts)] = slacks
     least = [s for s in (optimum.smallest_inactive_slack, slacks.min()) if s is not None]
