@@ -214,7 +214,7 @@ def group_optimum(
 
 def joined(step: StepData, of: Sequence[Group], optima: Sequence[ExactOptimum]) -> ExactOptimum:
     """The optimum of a step from the `optima` of all of its groups."""
-    if len(of) == 1:
+    if len(of) == 1 and len(of[0].rows) == step.m:
         return optima[0]
     delta_q, net = np.zeros((2, step.n_v))
     lam, slack = np.zeros((2, step.m))

@@ -1,4 +1,4 @@
-"""What is said of a run that would take much longer than with `fast`."""
+"""What is said of a run that takes long: of `fast`, and of proofs."""
 
 from collections.abc import Mapping
 
@@ -14,13 +14,17 @@ WORTH = 10.0
 """Seconds saved from which a run says so."""
 
 
+PROOFS = 0.8
+"""Share of the time of a run, if it takes WORTH or longer, above which its proofs are named."""
+
+
 class Pace:
-    """The time of the first steps of a run.
+    """The time of the steps of a run.
 
     Parameters
     ----------
     fast : bool
-        Whether the run is fast already; nothing is said then.
+        Whether the run is fast already; of what `fast` would save nothing is said then.
     steps : int
         How many are to be taken.
     """
@@ -29,6 +33,7 @@ class Pace:
         self.fast = fast
         self.left = steps
         self.times: list[float] = []
+        self.total = self.proofs = 0.0
 
     def opening(self, entries: int) -> str | None:
         """One sentence before the first step, where J has so many `entries`, 4 n_c n_v."""
@@ -36,7 +41,7 @@ class Pace:
             return None
         return (
             f"J has {entries:,} entries in each step, dense on the plain path; --fast (fast=True "
-            "in Python) takes large steps in blocks, unless they are certified exactly"
+            "in Python) takes large steps in blocks"
         )
 
     def advice(self, seconds: Mapping[str, float]) -> str | None:
@@ -48,6 +53,8 @@ class Pace:
             Wall time of the parts of the step that was just taken [s].
         """
         self.left -= 1
+        self.total += sum(seconds.values())
+        self.proofs += seconds["proof"]
         if self.fast or len(self.times) > FIRST:
             return None
         self.times.append(sum(seconds.values()))
@@ -57,4 +64,13 @@ class Pace:
         return (
             f"the other {self.left} steps take some {rest:.0f} s; --fast (fast=True in Python) "
             "takes the same steps sooner, to the same certified bits"
+        )
+
+    def closing(self) -> str | None:
+        """One sentence after a certified run whose time went into proofs."""
+        if self.total <= WORTH or self.proofs <= PROOFS * self.total:
+            return None
+        return (
+            f"proofs took {self.proofs:.0f} s of the {self.total:.0f} s of these steps; "
+            'certify = "residual" bounds the error of each step instead, in less time'
         )

@@ -26,7 +26,7 @@ class StepResult(Plain, Shown):
     points : ClosestPoints
         Where the contacts were, before the step.
     seconds : dict of str to float
-        Wall time of the parts: distances, rows, solve, integrate [s]; not compared.
+        Wall time of the parts: distances, rows, solve, proof, integrate [s]; not compared.
     """
 
     q: Array

@@ -63,10 +63,12 @@ class Stopwatch:
         self.seconds: dict[str, float] = {}
         self._last = time.perf_counter()
 
-    def __call__(self, name: str) -> None:
-        """End the lap of that name."""
+    def __call__(self, name: str, **apart: float) -> None:
+        """End the lap of that name; parts of it that are named stand `apart` [s]."""
         now = time.perf_counter()
-        self.seconds[name], self._last = now - self._last, now
+        self.seconds[name] = now - self._last - sum(apart.values())
+        self.seconds.update(apart)
+        self._last = now
 
 
 def _remade(
@@ -234,7 +236,7 @@ class Simulator(Shown):
         solution = self.solution(step) if self.extension is None else self.extended(step, q)
         step = solution.step  # an extension adds rows and private rises; Eq. (13), certified
         self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
-        lap("solve")
+        lap("solve", proof=solution.statistics.proof_time)
         q_next = self.system.integrate(q, solution.delta_q[: self.system.n_v])  # q (+) delta_q
         self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")

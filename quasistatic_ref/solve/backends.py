@@ -50,8 +50,8 @@ class Backend:
     adapter : str
         Class in ``adapters/NAME.py``, where it is reached by its own interface.
     sparse : int
-        Entries of a step's dense J, 4 n_c n_v, from which that class is given sparse matrices, if
-        steps are not certified exactly; 0 if it takes none.
+        Entries of a step's dense J, 4 n_c n_v, from which that class is given sparse matrices; 0
+        if it takes none.
     cvxpy : bool
         Whether CVXPY has an interface to it.
     package : str

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
 
 import numpy as np
@@ -157,6 +158,7 @@ def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolu
     """The proved optimum; a backend that fails costs its start, not the answer."""
     step, units, kind = scaled.step, scaled.units, cone(scaled.step.cone)
     answer, statistics = _attempt(scaled, solver, accuracy)
+    begin = time.perf_counter()
     answered = None
     if answer is not None:
         answered = from_natural(answer.delta_q, answer.lam, units)
@@ -180,6 +182,7 @@ def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolu
         digits = relative_digits(error, norm.impulse(scaled.form.g))
         statistics = statistics._replace(digits=digits)
     residuals = vars(scaled.residuals(*in_natural(delta_q, lam, units)))
+    statistics = statistics._replace(proof_time=time.perf_counter() - begin)
     return step_solution(step, delta_q, lam, certificate(step, optimum, residuals), statistics)
 
 
@@ -225,9 +228,12 @@ def uncertified(
     """
     delta_q, lam = from_natural(answer.delta_q, answer.lam, scaled.units)
     certificate = NOTHING_CLAIMED
+    statistics = answer.statistics
     if certify != "off":
+        begin = time.perf_counter()
         certificate = _judged(scaled, solver, answer, delta_q, lam)
-    return step_solution(scaled.step, delta_q, lam, certificate, answer.statistics)
+        statistics = statistics._replace(proof_time=time.perf_counter() - begin)
+    return step_solution(scaled.step, delta_q, lam, certificate, statistics)
 
 
 def _judged(

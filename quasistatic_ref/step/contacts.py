@@ -94,10 +94,10 @@ class Contacts(Plain, Shown):
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
         return self.J @ delta_q
 
-    def moved(self) -> tuple[Indices, Indices]:
-        """Contact and coordinate of each pair of which the first moves with the second."""
+    def entries(self) -> tuple[Indices, Indices, Array]:
+        """The columns of J that are not zero: their contacts and coordinates, and they, (k, 4)."""
         contact, coordinate = np.nonzero(self.moves())
-        return contact, coordinate
+        return contact, coordinate, self.J[contact, :, coordinate]
 
     def moves(self) -> Mask:
         """Whether each contact moves with each column that is kept of its J: (n_c, columns)."""

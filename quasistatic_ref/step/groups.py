@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.step.data import Extra, Indices, StepData
+from quasistatic_ref.step.data import Extra, Indices, Mask, StepData
 
 
 class Group(NamedTuple):
@@ -39,7 +39,7 @@ class Group(NamedTuple):
         return [int(i) for i in np.searchsorted(self.rows, own)]
 
 
-def groups(step: StepData) -> list[Group]:
+def groups(step: StepData, near: Mask | None = None) -> list[Group]:
     """The groups of a step, in the order of their first coordinates.
 
     Rows in which nothing moves belong to the first group.
@@ -47,6 +47,8 @@ def groups(step: StepData) -> list[Group]:
     Parameters
     ----------
     step : StepData
+    near : ndarray of bool, shape (n_c,), optional
+        The contacts that count; the others belong to no group. By default all do.
 
     Returns
     -------
@@ -54,20 +56,21 @@ def groups(step: StepData) -> list[Group]:
         At least one.
     """
     n_c, n_extra = step.contacts.n_c, len(step.extra.names)
-    own, of_own = np.nonzero(step.extra.A)
-    contact, of_contact = step.contacts.moved()
+    own, of_row = np.nonzero(step.extra.A)
+    near = np.ones(n_c, dtype=bool) if near is None else near
+    contact, of_contact, _ = step.contacts.entries()
+    contact, of_contact = contact[near[contact]], of_contact[near[contact]]
     one, other = step.coupled()
     pairs = np.arange(len(one)) + n_c + n_extra
     link = np.concatenate([contact, n_c + own, pairs, pairs])
-    coordinate = np.concatenate([of_contact, of_own, one, other])
+    coordinate = np.concatenate([of_contact, of_row, one, other])
     label, of_link = _labels(step.n_v, n_c + n_extra + len(one), link, coordinate)
     firsts = np.unique(label) if step.n_v else np.zeros(1, np.int64)
-    if len(firsts) == 1:
-        every = [np.arange(k) for k in (step.n_v, n_c, n_extra, step.m)]
-        return [Group(*every)]
-    owner = np.concatenate([np.repeat(of_link[:n_c], step.counts), of_link[n_c : n_c + n_extra]])
-    parts = (label, of_link[:n_c], of_link[n_c : n_c + n_extra], owner)
-    members = zip(*(_members(part, firsts) for part in parts), strict=True)
+    of_contacts = np.where(near, of_link[:n_c], -1)
+    of_own = of_link[n_c : n_c + n_extra]
+    of_rows = np.concatenate([np.repeat(of_contacts, step.counts), of_own])
+    labels = (label, of_contacts, of_own, of_rows)
+    members = zip(*(_members(part, firsts) for part in labels), strict=True)
     return [Group(*found) for found in members]
 
 
@@ -89,9 +92,9 @@ def _labels(n: int, links: int, link: Indices, coordinate: Indices) -> tuple[Ind
 
 
 def _members(label: Indices, firsts: Indices) -> list[Indices]:
-    """Which entries have each label."""
+    """Which entries have each of the labels `firsts`, ascending."""
     order = np.argsort(label, kind="stable")
-    return np.split(order, np.searchsorted(label[order], firsts[1:]))
+    return np.split(order, np.searchsorted(label[order], firsts))[1:]
 
 
 def parts(step: StepData) -> list[tuple[Group, StepData]]:

@@ -90,6 +90,8 @@ class SolverStatistics(NamedTuple):
     engine : str
         The interface by which the solver was called: ``"cvxpy"``, ``"qpsolvers"``, ``"native"``;
         ``"none"`` without a backend.
+    proof_time : float
+        Wall time of the proof, or of the bound of the error [s]; 0 where nothing is claimed.
     """
 
     backend: str
@@ -99,6 +101,7 @@ class SolverStatistics(NamedTuple):
     accuracy: float
     digits: float | None = None
     engine: str = "cvxpy"
+    proof_time: float = 0.0
 
 
 @dataclass(frozen=True, eq=False, repr=False)

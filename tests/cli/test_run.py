@@ -39,7 +39,13 @@ def test_run_prints_one_json_object(scene, out, capsys):
     assert (printed["steps"], printed["variables"], printed["rows"]) == (5, 8, 10)
     assert (printed["backend"], printed["fast"]) == ("clarabel", False)
     assert 0 <= printed["worst_residual"] < MULTIPLIERS
-    assert set(printed["milliseconds_per_step"]) == {"distances", "rows", "solve", "integrate"}
+    assert set(printed["milliseconds_per_step"]) == {
+        "distances",
+        "rows",
+        "solve",
+        "proof",
+        "integrate",
+    }
 
 
 def test_options_change_the_scenario(scene, out, capsys):

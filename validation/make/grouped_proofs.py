@@ -20,10 +20,11 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import exact_optimum, exact_step
+from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum, exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.scenes.at_random import divided
 from quasistatic_ref.lab.scenes.piles import SIDE, pile
@@ -67,6 +68,8 @@ class Scene(NamedTuple):
         Largest turn of a box about the vertical [rad].
     pushed : bool
         Whether the first is.
+    before : int
+        Steps of which nothing is certified, before those that are measured.
     """
 
     name: str
@@ -74,6 +77,7 @@ class Scene(NamedTuple):
     gap: float = 1e-4
     yaw: float = 0.0
     pushed: bool = False
+    before: int = 0
 
 
 SEPARATE = [
@@ -85,7 +89,9 @@ CONNECTED = [
     Scene("12 boxes in a row, pushed", (12, 1, 1), pushed=True),
     Scene("12 yawed boxes in a row, pushed", (12, 1, 1), 0.004, 0.1, True),
     Scene("25 yawed boxes in a row, pushed", (25, 1, 1), 0.004, 0.1, True),
-    Scene("a stack of 40", (1, 1, 40)),
+    Scene("12 boxes in a row, after 60 steps", (12, 1, 1), pushed=True, before=60),
+    Scene("a stack of 40, falling", (1, 1, 40)),
+    Scene("a stack of 10 at rest", (1, 1, 10), before=150),
     Scene("a heap of 3 x 3 x 3, pushed", (3, 3, 3), pushed=True),
     Scene("a heap of 5 x 5 x 4, pushed", (5, 5, 4), pushed=True),
 ]
@@ -117,11 +123,17 @@ class Cost:
 
 def cost(scene: Scene, certify: str) -> Cost:
     """What the steps of a scene cost, with `fast` and the backend that it takes by itself."""
-    some = pile(scene.shape, backend=None, certify=certify, gap=scene.gap, yaw=scene.yaw)
+    some, other = (
+        pile(scene.shape, backend=None, certify=word, gap=scene.gap, yaw=scene.yaw)
+        for word in (certify, "off")
+    )
     q, times, exact = some.q, [], 0
+    force = float(scene.pushed) * some.force
+    for _ in range(scene.before):
+        q = other.simulator.step(q, np.zeros(0), force).q
     for _ in range(1 + STEPS):
         begin = time.process_time()
-        result = some.simulator.step(q, np.zeros(0), float(scene.pushed) * some.force)
+        result = some.simulator.step(q, np.zeros(0), force)
         times.append(time.process_time() - begin)
         exact += result.solution.certificate.kind == "exact"
         q = result.q
@@ -175,14 +187,15 @@ def faults(step: StepData) -> list[str]:
         if isinstance(whole, Farkas):
             return ["feasible by group only"]
         return [] if failure.delta_q.tobytes() == whole.delta_q.tobytes() else ["delta_q"]
+    return unlike(grouped, whole)
+
+
+def unlike(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
+    """In what of that no choice is left of an optimum is not that of the whole step."""
     if isinstance(whole, Farkas):
         return ["feasible by group only"]
     names = (*SAME, "lam") if whole.multipliers_unique else SAME
-    return [name for name in names if _bits(getattr(whole, name)) != _bits(getattr(grouped, name))]
-
-
-def _bits(value: object) -> object:
-    return value.tobytes() if isinstance(value, np.ndarray) else value
+    return [name for name in names if bits(getattr(one, name)) != bits(getattr(whole, name))]
 
 
 def compared(random: int, every: int) -> list[str]:

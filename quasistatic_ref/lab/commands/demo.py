@@ -75,6 +75,7 @@ def _table(report: dict[str, dict[str, object]]) -> list[tuple[str, ...]]:
         "distances_ms": ("time per step: distances [ms]", "{:.2f}"),
         "rows_ms": ("time per step: rows [ms]", "{:.2f}"),
         "solve_ms": ("time per step: solve [ms]", "{:.2f}"),
+        "proof_ms": ("time per step: proof [ms]", "{:.2f}"),
         "integrate_ms": ("time per step: integrate [ms]", "{:.2f}"),
     }
     rows: list[tuple[str, ...]] = [("", *report)]

@@ -13,14 +13,21 @@ from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import proved_nearby
+from quasistatic_ref.optional.fast.guess.far import Solved, far_slacks, with_far
 from quasistatic_ref.optional.fast.kept_step import KeptStep
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep, constants
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.solve.solver import NaturalAnswer
 from quasistatic_ref.solve.units import NaturalHessian
-from quasistatic_ref.step.data import Array, Indices, StepData
+from quasistatic_ref.step.data import Array, Indices, Mask, StepData
 from quasistatic_ref.step.groups import Group, groups, own_rows, split
 from quasistatic_ref.tolerances import ILL_POSED
+
+SMALL = 24
+"""Coordinates up to which a group is not divided further, by the contacts that do not touch."""
+
+TOUCHING = 1e-6
+"""Slack of a row, in natural units, up to which its contact may touch [-]."""
 
 
 class Kept:
@@ -139,7 +146,9 @@ class Proofs:
 
     def __init__(self) -> None:
         self.parts: list[Part] = []
-        self._coupling: list[NDArray[Any]] = []
+        self._of_parts: list[NDArray[Any]] = []
+        self._of_small: list[NDArray[Any]] = []
+        self._small = np.zeros(0, dtype=bool)
 
     def norm(self) -> Norm:
         """The norm ||.||_H of the last step."""
@@ -154,44 +163,81 @@ class Proofs:
         StepInfeasible, StepIllPosed
         """
         step, form = scaled.step, scaled.natural_form
-        slack = None if answer is None else form.A @ answer.delta_q - form.b
-        optima, long = [], False
-        for part in self.divided(step):
-            own, rows, warm = part.scaled(scaled), part.group.rows, list[int]()
-            found = None
-            if answer is not None and slack is not None:
-                pressed = answer.lam[rows], slack[rows]
-                found = part.kept.proved(own, *pressed)
-                warm = [] if found else warm_rows(own.natural_form.A, *pressed)
-            found = found or group_optimum(step, part.group, own.step, warm)
-            norm = part.kept.hessian_of(own.step).norm
-            # Of three loads' steps the longest is at least a third of what they cause together.
-            most = ILL_POSED / 4 * norm.impulse(own.form.g)
-            long = long or not norm.displacement(found.delta_q) <= most
-            optima.append(found)
-        optimum = joined(step, [part.group for part in self.parts], optima)
+        lam, slack = np.zeros((2, step.m))
+        if answer is not None:
+            lam, slack = answer.lam, form.A @ answer.delta_q - form.b
+        near = self._near(step, lam, slack)
+        while True:
+            optima, points, long = list[ExactOptimum](), list[Solved](), False
+            for part in self.divided(step, near):
+                own, rows = part.scaled(scaled), part.group.rows
+                found = part.kept.proved(own, lam[rows], slack[rows]) if answer else None
+                if found is None:
+                    warm = warm_rows(own.natural_form.A, lam[rows], slack[rows])
+                    found = group_optimum(step, part.group, own.step, warm)
+                hessian = part.kept.hessian_of(own.step)
+                # Of three loads' steps the longest is at least a third of their sum's.
+                most = ILL_POSED / 4 * hessian.norm.impulse(own.form.g)
+                long = long or not hessian.norm.displacement(found.delta_q) <= most
+                optima.append(found)
+                points.append((part.group.coordinates, own.step, hessian, found.working_set))
+            optimum = joined(step, [part.group for part in self.parts], optima)
+            if near.all():
+                break
+            slacks, doubtful = far_slacks(step, np.flatnonzero(~near), points)
+            if not doubtful.any():
+                optimum = with_far(step, optimum, near, slacks)
+                break
+            near = near | doubtful
         if long:
             check_length(step, optimum.delta_q)
         return optimum
 
-    def divided(self, step: StepData) -> list[Part]:
-        """The groups of a step: those of the last step, if the same couples its coordinates."""
-        inertia = vars(step)["M_u"]  # whole, or in blocks
-        coupling = [step.K_q, inertia, step.contacts.moves(), step.extra.A != 0, step.counts]
-        if not (self._coupling and all(map(_same, coupling, self._coupling))):
-            self.parts = _parts(step, self.parts)
-        self._coupling = coupling
+    def _near(self, step: StepData, lam: Array, slack: Array) -> Mask:
+        """Which contacts may touch, as an answer says, shape (n_c,); in small groups all do."""
+        coupling = _coupling(step)
+        if not _same(coupling, self._of_small):
+            large = [g.contacts for g in groups(step) if len(g.coordinates) > SMALL]
+            self._small = np.ones(step.contacts.n_c, dtype=bool)
+            self._small[[j for contacts in large for j in contacts]] = False
+            self._of_small = coupling
+        if self._small.all():
+            return self._small
+        m = int(step.offsets[-1])
+        touching = (slack[:m] <= TOUCHING) | (lam[:m] > slack[:m])
+        return self._small | np.logical_or.reduceat(touching, step.offsets[:-1])
+
+    def divided(self, step: StepData, near: Mask) -> list[Part]:
+        """The groups of a step: those of the last step, if the same couples its coordinates.
+
+        Parameters
+        ----------
+        step : StepData
+        near : ndarray of bool, shape (n_c,)
+            The contacts that count.
+        """
+        coupling = [*_coupling(step), near]
+        if not _same(coupling, self._of_parts):
+            self.parts = _parts(step, near, self.parts)
+            self._of_parts = coupling
         return self.parts
 
 
-def _same(one: NDArray[Any], two: NDArray[Any]) -> bool:
-    return one is two or np.array_equal(one, two)
+def _coupling(step: StepData) -> list[NDArray[Any]]:
+    """What couples the coordinates of a step, and how."""
+    inertia = vars(step)["M_u"]  # whole, or in blocks
+    return [step.K_q, inertia, step.contacts.moves(), step.extra.A != 0, step.counts]
 
 
-def _parts(step: StepData, before: list[Part]) -> list[Part]:
+def _same(one: list[NDArray[Any]], two: list[NDArray[Any]]) -> bool:
+    equal = (a is b or np.array_equal(a, b) for a, b in zip(one, two, strict=False))
+    return len(one) == len(two) and all(equal)
+
+
+def _parts(step: StepData, near: Mask, before: list[Part]) -> list[Part]:
     """The groups of a step; those of equal constants share what is kept, also with the `before`."""
-    found = groups(step)
-    if len(found) == 1:
+    found = groups(step, near)
+    if len(found) == 1 and near.all():
         kept = before[0].kept if len(before) == 1 else Kept()
         return [Part(found[0], None, kept)]
     known = {_key(part.constant): part for part in before if part.constant is not None}

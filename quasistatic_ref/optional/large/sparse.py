@@ -1,7 +1,8 @@
 """Large steps: the sparse standard form handed to a backend's own interface.
 
 As :mod:`~quasistatic_ref.solve.native`, in time and memory that grow with the number of entries
-that are not zero. XX
+that are not zero. Answers are judged by residuals and a bound of the error
+(:mod:`~quasistatic_ref.optional.large.sparse_bound`), or proved by `fast`, group by group.
 """
 
 import math

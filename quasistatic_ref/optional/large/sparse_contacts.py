@@ -57,10 +57,10 @@ class SparseContacts(Contacts):
         """Number of columns of J."""
         return self.blocks.n_v
 
-    def moved(self) -> tuple[Indices, Indices]:
-        """Contact and coordinate of each pair of which the first moves with the second."""
+    def entries(self) -> tuple[Indices, Indices, Array]:
+        """The columns of J that are not zero: their contacts and coordinates, and they, (k, 4)."""
         contact, place = np.nonzero(self.moves())
-        return contact, self.blocks.column[contact, place]
+        return contact, self.blocks.column[contact, place], self.blocks.J[contact, :, place]
 
     def moves(self) -> Mask:
         """Whether each contact moves with each of its columns, shape (n_c, w)."""

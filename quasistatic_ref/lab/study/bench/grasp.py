@@ -190,6 +190,7 @@ def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
                 # Selecting once more shows its share of the time.
                 lap["selection"] = _selection(simulator, q)
                 lap["distances"] -= lap["selection"]
+                lap["solve"] += lap["proof"]
                 row = np.array([lap[part] for part in PARTS])
                 taken[key][k] = np.minimum(taken[key][k], row)
     return [_row(key, taken[key], failed[key]) for key in simulators]

@@ -157,7 +157,8 @@ class _Run:
         q = self.q
         result = self.simulator.step(q, self.scenario.targets(self.scenario.h * (k + 1)))
         self.q, lap, call = result.q, result.seconds, sum(self.calls)
-        rest = (lap["solve"] - call, lap["distances"], lap["rows"], lap["integrate"])
+        solve = lap["solve"] + lap["proof"]
+        rest = (solve - call, lap["distances"], lap["rows"], lap["integrate"])
         self.laps.append([call, *rest])
         return q, result.points.phi
 

@@ -159,7 +159,7 @@ class CompiledStep:
         limits = simulator.limits
         if not gap >= -limits.penetration:
             limits.check_penetration(step)
-        lap("solve")
+        lap("solve", proof=solution.statistics.proof_time)
         q_next = self.screws.integrate(solution.delta_q)
         self.poses.move(q_next)
         if not self.reach(self.scene.address) <= SURELY * limits.reach**2:

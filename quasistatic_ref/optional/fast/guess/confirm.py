@@ -16,6 +16,7 @@ exact rows, or from the rational solution on W
 """
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 from flint import arb, arb_mat, ctx
@@ -95,10 +96,25 @@ class BallStep:
     """
 
     def __init__(self, step: StepData, hessian: BallHessian) -> None:
-        self.step, self.hessian, J = step, hessian, step.contacts.J
+        self.step, self.hessian = step, hessian
         with ctx.workprec(PRECISION):
-            self.J = arb_mat(4 * len(J), step.n_v, J.ravel().tolist())
             self.free = hessian.inverse * hessian.h_times_g(step)
+
+    @cached_property
+    def J(self) -> arb_mat:
+        """Of all contacts, shape (4 n_c, n_v)."""
+        J = self.step.contacts.J
+        return arb_mat(4 * len(J), self.step.n_v, J.ravel().tolist())
+
+    def minimiser(self, working: Sequence[int]) -> tuple[arb_mat, arb_mat, arb_mat] | None:
+        """A_W, h lam and the minimiser x on A_W x = b_W; None if A_W is not seen to be regular."""
+        A, b = _rows(self.step, working)
+        reached = A * self.hessian.inverse
+        try:
+            y = (reached * A.transpose()).solve(b - A * self.free)
+        except ZeroDivisionError:
+            return None
+        return A, y, self.free + reached.transpose() * y
 
     def confirmed(self, guess: Sequence[int] | Indices) -> Proof:
         """The exact optimum, if a guess of its working set is right and balls show it.
@@ -117,17 +133,18 @@ class BallStep:
         step, hessian = self.step, self.hessian
         working = sorted({int(i) for i in guess})
         with ctx.workprec(PRECISION):
-            A, b = _rows(step, working)
-            reached = A * hessian.inverse
-            try:
-                y = (reached * A.transpose()).solve(b - A * self.free)
-            except ZeroDivisionError:
+            found = self.minimiser(working)
+            if found is None:
                 return None
+            A, y, x = found
             pressed = [i for i, y_i in zip(working, y.entries(), strict=True) if y_i > 0]
             if pressed != working:
                 return self.confirmed(pressed)
-            x = self.free + reached.transpose() * y
-            lam, slacks = y * (1 / hessian.h), _slacks(step, self.J, x)
+            lam, motion = y * (1 / hessian.h), (self.J * x).entries()
+            slacks = contact_slacks(step, range(step.contacts.n_c), motion)
+            if step.extra.names:
+                A_own = arb_mat(len(step.extra.names), step.n_v, step.extra.A.ravel().tolist())
+                slacks += (A_own * x - _column(step.extra.b)).entries()
             violated = [i for i, slack in enumerate(slacks) if slack < 0]
             if violated:
                 point = [np.array([float(v) for v in part.entries()]) for part in (lam, x)]
@@ -214,20 +231,26 @@ def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:
     return arb_mat(len(working), step.n_v, entries), arb_mat(len(working), 1, b)
 
 
-def _slacks(step: StepData, J: arb_mat, x: arb_mat) -> list[arb]:
-    """A x - b of all rows: the cone's function of gap, slip and spin of each contact, from J."""
-    contacts, rows = step.contacts, cone_function(step.cone)
-    v, found = (J * x).entries(), list[arb]()
-    of_contacts = zip(contacts.phi.tolist(), contacts.n.tolist(), contacts.d1.tolist(),
-                      contacts.d2.tolist(), contacts.mu.tolist(), step.counts.tolist(),
-                      strict=True)  # fmt: skip
-    for j, (phi, n, d1, d2, (mu_v, _, mu_omega), count) in enumerate(of_contacts):
-        nu, spin = v[4 * j : 4 * j + 3], v[4 * j + 3]
+def contact_slacks(step: StepData, which: Sequence[int] | Indices, motion: list[arb]) -> list[arb]:
+    """A x - b of the rows of some contacts: the cone's function of gap, slip and spin.
+
+    Parameters
+    ----------
+    step : StepData
+    which : sequence of int
+        The contacts.
+    motion : list of arb, length 4 len(which)
+        J x of these [m, m, m, rad].
+    """
+    contacts, rows, j = step.contacts, cone_function(step.cone), [*which]
+    numbers = (contacts.phi, contacts.n, contacts.d1, contacts.d2, contacts.mu, step.counts)
+    found = list[arb]()
+    for i, (phi, n, d1, d2, (mu_v, _, mu_omega), count) in enumerate(
+        zip(*(given[j].tolist() for given in numbers), strict=True)
+    ):
+        nu, spin = motion[4 * i : 4 * i + 3], motion[4 * i + 3]
         gap, slip_1, slip_2 = _dot(n, nu) + phi, _dot(d1, nu) * mu_v, _dot(d2, nu) * mu_v
         found += rows(gap, slip_1, slip_2, spin * mu_omega)[:count]  # Eq. (4)
-    if step.extra.names:
-        A = arb_mat(len(step.extra.names), step.n_v, step.extra.A.ravel().tolist())
-        found += (A * x - _column(step.extra.b)).entries()
     return found
 
 

@@ -1,0 +1,54 @@
+"""Connected bodies, proved in the groups that press on each other."""
+
+from contextlib import suppress
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.exact import exact_optimum
+from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
+from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast import proofs
+from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.tolerances import ACCURACY
+from tests.oracles.random_steps import mixed_step
+from validation.make.grouped_proofs import unlike
+
+
+def optimum_of(step):
+    """The optimum by the proofs of `fast`, and the greatest number of groups that they made."""
+    solver = solver_for(step, "daqp", fast=True)
+    scaled, answer = solver.scaled(step), None
+    with suppress(StepNotSolved):  # of the backend: the exact method starts from cold
+        answer = solver.answer(scaled, ACCURACY)
+    return solver.optimum(scaled, answer), len(solver.proofs.parts)
+
+
+@pytest.mark.parametrize("touching", [proofs.TOUCHING, -np.inf])
+def test_contacts_that_do_not_touch_are_left_out_and_proved_open(monkeypatch, touching):
+    """With -inf all rows that bear nothing are left out, also those that the answer needs."""
+    monkeypatch.setattr(proofs, "SMALL", 0)
+    monkeypatch.setattr(proofs, "TOUCHING", touching)
+    several = 0
+    for seed in range(20):
+        step = mixed_step(seed)
+        try:
+            optimum, parts = optimum_of(step)
+        except (StepInfeasible, StepIllPosed):
+            continue
+        assert unlike(optimum, exact_optimum(exact_form(step))) == [], seed
+        several += parts > 1
+    assert several > 1
+
+
+def test_a_row_of_boxes_that_is_pushed_has_the_bits_of_the_whole(monkeypatch):
+    some = pile((5, 1, 1), gap=0.004, yaw=0.1, certify="full", backend="daqp")
+    q = some.q
+    for _ in range(2):
+        result = some.simulator.step(q, np.zeros(0), some.force)
+        q = result.q
+    assert len(some.simulator.solver.proofs.parts) >= 5
+    whole = exact_optimum(exact_form(result.step), np.flatnonzero(result.solution.lam).tolist())
+    assert result.solution.delta_q.tobytes() == whole.delta_q.tobytes()
+    assert unlike(optimum_of(result.step)[0], whole) == []
