@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.simulate.observer import Observer, warnings_of_runs
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
@@ -27,7 +28,7 @@ Part = dict[str, NDArray[Any]]
 """Arrays over some steps that follow one another."""
 
 
-class Recorder:
+class Recorder(Shown):
     """Collects the results of steps into a trajectory.
 
     Parameters

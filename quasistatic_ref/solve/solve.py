@@ -48,8 +48,8 @@ def solve_step(
     step : StepData
         SI units.
     solver : str or Solver, optional
-        A name from :func:`~quasistatic_ref.solve.backends.installed_backends`, by default
-        Clarabel's, with `fast` DAQP's; or ``"none"``, with ``certify="full"`` only: the exact
+        A name from :func:`~quasistatic_ref.solve.backends.backend_names`, by default
+        Clarabel's, with `fast` DAQP's; ``"none"``, with ``certify="full"`` only, is the exact
         method from a cold start; or what :func:`~quasistatic_ref.solve.solver.solver_for` makes of
         a name: an object that holds a compiled problem and is kept between steps of one kind. What
         is certified does not depend on it.
