@@ -100,6 +100,7 @@ bibtex_default_style = "plain"
 doctest_global_setup = """
 from fractions import Fraction
 import numpy as np
+import quasistatic_ref as qr
 from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.step.cones import direction

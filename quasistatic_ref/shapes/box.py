@@ -15,7 +15,14 @@ from quasistatic_ref.step.arrays import Array
 
 @dataclass(frozen=True, eq=False)
 class Box(Rounded):
-    """A cuboid along the axes of its frame: |x_i| <= half_extents_i, shape (3,) [m]."""
+    """A cuboid along the axes of its frame: |x_i| <= half_extents_i, shape (3,) [m].
+
+    Examples
+    --------
+    >>> phi, n = qr.Box((0.01, 0.02, 0.03)).signed_distance(np.array([[0, 0, 0.05]]))
+    >>> phi.round(12)  # [m]
+    array([0.02])
+    """
 
     half_extents: Array
 

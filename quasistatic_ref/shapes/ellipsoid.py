@@ -18,7 +18,14 @@ STEPS = 100
 
 @dataclass(frozen=True, eq=False)
 class Ellipsoid(Shape):
-    """All x with sum (x_i / half_axes_i)^2 <= 1; half_axes has shape (3,) [m]."""
+    """All x with sum (x_i / half_axes_i)^2 <= 1; half_axes has shape (3,) [m].
+
+    Examples
+    --------
+    >>> phi, n = qr.Ellipsoid((0.01, 0.02, 0.03)).signed_distance(np.array([[0, 0, 0.04]]))
+    >>> phi.round(12)  # [m]
+    array([0.01])
+    """
 
     half_axes: Array
 

@@ -56,6 +56,15 @@ class Recorder(Shown):
     ------
     InputError
         If there is no such record, or q is no configuration.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> simulator, q = scenario.simulator(), scenario.system.q_start
+    >>> recorder = qr.Recorder(simulator, q)
+    >>> recorder.add(np.zeros(0), simulator.step(q, np.zeros(0)))
+    >>> len(recorder.trajectory())
+    1
     """
 
     def __init__(

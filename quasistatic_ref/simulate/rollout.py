@@ -86,6 +86,14 @@ def rollout(
     RunFailed
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> simulator, q = scenario.simulator(), scenario.system.q_start
+    >>> run = qr.rollout(simulator, q, [], steps=3, progress=False)
+    >>> len(run), run.phi.shape
+    (3, (3, 1))
     """
     recorder = Recorder(simulator, q, record, [*warnings_of_runs(printed=progress), *observers])
     q_bar_a = target_function(simulator.system, simulator.h, target, steps)

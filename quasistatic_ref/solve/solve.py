@@ -91,6 +91,12 @@ def solve_step(
         If a solver object does not fit the step or is given with `fast`, if `certify` is none of
         these words, if `accuracy` is not greater than 0, or, with ``"full"`` and ``"residual"``, if
         nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> bool((qr.solve_step(step).delta_q == qr.solve_step(step, "osqp").delta_q).all())
+    True
     """
     if not accuracy > 0:
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)

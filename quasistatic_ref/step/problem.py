@@ -39,6 +39,14 @@ class StepProblem(Shown):
     ------
     StepDataError
         If the step is in another cone, or has rows of a user's own.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> page = qr.StepProblem(step)
+    >>> page.fill(step)
+    >>> page.problem.is_qp()
+    True
     """
 
     def __init__(self, like: StepData) -> None:

@@ -49,6 +49,13 @@ def standard_form(step: StepData) -> StandardForm:
     Returns
     -------
     StandardForm
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> form = qr.standard_form(step)
+    >>> form.H.shape, form.A.shape
+    ((6, 6), (6, 6))
     """
     A = friction_rows(step.contacts, step.cone)[step.mask]  # Eq. (8)
     b = -row_gaps(step.contacts, step.cone)[step.mask]  # Eq. (8)

@@ -101,6 +101,12 @@ def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
     ------
     InputError
         If the certificate is of another step or kind, or the cone no polyhedron.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.sensitivity(step, qr.solve_step(step).certificate).tau_u.shape
+    (6, 6)
     """
     if certificate.kind != "exact" or not cone(step.cone).polyhedral:
         raise InputError(
