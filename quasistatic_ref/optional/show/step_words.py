@@ -74,7 +74,7 @@ def force_rows(solution: StepSolution) -> list[Row]:
 
 
 def array_rows(arrays: Mapping[str, Array]) -> list[Row]:
-    """Of each array: its name, shape, largest magnitude and number of entries that are NaN."""
+    """Of each of `arrays`, any shapes [-]: name, shape, largest magnitude, number of NaN."""
     return [
         (name, " x ".join(map(str, array.shape)),
          number(np.abs(array[np.isfinite(array)]).max(initial=0.0)),
