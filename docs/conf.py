@@ -16,6 +16,7 @@ from docutils import nodes
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
+import quasistatic_ref  # noqa: E402 the path has to be there first
 from docs.fields_page import reference_page  # noqa: E402 the path has to be there first
 from quasistatic_ref import __version__  # noqa: E402 the path has to be there first
 from quasistatic_ref.lab.examples.gallery import EXAMPLES  # noqa: E402 the path has to be there first
@@ -99,6 +100,7 @@ bibtex_default_style = "plain"
 doctest_global_setup = """
 from fractions import Fraction
 import numpy as np
+import quasistatic_ref as qr
 from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.step.cones import direction
@@ -119,6 +121,8 @@ INCLUDED = {
     "validation/vectors/README.md": "vectors.md",
 }
 """Pages of the repository that are pages of the site too: where they are, and where here."""
+PUBLIC = {getattr(quasistatic_ref, name).__module__ for name in quasistatic_ref.__all__[1:]}
+"""Modules of the names that users import from the package itself."""
 CITED_RESULT = re.compile(r"\((R\d+)\)")
 CITED_EQUATION = re.compile(r":eq:`eq-(\d+)`")
 CITED_NAME = re.compile(r":(?:class|func|meth|attr|mod):`~?(?:\w+\.)*(\w+)`")
@@ -175,6 +179,7 @@ def _modules(folder):
     """An automodule directive for each module of a folder; package and lab give only their own."""
     files = folder.glob("*.py") if folder in (PACKAGE, LAB) else folder.rglob("*.py")
     names = [".".join(path.relative_to(ROOT).with_suffix("").parts) for path in sorted(files)]
+    names.sort(key=lambda name: name not in PUBLIC)  # what a user calls comes first
     one = "## {short}\n\n```{{eval-rst}}\n.. automodule:: {name}\n```\n"
     return "\n".join(
         one.format(short=name.split(".", 1)[1].replace(".", "/") + ".py", name=name)
@@ -188,7 +193,6 @@ def _example(name):
     path = PACKAGE / "lab" / "examples" / f"{name}.py"
     title, _, text = ast.get_docstring(ast.parse(path.read_text("utf-8"))).partition("\n")
     text = re.sub(r"Eq. \((\d+)\)", r"Eq. {eq}`eq-\1`", text)
-    text = _results_linked(text)
     return f"""
 ## {title.rstrip(".")}
 

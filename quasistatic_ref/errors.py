@@ -22,7 +22,16 @@ if TYPE_CHECKING:
 
 
 class QuasistaticError(Exception):
-    """Root of every error that this package raises on purpose."""
+    """Root of every error that this package raises on purpose.
+
+    Examples
+    --------
+    >>> try:
+    ...     qr.load_scenario("no_such_scene")
+    ... except qr.QuasistaticError as error:
+    ...     print(type(error).__name__)
+    ScenarioError
+    """
 
     def __str__(self) -> str:
         return one_line(short_words(super().__str__()))
@@ -53,6 +62,14 @@ class InputError(QuasistaticError):
         The offending value.
     file : str or Path, optional
         The file that it stands in.
+
+    Examples
+    --------
+    >>> try:
+    ...     qr.Sphere(-0.01)
+    ... except qr.InputError as error:
+    ...     print(error)
+    radius: must be a positive length (got -0.01)
     """
 
     def __init__(
@@ -80,23 +97,71 @@ class InputError(QuasistaticError):
 
 
 class StepDataError(InputError):
-    """The numbers of a step are not usable: wrong shape, not finite, H not positive definite."""
+    """The numbers of a step are not usable: wrong shape, not finite, H not positive definite.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> try:
+    ...     step.replace(h=-0.02)
+    ... except qr.StepDataError as error:
+    ...     print(error)
+    h: must be a positive number of seconds (got -0.02)
+    """
 
 
 class ModelError(InputError):
-    """A URDF, or a coordinate of it, is not usable."""
+    """A URDF, or a coordinate of it, is not usable.
+
+    Examples
+    --------
+    >>> try:
+    ...     qr.Sphere(-0.01)
+    ... except qr.ModelError as error:
+    ...     print(error)
+    radius: must be a positive length (got -0.01)
+    """
 
 
 class ContactError(InputError):
-    """A contact pair is not usable, or its distance has no trustworthy normal."""
+    """A contact pair is not usable, or its distance has no trustworthy normal.
+
+    Examples
+    --------
+    >>> ball = qr.PlacedShape("ball", link=0, R=np.eye(3), t=np.zeros(3), shape=qr.Sphere(0.05))
+    >>> try:
+    ...     qr.ContactPair("twice", ball, ball, mu_v=0.3, mu_omega=0.0, rows=4, k=1)
+    ... except qr.ContactError as error:
+    ...     print(error)
+    twice: both shapes are fixed to the same link
+    """
 
 
 class ScenarioError(InputError):
-    """A scenario contradicts itself or names something that does not exist."""
+    """A scenario contradicts itself or names something that does not exist.
+
+    Examples
+    --------
+    >>> try:
+    ...     qr.load_scenario("sphere_spin", {"contacts.floor.mu_w": 0})
+    ... except qr.ScenarioError as error:
+    ...     print(error.field)
+    contacts.floor.mu_w
+    """
 
 
 class BackendError(InputError):
-    """The solver is unknown or not installed, or does not support what a call needs."""
+    """The solver is unknown or not installed, or does not support what a call needs.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> try:
+    ...     qr.solve_step(step, "clarabell")
+    ... except qr.BackendError as error:
+    ...     print(error.field, error.value)
+    backend clarabell
+    """
 
 
 class StepNotSolved(QuasistaticError):
@@ -116,6 +181,16 @@ class StepNotSolved(QuasistaticError):
         The accuracy of the call, in natural units [-].
     residuals : Residuals, optional
         Residuals of the refused answer, where there was one.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> walls = qr.Extra(names=("up", "down"), A=np.eye(6)[2] * [[1], [-1]], b=[1e-3, 1e-3])
+    >>> try:
+    ...     qr.solve_step(step.replace(extra=walls))
+    ... except qr.StepNotSolved as error:
+    ...     print(error.status, error.step.n_v)
+    infeasible 6
     """
 
     def __init__(
@@ -143,6 +218,16 @@ class StepInfeasible(StepNotSolved):
         The step in SI units, as given.
     farkas : FarkasVector
         The proof: a combination of the rows that reads 0 >= something positive.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> walls = qr.Extra(names=("up", "down"), A=np.eye(6)[2] * [[1], [-1]], b=[1e-3, 1e-3])
+    >>> try:
+    ...     qr.solve_step(step.replace(extra=walls))
+    ... except qr.StepInfeasible as error:
+    ...     print(error.status)
+    infeasible
     """
 
     def __init__(self, step: StepData, farkas: FarkasVector) -> None:
@@ -165,6 +250,17 @@ class StepIllPosed(StepNotSolved):
         The exact optimum [m, rad], correctly rounded.
     length : float
         Its length in the H norm, over the largest that the loads or a row ask for alone [-].
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> A = [[1, 0, 0, 0, 0, 0], [-1, 1e-12, 0, 0, 0, 0]]  # opposite but for 1e-12
+    >>> walls = qr.Extra(names=("left", "right"), A=A, b=[1e-3, 1e-3])
+    >>> try:
+    ...     qr.solve_step(step.replace(extra=walls))
+    ... except qr.StepIllPosed as error:
+    ...     print(error.length > 1e6)
+    True
     """
 
     def __init__(self, step: StepData, delta_q: Array, length: float) -> None:
@@ -185,6 +281,17 @@ class LimitExceeded(StepNotSolved):
         What is beyond which limit, and the remedy.
     step : StepData
         The step that was not taken.
+
+    Examples
+    --------
+    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
+    >>> system = qr.System([ball])
+    >>> storm = qr.Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(0, 0, -1e7))
+    >>> try:
+    ...     storm.step(system.q_start, np.zeros(0))
+    ... except qr.LimitExceeded as error:
+    ...     print(error.status)
+    limit exceeded
     """
 
     def __init__(self, problem: str, step: StepData) -> None:
@@ -199,6 +306,11 @@ class NotDifferentiable(QuasistaticError):
     ----------
     reasons : tuple
         Why, each in words as its text: at least one. The part that raises it says of what type.
+
+    Examples
+    --------
+    >>> print(qr.NotDifferentiable(("row +d1 of floor bears no load",)))
+    the step has no derivative here: row +d1 of floor bears no load
     """
 
     def __init__(self, reasons: tuple[Any, ...]) -> None:
@@ -220,6 +332,17 @@ class RunFailed(QuasistaticError):
         The step that failed.
     file : Path, optional
         Where the trajectory was written.
+
+    Examples
+    --------
+    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
+    >>> system = qr.System([ball])
+    >>> storm = qr.Simulator(system, [], h=0.01, K_q=np.zeros((0, 0)), gravity=(0, 0, -1e7))
+    >>> try:
+    ...     qr.rollout(storm, system.q_start, [], steps=3, progress=False)
+    ... except qr.RunFailed as error:
+    ...     print(len(error.trajectory))
+    0
     """
 
     def __init__(

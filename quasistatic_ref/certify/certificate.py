@@ -127,6 +127,13 @@ def verify(
     ------
     InputError
         If nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> solution = qr.solve_step(step)
+    >>> bool(qr.verify(step, solution.delta_q, solution.certificate.active))
+    True
     """
     if claims is not None and claims.kind != "none" and not claims.is_of(step):
         return Verdict(False, "the certificate is of another step")

@@ -8,9 +8,10 @@ from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
+    NONE,
     QPSOLVERS,
+    backend_names,
     installed,
-    installed_backends,
 )
 
 
@@ -21,7 +22,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the table of backends."""
-    known, native = installed_backends(), installed("native")
+    known, native = backend_names(), installed("native")
     quick = fast_default()
     if options.json:
         defaults = {"default": DEFAULT, "default_of_fast": quick}
@@ -35,7 +36,8 @@ def run(options: argparse.Namespace) -> int:
         name += " (default)" if name == DEFAULT else ""
         name += " (default with --fast)" if entry.name == quick else ""
         reached = [key if key in known else "-" for key in (entry.name, QPSOLVERS + entry.name)]
-        rows.append((name, *reached, "yes" if entry.name in native else "-", entry.method))
+        rows.append((name, *reached, entry.name if entry.name in native else "-", entry.method))
+    rows.append((NONE, "-", "-", "-", "exact method from a cold start"))
     shared.print_rows(rows)
     return 0
 

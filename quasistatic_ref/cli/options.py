@@ -50,9 +50,9 @@ CERTIFY = ("full", "residual", "off")
 
 
 def _backends() -> Sequence[str]:
-    from quasistatic_ref.solve.backends import installed_backends
+    from quasistatic_ref.solve.backends import backend_names
 
-    return installed_backends()
+    return backend_names()
 
 
 WORDS: Final[dict[str, Callable[[], Iterable[str]]]] = {

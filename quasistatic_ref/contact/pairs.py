@@ -39,6 +39,15 @@ class ContactPair(Plain):
     ContactError
         If the two shapes can never make a contact that this model understands, or a number is none
         that the notation allows.
+
+    Examples
+    --------
+    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
+    >>> system = qr.System([ball])
+    >>> ground = qr.HalfSpace((0, 0, 1), 0.0)
+    >>> floor = qr.PlacedShape("floor", link=0, R=np.eye(3), t=np.zeros(3), shape=ground)
+    >>> qr.ContactPair("f", floor, system.shapes[0], mu_v=0.5, mu_omega=0.01, rows=6, k=1).n_c
+    1
     """
 
     name: str

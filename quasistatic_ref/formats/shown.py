@@ -13,14 +13,24 @@ class Shown:
     """
 
     def __repr__(self) -> str:
-        show = part("show.pages")
-        if show is not None:
-            return str(show.text(self))
-        if not is_dataclass(self):
-            return super().__repr__()
-        values = ", ".join(f"{field.name}={getattr(self, field.name)!r}" for field in fields(self))
-        return f"{type(self).__name__}({values})"
+        return text_of(self)
 
     def _repr_html_(self) -> str | None:
-        show = part("show.pages")
-        return None if show is None else str(show.html(self))
+        return html_of(self)
+
+
+def text_of(shown: object) -> str:
+    """An object in words."""
+    show = part("show.pages")
+    if show is not None:
+        return str(show.text(shown))
+    if not is_dataclass(shown):
+        return object.__repr__(shown)
+    values = ", ".join(f"{field.name}={getattr(shown, field.name)!r}" for field in fields(shown))
+    return f"{type(shown).__name__}({values})"
+
+
+def html_of(shown: object) -> str | None:
+    """An object as HTML; None where the part that writes it is missing."""
+    show = part("show.pages")
+    return None if show is None else str(show.html(shown))

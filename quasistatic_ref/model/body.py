@@ -49,6 +49,12 @@ class Body(Plain):
     ModelError
         If a name cannot serve, or a number is not finite. What concerns the URDF itself is
         checked by :class:`~quasistatic_ref.model.system.System`.
+
+    Examples
+    --------
+    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3)
+    >>> ball.name
+    'ball'
     """
 
     name: str

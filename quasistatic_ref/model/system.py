@@ -89,6 +89,13 @@ class System(Shown):
     ------
     ModelError
         If a URDF is not usable, a name is unknown or taken, or M_u is singular.
+
+    Examples
+    --------
+    >>> ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
+    >>> system = qr.System([ball])
+    >>> [c.name for c in system.coordinates[:3]]
+    ['ball/base.x', 'ball/base.y', 'ball/base.z']
     """
 
     def __init__(self, bodies: Sequence[Body]) -> None:

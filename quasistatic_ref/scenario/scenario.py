@@ -107,6 +107,12 @@ class Scenario(Plain, Shown):
         Beyond which no step is taken.
     rises : Rises
         Private ones, of friction in joints and of supports.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin", steps=3)
+    >>> scenario.system.n_v, scenario.h
+    (6, 0.01)
     """
 
     path: Path
@@ -225,6 +231,11 @@ def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> S
     ------
     InputError
         Naming the file, the field and the value; a ScenarioError or, from a URDF, a ModelError.
+
+    Examples
+    --------
+    >>> qr.load_scenario("bunny_grasp", {"contacts.grip.mu_omega": 0.0}, steps=3).steps
+    3
     """
     path = scenario_path(name)
     with about_file(path):

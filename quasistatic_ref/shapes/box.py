@@ -21,6 +21,12 @@ class Box(Rounded):
     """A cuboid along the axes of its frame: |x_i| <= half_extents_i = size_i / 2, shape (3,) [m].
 
     It is made of its half extents or, as in files, of its `size`, shape (3,) [m].
+
+    Examples
+    --------
+    >>> phi, n = qr.Box((0.01, 0.02, 0.03)).signed_distance(np.array([[0, 0, 0.05]]))
+    >>> phi.round(12)  # [m]
+    array([0.02])
     """
 
     half_extents: Array

@@ -16,6 +16,12 @@ class Capsule(Round, Rounded):
     """All points within radius [m] of a segment of its local z axis, |z| <= half_length [m].
 
     half_length is that of the segment, as in URDF and coal: the caps lie beyond it.
+
+    Examples
+    --------
+    >>> phi, n = qr.Capsule(0.02, half_length=0.05).signed_distance(np.array([[0, 0, 0.08]]))
+    >>> phi.round(12)  # [m]
+    array([0.01])
     """
 
     @cached_property

@@ -17,6 +17,12 @@ class Cone(Round):
     """A cone about its local z axis: its base at z = -half_length, its tip at z = +half_length.
 
     radius [m] is that of the base.
+
+    Examples
+    --------
+    >>> phi, n = qr.Cone(radius=0.02, half_length=0.05).signed_distance(np.array([[0, 0, 0.06]]))
+    >>> phi.round(12)  # [m]
+    array([0.01])
     """
 
     @cached_property

@@ -120,6 +120,13 @@ def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
     ------
     ModelError
         If the points are too few or not finite, or lie in one plane.
+
+    Examples
+    --------
+    >>> tetrahedron = qr.convex_hull(np.vstack([np.zeros(3), 0.1 * np.eye(3)]))
+    >>> phi, n = tetrahedron.signed_distance(np.array([[-0.01, 0.01, 0.01]]))
+    >>> phi.round(12)  # [m]
+    array([0.01])
     """
     from scipy.spatial import ConvexHull, QhullError  # takes as long as a short run
 

@@ -13,7 +13,14 @@ from quasistatic_ref.step.ordered import norm
 
 
 class Cylinder(Round):
-    """A cylinder about its local z axis, |z| <= half_length; radius and half_length in [m]."""
+    """A cylinder about its local z axis, |z| <= half_length; radius and half_length in [m].
+
+    Examples
+    --------
+    >>> phi, n = qr.Cylinder(0.02, half_length=0.05).signed_distance(np.array([[0.03, 0, 0]]))
+    >>> phi.round(12)  # [m]
+    array([0.01])
+    """
 
     @cached_property
     def coal(self) -> Any:

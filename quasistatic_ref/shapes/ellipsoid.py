@@ -24,6 +24,12 @@ class Ellipsoid(Shape):
     """All x with sum (x_i / half_axes_i)^2 <= 1; half_axes has shape (3,) [m].
 
     It is made of its half axes or, as in files, of its `size`, twice these, shape (3,) [m].
+
+    Examples
+    --------
+    >>> phi, n = qr.Ellipsoid((0.01, 0.02, 0.03)).signed_distance(np.array([[0, 0, 0.04]]))
+    >>> phi.round(12)  # [m]
+    array([0.01])
     """
 
     half_axes: Array

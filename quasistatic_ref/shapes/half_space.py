@@ -27,6 +27,12 @@ class HalfSpace(Shape):
         so that the solid is the one that was written.
     offset : float
         Signed distance of the surface from the origin [m].
+
+    Examples
+    --------
+    >>> phi, n = qr.HalfSpace((0, 0, 1), 0.0).signed_distance(np.array([[5, 0, -0.01]]))
+    >>> phi  # [m]
+    array([-0.01])
     """
 
     normal: Array

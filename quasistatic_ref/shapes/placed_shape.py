@@ -42,6 +42,13 @@ class PlacedShape(Plain):
     ------
     ModelError
         If R is not a rotation or a number is not finite.
+
+    Examples
+    --------
+    >>> ground = qr.HalfSpace((0, 0, 1), 0.0)
+    >>> floor = qr.PlacedShape("floor", link=0, R=np.eye(3), t=np.zeros(3), shape=ground)
+    >>> floor.name
+    'floor'
     """
 
     name: str

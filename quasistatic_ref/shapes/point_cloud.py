@@ -18,6 +18,11 @@ class PointCloud(Shape):
 
     Points that repeat an earlier one are left out: they would be contacts that bear nothing more,
     in the place of others. Numbers of points count those that are left.
+
+    Examples
+    --------
+    >>> len(qr.PointCloud(np.eye(3)).points)
+    3
     """
 
     points: Array

@@ -15,7 +15,14 @@ from quasistatic_ref.step.arrays import Array
 
 @dataclass(frozen=True, eq=False)
 class Sphere(Rounded):
-    """A ball of the given radius [m] about the origin of its frame."""
+    """A ball of the given radius [m] about the origin of its frame.
+
+    Examples
+    --------
+    >>> phi, n = qr.Sphere(0.05).signed_distance(np.array([[0, 0, 0.06]]))
+    >>> phi.round(12)  # [m]
+    array([0.01])
+    """
 
     radius: float
 

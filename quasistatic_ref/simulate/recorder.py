@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
@@ -29,7 +30,7 @@ Part = dict[str, NDArray[Any]]
 """Arrays over some steps that follow one another."""
 
 
-class Recorder:
+class Recorder(Shown):
     """Collects the results of steps into a trajectory.
 
     Parameters
@@ -58,6 +59,15 @@ class Recorder:
     ------
     InputError
         If there is no such record, or q is no configuration.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> simulator, q = scenario.simulator(), scenario.system.q_start
+    >>> recorder = qr.Recorder(simulator, q)
+    >>> recorder.add(np.zeros(0), simulator.step(q, np.zeros(0)))
+    >>> len(recorder.trajectory())
+    1
     """
 
     def __init__(

@@ -27,6 +27,14 @@ class StepResult(Plain, Shown):
         Where the contacts were, before the step.
     seconds : dict of str to float
         Wall time of the parts: distances, rows, solve, proof, integrate [s]; not compared.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> simulator, q = scenario.simulator(), scenario.system.q_start
+    >>> result = simulator.step(q, np.zeros(0))
+    >>> result.solution.wrench[0, 2].round(6)  # the weight [N]
+    np.float64(2.943)
     """
 
     q: Array

@@ -92,6 +92,14 @@ def rollout(
     RunFailed
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> simulator, q = scenario.simulator(), scenario.system.q_start
+    >>> run = qr.rollout(simulator, q, [], steps=3, progress=False)
+    >>> len(run), run.phi.shape
+    (3, (3, 1))
     """
     if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
         raise InputError("must be a whole number, 0 or more", field="steps", value=steps)

@@ -129,6 +129,13 @@ class Simulator(Shown):
         If the backend is unknown or not installed, or does not take the cone.
     InputError
         If `fast` is wanted, and its folder is not there, or the extension is no function.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> simulator, q = scenario.simulator(), scenario.system.q_start
+    >>> simulator.step(q, np.zeros(0)).q.round(6)  # place [m] and quaternion
+    array([0.  , 0.  , 0.05, 0.  , 0.  , 0.  , 1.  ])
     """
 
     def __new__(cls, *given: Any, fast: bool = False, **settings: Any) -> Simulator:

@@ -66,6 +66,12 @@ class Trajectory(Plain, Shown):
 
     Each array is an attribute as well: ``trajectory.phi`` is ``trajectory["phi"]``. All are
     read-only.
+
+    Examples
+    --------
+    >>> run = qr.load_scenario("sphere_spin", steps=3).run(progress=False)
+    >>> len(run), run.wrench.shape
+    (3, (3, 1, 4))
     """
 
     header: Mapping[str, Any]
@@ -252,6 +258,15 @@ def trajectory_read(path: str | Path) -> Trajectory:
     InputError
         If it is not one, is of another version, its header and arrays do not fit together, a field
         is unknown or missing, or a number is not finite that has to be.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> run = qr.load_scenario("sphere_spin", steps=3).run(progress=False)
+    >>> path = run.save(Path(tempfile.mkdtemp()) / "spin.npz")
+    >>> qr.trajectory_read(path).phi.shape
+    (3, 1)
     """
     header, arrays = npz_record(path, WHAT)
     with about_file(path):

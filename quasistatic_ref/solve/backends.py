@@ -230,9 +230,14 @@ def installed(interface: str) -> tuple[str, ...]:
 
 
 def installed_backends() -> tuple[str, ...]:
-    """Names that ``solver=`` accepts here: those through CVXPY first, then qpsolvers'."""
+    """Names of the solvers here: those through CVXPY first, then those through qpsolvers."""
     names = (*installed("cvxpy"), *(QPSOLVERS + name for name in installed("qpsolvers")))
     return tuple(name for name in names if BACKENDS[name.removeprefix(QPSOLVERS)].steps)
+
+
+def backend_names() -> tuple[str, ...]:
+    """Every name that a user may write here, as messages, completion and ``backends`` list them."""
+    return (*installed_backends(), NONE)
 
 
 def backend(name: str) -> Backend:
@@ -243,7 +248,7 @@ def backend(name: str) -> Backend:
     BackendError
         If the name is unknown, or its solver is not installed.
     """
-    known = (*installed_backends(), NONE)
+    known = backend_names()
     entry = BACKENDS.get(name.removeprefix(QPSOLVERS)) if isinstance(name, str) else None
     if entry is None or not entry.steps:
         hint = suggestion(str(name), known)

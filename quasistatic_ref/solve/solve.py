@@ -51,8 +51,8 @@ def solve_step(
     step : StepData
         SI units.
     solver : str or Solver, optional
-        A name from :func:`~quasistatic_ref.solve.backends.installed_backends`, by default
-        Clarabel's, with `fast` DAQP's; or ``"none"``, with ``certify="full"`` only: the exact
+        A name from :func:`~quasistatic_ref.solve.backends.backend_names`, by default
+        Clarabel's, with `fast` DAQP's; ``"none"``, with ``certify="full"`` only, is the exact
         method from a cold start; or what :func:`~quasistatic_ref.solve.solver.solver_for` makes of
         a name: an object that holds a compiled problem and is kept between steps of one kind. What
         is certified does not depend on it.
@@ -94,6 +94,12 @@ def solve_step(
         If a solver object does not fit the step or is given with `fast`, if `certify` is none of
         these words, if `accuracy` is not greater than 0, or, with ``"full"`` and ``"residual"``, if
         nothing can be proved in this thread: see :mod:`~quasistatic_ref.certify.arithmetic`.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> bool((qr.solve_step(step).delta_q == qr.solve_step(step, "osqp").delta_q).all())
+    True
     """
     if not accuracy > 0:
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)

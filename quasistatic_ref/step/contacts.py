@@ -55,6 +55,12 @@ class Contacts(Plain, Shown):
     ------
     StepDataError
         If a shape, a sign or a frame is wrong, or a number is not finite.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> step.contacts.phi.shape, step.contacts.J.shape
+    ((1,), (1, 4, 6))
     """
 
     name: tuple[str, ...]

@@ -44,6 +44,13 @@ class Extra(Plain, Shown):
     names : tuple of str, length m
     A : ndarray, shape (m, n_v)
     b : ndarray, shape (m,)
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> limit = qr.Extra(names=("ceiling",), A=[[0, 0, -1, 0, 0, 0]], b=[-1e-5])
+    >>> bool(qr.solve_step(step.replace(extra=limit)).delta_q[2] <= 1e-5)
+    True
     """
 
     names: tuple[str, ...]
@@ -124,6 +131,12 @@ class StepData(Plain, Shown):
     -----
     Each field is checked, and copied read-only. The steps of a simulator with ``fast`` are
     :class:`~quasistatic_ref.optional.fast.posed.PosedStep`.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> step.n_v, step.contacts.n_c, step.replace(h=0.02).h
+    (6, 1, 0.02)
     """
 
     h: float

@@ -111,6 +111,13 @@ class Extension:
         Whether the costs take the place of the impedance (1): K_q and tau_k are then zero.
     rises : Rises
         No symbol holds their displacements.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> limit = qr.Extension(lambda s: [s.delta_q[2] <= 1e-5])
+    >>> bool(qr.solve_step(step, extension=limit).delta_q[2] <= 1e-5)
+    True
     """
 
     terms: Callable[[Symbols], Sequence[cp.Constraint | cp.Expression]] = none

@@ -74,13 +74,32 @@ def step_from_record(record: Any) -> StepData:
 
 
 def step_read(path: str | Path) -> StepData:
-    """Read a step file."""
+    """Read a step file.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> path = qr.step_written(Path(tempfile.mkdtemp()) / "step.json", step)
+    >>> qr.step_read(path) == step
+    True
+    """
     with about_file(path):
         return step_from_record(json_read(path))
 
 
 def step_written(path: str | Path, step: StepData) -> Path:
-    """Write a step file, whole or not at all."""
+    """Write a step file, whole or not at all.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> qr.step_written(Path(tempfile.mkdtemp()) / "step.json", step).name
+    'step.json'
+    """
     return text_written(path, step_text(step))
 
 

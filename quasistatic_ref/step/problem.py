@@ -7,12 +7,13 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian
 
 
-class StepProblem:
+class StepProblem(Shown):
     """Eq. :eq:`eq-13`, for the steps of one h, mu_v, mu_omega, row count and size.
 
     ``problem`` is an ordinary :class:`cvxpy.Problem`: print it, solve it, extend it. Other cones,
@@ -38,6 +39,14 @@ class StepProblem:
     ------
     StepDataError
         If the step is in another cone, or has rows of a user's own.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> page = qr.StepProblem(step)
+    >>> page.fill(step)
+    >>> page.problem.is_qp()
+    True
     """
 
     def __init__(self, like: StepData) -> None:

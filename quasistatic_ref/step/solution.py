@@ -49,6 +49,12 @@ class Certificate(Plain, Shown):
         In the ellipsoid: bound of f(delta_q*) - d(lam), the duality gap of lam [N m s].
     step : StepData or None
         What it is about. Only kind ``"none"``, which claims nothing, is about no step.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.solve_step(step).certificate.kind
+    'exact'
     """
 
     kind: str
@@ -127,6 +133,13 @@ class StepSolution(Plain, Shown):
     Notes
     -----
     The arrays are not copied, but made read-only.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> solution = qr.solve_step(step)
+    >>> solution.delta_q.shape, solution.wrench.shape
+    ((6,), (1, 4))
     """
 
     delta_q: Array

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.formats.shown import html_of, text_of
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import friction_rows, row_gaps
 from quasistatic_ref.step.ordered import product
@@ -32,6 +33,12 @@ class StandardForm(NamedTuple):
     A: Array
     b: Array
 
+    def __repr__(self) -> str:
+        return text_of(self)
+
+    def _repr_html_(self) -> str | None:
+        return html_of(self)
+
 
 def standard_form(step: StepData) -> StandardForm:
     """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`, stacked over the contacts.
@@ -43,6 +50,13 @@ def standard_form(step: StepData) -> StandardForm:
     Returns
     -------
     StandardForm
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> form = qr.standard_form(step)
+    >>> form.H.shape, form.A.shape
+    ((6, 6), (6, 6))
     """
     A = friction_rows(step.contacts, step.cone)[step.mask]  # Eq. (8)
     b = -row_gaps(step.contacts, step.cone)[step.mask]  # Eq. (8)

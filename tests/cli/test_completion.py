@@ -9,7 +9,7 @@ from quasistatic_ref.cli.main import COMMANDS, command_parser, main
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.study.file.study_file import study_names
-from quasistatic_ref.solve.backends import installed_backends
+from quasistatic_ref.solve.backends import backend_names
 from quasistatic_ref.step.cones import CONES, cone
 
 
@@ -61,7 +61,7 @@ def test_scenarios_are_offered_by_name_and_files_of_theirs(offered):
 
 
 def test_values_of_options_are_offered(offered):
-    assert offered("run", "block_push", "--backend", "") == set(installed_backends())
+    assert offered("run", "block_push", "--backend", "") == set(backend_names())
     assert offered("solve", "step.json", "--certify", "r") == {"residual"}
     cones = offered("run", "block_push", "--cone", "")
     assert len([cone(name) for name in cones]) == len(CONES)  # each is one that can be asked for

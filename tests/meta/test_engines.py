@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import subprocess
 import sys
 from importlib.metadata import version
@@ -70,6 +71,15 @@ def test_an_engine_that_creeps_lifts_and_bounces_differs():
 
     differs = {cell.phenomenon for cell in phenomena.cells(wrong, 1e-3) if not cell.holds}
     assert {"sticks_on_slope", "no_lift_off", "no_rebound", "comes_to_rest"} <= differs
+
+
+def test_the_engine_of_the_page_is_asked_everything(capsys):
+    page = (RESULTS.parents[2] / "docs" / "engines.md").read_text("utf-8")
+    (code,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    with np.errstate(divide="ignore", invalid="ignore"):  # its bodies never move
+        exec(compile(code, "engines.md", "exec"), {})
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == list(phenomena.PHENOMENA)
 
 
 def test_poses_that_are_no_numbers_are_no_answer():

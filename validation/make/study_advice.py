@@ -66,7 +66,7 @@ def _extent(comparison: Comparison, study: dict) -> Iterator[str]:
 
 def _headline(comparison: Comparison) -> str:
     """The solvers of the report's table, each by the interface with the soonest 6 digits."""
-    table = soonest_table(comparison.fastest(), comparison, comparison.options)
+    table = soonest_table(comparison.fastest(), comparison)
     page = markdown_page(Report("", (Section("", (table,)),)))
     return page[page.index("**Time") :].strip()
 

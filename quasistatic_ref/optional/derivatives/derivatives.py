@@ -71,6 +71,14 @@ def derivatives(
         direction is wrong.
     StepNotSolved
         As :meth:`~quasistatic_ref.simulate.simulator.Simulator.step` does.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> simulator, q = scenario.simulator(), scenario.system.q_start
+    >>> found = qr.derivatives(simulator, q, [])
+    >>> found.differentiable
+    True
     """
     check_derivable(simulator)
     q = np.asarray(q, dtype=np.float64)

@@ -51,6 +51,13 @@ def smoothed(
         If kappa is not positive, the cone no polyhedron, or the simulator has an extension.
     StepNotSolved
         If nothing lies strictly inside of all rows.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> simulator, q = scenario.simulator(), scenario.system.q_start
+    >>> qr.smoothed(simulator, q, [], kappa=1e-6).dq_dtau.shape
+    (6, 6)
     """
     check_derivable(simulator)
     if not kappa > 0:

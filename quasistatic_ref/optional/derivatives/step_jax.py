@@ -76,6 +76,13 @@ def step_jax(
         derivatives anywhere. The function raises it if its arguments are not float64.
     NotDifferentiable
         By the function, where a derivative that JAX needs does not exist.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> simulator, q = scenario.simulator(), scenario.system.q_start
+    >>> callable(qr.step_jax(simulator))
+    True
     """
     if kinks not in AT_KINKS:
         raise InputError(f"must be one of {', '.join(AT_KINKS)}", field="kinks", value=kinks)
@@ -115,6 +122,13 @@ def smoothed_jax(simulator: Simulator) -> Callable[..., Any]:
         As :func:`step_jax` does.
     NotDifferentiable
         By the function, at kinks of the geometry.
+
+    Examples
+    --------
+    >>> scenario = qr.load_scenario("sphere_spin")
+    >>> simulator, q = scenario.simulator(), scenario.system.q_start
+    >>> callable(qr.smoothed_jax(simulator))
+    True
     """
 
     def found(q: Array, q_bar_a: Array, force: Array, kappa: float) -> Derivatives:

@@ -3,10 +3,12 @@
 from collections.abc import Callable
 from typing import Any
 
+from quasistatic_ref.optional.show.derivative_words import derivatives_page, sensitivity_page
 from quasistatic_ref.optional.show.model_words import system_page
 from quasistatic_ref.optional.show.show import Page, html_page, text_page
 from quasistatic_ref.optional.show.simulate_words import (
     NOT_IN_TEXT,
+    recorder_page,
     result_page,
     scenario_page,
     simulator_page,
@@ -16,6 +18,8 @@ from quasistatic_ref.optional.show.step_words import (
     certificate_page,
     contacts_page,
     extra_page,
+    form_page,
+    problem_page,
     solution_page,
     step_page,
 )
@@ -23,11 +27,16 @@ from quasistatic_ref.optional.show.step_words import (
 PAGES: dict[str, Callable[[Any], Page]] = {
     "Certificate": certificate_page,
     "Contacts": contacts_page,
+    "Derivatives": derivatives_page,
     "Extra": extra_page,
+    "Recorder": recorder_page,
     "Scenario": scenario_page,
+    "Sensitivity": sensitivity_page,
     "Simulator": simulator_page,
     "SparseContacts": contacts_page,
+    "StandardForm": form_page,
     "StepData": step_page,
+    "StepProblem": problem_page,
     "StepResult": result_page,
     "StepSolution": solution_page,
     "System": system_page,

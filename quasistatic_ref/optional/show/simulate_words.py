@@ -19,6 +19,7 @@ from quasistatic_ref.optional.show.step_words import (
 if TYPE_CHECKING:
     from quasistatic_ref.contact.pairs import ContactPair
     from quasistatic_ref.scenario.scenario import Scenario
+    from quasistatic_ref.simulate.recorder import Recorder
     from quasistatic_ref.simulate.result import StepResult
     from quasistatic_ref.simulate.simulator import Simulator
     from quasistatic_ref.simulate.trajectory import Trajectory
@@ -46,6 +47,14 @@ def result_page(result: StepResult) -> Page:
     at = [(row[0], row[1], row[2]) for row in contact_rows(step.contacts)]
     rows = [(*one, *two) for one, two in zip(at, force_rows(result.solution), strict=True)]
     return title, certificate_facts(certificate), (*CONTACT[:3], *FORCE), rows
+
+
+def recorder_page(recorder: Recorder) -> Page:
+    """What was recorded so far."""
+    title = (
+        f"Recorder: {counted(recorder.steps, 'step')} of {recorder.h:g} s, record {recorder.record}"
+    )
+    return title, [f"backend {recorder.backend}, cone {recorder.cone}"], (), ()
 
 
 def simulator_page(simulator: Simulator) -> Page:

@@ -10,11 +10,16 @@ from quasistatic_ref.optional.show.show import Page, Row, counted, direction, nu
 from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from quasistatic_ref.step.contacts import Contacts
-    from quasistatic_ref.step.data import Extra, StepData
+    from quasistatic_ref.step.data import Array, Extra, StepData
+    from quasistatic_ref.step.problem import StepProblem
     from quasistatic_ref.step.solution import Certificate, StepSolution
+    from quasistatic_ref.step.standard_form import StandardForm
 
 CONTACT = ("contact", "gap [m]", "normal", "mu_v", "mu_omega [m]", "rows")
+ARRAY = ("array", "shape", "largest entry", "NaN")
 FORCE = ("f_d1 [N]", "f_d2 [N]", "f_n [N]", "tau_n [N m]", "active rows")
 
 
@@ -66,6 +71,32 @@ def force_rows(solution: StepSolution) -> list[Row]:
         (*map(number, wrench), " ".join(of_contact.get(j, ["none"])) if known else "not known")
         for j, wrench in enumerate(solution.wrench)
     ]
+
+
+def array_rows(arrays: Mapping[str, Array]) -> list[Row]:
+    """Of each of `arrays`, any shapes [-]: name, shape, largest magnitude, number of NaN."""
+    return [
+        (name, " x ".join(map(str, array.shape)),
+         number(np.abs(array[np.isfinite(array)]).max(initial=0.0)),
+         str(np.count_nonzero(np.isnan(array))))
+        for name, array in arrays.items()
+    ]  # fmt: skip
+
+
+def form_page(form: StandardForm) -> Page:
+    """A quadratic program: its size, and its arrays."""
+    rows, n_v = form.A.shape
+    title = f"StandardForm: {counted(n_v, 'coordinate')}, {counted(rows, 'row')}"
+    facts = ["minimise 1/2 x' H x - g' x subject to A x >= b"]
+    return title, facts, ARRAY[:3], [row[:3] for row in array_rows(form._asdict())]
+
+
+def problem_page(problem: StepProblem) -> Page:
+    """A compiled problem: the kind of its steps, and its parameters."""
+    parameters = problem.parameters.items()
+    shapes = [(name, " x ".join(map(str, parameter.shape))) for name, parameter in parameters]
+    title, *_ = step_page(problem.like)
+    return title.replace("StepData", "StepProblem"), [], ("parameter", "shape"), shapes
 
 
 def step_page(step: StepData) -> Page:

@@ -10,6 +10,8 @@ from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.step.sensitivity import sensitivity
 from quasistatic_ref.optional.show.model_words import system_page
 from quasistatic_ref.optional.show.show import (
     clipped,
@@ -21,9 +23,12 @@ from quasistatic_ref.optional.show.show import (
 )
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Sphere
+from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.problem import StepProblem
+from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import (
     changed,
     point_on_floor,
@@ -109,7 +114,9 @@ def test_every_object_of_every_scenario_is_short(scenario):
     light = replace(scenario, record="light").run(progress=False)
     check(scenario, scenario.system, simulator, run, light)
     check(result, result.step, result.step.contacts, result.step.extra, result.solution)
-    check(result.solution.certificate)
+    rates = sensitivity(result.step, result.solution.certificate)
+    check(result.solution.certificate, rates, derivatives(simulator, q, q[: len(run.q_bar_a[0])]))
+    check(standard_form(result.step), StepProblem(result.step), Recorder(simulator, q))
     assert scenario.path.stem in repr(scenario)
     assert f"{scenario.system.n_v} coordinates ({scenario.system.n_a} actuated)" in repr(simulator)
 

@@ -40,7 +40,8 @@ def phenomena_page(records: dict[str, Any]) -> str:
     ]
     return "\n".join([
         "<!-- Written by python -m validation.make.engines. -->", "",
-        *markdown_table(("engine", "setting", *head), table), "",
+        *cells_of(range(SLIDING), head, table), "",
+        *cells_of(range(SLIDING, len(head)), head, table), "",
         "## What is asked", "",
         *markdown_table(("phenomenon", "the answer", "tolerance", "its reason"), asked), "",
         "## Reproductions", "",
@@ -53,6 +54,16 @@ def phenomena_page(records: dict[str, Any]) -> str:
         *markdown_table(("engine", "setting", "phenomenon", "is", "changed", "becomes"),
                         causes(records)), "",
     ])  # fmt: skip
+
+
+SLIDING = 4
+"""Phenomena of a body that slides, in a table of their own: both can be read on a page."""
+
+
+def cells_of(columns: range, head: list[str], table: list[tuple[str, ...]]) -> list[str]:
+    """A table of some phenomena: engine, setting, and their cells."""
+    rows = [(*row[:2], *(row[2 + k] for k in columns)) for row in table]
+    return markdown_table(("engine", "setting", *(head[k] for k in columns)), rows)
 
 
 def causes(records: dict[str, Any]) -> list[tuple[str, ...]]:

@@ -81,8 +81,7 @@ def _headline(comparison: Comparison, unreached: Mapping[str, str]) -> list[Bloc
         never = filter_words(comparison.base)
         words.append(f"{names} never run with {never}, and cannot be compared.")
     found = [comparison.soonest(least) for least in WANTED]
-    first = tables.soonest_table(found[0], comparison, comparison.options)
-    return [*words, first, *(tables.soonest_table(own, comparison) for own in found[1:])]
+    return [*words, *(tables.soonest_table(own, comparison) for own in found)]
 
 
 def _compared(comparison: Comparison) -> list[Block]:

@@ -98,22 +98,11 @@ def same_problems(rows: Rows) -> str:
     return SHARED.format(f"{len(set(rows['unit'])):,} problems")
 
 
-def soonest_table(
-    found: Sequence[Soonest], comparison: Comparison, options: Mapping[str, Any] | None = None
-) -> Table:
-    """What digits cost, solver by solver.
-
-    Parameters
-    ----------
-    found : sequence of Soonest
-        The fastest first.
-    comparison : Comparison
-    options : mapping, optional
-        By interface and solver, and by setting: a column of the table.
-    """
+def soonest_table(found: Sequence[Soonest], comparison: Comparison) -> Table:
+    """What digits cost, solver by solver, the fastest first: time, then success, then claims."""
     least = found[0].least if found else 0
     heads = solver_headings(found[0].rows) if found else ("solver", "interface")
-    names = (*heads, "setting", *(() if options is None else ("its own options",)))
+    names = (*heads, "setting")
     floor = comparison.noise.floor
     rows = []
     for one in found:
@@ -121,27 +110,25 @@ def soonest_table(
         shares = interval(100 * resampled((own["digits"] >= least).astype(float), families))
         span = interval(np.exp(resampled(np.log(one.times + SHIFT), families)) - SHIFT)
         cells = [*solver_cells(own), one.setting]
-        if options is not None:
-            cells.append(f"`{options_words(options[own.first('way')][one.setting], LIMITS)}`")
         fastest = next(other for other in found if other.machine == one.machine)
         tie = "not known" if floor is None else "no"
         if floor is not None and one.mean <= fastest.mean * (1 + floor):
             tie = "yes"
         cells += [
-            _share(least)(own),
-            " to ".join(map(tenths, shares)),
-            CELLS["digits, median"](own),
-            *(cell(own) for cell in CLAIMS.values()),
-            CELLS["time, median [ms]"](own),
             milliseconds(one.mean),
             " to ".join(map(milliseconds, span)),
             "-" if one is fastest else tie,
+            _share(least)(own),
+            " to ".join(map(tenths, shares)),
+            *(cell(own) for cell in CLAIMS.values()),
+            CELLS["digits, median"](own),
+            CELLS["time, median [ms]"](own),
         ]
         rows.append(tuple(cells))
     columns = (
-        *names, f">= {least:g} digits [%]", "95 % of bootstraps", "digits, median", *CLAIMS,
-        "time, median [ms]", f"time to {least:g} digits, shifted geometric mean [ms]",
-        "95 % of bootstraps, mean", "tie with the fastest",
+        *names, f"time to {least:g} digits, shifted geometric mean [ms]",
+        "95 % of bootstraps, mean", "tie with the fastest", f">= {least:g} digits [%]",
+        "95 % of bootstraps", *CLAIMS, "digits, median", "time, median [ms]",
     )  # fmt: skip
     title = f"Time to {least:g} digits, each solver at the setting that delivers them soonest."
     more = same_problems(found[0].rows) if found else ""

@@ -32,6 +32,7 @@ from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.optional.derivatives.step.parameters import Change, parameter_changes
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -40,8 +41,8 @@ from quasistatic_ref.step.solution import Certificate
 FIELDS = ("delta_q_bar_a", "tau_a", "K_q", "tau_u", "phi", "mu_v", "mu_omega", "h")
 
 
-@dataclass(frozen=True, eq=False)
-class Sensitivity:
+@dataclass(frozen=True, eq=False, repr=False)
+class Sensitivity(Shown):
     """d delta_q by each parameter of a step, correctly rounded; NaN where there is none.
 
     Parameters
@@ -102,6 +103,12 @@ def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
     ------
     InputError
         If the certificate is of another step or kind, or the cone no polyhedron.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.sensitivity(step, qr.solve_step(step).certificate).tau_u.shape
+    (6, 6)
     """
     if certificate.kind != "exact" or not cone(step.cone).polyhedral:
         raise InputError(
