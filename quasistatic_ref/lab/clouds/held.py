@@ -63,7 +63,7 @@ class Grasped:
     lift : float
         How high its origin rose [mm].
     certified : float
-        Share of the steps that are certified exactly.
+        Share of the steps that are certified exactly [-].
     failed : bool
         Whether a step had no solution, or left the scene's limits.
     grip : Grip or None

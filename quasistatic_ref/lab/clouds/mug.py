@@ -89,7 +89,7 @@ def hung(parts: list[tuple[Array, Array, Shape]], steps: int = STEPS) -> Hung:
     Parameters
     ----------
     parts : list of (R, t, Shape)
-        What touches, in the mug's frame.
+        What touches, in the mug's frame [-, m].
     steps : int
 
     Raises
@@ -150,5 +150,5 @@ def sink(spacing: float) -> float:
 
 
 def rise(parts: int) -> float:
-    """How far a mug rises whose handle is an odd number of capsules, the middle one on the hook."""
+    """How far a mug rises whose handle is an odd number of capsules [m]: the middle one hangs."""
     return float(ARC * (1 - np.cos(np.pi / (2 * parts))))

@@ -2,16 +2,14 @@
 
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.formats.resources import clouds_file
-from quasistatic_ref.lab.clouds.study import NONE, grid
+from quasistatic_ref.lab.clouds.study import NONE, TORSION, grid
 from quasistatic_ref.lab.parallel import Record, records_read
 from quasistatic_ref.step.data import Array
-
-TORSION_CASES: Final = ("with torsion", "without torsion")
 
 
 @cache
@@ -66,14 +64,24 @@ def margin(row: Record) -> float:
 
 
 def rotations(found: Sequence[Record]) -> Array:
-    """Largest rotation of each during the lift [deg]."""
+    """Largest rotation of each during the lift [deg], shape (N,)."""
     return np.array([row["rotation"] for row in found])
 
 
-def clouds(found: Sequence[Record]) -> dict[tuple[str, int], list[Record]]:
-    """Rows of the scene as it is, by sampling and number of points."""
-    cells: dict[tuple[str, int], list[Record]] = {}
-    for row in found:
-        if row["change"] == NONE:
-            cells.setdefault((row["sampling"], row["count"]), []).append(row)
-    return cells
+def spread(count: int = 992) -> dict[str, Array]:
+    """Rotations of all clouds of so many points in the scene as it is [deg], by its two cases.
+
+    Parameters
+    ----------
+    count : int
+        200, 992, 10,000 or 100,000.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (120,)
+    """
+    own = chosen(count=count, change=NONE)
+    return {
+        case: rotations([row for row in own if with_torsion(row) == bool(mu_omega)])
+        for case, mu_omega in (("with torsion", TORSION), ("without torsion", 0.0))
+    }

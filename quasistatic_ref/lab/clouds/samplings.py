@@ -68,7 +68,7 @@ def random_points(mesh: Mesh, count: int, rng: np.random.Generator) -> Array:
 
 
 def farthest_points(mesh: Mesh, count: int, rng: np.random.Generator) -> Array:
-    """Points each of which is, of many random ones, the farthest from those before it.
+    """Points each of which is, of many, the farthest from those before it, shape (count, 3) [m].
 
     A new point changes the distance of those candidates only that are nearer to it than the
     largest distance. A heap gives the farthest, and drops entries that are out of date.
@@ -94,14 +94,14 @@ def farthest_points(mesh: Mesh, count: int, rng: np.random.Generator) -> Array:
 
 
 def some_vertices(mesh: Mesh, count: int, rng: np.random.Generator) -> Array:
-    """Vertices drawn without repetition, of the mesh subdivided until it has enough of them."""
+    """Vertices of the mesh, subdivided until it has enough of them, shape (count, 3) [m]."""
     while len(mesh.vertices) < count:
         mesh = mesh.subdivided()
     return mesh.vertices[rng.permutation(len(mesh.vertices))[:count]]
 
 
 def scan(mesh: Mesh, count: int, rng: np.random.Generator) -> Array:
-    """Points as scans from a few sides have them: with noise, and with holes.
+    """Points as scans from a few sides have them, noise and holes, shape (count, 3) [m].
 
     Points whose normal is too far from every direction of view are missing, and those within
     balls about some points of the surface. Occlusion is left out.

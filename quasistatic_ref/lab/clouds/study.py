@@ -51,7 +51,7 @@ class Cell:
     change : str
         What is not as in the scene: ``"none"``, ``"k"``, ``"squeeze"``, ...
     value : float
-        Its value; 0 where nothing is changed.
+        Its value; 0 where nothing is changed [of the change: -, m, N or N/m].
     mu_omega : float
         Of the fingers [m].
     """
@@ -129,7 +129,7 @@ def row(cell: Cell, cloud: Array | None = None) -> Record:
     ----------
     cell : Cell
     cloud : ndarray, shape (count, 3), optional
-        Its cloud, where it is there already.
+        Its cloud, where it is there already [m].
     """
     found = grasped(cell.cloud() if cloud is None else cloud, cell.settings())
     numbers: dict[str, float] = {

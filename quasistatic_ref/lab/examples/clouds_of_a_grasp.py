@@ -67,8 +67,10 @@ def figure(ax: Any = None, *, seed: int = 0) -> Figure:
                           markersize=scaled(2.5), label=None if place else case)  # fmt: skip
         axes.set_yscale("log")
         axes.set_xticks(range(4), [f"{count:,}" for count in density["counts"]], rotation=60)
+        labelled(
+            axes, "points [-]", "" if axes is not grid_of_axes[0] else "rotation [deg]", key=False
+        )
         axes.set_title(sampling)
-    labelled(grid_of_axes[0], "points", "rotation [deg]", key=False)
     legend_below(grid_of_axes, grid_of_axes[0].get_legend_handles_labels()[0])
     return page
 
