@@ -27,6 +27,11 @@ def problem_set_folder() -> Path:
     return _folder("validation/contact_qp_1", "lab/study/problems/data")
 
 
+def clouds_file() -> Path:
+    """The rows of the study of clouds that come with the package."""
+    return _folder("validation/results", "lab/clouds/data") / "clouds.jsonl"
+
+
 def _folder(next_to: str, inside: str) -> Path:
     """Return a folder by its place in a checkout, or by that in the wheel."""
     package = Path(__file__).parents[1]

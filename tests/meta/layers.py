@@ -43,6 +43,7 @@ LAB = (
     "lab/page",
     "lab/figures",
     "lab/scenes",
+    "lab/clouds",
     "lab/program",
     "lab/vectors",
     "lab/study",

@@ -3,9 +3,12 @@
 import argparse
 import sys
 
+import numpy as np
+
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
+from quasistatic_ref.lab.clouds.rows import spread
 from quasistatic_ref.lab.grasp import CLOSED, INSTANTS, TOP, grasp_report, grasp_scenarios
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -42,6 +45,12 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json({"cases": report, "figures": written, "peak_mebibytes": peak})
         return 0
     shared.print_rows(_table(report))
+    for case, rotations in spread().items():
+        least, middle, most = np.quantile(rotations, (0.0, 0.5, 1.0))
+        print(
+            f"{len(rotations)} other clouds of 992 points {case} (committed study): "
+            f"{least:.2f} to {most:.1f} deg, median {middle:.2f}"
+        )
     exact = sum(int((run["certificate"] == "exact").sum()) for run in runs.values())
     print(f"{exact} of {sum(run.steps for run in runs.values())} steps exact")
     print(f"wrote {', '.join(written)} and both trajectories to {options.out}")
@@ -55,7 +64,7 @@ def _figures(
     from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
     with figure_style():
-        strip = grasp_strip(scenario, runs, INSTANTS)
+        strip = grasp_strip(scenario, runs, INSTANTS, spread())
         rotation = rotation_plot(scenario, runs, "bunny", CLOSED)
     paths = figure_written(strip, options.out, "bunny_grasp")
     paths += figure_written(rotation, options.out, "bunny_grasp_rotation")

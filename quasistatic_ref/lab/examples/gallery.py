@@ -30,6 +30,8 @@ EXAMPLES: Final = (
     "grasp",
     "grasp_rotation",
     "grasp_against_mu_omega",
+    "clouds_of_a_grasp",
+    "margin_of_a_grip",
     "gradient_of_a_push",
     "where_no_gradient_is",
     "what_smoothing_does",

@@ -7,6 +7,7 @@ about the points by which the two fingers hold it, and the bunny hangs down.
 from collections.abc import Sequence
 from typing import Any
 
+from quasistatic_ref.lab.clouds.rows import spread
 from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.grasp import CASES, INSTANTS
@@ -37,7 +38,7 @@ def figure(ax: Any = None, *, instants: Sequence[float] = INSTANTS) -> Figure:
         [s].
     """
     runs = {case: grasp(case)[1] for case in CASES}
-    return grasp_strip(grasp("with torsion")[0], runs, instants, ax)
+    return grasp_strip(grasp("with torsion")[0], runs, instants, spread(), ax)
 
 
 if __name__ == "__main__":

@@ -11,10 +11,13 @@ from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.draw import draw_scene
 from quasistatic_ref.optional.show.figures.moments import moment
-from quasistatic_ref.optional.show.figures.style import panels
+from quasistatic_ref.optional.show.figures.style import panels, scaled
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.data import Array
 
+LEAST: Final = 0.03
+"""Smaller rotations are drawn there [deg]."""
 CAMERA = Camera(azimuth=-62, elevation=12)
 SHOWN: Final[dict[str, Any]] = {
     "view": CAMERA,
@@ -28,9 +31,10 @@ def grasp_strip(
     scenario: Scenario,
     runs: Mapping[str, Trajectory],
     instants: Sequence[float],
+    spread: Mapping[str, Array],
     within: Any = None,
 ) -> Figure:
-    """Runs in rows, instants in columns.
+    """Runs in rows, instants in columns; and how far other clouds of the same bunny turn.
 
     Parameters
     ----------
@@ -40,25 +44,42 @@ def grasp_strip(
         Row title -> run.
     instants : sequence of float
         Times of the columns [s].
+    spread : mapping of str to ndarray, shape (N,)
+        Row title -> rotations of other clouds [deg].
     within : Axes or SubFigure, optional
         Where to draw; a figure of its own by default.
     """
-    rows, columns = len(runs), len(instants)
+    rows, columns = len(runs), len(instants) + 1
     page, grid = panels(
         6.3, 1.2 * rows + 0.5, columns, rows=rows, within=within, narrow=0,
-        gridspec_kw={"wspace": 0.0, "hspace": 0.0},
+        gridspec_kw={"wspace": 0.0, "hspace": 0.0, "width_ratios": [1] * len(instants) + [1.3]},
     )  # fmt: skip
     for k, (title, run) in enumerate(runs.items()):
         row = grid[k * columns : (k + 1) * columns]
-        for axes, instant in zip(row, instants, strict=True):
+        for axes, instant in zip(row, instants, strict=False):
             j = min(max(round(instant / scenario.h) - 1, 0), run.steps - 1)
             draw_scene(axes, moment(scenario, run, j), **SHOWN)
         row[0].set_ylabel(title.replace(" ", "\n"))
+        _spread_plot(row[-1], spread[title], last=k == rows - 1)
     for axes, instant in zip(grid, instants, strict=False):
         axes.set_title(f"{instant:g} s")
+    grid[columns - 1].set_title(f"{len(next(iter(spread.values())))} clouds")
     dots = "open dots: contacts considered, filled dots: contacts that bear load"
     note_below(grid, f"{caption(scenario.h, scenario.cone)}; {dots}")
     return page
+
+
+def _spread_plot(axes: Any, rotations: Array, last: bool) -> None:
+    """One mark for each rotation, on a logarithmic axis, moved up and down so that all are seen."""
+    aside = np.random.default_rng(0).uniform(-1, 1, len(rotations))
+    axes.plot(np.maximum(rotations, LEAST), aside, ".", color="black", alpha=0.5,
+              markersize=scaled(2.5))  # fmt: skip
+    axes.set(xscale="log", xlim=(LEAST / 1.5, 150), ylim=(-2, 2), yticks=[])
+    axes.set_xticks([0.1, 1, 10, 100], ["0.1", "1", "10", "100"] if last else [])
+    axes.minorticks_off()
+    axes.spines["left"].set_visible(False)
+    if last:
+        axes.set_xlabel("rotation [deg]")
 
 
 def rotation_plot(

@@ -115,7 +115,7 @@ def test_measured_and_expected_stand_side_by_side_and_agree(name, rtol, atol):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 34
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 36
 
 
 @pytest.mark.parametrize("name", EXAMPLES)

@@ -1,0 +1,1 @@
+"""The grasp with other clouds of the same bunny: samplings, runs, and what became of them."""

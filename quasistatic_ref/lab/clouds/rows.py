@@ -1,0 +1,87 @@
+"""The committed rows of the study of clouds."""
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.formats.resources import clouds_file
+from quasistatic_ref.lab.clouds.study import NONE, TORSION, grid
+from quasistatic_ref.lab.parallel import Record, records_read
+from quasistatic_ref.step.data import Array
+
+
+@cache
+def rows() -> tuple[Record, ...]:
+    """Every grasp that was made, in the order of the grid."""
+    return tuple(records_read(clouds_file())[1:])
+
+
+def chosen(where: Callable[[Record], bool] = lambda row: True, **fields: Any) -> list[Record]:
+    """Rows with these values of their fields, for which a condition holds.
+
+    Parameters
+    ----------
+    where : callable
+        Row -> whether it is taken.
+    fields : object
+        ``sampling="random"``, ``count=992``, ``change="none"``, ...
+    """
+    return [
+        row for row in rows()
+        if all(row[name] == value for name, value in fields.items()) and where(row)
+    ]  # fmt: skip
+
+
+def with_torsion(row: Record) -> bool:
+    """Whether the fingers have a mu_omega."""
+    return bool(row["mu_omega"] > 0.0)
+
+
+def held(row: Record) -> bool:
+    """Whether the bunny was lifted and did not turn."""
+    limits = grid()["held"]
+    rises, turns = row["lift"] >= limits["lift"], row["rotation"] <= limits["rotation"]
+    return bool(not row["failed"] and rises and turns)
+
+
+def predicted(row: Record) -> bool:
+    """Whether the closed grip says, by (R14), that the bunny will be held.
+
+    A finger that bears nothing, or a squeeze too weak for the weight, says that it will not.
+    """
+    if row.get("needed") is None:
+        return False
+    return bool(row["mu_omega"] + row["spread"] >= row["needed"])
+
+
+def margin(row: Record) -> float:
+    """mu_omega over the one that is needed [-]; 0 where none would do."""
+    if row.get("needed") is None:
+        return 0.0
+    return float((row["mu_omega"] + row["spread"]) / row["needed"])
+
+
+def rotations(found: Sequence[Record]) -> Array:
+    """Largest rotation of each during the lift [deg], shape (N,)."""
+    return np.array([row["rotation"] for row in found])
+
+
+def spread(count: int = 992) -> dict[str, Array]:
+    """Rotations of all clouds of so many points in the scene as it is [deg], by its two cases.
+
+    Parameters
+    ----------
+    count : int
+        200, 992, 10,000 or 100,000.
+
+    Returns
+    -------
+    dict of str to ndarray, shape (120,)
+    """
+    own = chosen(count=count, change=NONE)
+    return {
+        case: rotations([row for row in own if with_torsion(row) == bool(mu_omega)])
+        for case, mu_omega in (("with torsion", TORSION), ("without torsion", 0.0))
+    }

@@ -1,0 +1,40 @@
+"""The committed study of clouds: every cell of its grid, and rows that are made again alike."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.lab.clouds.rows import chosen, held, margin, predicted, rows, spread
+from quasistatic_ref.lab.clouds.study import NONE, Cell, cells, row
+
+NAMES = list(Cell.__dataclass_fields__)
+
+
+def test_every_cell_of_the_grid_has_its_row():
+    assert [Cell(*(one[name] for name in NAMES)) for one in rows()] == list(cells())
+    assert len(rows()) == 30 * (16 * 2 + 5 + 2 * (5 + 4 + 4 + 4))
+
+
+def test_a_grip_whose_numbers_are_known_has_the_margin_of_r14():
+    """(R14): needed = l / (2 N / W - 1 / mu_v), W = m (g + v / h)."""
+    for one in rows()[::97]:
+        if one.get("needed") is None:
+            continue
+        weight = 0.2 * (9.81 + 0.04 / 2.2 / 0.01)
+        needed = one["lever"] / (2 * one["squeeze"] / weight - 1 / 0.6)
+        np.testing.assert_allclose(one["needed"], needed, rtol=1e-4)
+        np.testing.assert_allclose(margin(one) * needed, one["mu_omega"] + one["spread"], rtol=1e-4)
+        assert predicted(one) == (margin(one) >= 1.0)
+
+
+@pytest.mark.parametrize("change", [NONE, "squeeze"])
+def test_a_row_is_made_again_to_the_last_digit(change):
+    known = chosen(change=change, sampling="random", count=992, seed=3)[-1]
+    assert row(Cell(*(known[name] for name in NAMES))) == known
+
+
+def test_a_bunny_that_is_not_lifted_or_turns_is_not_held():
+    good = {"failed": False, "lift": 38.0, "rotation": 0.2}
+    assert held(good)
+    for change in ({"failed": True}, {"lift": 29.0}, {"rotation": 1.1}):
+        assert not held(good | change)
+    assert [len(of) for of in spread().values()] == [120, 120]

@@ -1,0 +1,43 @@
+"""The study of clouds, as quasistatic_ref/lab/clouds/clouds.toml has it.
+
+    python -m validation.make.clouds
+
+Adds the rows that are missing to validation/results/clouds.jsonl, one grasp a line. Ended runs go
+on. ``--count N`` takes the first seeds only and prints the rows; nothing is written.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from tqdm import tqdm
+
+from quasistatic_ref.lab.clouds.study import Cell, cells, grid, row
+from quasistatic_ref.lab.parallel import Log
+
+RESULTS = Path(__file__).parents[1] / "results" / "clouds.jsonl"
+
+
+def main() -> None:
+    """Grasp what was not yet grasped."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--count", type=int, help="seeds of each cell; prints, writes nothing")
+    options = parser.parse_args()
+    names = list(Cell.__dataclass_fields__)
+    path = None if options.count else RESULTS
+    log = Log(path, key=lambda one: Cell(*(one[name] for name in names)), head=grid())
+    wanted = [one for one in cells() if not options.count or one.seed < options.count]
+    drawn: tuple[object, ...] = ()
+    for cell in tqdm(wanted):
+        if cell in log.found:
+            continue
+        if drawn != (cell.sampling, cell.count, cell.seed):
+            drawn, cloud = (cell.sampling, cell.count, cell.seed), cell.cloud()
+        log.add(row(cell, cloud))
+        if options.count:
+            print(log.found[cell])
+
+
+if __name__ == "__main__":
+    main()
