@@ -35,10 +35,6 @@ class Backend:
     attempts : callable
         Accuracy in natural units [-] -> sets of the backend's own options, tried in order until
         one of them solves the step.
-    plain : callable or None
-        Accuracy [-] -> its options in a study: the tolerance of the residuals, and that of the
-        duality gap where it has one, are the accuracy. Relative tolerances are 0 (Clarabel's: the
-        accuracy); OSQP, QPALM and SCS get 20,000 iterations. None if it has no tolerance.
     floor : float
         The least accuracy that it takes, in natural units [-].
     time_limit : str
@@ -70,7 +66,6 @@ class Backend:
     name: str
     method: str
     attempts: Callable[[float], Attempts]
-    plain: Callable[[float], Options] | None
     floor: float = 0.0
     time_limit: str = ""
     warm: tuple[str, ...] = ()
@@ -156,54 +151,47 @@ def _once(options: Callable[[float], Options]) -> Callable[[float], Attempts]:
     return lambda accuracy: (options(accuracy),)
 
 
-_plain_clarabel = at_accuracy("tol_feas", "tol_gap_abs", "tol_gap_rel")
-_plain_osqp = at_accuracy("eps_abs", eps_rel=0.0, max_iter=20_000)
 # ProxQP has no time limit. Each of its outer iterations may take 1,500 inner ones of 20 us each, a
 # limit that CVXPY does not pass on. The steps of bunny_grasp that it solves take at most 23 outer
 # iterations.
 _proxqp = at_accuracy("eps_abs", eps_rel=0.0, max_iter=100)
-_plain_scs = at_accuracy("eps_abs", eps_rel=0.0, max_iters=20_000)
 _scs = at_accuracy("eps_abs", "eps_rel", max_iters=200_000)
 _daqp = at_accuracy("primal_tol", "dual_tol")
-_gap = {"check_duality_gap": True, "eps_duality_gap_rel": 0.0}
-_plain_proximal = at_accuracy("eps_abs", "eps_duality_gap_abs", eps_rel=0.0, **_gap)
+_qpalm = at_accuracy("eps_abs", eps_rel=0.0, max_iter=20_000)
 
 
 def _highs(accuracy: float) -> Attempts:
-    return (_plain_highs(accuracy) | {"time_limit": 5.0},)  # it can loop
-
-
-def _plain_highs(accuracy: float) -> Options:
     tight = ("primal_feasibility_tolerance", "dual_feasibility_tolerance")
-    return dict.fromkeys(tight, max(accuracy, 1e-10))  # it refuses less
+    refuses_less = max(accuracy, 1e-10)
+    return (dict.fromkeys(tight, refuses_less) | {"time_limit": 5.0},)  # it can loop
 
 
 BOTH = ("cvxpy", "qpsolvers")
 BACKENDS: dict[str, Backend] = {
     b.name: b
     for b in (
-        Backend("clarabel", "interior point", _clarabel, _plain_clarabel, adapter="Clarabel",
+        Backend("clarabel", "interior point", _clarabel, adapter="Clarabel",
                 sparse=SPARSE_FROM, time_limit="time_limit", warm=("cvxpy",), required=True,
                 cones=True),
         # At 1e-12 OSQP leaves more steps of bunny_grasp unsolved (docs/conventions.md).
-        Backend("osqp", "operator splitting", _osqp, _plain_osqp, adapter="Osqp",
+        Backend("osqp", "operator splitting", _osqp, adapter="Osqp",
                 sparse=SPARSE_FROM, floor=1e-10, time_limit="time_limit", warm=BOTH, required=True),
-        Backend("piqp", "proximal interior point", _piqp, _plain_proximal, adapter="Piqp",
+        Backend("piqp", "proximal interior point", _piqp, adapter="Piqp",
                 sparse=SPARSE_FROM_PIQP, warm=("cvxpy",), required=True),
         # CVXPY's interface drops a start.
-        Backend("daqp", "dual active set", _once(_daqp), _daqp,
+        Backend("daqp", "dual active set", _once(_daqp),
                 adapter="Daqp", warm=("qpsolvers",), required=True),
-        Backend("proxqp", "augmented Lagrangian", _once(_proxqp), _plain_proximal, warm=BOTH,
+        Backend("proxqp", "augmented Lagrangian", _once(_proxqp), warm=BOTH,
                 package="proxsuite"),
-        Backend("scs", "operator splitting", _once(_scs), _plain_scs, time_limit="time_limit_secs",
+        Backend("scs", "operator splitting", _once(_scs), time_limit="time_limit_secs",
                 warm=BOTH, cones=True),
-        Backend("highs", "active set", _highs, _plain_highs, floor=1e-10, warm=("cvxpy",),
+        Backend("highs", "active set", _highs, floor=1e-10, warm=("cvxpy",),
                 time_limit="time_limit", package="highspy", returns=False),
         # The method has no tolerance.
-        Backend("quadprog", "dual active set", lambda _: ({},), None, adapter="Quadprog",
+        Backend("quadprog", "dual active set", lambda _: ({},), adapter="Quadprog",
                 cvxpy=False, returns=False),
-        Backend("qpalm", "augmented Lagrangian", _once(_plain_osqp), _plain_osqp,
-                warm=BOTH, steps=False),
+        Backend("qpalm", "augmented Lagrangian", _once(_qpalm), warm=BOTH,
+                steps=False),
     )
 }  # fmt: skip
 UNSAFE = frozenset(b.name for b in BACKENDS.values() if not b.returns)

@@ -29,13 +29,13 @@ from quasistatic_ref.lab.figures.line_styles import pens
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.calling.calls import tried
 from quasistatic_ref.lab.study.calling.native import Native
+from quasistatic_ref.lab.study.calling.options import options_at
 from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 from quasistatic_ref.lab.study.problems.problem import SOCP, SPARSE, Problem
 from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import PAGE
 from quasistatic_ref.solve.adapters.clarabel import Clarabel
 from quasistatic_ref.solve.adapters.program import Program, Reply
-from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.step.standard_form import StandardForm
 
@@ -66,7 +66,7 @@ def graded_answer(one: Problem, solver: str) -> dict[str, Any]:
 
 def replied(natural: Problem, solver: str) -> Reply:
     """Natively; of sparse matrices through qpsolvers."""
-    options = BACKENDS[solver].plain(ACCURACY)
+    options = options_at(solver, "native", ACCURACY)
     if SPARSE in natural.facts["tags"]:
         H, A = csc_matrix(natural.H), csc_matrix(natural.A)
         return qpsolvers_reply(StandardForm(H, natural.g, A, natural.b), solver, options)

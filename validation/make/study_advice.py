@@ -19,7 +19,7 @@ from quasistatic_ref.lab.study.measuring.environment import UNKNOWN
 from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, Soonest, comparison_of
 from quasistatic_ref.lab.study.report.rows import Rows, rows_of
 from quasistatic_ref.lab.study.report.statistics import success
-from quasistatic_ref.lab.study.report.tables import LIMITS, soonest_table
+from quasistatic_ref.lab.study.report.tables import LIMITS, headline
 from quasistatic_ref.lab.study.report.words import milliseconds, options_words, tenths
 from quasistatic_ref.lab.study.store.store import Contents
 
@@ -39,6 +39,7 @@ def advice(found: Contents) -> str:
     parts = [
         " ".join(_extent(comparison, study)),
         "## What to use",
+        *filter(None, [comparison.busy]),
         _headline(comparison),
         "\n".join(_bullet(one, comparison) for one in comparison.fastest()),
         "## What else it shows",
@@ -66,9 +67,9 @@ def _extent(comparison: Comparison, study: dict) -> Iterator[str]:
 
 def _headline(comparison: Comparison) -> str:
     """The solvers of the report's table, each by the interface with the soonest 6 digits."""
-    table = soonest_table(comparison.fastest(), comparison)
+    table = headline(comparison.fastest(), comparison)
     page = markdown_page(Report("", (Section("", (table,)),)))
-    return page[page.index("**Time") :].strip()
+    return page[page.index("**Each") :].strip()
 
 
 def _bullet(one: Soonest, comparison: Comparison) -> str:
@@ -81,7 +82,7 @@ def _bullet(one: Soonest, comparison: Comparison) -> str:
         f"{tenths(success(own['digits'], 9.0))} % of {len(own):,} problems, in "
         f"{milliseconds(float(np.median(own['seconds'])))} ms (median); {_false(own)}."
     ]
-    plain = comparison.rows.at(comparison.at("default"), label=label)
+    plain = comparison.called.at(setting="default", label=label, half=1)
     if one.setting != "default" and plain:
         wrong, said = plain["wrong"] & plain["said_optimal"], plain["said_optimal"]
         much = 100 * int(wrong.sum()) > FALSE * int(said.sum())
@@ -90,7 +91,7 @@ def _bullet(one: Soonest, comparison: Comparison) -> str:
             f"Its own setting {advised} 6 digits on {tenths(success(plain['digits'], 6.0))} % of "
             f"the problems; {_false(plain)}."
         )
-    bad = own.kept(lambda row: row["digits"] < WANTED[0])
+    bad = own.kept(lambda row: row["digits"] < WANTED)
     if bad:
         families, counts = np.unique(bad["family"], return_counts=True)
         order = np.lexsort((families, -counts))[:HARDEST]
@@ -100,8 +101,8 @@ def _bullet(one: Soonest, comparison: Comparison) -> str:
             f"At `{one.setting}` the solver misses 6 digits on {len(bad):,} {noun}, among them "
             f"{named}."
         )
-    if missing := int((~own["called"]).sum()):
-        words.append(f"Its budget did not reach {missing:,} problems, which count as missed.")
+    if one.missing:
+        words.append(f"Its budget did not reach {one.missing:,} problems, which are left out.")
     return " ".join(words)
 
 

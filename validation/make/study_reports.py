@@ -2,7 +2,8 @@
 
 Each is run from its beginning in a temporary folder, packed, and reported from what was packed, so
 that the numbers of the committed report are those of the committed rows. Of the study of solvers
-the sentences of docs/solver_study.md are made of them, too.
+the sentences of docs/solver_study.md are made of them, too. ``--report`` runs nothing, and reports
+the rows that are there.
 """
 
 from __future__ import annotations
@@ -20,14 +21,15 @@ from validation.make.study_advice import advice
 
 FOLDER = Path(__file__).parents[1] / "studies"
 NAMES = ("default", "bunny_torsion")
+REPORT = "--report"
 
 
-def made(name: str) -> None:
-    """Run, pack and report one study."""
+def made(name: str, run: bool) -> None:
+    """Run and pack one study, unless its rows are to stay; report it."""
     out = str(FOLDER / name)
     with tempfile.TemporaryDirectory() as store:
         begun = time.perf_counter()
-        steps = [["run", name, "--out", store], ["pack", store, "--out", out]]
+        steps = [["run", name, "--out", store], ["pack", store, "--out", out]] if run else []
         for step in (*steps, ["report", out, "--out", out]):
             if command(["study", *step]):
                 sys.exit(f"study {step[0]} of {name} failed")
@@ -39,5 +41,6 @@ def made(name: str) -> None:
 
 
 if __name__ == "__main__":
-    for name in sys.argv[1:] or NAMES:
-        made(name)
+    names = [word for word in sys.argv[1:] if word != REPORT]
+    for name in names or NAMES:
+        made(name, REPORT not in sys.argv)

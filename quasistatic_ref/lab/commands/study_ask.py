@@ -54,7 +54,7 @@ def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
         )
         if holds
     ]
-    promised = f"{one.setting.promised:g} digits are promised by an optimal"
+    promised = f"{one.solver.promises(one.setting):g} digits are promised by an optimal"
     time = "-" if seconds["call"] is None else f"{milliseconds(seconds['call'])} ms"
     if seconds["low"] is not None:
         span = " to ".join(milliseconds(seconds[name]) for name in ("low", "high"))

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from html import escape
 from pathlib import Path
 
-from quasistatic_ref.lab.page.parts import Block, Picture, Report, Table
+from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Table
 
 
 def sorting() -> str:
@@ -52,6 +52,8 @@ def _block(block: Block, images: Mapping[str, bytes]) -> str:
         return f"<p>{_text(block)}</p>"
     if isinstance(block, Picture):
         return _figure(block, images[block.name])
+    if isinstance(block, Code):
+        return f"<pre>{escape(block.text)}</pre>"
     return _table(block)
 
 

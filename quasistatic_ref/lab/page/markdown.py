@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from quasistatic_ref.lab.page.parts import Block, Picture, Report, Table
+from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Table
 
 
 def markdown_page(report: Report) -> str:
@@ -25,6 +25,8 @@ def _block(block: Block) -> list[str]:
         return [block]
     if isinstance(block, Picture):
         return [f"![{block.caption}]({block.file})", "", f"{block.caption}{_rows(block.where)}"]
+    if isinstance(block, Code):
+        return ["```text", *block.text.splitlines(), "```"]
     return _table(block)
 
 

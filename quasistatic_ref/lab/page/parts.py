@@ -66,7 +66,14 @@ class Picture:
         return f"{self.folder}{self.name}.{self.ending}"
 
 
-Block = str | Table | Picture
+@dataclass(frozen=True)
+class Code:
+    """Lines of a program."""
+
+    text: str
+
+
+Block = str | Table | Picture | Code
 """A string is a paragraph in Markdown without markup but `code`."""
 
 

@@ -22,9 +22,9 @@ def measurement(chance, problem, solver, setting, units, warm, repetition=0):
     digits = chance.uniform(0, 16) if answered else None
     call = 10 ** chance.uniform(-5, -1)
     own = {"call": call, "spent": 1.0, "solver": 0.5 * call if name != "bee" else None,
-           "setup": 0.2 * call if name == "ant" else None}  # fmt: skip
+           "setup": 0.2 * call if name == "ant" else None, "first": 2 * call}  # fmt: skip
     return {
-        "problem": f"{FAMILIES[problem % 2]}/{problem}",
+        "problem": f"{FAMILIES[problem % 2]}/{problem}/0",
         "family": FAMILIES[problem % 2],
         "solver": name,
         "interface": interface,
@@ -97,6 +97,7 @@ STUDY = {
             "interface": s.split(":")[0],
             "target": s.split(":")[1],
             "options": {name: {"eps": accuracy or 0.0} for name, (accuracy, _) in SETTINGS.items()},
+            "promised": {name: promised for name, (_, promised) in SETTINGS.items()},
         }
         for s in SOLVERS
     ],
@@ -108,7 +109,7 @@ STUDY = {
 def facts(problems):
     """Of so many problems; of those with more than 30 rows seven digits are known."""
     return [
-        {"id": f"{FAMILIES[p % 2]}/{p}", "family": FAMILIES[p % 2], "contacts": p + 1, "h": 0.01,
+        {"id": f"{FAMILIES[p % 2]}/{p}/0", "family": FAMILIES[p % 2], "contacts": p + 1, "h": 0.01,
          "mass_ratio": 1.0, "k": 1, "n": 6, "m": 4 * p + 4, "condition": 10.0 * p + 1,
          "condition_natural": 1.5, "kind": "exact" if p <= 6 else "enclosed",
          "bound": 0.0 if p <= 6 else 1e-7, "sequence": None, "place": None}

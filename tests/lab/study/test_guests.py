@@ -13,8 +13,9 @@ import pytest
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.calling import guests
 from quasistatic_ref.lab.study.calling.calls import call_of
+from quasistatic_ref.lab.study.calling.claims import INFEASIBLE, claim
 from quasistatic_ref.lab.study.calling.guests import GUESTS, installed_here, natively
-from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
+from quasistatic_ref.lab.study.calling.options import option_file, options_at
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.file.solver_lists import solvers_named
 from quasistatic_ref.solve.backends import installed
@@ -52,7 +53,7 @@ def test_the_exact_method_answers_or_says_that_there_is_no_solution():
     rows = np.array([[1.0], [-1.0]])
     none = call(FORM._replace(A=rows, b=np.array([B, 1.0 - B])), {}, None, 1.0)
     assert not none.solved
-    assert says_infeasible(none.status)
+    assert claim("native", "exact", none.status) == INFEASIBLE
 
 
 @pytest.mark.parametrize("name", sorted(set(GUESTS) - {"exact"}))
@@ -141,7 +142,7 @@ class RaPdhg:
         free = -p["q"] / p["Q"][0]
         bound = p["h"] / p["G"][0]
         x = free * (free > bound) + bound * (free <= bound)
-        status = 2 + 4 * (self.iteration_limit > guests.ITERATIONS)
+        status = 2 + 4 * (self.iteration_limit > option_file("mpax")["others"]["iteration_limit"])
         return Said(x, (p["Q"][0] * x + p["q"]) / p["G"][0], status, 11)
 
 
@@ -171,7 +172,7 @@ def planted(monkeypatch, float64):
 def test_a_native_guest_gets_the_program_with_its_signs_and_its_options(planted, name):
     """Each stand-in claims to have solved it at a tight accuracy, and at its default does not."""
     call = call_of(Solver(name, "native", name))
-    for options, claimed in (({}, False), (GUESTS[name].plain(1e-9), True)):
+    for options, claimed in (({}, False), (options_at(name, "native", 1e-9), True)):
         reply = call(FORM, options, None, 1.0)
         assert reply.solved == claimed, reply.status
         assert list(reply.x) == [X]

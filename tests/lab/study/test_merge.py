@@ -75,13 +75,15 @@ def test_machines_are_lines_of_tables_and_compared_on_the_same_problems(both):
     for solver, interface, machine, calls, *_ in body:
         wanted = {"solver": solver, "interface": interface, "machine": machine}
         own = [r for r in plain_report.picked(rows, where) if wanted.items() <= r.items()]
-        assert int(calls) == len(own) == 12
+        own = [r for r in own if r["outcome"] != "not_run_budget"]
+        assert int(calls) == len(own) == (9 if solver == "cat" else 12)
     (machines,) = (t for t in tables if t[0].startswith("Machines"))
     at = machines[2].index("time, median [ms], machine = slow")
     for line in machines[3]:
         wanted = {"machine": "slow", "setting": line[1], "warm": False, "units": "natural"}
         own = [r for r in rows if wanted.items() <= r.items()]
         own = [r for r in own if plain_report.said(r, "label") == line[0]]
+        own = [r for r in own if r["outcome"] != "not_run_budget"]
         assert int(line[2]) == len(own)
         expected = plain_report.number("time, median [ms]", own, made_store.LIMIT)
         assert plain_report.agrees(line[at], expected)

@@ -20,13 +20,13 @@ def test_every_cell_of_every_table_is_a_line(report, tables, lines):
     """Cells right of a table's text, counted on the page in Markdown."""
     left = {t.title: t.left for s in report.sections for t in s.blocks if hasattr(t, "left")}
     count = sum(len(body) * (len(names) - left[title]) for title, _, names, body in tables)
-    assert len(lines) == count > 500
+    assert len(lines) == count > 300
     shown = {(title, where, tuple(row[: left[title]]), name): cell
              for title, where, names, body in tables for row in body
              for name, cell in zip(names, row, strict=True)}  # fmt: skip
     for line in lines:
         first = tuple(part.partition(" = ")[2] for part in line["of"].split(", "))
-        if line["table"].startswith(("Setting", "Time to 9")):
+        if line["table"].startswith(("Setting",)):
             assert shown[line["table"], line["rows"], first, line["column"]] == line["text"]
 
 

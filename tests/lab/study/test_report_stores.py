@@ -50,9 +50,9 @@ def test_a_store_without_rows_is_refused(tmp_path):
 
 
 CUT = {
-    "one row": lambda row: row["problem"] == "stack/0" and row["solver"] == "bee",
+    "one row": lambda row: row["problem"] == "stack/0/0" and row["solver"] == "bee",
     "no problem in common": lambda row: (
-        (row["solver"] == "ant") == (row["problem"] == "door/1") and row["setting"] == "mid"
+        (row["solver"] == "ant") == (row["problem"] == "door/1/0") and row["setting"] == "mid"
     ),
 }
 

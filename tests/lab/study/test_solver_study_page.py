@@ -1,18 +1,18 @@
 """docs/solver_study.md: what it says is what the committed rows say, by plain loops."""
 
+import math
 import re
 from pathlib import Path
 
 import pytest
 
+from quasistatic_ref.lab.study.report.rows import half_of
 from tests.lab.study.plain_report import (
     agrees,
     delivered,
-    number,
     picked,
     quantile,
     seconds,
-    shared,
 )
 from tests.quoted import unheld
 from validation.make.study_advice import NAME, advice
@@ -60,6 +60,12 @@ def share(own, least):
     return 100 * sum(delivered(row) >= least for row in own) / len(own)
 
 
+def mean_time(own, limit):
+    """exp(mean log(t + 1 ms)) - 1 ms, the time limit where 6 digits were not delivered [s]."""
+    late = [seconds(r, limit) if delivered(r) >= 6 else limit for r in own]
+    return math.exp(sum(math.log(t + 1e-3) for t in late) / len(late)) - 1e-3
+
+
 def check_claims(found, own):
     """Share with 6 digits, false claims of success, claims of infeasibility (all false here)."""
     said = [row for row in own if row["said_optimal"]]
@@ -77,7 +83,7 @@ def test_the_sentences_of_the_page_are_made_of_the_committed_rows(text, committe
 def test_every_advice_is_that_of_the_rows_by_plain_loops(text, rows, limit):
     """Shares, median time and claims, of each solver named; the time limit where not solved."""
     cold = picked(rows, "units = natural, warm = false")
-    compared = shared(cold, ["label", "setting"])
+    compared = [r for r in cold if r["outcome"] != "not_run_budget" and half_of(r["problem"]) == 1]
     bullets = list(BULLET.finditer(text))
     assert len(bullets) == len({row["solver"] for row in compared}) >= 8
     for found in bullets:
@@ -88,7 +94,7 @@ def test_every_advice_is_that_of_the_rows_by_plain_loops(text, rows, limit):
         assert agrees(found["nine"], share(own, 9))
         assert agrees(found["time"], 1e3 * quantile([seconds(r, limit) for r in own], 0.5))
         if plain := OWN.search(found["rest"]):
-            check_claims(plain, picked(cold, f"label = {found['label']}, setting = default"))
+            check_claims(plain, picked(compared, f"label = {found['label']}, setting = default"))
         for count, family in re.findall(r"(\d+) of `(\S+)`", found["rest"]):
             assert int(count) == sum(r["family"] == family and delivered(r) < 6 for r in own)
         missed = re.search(r"misses 6 digits on ([\d,]+) problem", found["rest"])
@@ -96,12 +102,13 @@ def test_every_advice_is_that_of_the_rows_by_plain_loops(text, rows, limit):
 
 
 def test_a_solver_is_advised_at_no_setting_with_later_digits(text, rows, limit):
-    """No setting of the same solver and interface has a lower mean time to 6 digits."""
-    compared = shared(picked(rows, "units = natural, warm = false"), ["label", "setting"])
+    """On the other half no setting of the same interface has a lower mean time to 6 digits."""
+    cold = picked(rows, "units = natural, warm = false")
+    compared = [r for r in cold if r["outcome"] != "not_run_budget" and half_of(r["problem"]) == 0]
     for found in BULLET.finditer(text):
         own = picked(compared, f"label = {found['label']}")
         means = {
-            setting: number("time to 6 digits, shifted", picked(own, f"setting = {setting}"), limit)
+            setting: mean_time(picked(own, f"setting = {setting}"), limit)
             for setting in {row["setting"] for row in own}
         }
         assert found["setting"] == min(means, key=means.get)

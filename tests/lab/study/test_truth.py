@@ -5,12 +5,14 @@ import pytest
 
 from quasistatic_ref.lab.scenes.slabs import tower_step
 from quasistatic_ref.lab.study.calling.calls import NEAR, neighbour
+from quasistatic_ref.lab.study.calling.solvers import Setting
 from quasistatic_ref.lab.study.measuring.grade import grades, prepared
 from quasistatic_ref.lab.study.problems import answers
 from quasistatic_ref.lab.study.problems.answers import dense_answer, step_of
 from quasistatic_ref.optional.large.bound import enclosed_answer
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
+from tests.lab.study.planted import ANY
 
 
 def planted(rng, n=6, m=20):
@@ -93,7 +95,7 @@ def test_digits_are_those_that_were_spoilt(problem, units, exponent):
     if units == "natural":
         x = x / (ready.units.size * ready.units.coordinate)
         lam = lam * (ready.units.length / ready.units.size)
-    row = grades(ready, units, reply_of(x, lam), promised=4.5)
+    row = grades(ready, units, reply_of(x, lam), ANY, Setting("", None, 4.5))
     assert row["digits"]["delta_q"] == pytest.approx(exponent, abs=1e-3)
     assert row["digits"]["net_wrench"] == pytest.approx(exponent, abs=1e-3)
     assert row["wrong"] == (exponent < 4.5)
@@ -110,14 +112,14 @@ def test_residuals_are_those_of_qpbenchmark(problem):
     primal = max(max(0.0, sum(G[i] * x) - h[i]) for i in range(len(h)))
     dual = max(abs(sum(P[v] * x) + q[v] + sum(G[:, v] * z)) for v in range(len(q)))
     gap = abs(sum(x[v] * sum(P[v] * x) for v in range(len(q))) + sum(q * x) + sum(h * z))
-    row = grades(prepared(problem), "raw", reply_of(x, z), 3.0)
+    row = grades(prepared(problem), "raw", reply_of(x, z), ANY, Setting("", None))
     found = [row["residuals"][name] for name in ("primal", "dual", "gap")]
     np.testing.assert_allclose(found, [primal, dual, gap], rtol=1e-10, atol=1e-16)
 
 
 def test_a_solver_that_gave_up_has_failed_and_keeps_its_digits(problem):
     for x, digits in ((problem.answer.x, 16.0), (np.full(len(problem.form.g), np.nan), None)):
-        row = grades(prepared(problem), "raw", reply_of(x, None, False), 3.0)
+        row = grades(prepared(problem), "raw", reply_of(x, None, False), ANY, Setting("", None))
         assert (row["outcome"], row["wrong"]) == ("failed", False)
         assert row["digits"] == {"delta_q": digits, "net_wrench": None, "multipliers": None}
 

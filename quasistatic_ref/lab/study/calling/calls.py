@@ -16,7 +16,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.lab.study.calling.guests import GUESTS, natively
+from quasistatic_ref.lab.study.calling.guests import NATIVELY, natively
 from quasistatic_ref.lab.study.calling.native import Native
 from quasistatic_ref.lab.study.calling.packages import loaded
 from quasistatic_ref.lab.study.calling.solvers import Solver
@@ -72,7 +72,7 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
     if solver.interface == "qpsolvers":
         return _directly(name)
     if solver.interface == "native":
-        return _guest(name) if name in GUESTS else Native(name)
+        return _guest(name) if name in NATIVELY else Native(name)
     if solver.interface in ("package", "callable"):
         return _function(function_of(solver))
     return _running(_command(tuple(solver.target), folder), folder)

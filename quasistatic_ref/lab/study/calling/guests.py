@@ -18,13 +18,11 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import BACKENDS, Backend, Options, at_accuracy, installed
+from quasistatic_ref.solve.backends import BACKENDS, Backend, Options, installed
 from quasistatic_ref.step.standard_form import StandardForm
 
 Native = Callable[[StandardForm, Options], Reply]
 """(problem, options) -> reply, by the solver's own interface."""
-ITERATIONS = 20_000
-"""Of MPAX, as of the other first-order methods in a study: its default is 2^31."""
 
 
 @dataclass(frozen=True)
@@ -138,39 +136,93 @@ def _mpax() -> Native:
     return native
 
 
-def _as_plain(plain: Callable[[float], Options], **others: Any) -> dict[str, Any]:
-    """The options of a setting, also for ``tuned``: no step was ever tuned for a guest."""
-    return {"plain": plain, "attempts": lambda accuracy: (plain(accuracy) | others,)}
+def _proxqp() -> Native:
+    proxqp = import_module("proxsuite").proxqp
+
+    def native(form: StandardForm, options: Options) -> Reply:
+        m, n = form.A.shape
+        begin = perf_counter()
+        solver = proxqp.dense.QP(n, 0, m)
+        for name, value in options.items():
+            setattr(solver.settings, name, value)
+        solver.init(form.H, -form.g, None, None, -form.A, np.full(m, -np.inf), -form.b)
+        ready = perf_counter()
+        solver.solve()
+        end = perf_counter()
+        said, found = solver.results.info, solver.results
+        status = said.status.name
+        return Reply(np.array(found.x), np.array(found.z), status == "PROXQP_SOLVED", status,
+                     said.iter, call_seconds=end - begin, setup=ready - begin)  # fmt: skip
+
+    return native
 
 
-Line = partial(Guest, steps=False, cvxpy=False)
+def _highs() -> Native:
+    highspy = import_module("highspy")
+
+    def native(form: StandardForm, options: Options) -> Reply:
+        m, n = form.A.shape
+        begin = perf_counter()
+        solver = highspy.Highs()
+        solver.setOptionValue("output_flag", False)
+        for name, value in options.items():
+            if solver.setOptionValue(name, value) != highspy.HighsStatus.kOk:
+                raise ValueError(f"HiGHS refuses {name} = {value}")
+        solver.passModel(_highs_model(highspy, form, m, n))
+        ready = perf_counter()
+        solver.run()
+        end = perf_counter()
+        status, said = solver.getModelStatus().name, solver.getInfo()
+        found = solver.getSolution()
+        return Reply(np.array(found.col_value), np.array(found.row_dual), status == "kOptimal",
+                     status, said.qp_iteration_count, call_seconds=end - begin,
+                     setup=ready - begin)  # fmt: skip
+
+    return native
+
+
+def _highs_model(highspy: Any, form: StandardForm, m: int, n: int) -> Any:
+    """The program as HiGHS takes it: the lower triangle of H, and A, by columns."""
+    from scipy.sparse import csc_matrix
+
+    model, A, H = highspy.HighsModel(), csc_matrix(form.A), csc_matrix(np.tril(form.H))
+    lp = model.lp_
+    lp.num_col_, lp.num_row_ = n, m
+    lp.col_cost_ = -form.g
+    lp.col_lower_, lp.col_upper_ = np.full(n, -np.inf), np.full(n, np.inf)
+    lp.row_lower_, lp.row_upper_ = form.b, np.full(m, np.inf)
+    lp.a_matrix_.format_ = highspy.MatrixFormat.kColwise
+    lp.a_matrix_.start_, lp.a_matrix_.index_, lp.a_matrix_.value_ = A.indptr, A.indices, A.data
+    model.hessian_.dim_, model.hessian_.format_ = n, highspy.HessianFormat.kTriangular
+    model.hessian_.start_, model.hessian_.index_ = H.indptr, H.indices
+    model.hessian_.value_ = H.data
+    return model
+
+
+def _no_attempts(_: float) -> tuple[Options, ...]:
+    """No step was ever solved with a guest."""
+    return ({},)
+
+
+Line = partial(Guest, attempts=_no_attempts, steps=False, cvxpy=False)
 GUESTS: dict[str, Guest] = {
     one.name: one
     for one in (
-        # Without rounding, and so without options.
-        Line("exact", "active set, exact", lambda _: ({},), None, interfaces=("native",),
-             native=_exact, package="quasistatic_ref"),
-        # abstol, reltol: of residuals and gap. https://qoco-org.github.io/qoco/api/settings.html
-        Line("qoco", "interior point", **_as_plain(at_accuracy("abstol", "reltol")),
-             interfaces=("cvxpy", "native"), native=_qoco),
-        # feastol: of residuals; abstol, reltol: of the gap.
-        # https://cvxopt.org/userguide/coneprog.html#algorithm-parameters
-        Line("cvxopt", "interior point", **_as_plain(at_accuracy("feastol", "abstol", "reltol")),
-             interfaces=("qpsolvers", "cvxpy")),
-        # As CVXOPT's. https://github.com/embotech/ecos-python#calling-ecos-from-python
-        Line("ecos", "interior point", **_as_plain(at_accuracy("feastol", "abstol", "reltol")),
-             interfaces=("qpsolvers", "cvxpy")),
-        # solver_tol: of residuals and of each product s_i z_i. https://github.com/kevin-tracy/qpax
-        # Its "explicit" method keeps s and z above 1.5e-8, and so reports no convergence at 1e-9;
-        # its "implicit" one does.
-        Line("qpax", "interior point", **_as_plain(at_accuracy("solver_tol"), backend="i"),
-             interfaces=("native",), native=_qpax),
-        # Both of residuals and gap; eps_rel = 0 divides by zero. https://github.com/MIT-Lu-Lab/MPAX
-        Line("mpax", "primal-dual gradients",
-             **_as_plain(at_accuracy("eps_abs", "eps_rel", iteration_limit=ITERATIONS)),
-             interfaces=("native",), native=_mpax),
+        Line("exact", "active set, exact", interfaces=("native",), native=_exact,
+             package="quasistatic_ref"),
+        Line("qoco", "interior point", interfaces=("cvxpy", "native"), native=_qoco),
+        Line("cvxopt", "interior point", interfaces=("qpsolvers", "cvxpy")),
+        Line("ecos", "interior point", interfaces=("qpsolvers", "cvxpy")),
+        Line("qpax", "interior point", interfaces=("native",), native=_qpax),
+        Line("mpax", "primal-dual gradients", interfaces=("native",), native=_mpax),
     )
 }  # fmt: skip
+NATIVELY: dict[str, Callable[[], Native]] = {
+    "proxqp": _proxqp,
+    "highs": _highs,
+    **{guest.name: guest.native for guest in GUESTS.values() if guest.native},
+}
+"""Own interfaces that no step is solved through."""
 EVERY: dict[str, Backend] = BACKENDS | GUESTS
 """Every solver whose options are in a table of ours, by name."""
 
@@ -180,7 +232,7 @@ def known_to(interface: str) -> list[str]:
     backends = {
         "cvxpy": [b.name for b in BACKENDS.values() if b.cvxpy],
         "qpsolvers": list(BACKENDS),
-        "native": [b.name for b in BACKENDS.values() if b.adapter],
+        "native": [b.name for b in BACKENDS.values() if b.adapter or b.name in NATIVELY],
     }
     guests = [guest.name for guest in GUESTS.values() if interface in guest.interfaces]
     return backends[interface] + guests
@@ -193,14 +245,14 @@ def installed_here(interface: str) -> tuple[str, ...]:
     ----------
     interface : str
     """
-    guests = (guest for guest in GUESTS.values() if interface in guest.interfaces)
-    return installed(interface) + tuple(
-        guest.name for guest in guests if find_spec(guest.to_install)
-    )
+    joining = [name for name in known_to(interface) if name in GUESTS]
+    joining += [name for name in NATIVELY if name in BACKENDS and interface == "native"]
+    here = (name for name in joining if find_spec(EVERY[name].to_install))
+    return installed(interface) + tuple(here)
 
 
 def natively(name: str) -> Native:
-    """A guest's own interface.
+    """The own interface of a solver of ``NATIVELY``.
 
     Parameters
     ----------
@@ -211,10 +263,8 @@ def natively(name: str) -> Native:
     InputError
         If it cannot be imported.
     """
-    opened = GUESTS[name].native
-    assert opened is not None  # known_to has refused the others
     try:
-        return opened()
+        return NATIVELY[name]()
     except Exception as error:  # a module may raise anything when it is imported
         words = f"cannot be imported: {type(error).__name__}: {error}"
         raise InputError(words, value=name) from None

@@ -9,9 +9,9 @@ from dataclasses import replace
 from typing import Final
 
 from quasistatic_ref.lab.study.calling.calls import function_of, takes_start
+from quasistatic_ref.lab.study.calling.guests import NATIVELY
 from quasistatic_ref.lab.study.calling.solvers import Solver
 from quasistatic_ref.solve.adapters.program import Reply
-from quasistatic_ref.solve.backends import BACKENDS
 
 COLD: Final = "cold"
 UPDATES: Final = "updates"
@@ -20,7 +20,7 @@ MODES: Final = (COLD, UPDATES, "primal", "primal-dual", "active set")
 with its multipliers, the active set."""
 NATIVE: Final = {"daqp": "active set", "osqp": "primal-dual"}
 """What the native adapters keep besides, where they start warm."""
-KEEPS_NOTHING: Final = ("quadprog",)
+KEEPS_NOTHING: Final = ("quadprog", *NATIVELY)
 
 
 def modes_of(solver: Solver) -> tuple[str, ...]:
@@ -41,7 +41,7 @@ def modes_of(solver: Solver) -> tuple[str, ...]:
         return (COLD, "primal-dual") if takes_start(function_of(solver)) else (COLD,)
     if solver.interface == "qpsolvers" and solver.warm:
         return (COLD, "primal")
-    if solver.interface != "native" or name in KEEPS_NOTHING or name not in BACKENDS:
+    if solver.interface != "native" or name in KEEPS_NOTHING:
         return (COLD,)
     own = NATIVE.get(name)
     return (COLD, UPDATES, own) if own else (COLD, UPDATES)

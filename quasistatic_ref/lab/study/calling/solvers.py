@@ -4,8 +4,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from quasistatic_ref.lab.study.calling.claims import claim
 from quasistatic_ref.lab.study.calling.guests import EVERY
-from quasistatic_ref.solve.backends import Backend
+from quasistatic_ref.lab.study.calling.options import (
+    digits_of_accuracy,
+    has_accuracy,
+    option_file,
+    options_at,
+    promised_digits,
+)
+from quasistatic_ref.solve.backends import BACKENDS, Backend
 
 INTERFACES = ("cvxpy", "qpsolvers", "native", "package", "callable", "executable")
 
@@ -19,26 +27,25 @@ class Setting:
     name : str
     accuracy : float or None
         Of residuals and gap, in the units of the problem as given [-]; None: the default.
-    promised : float
-        Correct digits [-] of delta_q that an "optimal" promises.
+    promised : float or None
+        Correct digits [-] of delta_q that an "optimal" promises; None: those that the tolerances
+        of each solver promise.
     tuned : bool
         The options that the simulator uses in place of the plain ones.
     """
 
     name: str
     accuracy: float | None
-    promised: float
+    promised: float | None = None
     tuned: bool = False
 
 
-# By strong convexity ||x - x*||_H^2 <= 2 gap, so that an accuracy of eps promises an error of
-# sqrt(2 eps) in natural units, about half of its digits. A default is expected to give at least 3.
 SETTINGS = (
-    Setting("default", None, 3.0),
-    Setting("low", 1e-3, 1.0),
-    Setting("mid", 1e-6, 2.5),
-    Setting("high", 1e-9, 4.0),
-    Setting("tuned", 1e-12, 5.5, tuned=True),
+    Setting("default", None),
+    Setting("low", 1e-3),
+    Setting("mid", 1e-6),
+    Setting("high", 1e-9),
+    Setting("tuned", 1e-12, tuned=True),
 )
 
 
@@ -86,8 +93,7 @@ class Solver:
         """Whether a setting means anything to it."""
         if setting.name in self.options:
             return True
-        has_accuracy = self.known and self.entry.plain is not None
-        return setting.accuracy is None or has_accuracy
+        return setting.accuracy is None or (self.known and has_accuracy(str(self.target)))
 
     def settings_of(self, setting: Setting, seconds: float) -> dict[str, Any]:
         """The options that a setting is to this solver.
@@ -102,8 +108,24 @@ class Solver:
             return dict(self.options[setting.name])
         if not self.known:
             return {}
-        entry, accuracy = self.entry, setting.accuracy
+        name, entry, accuracy = str(self.target), self.entry, setting.accuracy
         limit: dict[str, Any] = {entry.time_limit: seconds} if entry.time_limit else {}
-        if accuracy is None or entry.plain is None:
+        if accuracy is None or not has_accuracy(name):
             return limit
-        return entry.first(accuracy) | limit if setting.tuned else limit | entry.plain(accuracy)
+        if setting.tuned and name in BACKENDS:
+            return entry.first(accuracy) | limit
+        tuned = option_file(name).get("tuned", {}) if setting.tuned else {}
+        return limit | options_at(name, self.interface, accuracy) | tuned
+
+    def promises(self, setting: Setting) -> float:
+        """Correct digits of delta_q that its "optimal" promises at a setting [-]."""
+        if setting.promised is not None:
+            return setting.promised
+        if not self.known:
+            return digits_of_accuracy(setting.accuracy)
+        options = self.settings_of(setting, 1.0)
+        return promised_digits(str(self.target), self.interface, options)
+
+    def claim(self, status: str) -> str:
+        """What a status of it claims, as :func:`.claims.claim` says."""
+        return claim(self.interface, str(self.target), status)

@@ -89,8 +89,8 @@ TABLES = Tables({
     SETTING: {
         "accuracy": Field("number", "of residuals and gap; a new name needs it", "-", None,
                           above=0.0, most=LARGE),
-        "promised": Field("number", "digits that \"optimal\" promises; 3 for a new name", "-", None,
-                          least=0.0, most=LARGE),
+        "promised": Field("number", "digits that \"optimal\" promises; else those of each solver's "
+                          "tolerances", "-", None, least=0.0, most=LARGE),
         "tuned": Field("boolean", "whether with the options that the simulator uses; false for a "
                        "new name", default=None),
     },

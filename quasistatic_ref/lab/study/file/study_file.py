@@ -202,7 +202,7 @@ def _settings(tables: Fields) -> dict[str, Setting]:
         given = TABLES.all_values(table, SETTING)
         if name not in settings and given["accuracy"] is None:
             raise table.fail("accuracy", "is missing")
-        was = settings.get(name, Setting(name, None, 3.0))
+        was = settings.get(name, Setting(name, None))
         settings[name] = replace(was, **{k: v for k, v in given.items() if v is not None})
     return settings
 

@@ -111,7 +111,7 @@ def measured_again(one: Question, folder: str | Path = ".") -> dict[str, Any]:
     InputError
         If the solver cannot be imported.
     """
-    with Keeper(one.solver, folder, one.memory) as keeper:
+    with Keeper(one.solver, folder, one.memory, (one.setting,)) as keeper:
         return measured(keeper, one.problem, one.setting, one.units, one.warm, one.limits)
 
 

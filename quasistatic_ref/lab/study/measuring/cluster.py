@@ -73,7 +73,8 @@ def _elsewhere(
     folder: str, memory: float, solver: Solver, block: Block, limits: Limits, left: Left
 ) -> list[Row]:
     """The rows of one block, on a worker of the cluster, in a process of its own."""
-    with Keeper(solver, folder, memory) as keeper:
+    settings = tuple(dict.fromkeys(m.setting for m, _ in block))
+    with Keeper(solver, folder, memory, settings) as keeper:
         return block_rows(keeper, block, limits, left)
 
 

@@ -13,9 +13,10 @@ import numpy as np
 from quasistatic_ref.certify.digits import MOST, digits_of_error
 from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.formats.quoting import clipped
-from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
+from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
+from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.problems.problem import NATURAL, RAW, Answer, Problem
-from quasistatic_ref.lab.study.store.rows import CLOCKS
+from quasistatic_ref.lab.study.store.rows import CLOCKS, Row
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
@@ -23,6 +24,7 @@ from quasistatic_ref.step.standard_form import StandardForm
 
 SOLVED, FAILED, NAN, WRONG_SHAPE = "solved", "failed", "nan", "wrong_shape"
 CRASHED, TIMEOUT, MEMORY, NOT_RUN = "crashed", "timeout", "memory", "not_run_budget"
+REPLIED = (SOLVED, FAILED, NAN, WRONG_SHAPE)
 OUTCOMES = (SOLVED, FAILED, CRASHED, TIMEOUT, MEMORY, NAN, WRONG_SHAPE, NOT_RUN)
 SLACK = 1e-13
 """Slacks below that, relative to the numbers that they are the difference of, may be rounding."""
@@ -62,7 +64,9 @@ def prepared(problem: Problem) -> Prepared:
     return Prepared({RAW: problem.form, NATURAL: form}, problem.units, natural.answer, norm, free)
 
 
-def grades(ready: Prepared, units: str, reply: Reply, promised: float) -> dict[str, Any]:
+def grades(
+    ready: Prepared, units: str, reply: Reply, solver: Solver, setting: Setting
+) -> dict[str, Any]:
     """Outcome, claims, digits, residuals of one reply, as fields of a row.
 
     Parameters
@@ -71,8 +75,9 @@ def grades(ready: Prepared, units: str, reply: Reply, promised: float) -> dict[s
     units : str
         ``"raw"`` or ``"natural"``.
     reply : Reply
-    promised : float
-        Digits [-] of delta_q, and of multipliers, below which "optimal" is a false claim.
+    solver : Solver
+        By whose exit codes a status is a claim.
+    setting : Setting
 
     Returns
     -------
@@ -88,15 +93,31 @@ def grades(ready: Prepared, units: str, reply: Reply, promised: float) -> dict[s
                 lam = None if lam is None else lam * (ready.units.length / ready.units.size)
             if not ready.answer.farkas:
                 row["digits"] = _digits(ready, ready.answer, x, lam)
-    said = row["said_infeasible"] = not reply.solved and says_infeasible(reply.status)
-    found, dual = (row["digits"][name] for name in ("delta_q", "multipliers"))
-    if row["feasible"]:
-        row["wrong"] = said or (reply.solved and (found is None or found < promised))
-        row["wrong_multipliers"] = bool(reply.solved and dual is not None and dual < promised)
-    else:
-        row["wrong"] = reply.solved
     row["seconds"] |= {"solver": _finite(reply.own), "setup": _finite(reply.setup)}
-    return row | {"said_optimal": reply.solved, "iterations": reply.iterations}
+    row |= {"said_optimal": reply.solved, "iterations": reply.iterations}
+    return judged(row, solver.claim(reply.status), solver.promises(setting))
+
+
+def judged(row: Row, claim: str, promised: float) -> Row:
+    """A row with what is made of its claim and digits: whether the claim is false.
+
+    Parameters
+    ----------
+    row : dict
+    claim : str
+        Of its status, as the table of exit codes has it.
+    promised : float
+        Digits [-] of delta_q, and of multipliers, below which "optimal" is a false claim.
+    """
+    solved, digits = row["said_optimal"], row["digits"]
+    infeasible = not solved and row["outcome"] in REPLIED and claim == INFEASIBLE
+    short = {name: solved and (digits[name] or 0.0) < promised for name in digits}
+    return row | {
+        "said_infeasible": infeasible,
+        "wrong": infeasible or short["delta_q"] if row["feasible"] else solved,
+        "wrong_multipliers": row["feasible"] and digits["multipliers"] is not None
+        and short["multipliers"],
+    }  # fmt: skip
 
 
 def ungraded(

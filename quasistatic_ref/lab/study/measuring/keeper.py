@@ -4,6 +4,7 @@ import contextlib
 import os
 import sys
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -91,10 +92,18 @@ class Keeper:
         Where a callable's module is looked for, in addition to the usual places.
     memory : float
         Most that it may hold, with its children [bytes].
+    settings : sequence of Setting
+        Whose options it must take; each is tried once, before the first question.
     """
 
-    def __init__(self, solver: Solver, folder: str | Path = ".", memory: float = 4e9) -> None:
-        self.solver = solver
+    def __init__(
+        self,
+        solver: Solver,
+        folder: str | Path = ".",
+        memory: float = 4e9,
+        settings: Sequence[Setting] = (),
+    ) -> None:
+        self.solver, self.settings = solver, tuple(settings)
         self.folder, self.memory = str(Path(folder).resolve()), memory
         self._process: Supervised | None = None
         self._sent: deque[StandardForm] = deque(maxlen=KEPT)
@@ -186,7 +195,7 @@ class Keeper:
         Raises
         ------
         InputError
-            If the solver cannot be imported.
+            If the solver cannot be imported, or refuses an option.
         """
         if self._process is not None:
             return
@@ -208,7 +217,7 @@ class Keeper:
         self.exchange = 0.0
         trouble = "its process did not start"
         with contextlib.suppress(EOFError, OSError):
-            self._outbox.send((self.solver, self.folder))
+            self._outbox.send((self.solver, self.folder, () if self.starts > 1 else self.settings))
             if self._inbox.poll(START):
                 trouble = self._inbox.recv_bytes(HEAD).decode(errors="replace")
         if trouble:

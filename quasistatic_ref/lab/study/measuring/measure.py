@@ -18,7 +18,7 @@ import numpy as np
 
 from quasistatic_ref.lab import processes
 from quasistatic_ref.lab.study.calling.calls import neighbour
-from quasistatic_ref.lab.study.calling.infeasibility import says_infeasible
+from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
 from quasistatic_ref.lab.study.calling.solvers import Setting
 from quasistatic_ref.lab.study.measuring.grade import (
     CRASHED,
@@ -190,7 +190,7 @@ def _step(
     keeper.seen.add(shape)
     beyond = outside - keeper.exchange
     agrees = borne_out(response.times, beyond)
-    row = grades(ready, units, response.reply, request.setting.promised)
+    row = grades(ready, units, response.reply, keeper.solver, request.setting)
     row["seconds"] |= {"call": response.times[0] if agrees else beyond, "spent": outside}
     return row | {"calls": 1, "clock_agrees": agrees}
 
@@ -210,19 +210,19 @@ def _worst(repeated: Sequence[Row]) -> Row:
 
 def _graded(keeper: Keeper, ready: Prepared, request: Request, units: str, limits: Limits) -> Row:
     """The worse of the first and the last graded reply, with quartiles of the repeated calls."""
-    form, promised = ready.forms[units], request.setting.promised
+    form, solver = ready.forms[units], keeper.solver
     response, outside = keeper.answer(form, request)
     if response.ended:
         outcome = TIMEOUT if response.ended == TIMEOUT else CRASHED
         raise Ended(outcome, response.reply.status, response.times[-1])
-    row = grades(ready, units, response.reply, promised)
+    row = grades(ready, units, response.reply, solver, request.setting)
     row["seconds"]["first"] = response.times[0]
-    if not response.reply.solved and not says_infeasible(response.reply.status):
+    if not response.reply.solved and solver.claim(response.reply.status) != INFEASIBLE:
         return row | {"calls": 1}
     again, times, agrees = _timed(keeper, form, request, outside, limits)
     if again.ended:
         raise Ended(CRASHED, again.reply.status, again.times[-1])
-    other = grades(ready, units, again.reply, promised)
+    other = grades(ready, units, again.reply, solver, request.setting)
     row = min(row, other, key=_goodness) | {"calls": len(times), "clock_agrees": agrees}
     low, call, high = np.percentile(times, [25, 50, 75]).tolist()
     clocks = {"first": response.times[0], "low": low, "call": call, "high": high}

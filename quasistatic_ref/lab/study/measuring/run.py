@@ -139,19 +139,13 @@ def study_record(study: Study, problems: Sequence[Problem]) -> dict[str, Any]:
         | {"solvers": [s.label for s in part.solvers], "settings": [s.name for s in part.settings]}
         for part in study.parts
     ]
-    solvers = [
-        {
-            "name": s.name,
-            "interface": s.interface,
-            "target": s.target,
-            "options": {
-                t.name: s.settings_of(t, study.time_limit)
-                for t in study.settings
-                if s.takes(t)
-            },
-        }
-        for s in study.solvers
-    ]  # fmt: skip
+    solvers = []
+    for s in study.solvers:
+        own = {t.name: t for t in study.settings if s.takes(t)}
+        options = {name: s.settings_of(t, study.time_limit) for name, t in own.items()}
+        promised = {name: s.promises(t) for name, t in own.items()}
+        solvers.append({"name": s.name, "interface": s.interface, "target": s.target,
+                        "options": options, "promised": promised})  # fmt: skip
     return {
         "kind": "solvers",
         "time_limit": study.time_limit,

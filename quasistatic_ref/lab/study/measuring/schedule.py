@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from itertools import groupby
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.calling.solvers import Solver
+from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, ungraded
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.lab.study.measuring.measure import Limits, measured, sequence_measured
@@ -111,7 +111,8 @@ class Work:
         Of a solver [bytes].
     progress : bool
     unreached : dict of str to str
-        Solvers that could not be imported, with the reason; they are found out on the way.
+        Solvers that could not be imported, or refuse an option, with the reason; they are found
+        out on the way.
     """
 
     store: Store
@@ -123,6 +124,11 @@ class Work:
     memory: float = 4e9
     progress: bool = True
     unreached: dict[str, str] = field(default_factory=dict)
+
+    def settings_of(self, solver: Solver) -> tuple[Setting, ...]:
+        """The settings at which a solver is called."""
+        own = (m.setting for m in self.todo if m.solver.label == solver.label)
+        return tuple(dict.fromkeys(own))
 
 
 def measure_all(
@@ -185,7 +191,10 @@ def measure_here(work: Work, jobs: int) -> None:
     keepers: dict[str, Keeper] = {}
 
     def answered(solver: Solver) -> Answered:
-        keeper = keepers.setdefault(solver.label, Keeper(solver, work.folder, work.memory))
+        if solver.label not in keepers:
+            settings = work.settings_of(solver)
+            keepers[solver.label] = Keeper(solver, work.folder, work.memory, settings)
+        keeper = keepers[solver.label]
         return lambda block, limits, left: block_rows(keeper, block, limits, left)
 
     try:

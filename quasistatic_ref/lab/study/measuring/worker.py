@@ -6,25 +6,34 @@ programs and requests, and sends each reply as it is. It never gets an answer: g
 elsewhere.
 """
 
+import re
 import signal
 import subprocess
 import sys
 from collections import OrderedDict
+from collections.abc import Sequence
 from multiprocessing.connection import Connection
 from time import perf_counter
 from typing import Any
 
-from quasistatic_ref.errors import QuasistaticError
+import numpy as np
+
+from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.lab.processes import adopt_orphans
 from quasistatic_ref.lab.study.calling.calls import Crashed, Options, call_of, on_path, tried
 from quasistatic_ref.lab.study.calling.sessions import kept, modes_of
-from quasistatic_ref.lab.study.calling.solvers import Solver
+from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.messages import NOTHING, Response, to_bytes
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
 KEPT = 2
 """Programs that are kept, as :class:`~.keeper.Keeper` knows."""
+TINY = StandardForm(np.eye(1), np.ones(1), np.eye(1), np.zeros(1))
+"""min 1/2 x^2 - x, x >= 0."""
+PATIENCE = 10.0
+"""Time limit among the options that are tried on it [s]."""
+RAISED = re.compile(r"\w*(Error|Exception|NotFound)\b")
 GRACE = 2
 """Seconds after which a worker that was forgotten ends itself: its keeper may have been killed."""
 
@@ -34,10 +43,11 @@ def serve(read: int, write: int) -> None:
     adopt_orphans()
     inbox, outbox = Connection(read, writable=False), Connection(write, readable=False)
     try:
-        solver, folder = inbox.recv()
+        solver, folder, settings = inbox.recv()
         on_path(folder)
         try:
             called = Called(solver, folder)
+            called.check_options(settings)
             outbox.send_bytes(b"")
         except QuasistaticError as error:
             outbox.send_bytes(str(error).encode())
@@ -65,6 +75,26 @@ class Called:
     def __init__(self, solver: Solver, folder: str) -> None:
         self.solver, self.call = solver, call_of(solver, folder)
         self.before = NOTHING
+
+    def check_options(self, settings: Sequence[Setting]) -> None:
+        """Refuse options that the interface does not take, before any problem is put to it.
+
+        Parameters
+        ----------
+        settings : sequence of Setting
+
+        Raises
+        ------
+        InputError
+            If a call with them raises on a problem that every solver solves.
+        """
+        for setting in settings:
+            options = self.solver.settings_of(setting, PATIENCE)
+            if self.solver.known and options:
+                said = tried(self.call, TINY, options, None, PATIENCE).status
+                if RAISED.match(said):
+                    words = f"refuses options of the setting {setting.name!r}: {said[:120]}"
+                    raise InputError(f"{words}; leave them out, or take another interface")
 
     def response(self, form: StandardForm, request: dict[str, Any]) -> Response:
         """What is sent back; a request for no call gets the modes that the solver can be called in.

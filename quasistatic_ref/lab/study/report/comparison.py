@@ -1,7 +1,9 @@
-"""What a report on solvers compares: each at the setting that delivers so many digits soonest.
+"""What a report on solvers compares: each at the setting that delivers 6 digits soonest.
 
 A call that does not deliver them takes the time limit. So a setting is chosen by one number, the
 shifted geometric mean of these times, in which a fast setting pays for every problem that it loses.
+It is chosen on one half of the problems and judged on the other; a run is in one half only. Calls
+that a budget never reached are in neither.
 """
 
 from collections import Counter
@@ -12,11 +14,21 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.certify.digits import MOST
+from quasistatic_ref.lab.study.calling.claims import hides
 from quasistatic_ref.lab.study.report.rows import Rows, Where
-from quasistatic_ref.lab.study.report.statistics import shifted_geometric_mean
+from quasistatic_ref.lab.study.report.statistics import TICK, shifted_geometric_mean, success
 
-WANTED = (6.0, 3.0, 9.0, 12.0)
-"""Digits for which times are given; the first are those that a simulator's step should have."""
+WANTED = 6.0
+"""Digits for which times are given: those that a simulator's step should have."""
+QUIET = 0.25
+"""Load of each core when a study began, above which its times are not ranked."""
+REMEMBERED = 10.0
+"""A first call that takes so many times longer than the same call repeated: it was remembered. Of
+honest solvers it takes at most 4 times as long, on caches that hold other problems."""
+KNOWN = 99.0
+"""Share of answers that are the correctly rounded ones [%] above which they are not computed in
+floats: of solvers in float64 at most 15 % are."""
 FEWEST = 5
 """Pairs of one solver from which the noise of its mean is given."""
 MOST_OF = 90.0
@@ -80,24 +92,24 @@ def noise_of(rows: Rows) -> Noise:
 
 @dataclass(frozen=True, eq=False)
 class Soonest:
-    """One solver at its setting for so many digits.
+    """One solver at its setting for 6 digits.
 
     Parameters
     ----------
     label, setting : str
     rows : Rows
-        Its calls there.
-    times : ndarray, shape (calls,)
-        Of those, the time limit where the digits were not delivered [s].
-    least : float
-        The digits [-].
+        Its calls there, on the half that it is judged on.
+    missing : int
+        Calls on that half that a budget did not reach.
+    limit : float
+        Of a call [s].
     """
 
     label: str
     setting: str
     rows: Rows
-    times: np.ndarray
-    least: float
+    missing: int
+    limit: float
 
     @property
     def machine(self) -> str:
@@ -105,9 +117,31 @@ class Soonest:
         return str(self.rows.first("machine"))
 
     @property
+    def times(self) -> np.ndarray:
+        """Of its calls, the time limit where the digits were not delivered, shape (calls,) [s]."""
+        return to_digits(self.rows, self.limit)
+
+    @property
     def mean(self) -> float:
         """Shifted geometric mean of the times [s]."""
         return shifted_geometric_mean(self.times)
+
+    @property
+    def trick(self) -> str:
+        """What its rows look like if they are not those of a solver in floats; else empty."""
+        own = self.rows.at(solved=True)
+        timed = own.kept(lambda row: bool(np.isfinite(row["first"])))
+        ratios = timed["first"] / np.maximum(timed["call"], TICK)
+        if len(timed) and np.median(ratios) > REMEMBERED:
+            return "remembers the last problem"
+        if len(own) and success(own["digits"], MOST) > KNOWN:
+            return "has the exact answers"
+        return ""
+
+
+def to_digits(rows: Rows, limit: float) -> np.ndarray:
+    """Times to 6 digits, shape (rows,) [s]: the limit where they were not delivered."""
+    return np.where(rows["digits"] < WANTED, limit, rows["seconds"])
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,39 +170,65 @@ class Comparison:
     base: Where
     noise: Noise
 
-    def soonest(self, least: float) -> list[Soonest]:
-        """Each solver at the setting that delivers so many digits soonest, the fastest first.
+    @cached_property
+    def soonest(self) -> list[Soonest]:
+        """Each solver and interface at its setting, the fastest first, or that with most digits."""
+        chosen: dict[str, tuple[float, int, str]] = {}
+        for (label, setting), rows in self.called.groups("label", "setting").items():
+            half = rows.at(half=0) or rows
+            mean = shifted_geometric_mean(to_digits(half, self.limit))
+            order = self.settings.index(setting)
+            if label not in chosen or (mean, order) < chosen[label][:2]:
+                chosen[label] = (mean, order, setting)
+        found = [self._judged(label, setting) for label, (*_, setting) in chosen.items()]
+        return sorted(found, key=self._order)
 
-        All are compared on the same problems, at every setting that each was called with.
+    def _judged(self, label: str, setting: str) -> Soonest:
+        rows = self.rows.at(self.at(setting), label=label)
+        rows = rows.at(half=1) or rows
+        called = rows.at(called=True) or rows
+        return Soonest(label, setting, called, len(rows) - len(called), self.limit)
 
-        Parameters
-        ----------
-        least : float
-            Digits [-].
-        """
-        best: dict[str, Soonest] = {}
-        order = self.settings.index
-        for label, setting in sorted(self.compared, key=lambda key: order(key[1])):
-            rows = self.compared[label, setting]
-            late = rows["digits"] < least
-            times = np.where(late, self.study["time_limit"], rows["seconds"])
-            one = Soonest(label, setting, rows, times, least)
-            if label not in best or one.mean < best[label].mean:
-                best[label] = one
-        return sorted(best.values(), key=lambda one: one.mean)
+    def _order(self, one: Soonest) -> tuple[float, str]:
+        six = success(one.rows["digits"], WANTED)
+        return (-six if self.busy else one.mean), one.label
+
+    @property
+    def limit(self) -> float:
+        """Of a call [s]."""
+        return float(self.study["time_limit"])
+
+    @property
+    def busy(self) -> str:
+        """Why times are not ranked, as a sentence; empty if they are."""
+        machine = self.study["machine"]
+        machines = [machine[name] for name in self.study.get("machines", [])] or [machine]
+        for one in machines:
+            load, cores = str(one.get("load", "0")).split()[0], one.get("cores") or 1
+            if float(load) > QUIET * cores:
+                return (
+                    f"Times are not ranked: when the study began the load was {load} on {cores} "
+                    f"cores, and above {QUIET:g} a core they measure other programs, too. Solvers "
+                    f"stand in the order of their share with {WANTED:g} digits."
+                )
+        return ""
 
     @cached_property
-    def compared(self) -> dict[tuple[Any, ...], Rows]:
-        """The rows by label and setting, on the problems that all of these were called with."""
-        own = self.rows.at(self.base).common("label", "setting")
-        return own.groups("label", "setting")
+    def called(self) -> Rows:
+        """The rows that are compared first, of calls that were made."""
+        return self.rows.at(self.base, called=True)
 
     def fastest(self) -> list[Soonest]:
-        """Of the interfaces to one solver the one with the fastest 6 digits, for figures."""
-        drawn = self.drawn
-        found = [one for one in self.soonest(WANTED[0]) if one.machine == drawn]
-        by_solver = {one.rows.first("who"): one for one in reversed(found)}
-        return sorted(by_solver.values(), key=lambda one: one.mean)
+        """Of the interfaces to a solver that say most, the one with the soonest 6 digits."""
+
+        def silent_and_slow(one: Soonest) -> tuple[bool, float]:
+            return hides(one.rows.first("interface"), one.rows.first("solver")), one.mean
+
+        found = [one for one in self.soonest if one.machine == self.drawn]
+        by_solver: dict[str, Soonest] = {}
+        for one in sorted(found, key=silent_and_slow):
+            by_solver.setdefault(one.rows.first("who"), one)
+        return sorted(by_solver.values(), key=self._order)
 
     @property
     def drawn(self) -> str:

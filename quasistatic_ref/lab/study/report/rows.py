@@ -1,5 +1,6 @@
 """The rows of solvers, chosen and grouped by what they say about themselves."""
 
+import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, Final
@@ -14,6 +15,10 @@ Where = Mapping[str, str | bool | int]
 EVERY: Final[Where] = MappingProxyType({})
 FLAGS: Final = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong", "wrong_multipliers",
                 "solved", "called", "clock_agrees")  # fmt: skip
+
+
+MADE: Final = 0.9
+"""Share of the calls of the solver with the most that others need to be compared on the same."""
 
 
 class Rows:
@@ -62,21 +67,22 @@ class Rows:
         return {key: Rows(own) for key, own in found.items()}
 
     def common(self, *by: str) -> "Rows":
-        """The rows on the problems that every solver was run on.
+        """The rows on the problems on which every solver was called.
 
         Parameters
         ----------
         by : str
-            The fields that distinguish one solver from another; ``"label"`` by default. A solver
-            without any call is left out; a call that a budget did not reach counts as not solved,
-            which costs its own solver and no other.
+            The fields that distinguish one solver from another; ``"label"`` by default. Of these
+            one that a budget kept from more than one problem of ten is left out.
         """
         by = by or ("label",)
-        parts = [part for part in self.groups(*by).values() if any(row["called"] for row in part)]
-        units = [{row["unit"] for row in part} for part in parts]
-        shared = set.intersection(*units) if units else set()
-        kept = {id(row) for part in parts for row in part if row["unit"] in shared}
-        return self.kept(lambda row: id(row) in kept)
+        made = self.at(called=True).groups(*by).values()
+        units = [{row["unit"] for row in part} for part in made]
+        most = max(map(len, units), default=0) if "label" in by else 0
+        parts = [part for part, own in zip(made, units, strict=True) if len(own) >= MADE * most]
+        kept = [own for own in units if len(own) >= MADE * most]
+        shared = set.intersection(*kept) if kept else set()
+        return Rows([row for part in parts for row in part if row["unit"] in shared])
 
     def sorted_by_unit(self, name: str) -> np.ndarray:
         """One field in the order of the problems, shape (rows,), so that rows compare."""
@@ -97,7 +103,8 @@ def rows_of(rows: Sequence[Row], limit: float) -> Rows:
     Rows
         With ``way`` (interface:solver), ``who`` (solver, and behind an @ the machine, where several
         were merged), ``label`` (interface:who); ``unit``, the problem with its repetition;
-        ``called``, whether the call was made; ``digits``: those of delta_q that were delivered,
+        ``called``, whether the call was made; ``half``, of the problems, and ``first``, the time
+        of the first call [s]; ``digits``: those of delta_q that were delivered,
         0 where the solver does not say that it solved the problem; ``net`` likewise; ``seconds``:
         of the call, the time limit where the solver does not say so; ``call``: of any call;
         ``own_setup`` and ``own_solver``: of set-up and solving by its own account.
@@ -116,6 +123,8 @@ def _more(row: Row, limit: float) -> Row:
         "unit": f"{row['problem']}#{row['repetition']}",
         "solved": solved,
         "called": row["outcome"] != NOT_RUN,
+        "half": half_of(row["problem"]),
+        "first": _or(seconds["first"]),
         "digits": _or(row["digits"]["delta_q"] if solved else None, 0.0),
         "net": _or(row["digits"]["net_wrench"] if solved else None, 0.0),
         "seconds": _or(seconds["call"] if solved else None, limit),
@@ -127,6 +136,11 @@ def _more(row: Row, limit: float) -> Row:
         "iterations": _or(row["iterations"]),
         "clock_agrees": row["clock_agrees"] is not False,  # null: not compared
     }
+
+
+def half_of(problem: str) -> int:
+    """The half of the problems that one is in, 0 or 1; all steps of a run are in the same."""
+    return zlib.crc32(problem.rpartition("/")[0].encode()) % 2
 
 
 def _or(value: float | None, otherwise: float = np.nan) -> float:

@@ -8,9 +8,11 @@ import numpy as np
 
 from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.lab.page.parts import Block, Table
+from quasistatic_ref.lab.study.calling.claims import HIDDEN, claim
+from quasistatic_ref.lab.study.calling.options import option_file
 from quasistatic_ref.lab.study.calling.sessions import COLD
 from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, OUTCOMES
-from quasistatic_ref.lab.study.report.comparison import Comparison, Soonest
+from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, Soonest
 from quasistatic_ref.lab.study.report.rows import Rows, Where
 from quasistatic_ref.lab.study.report.statistics import (
     LOW,
@@ -35,9 +37,10 @@ LIMITS = tuple({b.time_limit for b in BACKENDS.values()})
 """Options that are not advice."""
 FALSE_SHOWN, WORST_SHOWN = 12, 10
 """How many false claims are shown, and worst problems of a solver."""
-SHARED = "; on the {} that all these solvers were given; what a budget did not reach is missed"
+SHARED = "; on the {} on which all these solvers were called"
 FACTS = ("n", "m", "contacts", "h", "mass_ratio", "condition", "condition_natural")
 """Numbers of a problem whose smallest and largest are shown."""
+WAY = ("interface", "solver", "claimed")
 Cell = Callable[[Rows], str]
 
 
@@ -70,16 +73,16 @@ CLAIMS: Final = {f"said {c}, was wrong": _wrong(c) for c in ("optimal", "infeasi
 
 
 def solver_table(comparison: Comparison, setting: str) -> Table:
-    """Every solver at one setting, on the same problems: digits, success and time."""
+    """Every solver at one setting: digits, success and time, of the calls that were made."""
     where = comparison.at(setting)
-    own = comparison.rows.at(where).common()
+    own = comparison.called.at(setting=setting)
     heads = solver_headings(comparison.rows)
     rows = [
         (*solver_cells(part), *(cell(part) for cell in CELLS.values()))
         for part in own.groups("label").values()
     ]
     title = f"Setting {setting}, {where['units']} units."
-    words = filter_words(where, same_problems(own))
+    words = filter_words(where, "; calls that a budget did not reach left out")
     return Table(title, words, (*heads, *CELLS), tuple(rows), left=len(heads))
 
 
@@ -98,42 +101,59 @@ def same_problems(rows: Rows) -> str:
     return SHARED.format(f"{len(set(rows['unit'])):,} problems")
 
 
-def soonest_table(found: Sequence[Soonest], comparison: Comparison) -> Table:
-    """What digits cost, solver by solver, the fastest first: time, then success, then claims."""
-    least = found[0].least if found else 0
+def headline(found: Sequence[Soonest], comparison: Comparison, options: bool = False) -> Table:
+    """Who solves what share to how many digits, in what time, with how many false claims.
+
+    Parameters
+    ----------
+    found : sequence of Soonest
+    comparison : Comparison
+    options : bool
+        Whether each solver's own options are a column.
+    """
     heads = solver_headings(found[0].rows) if found else ("solver", "interface")
-    names = (*heads, "setting")
-    floor = comparison.noise.floor
-    rows = []
+    names = (*heads, "setting", *(("its own options",) if options else ()), "looks as if it")
+    lines = []
     for one in found:
         own, families = one.rows, one.rows["family"]
-        shares = interval(100 * resampled((own["digits"] >= least).astype(float), families))
+        shares = interval(100 * resampled((own["digits"] >= WANTED).astype(float), families))
         span = interval(np.exp(resampled(np.log(one.times + SHIFT), families)) - SHIFT)
-        cells = [*solver_cells(own), one.setting]
-        fastest = next(other for other in found if other.machine == one.machine)
-        tie = "not known" if floor is None else "no"
-        if floor is not None and one.mean <= fastest.mean * (1 + floor):
-            tie = "yes"
-        cells += [
-            milliseconds(one.mean),
-            " to ".join(map(milliseconds, span)),
-            "-" if one is fastest else tie,
-            _share(least)(own),
-            " to ".join(map(tenths, shares)),
-            *(cell(own) for cell in CLAIMS.values()),
-            CELLS["digits, median"](own),
-            CELLS["time, median [ms]"](own),
-        ]
-        rows.append(tuple(cells))
+        given = comparison.options[own.first("way")][one.setting]
+        solved = own.at(solved=True)
+        lines.append((
+            *solver_cells(own), one.setting,
+            *((f"`{options_words(given, LIMITS)}`",) if options else ()), one.trick or "-",
+            str(len(own)), str(one.missing), *(_share(least)(own) for least in LEVELS),
+            " to ".join(map(tenths, shares)), *(cell(own) for cell in CLAIMS.values()),
+            _median_ms(solved["first"]), _median_ms(solved["call"]), milliseconds(one.mean),
+            " to ".join(map(milliseconds, span)), _tie(one, found, comparison),
+        ))  # fmt: skip
     columns = (
-        *names, f"time to {least:g} digits, shifted geometric mean [ms]",
-        "95 % of bootstraps, mean", "tie with the fastest", f">= {least:g} digits [%]",
-        "95 % of bootstraps", *CLAIMS, "digits, median", "time, median [ms]",
+        *names, "problems", "calls not made", *(f">= {d:g} digits [%]" for d in LEVELS),
+        f"95 % of bootstraps, {WANTED:g} digits", *CLAIMS, "first call, median [ms]",
+        "repeated, median [ms]", f"time to {WANTED:g} digits, shifted geometric mean [ms]",
+        "95 % of bootstraps, mean", "tie with the first",
     )  # fmt: skip
-    title = f"Time to {least:g} digits, each solver at the setting that delivers them soonest."
-    more = same_problems(found[0].rows) if found else ""
-    words = filter_words(comparison.base, more)
-    return Table(title, words, columns, tuple(rows), left=len(names))
+    more = "; half = 1, or all where a half is empty; calls that a budget did not reach left out"
+    who = "Every interface to a solver" if options else "Each solver"
+    title = f"{who} at the setting that has {WANTED:g} digits soonest on the other half."
+    return Table(title, filter_words(comparison.base, more), columns, tuple(lines), len(names))
+
+
+def _median_ms(values: np.ndarray) -> str:
+    median = _median_or_none(values)
+    return "-" if median is None else milliseconds(median)
+
+
+def _tie(one: Soonest, found: Sequence[Soonest], comparison: Comparison) -> str:
+    """Whether a solver is as fast as the first of its machine, as far as times are known."""
+    first = next(other for other in found if other.machine == one.machine)
+    floor = comparison.noise.floor
+    if one is first or comparison.busy:
+        return "-"
+    if floor is None:
+        return "not known"
+    return "yes" if one.mean <= first.mean * (1 + floor) else "no"
 
 
 def outcome_table(rows: Rows) -> Table:
@@ -177,43 +197,21 @@ def false_claims(rows: Rows, settings: Sequence[str], where: Where) -> Table:
     return Table(title, filter_words(where), ("solver", *settings), tuple(lines))
 
 
-def worst_claims(rows: Rows, promised: Mapping[str, float]) -> Table:
-    """The false claims with the fewest digits of those promised, one of each kind of call.
-
-    Parameters
-    ----------
-    rows : Rows
-    promised : mapping of str to float
-        Digits [-], by setting.
-    """
-    kinds = rows.at(wrong=True).groups("label", "setting", "units", "warm").values()
-    worst = [min(part, key=lambda row: float(row["digits"])) for part in kinds]
-    worst.sort(key=lambda row: float(row["digits"] - promised[row["setting"]]))
-    lines = tuple(
-        (*(row[n] for n in ("label", "setting", "units")), str(row["warm"]).lower(),
-         row["problem"], row["claimed"], tenths(promised[row["setting"]]), tenths(row["digits"]))
-        for row in worst[:FALSE_SHOWN]
-    )  # fmt: skip
-    names = ("solver", "setting", "units", "warm", "problem", "its own status",
-             "digits promised", "digits")  # fmt: skip
-    return Table("The false claims that fall furthest short of the digits promised, one for each "
-                 "solver, setting, units, and warm or cold start.", "wrong = true", names, lines,
-                 left=6)  # fmt: skip
-
-
 def detection(rows: Rows) -> Block:
-    """What solvers say of problems that have no solution: right, wrong, silent."""
+    """What solvers say of problems that have no solution."""
     lines = []
-    for key, part in rows.at(feasible=False).groups("label", "setting").items():
+    for key, part in rows.at(feasible=False, called=True).groups("label", "setting").items():
         right, wrong = int(part["said_infeasible"].sum()), int(part["said_optimal"].sum())
-        counts = (len(part), right, wrong, len(part) - right - wrong)
-        lines.append((*key, *map(str, counts)))
+        hidden = sum(claim(*(row[n] for n in WAY)) == HIDDEN for row in part)
+        neither = len(part) - right - wrong - hidden
+        lines.append((*key, *map(str, (len(part), right, wrong, neither, hidden))))
     if not lines:
         return "The study contains no problem without a solution."
-    names = ("solver", "setting", "calls", "right", "wrong", "silent")
+    names = ("solver", "setting", "calls", "right", "wrong", "neither", "not said")
     title = (
         "Problems without a solution, as Farkas vectors prove: a call is right if it says "
-        "infeasible, wrong if it says optimal, and silent if it says neither."
+        "infeasible, wrong if it says optimal; where an interface has one word for several exit "
+        "codes, what the solver said is not known."
     )
     return Table(title, "feasible = false", names, tuple(lines), left=2)
 
@@ -262,90 +260,17 @@ def contrast(
     return Table(title, filter_words(where, said), head, tuple(lines), left=2)
 
 
-def family_digits(rows: Rows, families: Sequence[str]) -> tuple[list[str], np.ndarray]:
-    """Median digits, shape (solvers, families) [-]; NaN where there is no row."""
-    labels = [label for (label,) in rows.groups("label")]
-    found = np.full((len(labels), len(families)), np.nan)
-    for (label, family), part in rows.groups("label", "family").items():
-        found[labels.index(label), families.index(family)] = float(np.median(part["digits"]))
-    return labels, found
-
-
-def family_table(
-    labels: Sequence[str], found: np.ndarray, families: Sequence[str], where: Where, more: str
-) -> Table:
-    """The numbers of the heat map.
-
-    Parameters
-    ----------
-    labels, families : sequence of str
-    found : ndarray, shape (solvers, families)
-        Median digits [-].
-    where : mapping of str to object
-    more : str
-    """
-    lines = tuple(
-        (family, *("-" if np.isnan(value) else tenths(float(value)) for value in column))
-        for family, column in zip(families, found.T, strict=True)
-    )
-    title = f"Median digits by family, setting {where['setting']}."
-    return Table(title, filter_words(where, more), ("family", *labels), lines)
-
-
-def failing_clocks(rows: Rows) -> list[Block]:
-    """Memory of every solver, and how many of its times the keeper's clock did not confirm."""
+def family_table(comparison: Comparison, setting: str) -> Table:
+    """Median digits of each solver by family, at one setting."""
+    where = comparison.at(setting)
+    own = comparison.called.at(setting=setting)
+    labels = [label for (label,) in own.groups("label")]
     lines = []
-    for (label,), part in rows.groups("label").items():
-        known, warm = (part[name][np.isfinite(part[name])] for name in ("memory", "warm_up"))
-        if len(known):
-            slowest = f"{warm.max():.3g}" if len(warm) else "-"
-            unconfirmed = str(int((~part["clock_agrees"]).sum()))
-            lines.append((label, f"{known.max() / 1e6:.0f}", unconfirmed, slowest,
-                          f"{warm.sum():.3g}"))  # fmt: skip
-    names = ("solver", "memory, peak [MB]", "clock not confirmed", "slowest warm-up [s]",
-             "warm-ups [s]")  # fmt: skip
-    table = Table("Memory, clocks, warm-ups.", "repetition = 0", names, tuple(lines))
-    return [table] if lines else []
-
-
-def parts_of_calls(found: Sequence[Soonest], where: Where) -> list[Block]:
-    """Set-up and solving by the solver's own account, and what is left of a call: conversion.
-
-    Parameters
-    ----------
-    found : sequence of Soonest
-    where : mapping
-        The filter that gives their rows.
-    """
-    lines = []
-    for one in found:
-        own = one.rows.at(solved=True)
-        known = np.isfinite(own["own_solver"])
-        if not known.any():
-            continue
-        call, setup, solving = (own[n][known] for n in ("seconds", "own_setup", "own_solver"))
-        left = call - solving - np.where(np.isfinite(setup), setup, 0.0)
-        cells = [milliseconds(float(np.median(call))),
-                 milliseconds(float(np.median(setup))) if np.isfinite(setup).all() else "-",
-                 milliseconds(float(np.median(solving))),
-                 milliseconds(max(float(np.median(left)), 0.0)),
-                 tenths(100 * max(float(np.median(left / call)), 0.0))]  # fmt: skip
-        lines.append((*solver_cells(one.rows), one.setting, str(int(known.sum())), *cells))
-    if not lines:
-        return []
-    names = (*solver_headings(found[0].rows), "setting")
-    columns = (*names, "calls solved, times reported", "whole call, median [ms]",
-               "set-up, median [ms]", "solving, median [ms]", "conversion, median [ms]",
-               "conversion, median of shares [%]")  # fmt: skip
-    words = (
-        "Set-up and solving are by the solver's own account (natively the set-up is timed here); "
-        "conversion is what is left of a call: matrices into the solver's form, and answers back. "
-        "Where a solver does not report its set-up separately, the set-up is part of the solving "
-        "if the solver counts it there, and otherwise of the conversion."
-    )
-    title = "Set-up, solving and conversion, each at the setting that delivers 6 digits soonest."
-    more = "; outcome = solved, seconds.solver is reported"
-    return [words, Table(title, filter_words(where, more), columns, tuple(lines), left=len(names))]
+    for (family,), part in own.groups("family").items():
+        known = {label: CELLS["digits, median"](p) for (label,), p in part.groups("label").items()}
+        lines.append((family, *(known.get(label, "-") for label in labels)))
+    title = f"Median digits by family, setting {setting}."
+    return Table(title, filter_words(where), ("family", *labels), tuple(lines))
 
 
 def worst_problems(
@@ -484,22 +409,14 @@ def place_tables(study: Mapping[str, Any]) -> list[Table]:
 
 
 def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
-    """Every solver's options at every setting."""
+    """Every solver's options at every setting, what they promise, and its author's word."""
     rows = tuple(
-        (s["name"], s["interface"], setting, f"`{options_words(options)}`")
+        (s["name"], s["interface"], setting, f"`{options_words(options)}`",
+         option_file(str(s["target"])).get("source", "-"),
+         option_file(str(s["target"])).get("author") or "-", f"{s['promised'][setting]:g}")
         for s in solvers
         for setting, options in s["options"].items()
-    )
-    names = ("solver", "interface", "setting", "its own options")
-    return Table("Options.", "the store, options", names, rows, left=4)
-
-
-def settings_table(settings: Sequence[Mapping[str, Any]]) -> Table:
-    """What the settings require and promise."""
-    rows = tuple(
-        (s["name"], "its own" if s["accuracy"] is None else f"{s['accuracy']:g}",
-         f"{s['promised']:g}", "the simulator's" if s["tuned"] else "plain")
-        for s in settings
     )  # fmt: skip
-    names = ("setting", "accuracy", "digits promised", "options")
-    return Table("The settings.", "the store, settings", names, rows)
+    names = ("solver", "interface", "setting", "its own options", "documented at",
+             "its author's word", "digits promised")  # fmt: skip
+    return Table("Options.", "the store, options", names, rows, left=6)

@@ -10,6 +10,8 @@ PASSING = ("load",)
 """What is of the moment, and not of the machine."""
 SAME = ("kind", "time_limit", "budget", "warm_up", "memory", "repetitions", "problems", "sweeps")
 """What rows are comparable under, besides settings and options."""
+BY_SETTING = ("options", "promised")
+"""What a solver has at each setting."""
 Differs = Callable[[str], InputError]
 """What differs -> the error that says so."""
 
@@ -68,12 +70,14 @@ def joined(one: Mapping[str, Any], other: Mapping[str, Any], differs: Differs) -
     solvers = {label(solver): dict(solver) for solver in one["solvers"]}
     for solver in other.get("solvers", ()):
         own = solvers.setdefault(label(solver), dict(solver))
-        new = solver["options"]
         if own["target"] != solver["target"] or any(
-            own["options"].get(name, value) != value for name, value in new.items()
+            own[part].get(name, value) != value
+            for part in BY_SETTING
+            for name, value in solver[part].items()
         ):
             raise differs(f"solver or options {label(solver)}")
-        own["options"] = {**own["options"], **new}
+        for part in BY_SETTING:
+            own[part] = {**own[part], **solver[part]}
         own["present"] = own.get("present", True) or solver.get("present", True)
     order = dict.fromkeys([*map(label, other.get("solvers", ())), *solvers])
     return {"settings": list(settings.values()), "solvers": [solvers[name] for name in order]}

@@ -18,7 +18,7 @@ CREATE TABLE machines (                          -- '' where results were not me
 CREATE TABLE settings (
   name TEXT PRIMARY KEY CHECK (length(name) <= 1000),
   accuracy REAL CHECK (accuracy > 0 AND accuracy < 1e300), -- null: the solver's own
-  promised REAL NOT NULL CHECK (abs(promised) < 1e300),    -- digits
+  promised REAL CHECK (abs(promised) < 1e300),             -- digits; null: those of each solver
   tuned INTEGER NOT NULL CHECK (tuned IN (0, 1))
 ) STRICT;
 
@@ -35,6 +35,7 @@ CREATE TABLE options (
   solver TEXT NOT NULL,
   setting TEXT NOT NULL REFERENCES settings DEFERRABLE INITIALLY DEFERRED,
   options TEXT NOT NULL CHECK (json_type(options) = 'object'),
+  promised REAL NOT NULL CHECK (abs(promised) < 1e300),    -- digits of delta_q, by an "optimal"
   PRIMARY KEY (interface, solver, setting),
   FOREIGN KEY (interface, solver) REFERENCES solvers DEFERRABLE INITIALLY DEFERRED
 ) STRICT;

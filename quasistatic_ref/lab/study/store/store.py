@@ -21,8 +21,8 @@ from quasistatic_ref.lab.study.store.continued import continued, label
 from quasistatic_ref.lab.study.store.rows import Row, flat, key_of, label_of, nested
 
 STORE, PACKED = "study.sqlite", "study.json.xz"
-FORMAT, VERSION = "quasistatic-ref/study-store", 3
-"""Versions 1 and 2 were lines of JSON."""
+FORMAT, VERSION = "quasistatic-ref/study-store", 4
+"""Versions 1 and 2 were lines of JSON; version 3 had one promise for all solvers at a setting."""
 SCHEMA: Final = (Path(__file__).parent / "schema.sql").read_text("utf-8")
 TABLES: Final = ("study", "machines", "settings", "solvers", "options", "problems", "unreached",
                  "sweeps", "rows", "runs")  # fmt: skip
@@ -218,7 +218,8 @@ def about_written(
         put(tables, "solvers", {**names, "target": solver["target"], "present": present})
         for setting, options in solver["options"].items():
             names = {"interface": solver["interface"], "solver": solver["name"]}
-            put(tables, "options", {**names, "setting": setting, "options": options})
+            own = {"options": options, "promised": solver["promised"][setting]}
+            put(tables, "options", {**names, "setting": setting, **own})
     for name, records in (
         ("settings", study.get("settings", ())),
         ("problems", problems),
@@ -335,13 +336,11 @@ def _run(record: Row) -> Row:
 
 
 def _solver(record: Row, options: Iterable[Row]) -> Row:
-    """A solver with its options by setting."""
-    own = {
-        one["setting"]: one["options"]
-        for one in options
-        if (one["interface"], one["solver"]) == (record["interface"], record["name"])
-    }
-    return record | {"options": own}
+    """A solver with its options, and what it promises, by setting."""
+    key = record["interface"], record["name"]
+    own = [one for one in options if (one["interface"], one["solver"]) == key]
+    parts = {name: {one["setting"]: one[name] for one in own} for name in ("options", "promised")}
+    return record | parts
 
 
 def _machines(records: list[Row]) -> Row:
