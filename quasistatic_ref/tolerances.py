@@ -304,4 +304,4 @@ TIED: Final = 1e-10
 REPEATED for sizes of some decimetres."""
 
 LIGHT: Final = 1e-6
-"""Mass of a private rise over that of what it lies on [-]: sliding is slower by as much, (R60)."""
+"""Mass of a private rise over that of what it lies on [-]: sliding is slower by as much, (R40)."""

@@ -1,4 +1,4 @@
-"""Dry friction in the joints: a private rise lies on each, pressed down by tau_f, (R60)."""
+"""Dry friction in the joints: a private rise lies on each, pressed down by tau_f, (R40)."""
 
 from quasistatic_ref.step.extension import Extension, Rises
 

@@ -5,10 +5,10 @@ a backend. Files of version 1 are read too; their fields that nothing proves are
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
 import numpy as np
 
@@ -182,5 +182,5 @@ def _claim(table: Fields, name: str, may_be_null: bool) -> Any:
             if not (good and all(type(i) is int for i in pair)):
                 raise table.fail(name, "must be a list of [contact, row]", pair)
         return tuple((j, i) for j, i in pairs)
-    (kind,) = (field.type for field in fields(Certificate) if field.name == name)
+    kind = get_type_hints(Certificate)[name]
     return table.boolean(name) if kind == bool | None else table.number(name)

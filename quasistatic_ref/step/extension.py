@@ -55,7 +55,7 @@ class Symbols:
 class Rises(Plain):
     """Private rises: un-actuated coordinates of a step alone, without a pose, 0 where it starts.
 
-    Whatever slides lifts its rise against a load, which is friction, (R60). The first rises lie on
+    Whatever slides lifts its rise against a load, which is friction, (R40). The first rises lie on
     coordinates, r >= |delta_q_i|; each of the others adds to the gap of a contact.
 
     Parameters

@@ -83,7 +83,7 @@ def test_a_run_that_was_ended_twice_ends_with_the_bits_of_one_that_was_not(tmp_p
     resumed = ran(scenario, parted, resume=True, extension=extension)
     assert parted.read_bytes() == whole.read_bytes()
     assert {part: len(seconds) for part, seconds in resumed.seconds.items()} == dict.fromkeys(
-        ("distances", "rows", "solve", "integrate"), STEPS
+        ("distances", "rows", "solve", "proof", "integrate"), STEPS
     )
 
 

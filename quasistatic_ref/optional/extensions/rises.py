@@ -1,4 +1,4 @@
-"""Friction of coordinates, and of a planar base on its floor, by private rises of a step, (R60)."""
+"""Friction of coordinates, and of a planar base on its floor, by private rises of a step, (R40)."""
 
 from collections.abc import Mapping, Sequence
 

@@ -1,4 +1,4 @@
-"""Private rises, (R60): drawers and planar bases that slide, against h^2 (F - f) / (m + m_r)."""
+"""Private rises, (R40): drawers and planar bases that slide, against h^2 (F - f) / (m + m_r)."""
 
 import cvxpy as cp
 import numpy as np

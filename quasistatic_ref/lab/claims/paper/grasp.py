@@ -66,7 +66,7 @@ CLAIM = Claim(
     sentence="Without torsional friction the grasped bunny rotates about its contact points, "
     "however its cloud was drawn; with it, it does not, wherever mu_omega is half as much again as "
     "the closed grip needs.",
-    where="the paper, Fig. 1 and section III-B; docs/derivations.md (R40) for other clouds",
+    where="the paper, Fig. 1 and section III-B; docs/derivations.md (R39) for other clouds",
     sweep="bunny_grasp, 300 steps, with and without mu_omega on the fingers; the largest rotation "
     f"from the closed grip, t = {CLOSED:g} s, to the end of the lift, t = {TOP:g} s. Then 480 "
     "other clouds of the same bunny, 200 to 100,000 points drawn in four ways (docs/clouds.md): "

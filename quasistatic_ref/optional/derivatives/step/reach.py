@@ -1,4 +1,4 @@
-r"""How far the derivatives of an optimum hold, to first order: (R38).
+r"""How far the derivatives of an optimum hold, to first order: (R41).
 
 A parameter that grows by t changes the slack of an open row to s + t ds, and the row touches at
 t = -s / ds. The rows that touch, Z, exert A_Z' lam. But for their own motion, which carries that
