@@ -142,7 +142,7 @@ def difference(
     tolerance : float
         How far it may be off [its unit].
     exact : float, optional
-        How far rounding in float64 may take it; by default the same.
+        How far rounding in float64 may take it; by default the same [its unit].
     """
     worst, place, size = 0.0, "", 0.0
     for (path, one), (_, other) in zip(leaves(expected), leaves(answer), strict=True):
