@@ -97,8 +97,10 @@ def run_of(name: str) -> str:
     return name if "/" in rest else family
 
 
-def scored(solver: str, options: Options, problems: Sequence[Problem], function: str = "") -> Score:
-    """A solver, through qpsolvers or a function, in natural units, cold, with these options.
+def scored(
+    solver: str, options: Options, problems: Sequence[Problem], interface: str = "qpsolvers"
+) -> Score:
+    """A solver in natural units, cold, with these options.
 
     Problems that `PATIENCE` does not reach count as those that time out.
 
@@ -108,11 +110,10 @@ def scored(solver: str, options: Options, problems: Sequence[Problem], function:
     options : dict
         In its own names.
     problems : sequence of Problem
-    function : str
-        ``module:function``, of solvers that take some options in no other way.
+    interface : str
+        One that takes them all.
     """
-    interface = "callable" if function else "qpsolvers"
-    one = Solver(solver, interface, function or solver, {SEARCHED.name: options})
+    one = Solver(solver, interface, solver, {SEARCHED.name: options})
     names = {"family": "", "solver": solver, "interface": interface, "setting": SEARCHED.name,
              "mode": "", "units": "natural", "warm": False, "repetition": 0}  # fmt: skip
     late = perf_counter() + PATIENCE * len(problems)
@@ -202,7 +203,7 @@ def lines(solver: str, space: dict[str, Any], every: Sequence[Problem]) -> Itera
     training, judging = halves(every)
 
     def score(half: str, problems: Sequence[Problem], options: Options) -> Score:
-        found = scored(solver, options, problems, space.get("function", ""))
+        found = scored(solver, options, problems, space.get("interface", "qpsolvers"))
         print(f"{solver}, {half}: {options_words(options)}: {found.six:.0f} % with 6 digits, mean "
               f"time to them {milliseconds(found.time_to_6)} ms", flush=True)  # fmt: skip
         return found

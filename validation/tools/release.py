@@ -80,6 +80,7 @@ def fuzzed(name: str, options: str = "") -> Result:
 RESULTS = (
     Result("vectors", f"{CLI} vectors generate --out validation/vectors", ("validation/vectors",)),
     to_file("planted_bugs", "planted_bugs.md"),
+    script("partial_ports", "md"),
     to_file("challenges", "challenges.md"),
     Result("engines", "validation.make.engines", ("validation/results/engines",)),
     Result(
@@ -155,6 +156,7 @@ RESULTS = (
         ("validation/results/benchmarks",),
     ),
     to_file("installs", "installs.md", "validation.tools.check_installs"),
+    script("exit_codes", "md"),
     script("option_search", "jsonl", "md"),
     *(
         Result(

@@ -36,8 +36,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
             shared.add(action, "--json")
             _add_digits(action)
         if name == "check":
-            words = "only cases whose ids begin so, e.g. rows/cone"
-            action.add_argument("--only", metavar="PREFIX", default="", help=words)
+            words = "only cases whose ids begin so, e.g. rows/cone; may be given several times"
+            action.add_argument("--only", metavar="PREFIX", action="append", default=[], help=words)
             action.add_argument("--case", metavar="ID", help="one case alone, number by number")
         else:
             shared.add(action, "--out", default=Path(OUT.get(name, "vectors")))
@@ -51,6 +51,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def _add_digits(action: argparse.ArgumentParser) -> None:
     words = "answers that are right to D digits are acceptable"
     action.add_argument("--digits", type=float, metavar="D", help=words)
+    words = "what the program does, a TOML file: within it, it is complete or not"
+    action.add_argument("--scope", type=Path, metavar="FILE", help=words)
 
 
 def _add_layers(action: argparse.ArgumentParser) -> None:
@@ -90,10 +92,11 @@ def _challenge(options: argparse.Namespace) -> int:
 
 def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.check.folder import check_answers
+    from quasistatic_ref.lab.vectors.check.scope import scope_read
 
-    source, only = vectors_given(options), options.case or options.only
+    source, only = vectors_given(options), [options.case] if options.case else options.only
     report = check_answers(options.answers, source, options.layers, only=only,
-                           digits=options.digits)  # fmt: skip
+                           digits=options.digits, scope=scope_read(options.scope))  # fmt: skip
     if options.json:
         shared.print_json(report.record)
         return report.status

@@ -17,11 +17,13 @@ def vectors_given(options: argparse.Namespace) -> Path:
 
 def run_report(options: argparse.Namespace) -> int:
     """Write the page, the badge and the record; 1 if anything failed, as ``vectors check``."""
+    from quasistatic_ref.lab.vectors.check.scope import scope_read
     from quasistatic_ref.lab.vectors.conformance.files import conformance, written
 
     found = conformance(
-        options.answers, vectors_given(options), options.implementation, options.digits
-    )
+        options.answers, vectors_given(options), options.implementation, options.digits,
+        scope_read(options.scope),
+    )  # fmt: skip
     paths = written(found, options.answers, options.out)
     if options.json:
         shared.print_json(json_read(paths[-1]))

@@ -14,7 +14,7 @@ Where = Mapping[str, str | bool | int]
 """Field -> value: a filter, as the line below each table states it."""
 EVERY: Final[Where] = MappingProxyType({})
 FLAGS: Final = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong", "wrong_multipliers",
-                "solved", "called", "clock_agrees")  # fmt: skip
+                "solved", "called")  # fmt: skip
 
 
 MADE: Final = 0.9
@@ -106,8 +106,7 @@ def rows_of(rows: Sequence[Row], limit: float) -> Rows:
         ``called``, whether the call was made; ``half``, of the problems, and ``first``, the time
         of the first call [s]; ``digits``: those of delta_q that were delivered,
         0 where the solver does not say that it solved the problem; ``net`` likewise; ``seconds``:
-        of the call, the time limit where the solver does not say so; ``call``: of any call;
-        ``own_setup`` and ``own_solver``: of set-up and solving by its own account.
+        of the call, the time limit where the solver does not say so; ``call``: of any call.
     """
     return Rows([row | _more(row, limit) for row in rows])
 
@@ -129,12 +128,7 @@ def _more(row: Row, limit: float) -> Row:
         "net": _or(row["digits"]["net_wrench"] if solved else None, 0.0),
         "seconds": _or(seconds["call"] if solved else None, limit),
         "call": _or(seconds["call"]),
-        "own_setup": _or(seconds["setup"]),
-        "own_solver": _or(seconds["solver"]),
-        "warm_up": _or(seconds["warm_up"]),
-        "memory": _or(row["memory"]),
         "iterations": _or(row["iterations"]),
-        "clock_agrees": row["clock_agrees"] is not False,  # null: not compared
     }
 
 

@@ -11,6 +11,7 @@ from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge, sent_again
 from quasistatic_ref.lab.vectors.challenge.serve import served
+from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS
 
 
@@ -51,6 +52,7 @@ def challenged(options: argparse.Namespace) -> int:
             digits=options.digits,
             jobs=options.jobs,
             first=options.first,
+            scope=scope_read(options.scope),
             say=lambda line: None if options.quiet else print(line, file=sys.stderr, flush=True),
         )
     _shown(outcome, options)

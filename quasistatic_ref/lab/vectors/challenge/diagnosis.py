@@ -4,6 +4,7 @@ After each round, what failed is named by all that was seen so far of its layer,
 failing case is made smaller.
 """
 
+import math
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -20,6 +21,7 @@ from quasistatic_ref.lab.vectors.challenge.shrink import shrunk
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of, predicted
 from quasistatic_ref.lab.vectors.check.report import Named
+from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case
@@ -46,6 +48,10 @@ class Diagnosis:
         [-].
     made : callable
         Cases of tasks, in their order.
+    scope : Scope
+        What the program does: nothing else is asked of it.
+    until : float
+        By the monotonic clock, from when on nothing more is asked [s].
     """
 
     def __init__(
@@ -53,7 +59,10 @@ class Diagnosis:
         program: Program | Function,
         digits: float | None,
         made: Callable[[Iterable[Task]], Iterator[tuple[Task, Json, Json]]],
+        scope: Scope = WHOLE,
+        until: float = math.inf,
     ) -> None:
+        self._scope, self._until = scope, until
         self.program, self._digits, self._made = program, digits, made
         self.outcome = Outcome()
         self._failed: dict[str, list[Failed]] = {name: [] for name in LAYERS}
@@ -63,6 +72,11 @@ class Diagnosis:
         self._unsupported: dict[str, str] = {}
         self._wanted: set[str] = set()
         self._shrinks, self._began = 0, time.monotonic()
+
+    @property
+    def late(self) -> bool:
+        """Whether its time is over."""
+        return time.monotonic() >= self._until
 
     @property
     def full(self) -> bool:
@@ -111,6 +125,10 @@ class Diagnosis:
 
     def _ask(self, tasks: Sequence[Task]) -> None:
         for (layer, seed, level), case, record in self._made(tasks):
+            if self.late:
+                return
+            if not self._scope.holds(layer, case, record):
+                continue
             if self._troubles[layer] >= GIVEN_UP or layer not in self.program.layers:
                 continue
             self.outcome.sent[layer] += 1
@@ -160,7 +178,9 @@ class Diagnosis:
         )
 
     def _replies(self, layer: str, case: Json, kind: str) -> bool:
-        return record_of(layer, case) is not None and self._again(layer, case).kind == kind
+        if self.late or record_of(layer, case) is None:
+            return False
+        return self._again(layer, case).kind == kind
 
     def _again(self, layer: str, case: Json) -> Reply:
         self._shrinks += 1
@@ -183,7 +203,7 @@ class Diagnosis:
             best = [one]
 
             def fails(case: Json) -> bool:
-                record = record_of(layer, case)
+                record = None if self.late else record_of(layer, case)
                 reply = self._again(layer, case) if record is not None else Reply("none")
                 if reply.kind != "output":
                     return False

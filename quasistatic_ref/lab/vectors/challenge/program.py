@@ -6,6 +6,7 @@ sent, or flood its standard error, is survived and reported.
 
 import contextlib
 import json
+import math
 import os
 import queue
 import shlex
@@ -81,6 +82,8 @@ class Program:
         self._timeout, self._warming = timeout, (START - 1) * timeout
         self._process: Supervised | None = None
         self._heard = False
+        self.until = math.inf
+        """By the monotonic clock, when nobody waits for a slow start any more [s]."""
         self._answered: set[str] = set()
         self.said = Answers()
         self.layers: tuple[str, ...] = LAYERS
@@ -105,7 +108,8 @@ class Program:
         if self._process is None:
             self._start()
         began = time.monotonic()
-        allowed = self._timeout + (0.0 if self._heard else self._warming)
+        warming = 0.0 if self._heard else self._warming
+        allowed = self._timeout + max(min(warming, self.until - began - self._timeout), 0.0)
         waited = allowed + GRACE * self._timeout
         line = json.dumps({"id": id, "layer": layer, "input": case}, allow_nan=False)
         self._inbox.put(line.encode() + b"\n")

@@ -4,6 +4,7 @@ Every case follows from the seed, the round, its layer and its number, so that t
 gives the same result.
 """
 
+import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -18,6 +19,7 @@ from quasistatic_ref.lab.vectors.challenge.fresh import EASY, HARD, PLAIN, fresh
 from quasistatic_ref.lab.vectors.challenge.function import Function, Simulator
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import Program
+from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import check_layer
 from quasistatic_ref.lab.vectors.layers import LAYERS
@@ -40,6 +42,7 @@ def challenge(
     jobs: int = 1,
     first: bool = False,
     say: Callable[[str], None] = lambda line: None,
+    scope: Scope = WHOLE,
 ) -> Outcome:
     """Ask a program new cases, and say what it does wrong.
 
@@ -52,7 +55,7 @@ def challenge(
     cases : int, optional
         How many at most; 1,000 if neither they nor the time is limited.
     seconds : float, optional
-        Rounds end after that time [s].
+        Nothing is asked after that time; an answer that is awaited then is waited for [s].
     seed : int
     digits : float, optional
         [-] An answer that is right to so many digits is accepted.
@@ -62,29 +65,34 @@ def challenge(
         Whether to end after the first round in which something is found.
     say : callable
         Called with a line on what is being done.
+    scope : Scope
+        What the program does: nothing else is asked of it.
 
     Returns
     -------
     Outcome
     """
     names = [check_layer(name) for name in layers or LAYERS]
+    names = [name for name in names if name in scope.layers]
+    digits = scope.digits if digits is None else digits
+    began = time.monotonic()
+    until = math.inf if seconds is None else began + seconds
     player = program if isinstance(program, Program) else Function(program)
     with ExitStack() as stack:
         if isinstance(player, Program):
             stack.enter_context(player)
+            player.until = until
         makers: Callable[[Iterable[Task]], Iterator[tuple[Task, Json, Json]]] = _made_here
         if jobs > 1:
             pool = ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))
             stack.callback(pool.shutdown, cancel_futures=True)
             makers = partial(pool.map, _made)
-        found = Diagnosis(player, digits, makers)
-        began = time.monotonic()
+        found = Diagnosis(player, digits, makers, scope, until)
         limit = 1000 if cases is None and seconds is None else cases
         number = 0
         while names and not found.full:
             left = None if limit is None else limit - found.outcome.sent.total()
-            late = seconds is not None and time.monotonic() - began >= seconds
-            if late or (left is not None and left <= 0):
+            if found.late or (left is not None and left <= 0):
                 break
             tasks = _round(names, seed, number)
             found.play(tasks if left is None else tasks[:left])

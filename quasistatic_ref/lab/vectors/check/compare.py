@@ -124,8 +124,26 @@ def tolerance_of(tolerance: Mapping[str, Json], field: str) -> float:
     return 0.0
 
 
-def difference(field: str, expected: Json, answer: Json, tolerance: float) -> Difference:
-    """The worst number of one field; what is no number must be equal."""
+def exact_tolerance_of(tolerance: Mapping[str, Json], field: str) -> float:
+    """The same of float64 [its unit], however few digits are asked for: digits depend on it."""
+    own = tolerance.get(field, {})
+    return float(own["exact"]) if "exact" in own else tolerance_of(tolerance, field)
+
+
+def difference(
+    field: str, expected: Json, answer: Json, tolerance: float, exact: float | None = None
+) -> Difference:
+    """The worst number of one field; what is no number must be equal.
+
+    Parameters
+    ----------
+    field : str
+    expected, answer : object
+    tolerance : float
+        How far it may be off [its unit].
+    exact : float, optional
+        How far rounding in float64 may take it; by default the same [its unit].
+    """
     worst, place, size = 0.0, "", 0.0
     for (path, one), (_, other) in zip(leaves(expected), leaves(answer), strict=True):
         if isinstance(one, bool | str) or one is None:
@@ -135,7 +153,13 @@ def difference(field: str, expected: Json, answer: Json, tolerance: float) -> Di
         size, error = max(size, abs(one)), abs(float(other) - float(one))
         if error > worst:
             worst, place = error, path
-    return Difference(field, place, worst, tolerance, correct_digits(worst, size, tolerance))
+    return Difference(
+        field,
+        place,
+        worst,
+        tolerance,
+        correct_digits(worst, size, tolerance if exact is None else exact),
+    )
 
 
 def differences(
@@ -144,7 +168,13 @@ def differences(
     """Of every field that is answered, in the order of the layer's output."""
     ours, theirs = parts(expected), parts(answer)
     return {
-        name: difference(name, value, theirs[name], tolerance_of(tolerance, name))
+        name: difference(
+            name,
+            value,
+            theirs[name],
+            tolerance_of(tolerance, name),
+            exact_tolerance_of(tolerance, name),
+        )
         for name, value in ours.items()
         if name in theirs
     }

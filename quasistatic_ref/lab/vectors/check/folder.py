@@ -10,6 +10,7 @@ from quasistatic_ref.lab.vectors.check.answers import Answers, answers_read
 from quasistatic_ref.lab.vectors.check.case import judged
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of
 from quasistatic_ref.lab.vectors.check.report import LayerReport, Report
+from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS, FAILED, MISSING, Verdict, failure
 from quasistatic_ref.lab.vectors.converters import converted
 from quasistatic_ref.lab.vectors.expected import Json
@@ -22,8 +23,9 @@ def check_answers(
     vectors: str | Path,
     layers: Sequence[str] | None = None,
     *,
-    only: str = "",
+    only: Sequence[str] = (),
     digits: float | None = None,
+    scope: Scope = WHOLE,
 ) -> Report:
     """Compare a folder of answers with the vectors.
 
@@ -36,10 +38,12 @@ def check_answers(
     layers : sequence of str, optional
         Layers that have to be answered. By default all are looked at, and one without a file is
         reported but no failure.
-    only : str
-        Beginning of the ids of the cases that are looked at, e.g. ``rows/cone``.
+    only : sequence of str
+        Beginnings of the ids of the cases that are looked at, e.g. ``rows/cone``; by default all.
     digits : float, optional
-        [-] An answer that is right to so many digits is acceptable.
+        [-] An answer that is right to so many digits is acceptable; by default those of the scope.
+    scope : Scope
+        What the program does: only that is looked at, and all of it has to be answered.
 
     Returns
     -------
@@ -56,8 +60,11 @@ def check_answers(
     folder = Path(answers)
     if not folder.is_dir():
         raise InputError("is no folder of answers", file=folder)
+    digits = scope.digits if digits is None else digits
     if only and layers is None:
-        layers = [only.partition("/")[0]]
+        layers = list(dict.fromkeys(one.partition("/")[0] for one in only))
+    if scope is not WHOLE:
+        layers = [name for name in layers or LAYERS if name in scope.layers]
     named = LAYERS if layers is None else [check_layer(name) for name in layers]
     known = [name for name in named if (Path(vectors) / "expected" / f"{name}.json").exists()]
     if not known:
@@ -68,13 +75,25 @@ def check_answers(
         raise InputError(f"answers no layer; the files looked for are {names}", file=folder)
     reports = []
     for name in known:
-        cases = [case for case in inputs_read(vectors, name) if case.id.startswith(only)]
-        cases = [case for case in cases if case.id == only] or cases
-        if not cases:
-            raise InputError("is no beginning of the id of a case", field="only", value=only)
-        report = layer_report(name, cases, expected_read(vectors, name), found[name], digits)
-        reports.append(report.required() if layers is not None else report)
-    return Report(str(folder), tuple(reports), digits)
+        records = expected_read(vectors, name)
+        cases = _named(inputs_read(vectors, name), only, name)
+        within = [one for one in cases if scope.holds(name, one.input, records[one.id])]
+        if within:
+            report = layer_report(name, within, records, found[name], digits)
+            reports.append(report.required() if layers is not None else report)
+    return Report(str(folder), tuple(reports), digits, scope.name)
+
+
+def _named(cases: Sequence[Case], only: Sequence[str], layer: str) -> Sequence[Case]:
+    """The cases of a layer whose ids are named, or begin as is named; all where none is."""
+    found: list[Case] = []
+    for one in only:
+        own = [case for case in cases if case.id.startswith(one)]
+        own = [case for case in own if case.id == one] or own
+        if not own and one.partition("/")[0] == layer:
+            raise InputError("is no beginning of the id of a case", field="only", value=one)
+        found += [case for case in own if case not in found]
+    return found if only else cases
 
 
 def layer_report(

@@ -27,7 +27,8 @@ def loosened(record: Json, digits: float) -> Json:
         numbers = [abs(v) for _, v in leaves(value) if isinstance(v, float)]
         exact = tolerance_of(record["tolerance"], field)
         if numbers and field != "farkas":
-            wide[field] = {"absolute": max(exact * unit / rounding, unit * max(numbers))}
+            loose = max(exact * unit / rounding, unit * max(numbers))
+            wide[field] = {"absolute": loose, "exact": exact}
         if field == "lam" and numbers:
             known = wide[field]["absolute"] <= UNIQUE * max(numbers)
             flags["unique_multipliers"] = flags["unique_multipliers"] and known

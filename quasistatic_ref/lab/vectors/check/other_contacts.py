@@ -62,6 +62,11 @@ def contacts_problem(case: Json, record: Json, contacts: Json) -> str | None:
             if not 0 <= contact["index"] < len(candidates):
                 return f"{pair['name']} has no candidate {contact['index']}"
             if problem := _contact_problem(candidates[contact["index"]], contact, room):
+                others = (
+                    i for i, c in enumerate(candidates) if not _contact_problem(c, contact, room)
+                )
+                if (place := next(others, None)) is not None:
+                    problem = f"its point is candidate {place}: candidates have a documented order"
                 return f"{pair['name']}/{contact['index']}: {problem}"
     return None
 

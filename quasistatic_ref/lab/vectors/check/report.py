@@ -144,11 +144,14 @@ class Report:
     layers : tuple of LayerReport
     digits : float, optional
         [-] To how many digits an answer is acceptable.
+    scope : str
+        What was looked at; empty: everything.
     """
 
     answers: str
     layers: tuple[LayerReport, ...]
     digits: float | None = None
+    scope: str = ""
 
     @property
     def ok(self) -> bool:
@@ -179,6 +182,8 @@ class Report:
                 )
             if layer.partial:
                 said.append(layer.partial)
+        if self.scope:
+            said.append(f"only cases of its scope were looked at: {self.scope}")
         if self.digits is not None:
             said.append(f"acceptable are answers that are right to {self.digits:g} digits")
         unanswered = [layer.layer for layer in self.layers if not layer.present]
@@ -195,5 +200,6 @@ class Report:
             "answers": self.answers,
             "ok": self.ok,
             "digits": self.digits,
+            "scope": self.scope or None,
             "layers": [layer.record for layer in self.layers],
         }

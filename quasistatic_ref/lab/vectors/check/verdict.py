@@ -108,7 +108,8 @@ def correct_digits(error: float, size: float, tolerance: float) -> float:
     """-log10 [-] of an error relative to the size of its field, 0 to 16.
 
     A field that is zero but for rounding, such as phi of bodies that just touch, has no digits of
-    its own: it counts as right to the last where it is within the tolerance.
+    its own: it counts as right to the last where it is within the tolerance, which is that of
+    float64 whatever is asked for.
     """
     if error == 0 or (error <= tolerance and size <= CANCELLED * tolerance):
         return DIGITS

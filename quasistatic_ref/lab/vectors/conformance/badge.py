@@ -24,7 +24,7 @@ def colour(conformance: Conformance) -> str:
         return GREY
     if not conformance.report.ok:
         return RED
-    return GREEN if all(one.whole for one in conformance.answered) else AMBER
+    return GREEN if conformance.complete else AMBER
 
 
 def width(text: str) -> float:

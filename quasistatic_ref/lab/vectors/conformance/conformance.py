@@ -52,6 +52,11 @@ class Standing:
         return ", ".join(["right", *(word for count, word in kinds if count)])
 
     @property
+    def complete(self) -> bool:
+        """Whether every case is answered whole, and right to the digits that were asked for."""
+        return self.answered and not self.problem and self.right + self.loose == self.cases
+
+    @property
     def whole(self) -> bool:
         """Whether every case is answered whole and right."""
         return self.answered and not self.problem and self.right == self.cases
@@ -123,12 +128,35 @@ class Conformance:
 
     @property
     def message(self) -> str:
-        """What was passed, e.g. ``2 of 8 layers: rows 62/62, qp 137/137 to 6 digits``."""
+        """What was passed, e.g. ``2 of 8 layers: rows 62/62, qp 137/137 to 6 digits``.
+
+        Within a declared scope it begins with the scope's name, and a digit that was declared
+        makes an answer no less whole.
+        """
+        if self.report.scope:
+            return f"{self.report.scope}: {self._within}"
         if all(one.whole for one in self.layers):
             cases = sum(one.cases for one in self.layers)
             return f"all {len(self.layers)} layers: {cases}/{cases}"
         layers = ", ".join(self._words(one) for one in self.answered)
         return f"{len(self.answered)} of {len(self.layers)} layers: {layers}"
+
+    @property
+    def complete(self) -> bool:
+        """Whether everything that was answered, or within its scope everything, is right."""
+        if self.report.scope:
+            return all(one.complete for one in self.layers)
+        return all(one.whole for one in self.answered)
+
+    @property
+    def _within(self) -> str:
+        """What was passed of a scope."""
+        digits = self.report.digits
+        to = "" if digits is None else f" to {digits:g} digits"
+        right = sum(one.right + one.loose for one in self.layers)
+        cases = sum(one.cases for one in self.layers)
+        said = "all" if self.complete else "not all"
+        return f"{said} of {len(self.layers)} layers: {right}/{cases}{to}"
 
     def _words(self, one: Standing) -> str:
         """What of one layer was passed."""

@@ -17,6 +17,7 @@ from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.page.parts import Table
 from quasistatic_ref.lab.vectors.check.answers import Answers, answers_read
 from quasistatic_ref.lab.vectors.check.folder import check_answers
+from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
 from quasistatic_ref.lab.vectors.conformance.badge import badge
 from quasistatic_ref.lab.vectors.conformance.conformance import Conformance
 from quasistatic_ref.lab.vectors.conformance.histogram import histogram
@@ -30,7 +31,11 @@ LONGEST: Final = 80
 
 
 def conformance(
-    answers: Path, vectors: Path, implementation: str | None = None, digits: float | None = None
+    answers: Path,
+    vectors: Path,
+    implementation: str | None = None,
+    digits: float | None = None,
+    scope: Scope = WHOLE,
 ) -> Conformance:
     """What a folder of answers passed, of all layers.
 
@@ -42,13 +47,15 @@ def conformance(
         Its name; by default as the answers name themselves.
     digits : float, optional
         [-] An answer that is right to so many digits is acceptable.
+    scope : Scope
+        What it says that it does.
 
     Raises
     ------
     InputError
         As `check_answers` does, and of a name that is none.
     """
-    report = check_answers(answers, vectors, digits=digits)
+    report = check_answers(answers, vectors, digits=digits, scope=scope)
     names = dict.fromkeys(layer.implementation for layer in report.layers if layer.implementation)
     name = implementation if implementation is not None else " and ".join(names)
     name = name.strip()
@@ -106,6 +113,7 @@ def record_of(found: Conformance, hashes: Mapping[str, str]) -> dict[str, Json]:
         "vectors": found.edition.release,
         "judge": f"quasistatic_ref {__version__}",
         "digits": found.report.digits,
+        "scope": found.report.scope or None,
         "ok": found.report.ok,
         "label": found.label,
         "message": found.message,

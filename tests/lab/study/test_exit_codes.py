@@ -1,0 +1,77 @@
+"""Claims of solvers: read from a table of exit codes, which the solvers' own codes bear out."""
+
+import importlib
+from operator import attrgetter
+
+import pytest
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.calling.claims import HIDDEN, INFEASIBLE, NEITHER, claim, hides
+from quasistatic_ref.lab.study.calling.guests import installed_here
+from quasistatic_ref.lab.study.calling.options import option_file, options_at
+from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
+from quasistatic_ref.lab.study.measuring.keeper import Keeper
+from validation.make import exit_codes
+
+HIGH = next(one for one in SETTINGS if one.name == "high")
+ENUMERATIONS = {
+    ("native", "clarabel"): ("clarabel", "SolverStatus"),
+    ("native", "piqp"): ("piqp", "Status"),
+    ("qpsolvers", "proxqp"): ("proxsuite", "proxqp.QPSolverOutput"),
+    ("native", "highs"): ("highspy", "HighsModelStatus"),
+}
+
+
+@pytest.mark.parametrize("way", ENUMERATIONS, ids=":".join)
+def test_every_code_that_says_infeasible_without_reserve_is_in_the_table(way):
+    """By the names of a solver's own enumeration; "almost" and "or infeasible" are no claims."""
+    module, name = ENUMERATIONS[way]
+    codes = [code for code in dir(attrgetter(name)(importlib.import_module(module)))
+             if code[0].isupper() or code[0] == "k"]  # fmt: skip
+    for code in codes:
+        word = code.lower()
+        sure = "almost" not in word and "closest" not in word and "orinf" not in word
+        says = sure and ("infeasible" in word or word == "kunbounded")
+        assert (claim(*way, code) == INFEASIBLE) == says, code
+
+
+def test_the_raw_codes_of_solvers_are_what_the_study_reads():
+    text, differ = exit_codes.written(1)
+    assert differ == 0
+    assert "| quadprog | constraints are inconsistent, no solution | infeasible |" in text
+    assert "1 not said" in text
+
+
+def test_what_an_interface_hides_is_not_said():
+    assert hides("qpsolvers", "daqp")
+    assert not hides("native", "daqp")
+    assert claim("qpsolvers", "daqp", "not found") == HIDDEN
+    assert claim("cvxpy", "osqp", "infeasible_inaccurate") == NEITHER
+    assert claim("callable", "mine", "infeasible") == INFEASIBLE
+
+
+@pytest.mark.parametrize("interface", ["native", "qpsolvers", "cvxpy"])
+def test_a_promise_is_half_of_the_digits_of_the_largest_tolerance(interface):
+    """-log10(2 eps) / 2, rounded down to a half: 1e-3 promises 1, 1e-9 promises 4."""
+    for name in installed_here(interface):
+        solver, own = Solver(name, interface, name), option_file(name)
+        assert "accuracy" not in own or own["source"].startswith("https://")
+        if solver.takes(HIGH):
+            assert solver.promises(HIGH) == 4.0
+    assert Solver("osqp", "qpsolvers", "osqp").promises(SETTINGS[0]) == 1.0
+    assert Solver("osqp", "cvxpy", "osqp").promises(SETTINGS[0]) == 2.0  # 1e-5 there
+    assert Solver("osqp", "native", "osqp").promises(Setting("mine", None, 7.0)) == 7.0
+
+
+def test_high_sets_what_proves_that_there_is_no_solution_where_the_interface_takes_it():
+    assert options_at("osqp", "native", 1e-9)["eps_prim_inf"] == 1e-9
+    assert options_at("proxqp", "native", 1e-9)["eps_primal_inf"] == 1e-9
+    assert "eps_primal_inf" not in options_at("proxqp", "qpsolvers", 1e-9)
+
+
+def test_an_option_that_an_interface_refuses_stops_the_solver_before_the_run():
+    refused = Solver("mine", "qpsolvers", "proxqp", {"high": {"eps_primal_inf": 1e-14}})
+    with Keeper(refused, settings=(HIGH,)) as keeper, pytest.raises(InputError) as said:
+        keeper.start()
+    assert "refuses options of the setting 'high'" in str(said.value)
+    assert str(said.value).count("\n") == 0
