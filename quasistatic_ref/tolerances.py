@@ -186,6 +186,14 @@ LEAP: Final = 0.25
 warning: to first order the motion is wrong by 1 - cos 0.25 = 3 % of the size. The spun sphere of
 sphere_spin reaches 0.15."""
 
+CRAWL: Final = 0.1
+"""Speed [m/s, rad/s] up to which contacts that cannot rise may hold a body without a finding: what
+is moved slowly enough for the model is slower."""
+
+LOCKED: Final = 0.1
+"""Share of the motion without a guide's own friction [-] below which a body is locked by it. A
+block that begins to slide has 1 / (1 + mu_v^2) of it, one in a guide the guide's clearance."""
+
 BEYOND: Final = 1e-9
 """How far a target may exceed a limit of its URDF [m, rad] without a warning: rounding of its
 interpolation between waypoints is 1e-16."""
@@ -230,6 +238,11 @@ DENSE_BELOW: Final = 150_000
 matrices. PIQP's sparse steps take as long as DAQP's in a row of 24 boxes (108,288) and less in one
 of 32 (193,536); in heaps more at 27 boxes (163,296) and less at 48 (552,960)."""
 
+DENSE_BELOW_PROOFS: Final = 600_000
+"""The same for runs that are certified exactly, in which DAQP's answers, vertices, are the better
+guesses of a working set: a step of 80 separate boxes (614,400) that are turned takes 0.3 s of
+processor time with DAQP and 0.4 s with PIQP, of 80 aligned ones 0.23 s and 0.08 s."""
+
 TOUCHING: Final = 1e-14
 """Slack of a row, relative to the numbers that it is a sum of, at which it counts as none where a
 derivative is computed [-]: some fifty roundings of 2e-16."""
@@ -272,6 +285,16 @@ UNIQUE: Final = 1e-6
 distance from the world's origin, whichever is larger, at which the pair counts as unique [-].
 Places are right to 2e-16 of that length, and the solution to 2e-10. Parallel faces leave 1e-16."""
 
+NEARLY: Final = 1e-9
+"""First-order distance to the next kink, in natural units [-], below which a derivative that
+exists gives way to those of both sides. A step is about one, and a settled scene creeps to its
+kinks by 1e-12 of it and less; differences of usable steps do not see a derivative that ends so
+soon."""
+
+FACET: Final = 1e-8
+"""Product of a row of length one and the unit normal of a facet at which the row lies on it [-]:
+a hundred times what HiGHS leaves."""
+
 INSIDE: Final = 1e-6
 """A load or a motion that is at least this far inside of a cone, relative to its own size [-],
 stays inside when the normal of the cone turns by TIED and float64 rounds."""
@@ -279,3 +302,6 @@ stays inside when the normal of the cone turns by TIED and float64 rounds."""
 TIED: Final = 1e-10
 """Difference of two distances, relative to the pair's size, at which they count as equal [-]:
 REPEATED for sizes of some decimetres."""
+
+LIGHT: Final = 1e-6
+"""Mass of a private rise over that of what it lies on [-]: sliding is slower by as much, (R60)."""

@@ -129,9 +129,14 @@ def units_of(form: StandardForm, of_H: NaturalHessian) -> Units:
 
 
 def small_power(load: Array) -> int:
-    """A power of two near the largest of small loads, shape (n_v,) [any unit]; at most 0.
+    """A power of two near the largest of small loads, at most 0.
 
     Of loads over that power the squares do not vanish.
+
+    Parameters
+    ----------
+    load : ndarray, shape (n_v,)
+        [N s, N m s].
     """
     return min(int(np.frexp(np.abs(load).max(initial=0.0))[1]), 0)
 
