@@ -320,7 +320,8 @@ def main() -> int:
     lines = markdown_table(
         ("what", "what came of it", "cases"), [(*row[:2], f"{row[2]:,}") for row in rows], left=2
     )
-    lines.append(f"\n{len(wrong)} are wrong.")
+    asked = f"{len(log.found)} of the {len(tasks)} batches of {BATCH} that were asked for"
+    lines.append(f"\nTried were {asked}; {len(wrong)} cases are wrong.")
     print(*lines, *wrong[:20], sep="\n")
     if options.out:
         text_written(options.out, HEAD + "\n".join(lines) + "\n")
