@@ -140,13 +140,6 @@ def test_a_scene_with_too_few_contacts_names_step_pair_point_depth_and_k(hostile
     assert f"quasistatic-ref: {said}\n" in GUIDE.read_text()
 
 
-def test_with_all_points_of_the_faces_the_same_scene_finds_no_contact(hostile):
-    settings = ["contacts.grip.k=100", "solver.certify=off", "steps=120"]
-    run = load_scenario(hostile, settings, fast=True).run(progress=False)
-    assert of_contacts(run) == []
-    assert risen(run) > 0.012  # of 0.014 m, at t = 1.2 s
-
-
 def test_findings_are_printed_once_and_strict_fails_on_grave_ones(hostile, tmp_path, capsys):
     arguments = ["run", str(hostile), "--out", str(tmp_path), "--set", "steps=40"]
     assert main(arguments) == 0
