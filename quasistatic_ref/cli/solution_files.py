@@ -183,4 +183,4 @@ def _claim(table: Fields, name: str, may_be_null: bool) -> Any:
                 raise table.fail(name, "must be a list of [contact, row]", pair)
         return tuple((j, i) for j, i in pairs)
     (kind,) = (field.type for field in fields(Certificate) if field.name == name)
-    return table.boolean(name) if kind == bool | None else table.number(name)
+    return table.boolean(name) if kind == "bool | None" else table.number(name)
