@@ -127,3 +127,13 @@ def test_inspect_counts_the_rows_of_the_scenario_s_cone(scene, capsys):
     pyramid = json.loads(capsys.readouterr().out)
     for one, two in zip(said["pairs"], pyramid["pairs"], strict=True):
         assert one["rows"] == expected[two["rows"]]
+
+
+def test_findings_are_listed_before_a_run(capsys):
+    arguments = ["inspect", "block_push", "--set", "contacts.floor.k=1"]
+    assert main(arguments) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "findings, before a run: - raise k of contacts.floor to 4: block lies flat" in printed
+    assert main([*arguments, "--json"]) == 0
+    (found,) = json.loads(capsys.readouterr().out)["findings"]
+    assert (found["name"], found["grave"]) == ("too few points", True)

@@ -10,7 +10,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Ellipsoid
-from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import collision, inertial, link, robot, written
 from tests.scenes import PUSH, written_scenario
 
 
@@ -34,17 +34,6 @@ def w_first(scenario):
     return qr.rollout(scenario.simulator(), q, scenario.targets, 1, progress=False)
 
 
-def wheels(kind):
-    """Two wheels, of which the second mimics the first and is continuous or revolute."""
-    follows = '<mimic joint="one"/>'
-    text = robot(
-        link("axle"), link("a"), link("b"),
-        joint("one", "axle", "a", "revolute", "0 0 1"),
-        joint("two", "axle", "b", kind, "0 0 1", follows),
-    )  # fmt: skip
-    return System([Body("cart", text, actuated="all")])
-
-
 MISTAKES = {
     "an extension in place of a function": (
         lambda s: simulator(s, extension=qr.Extension()),
@@ -56,8 +45,6 @@ MISTAKES = {
         "steps: must be a whole number, 0 or more (got 3.0)",
     ),
     "no contacts": (lambda s: paired(s, k=0), "push.k: must be a whole number, 1 or more (got 0)"),
-    "negative friction": (lambda s: paired(s, mu_v=-1.0), "push.mu_v: must be >= 0 (got -1.0)"),
-    "five rows": (lambda s: paired(s, rows=5), "push.rows: must be 4 or 6 (got 5)"),
     "a misspelt array": (
         lambda s: s.run(progress=False)["wrenchs"],
         "wrenchs: is no array of this trajectory; did you mean 'wrench'?",
@@ -80,11 +67,6 @@ MISTAKES = {
         lambda s: Cylinder(0.1, 0.2, length=0.4),
         "half_length: must be given, or length, twice as long, and not both",
     ),
-    "a continuous mimic of a revolute joint": (
-        lambda s: wheels("continuous"),
-        "joint[two].mimic: a continuous joint can only mimic, and be mimicked by, a continuous "
-        "one; write type=\"revolute\" with limits in its place (got 'one')",
-    ),
 }
 
 
@@ -94,10 +76,6 @@ def test_a_mistake_in_python_gets_one_sentence(scenario, case):
     with pytest.raises(InputError) as caught:
         made(scenario)
     assert sentence in str(caught.value)
-
-
-def test_a_revolute_mimic_of_a_revolute_joint_is_taken():
-    assert wheels("revolute").n_a == 1
 
 
 def test_a_body_that_is_not_said_to_float_is_offered_a_base(tmp_path):

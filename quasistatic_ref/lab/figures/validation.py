@@ -235,9 +235,7 @@ def locked_guide(picture: Picture, within: Any = None) -> Figure:
     forces = picture["forces"]
     left.plot(forces, np.minimum(forces, 1.0), label=r"slip / (c / $\mu_v$), (R38)")
     left.plot(forces, picture["slips"], linestyle="", **_open("o"), label="of steps")
-    left.plot(
-        forces, picture["loads"] * picture["mu"], linestyle=":", label="friction of the walls"
-    )
+    left.plot(forces, picture["friction"], linestyle=":", label="friction of the walls")
     of_force = r"force / ($m\,c\,/\,\mu_v h^2$) [-]"
     labelled(left, of_force, "slip and friction [-]", caption(picture["h"]))
     corners = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import Said, Start, contacts_of
 from quasistatic_ref.step.contacts import Contacts
@@ -113,7 +114,7 @@ def locked(run: Run) -> Iterator[Said]:
     times the forces of the same step without friction: there, no guide presses because it is to
     rise. A coordinate is locked if it moves by less than a tenth of what it then would.
     """
-    rubbing = np.linalg.norm(run["wrench"][:, :, :2], axis=2).sum(axis=1)
+    rubbing = np.abs(run["wrench"][:, :, [0, 1, 3]]).sum(axis=(1, 2))
     if not run.searched or not rubbing.any():
         return
     k = int(rubbing.argmax())
@@ -123,8 +124,7 @@ def locked(run: Run) -> Iterator[Said]:
     if not found:
         return
     step, nothing = run.step_data(k), np.zeros(contacts.n_c)
-    smooth = dict(vars(contacts)) | {"mu_v": nothing, "mu_omega": nothing}
-    smooth.pop("mu", None)
+    smooth = field_values(contacts) | {"mu_v": nothing, "mu_omega": nothing}
     without = wrenches(step.replace(contacts=Contacts(**smooth)))
     if without is None:
         return
@@ -137,10 +137,10 @@ def locked(run: Run) -> Iterator[Said]:
     inertia = np.concatenate([np.full(step.n_a, np.inf), np.diag(step.M_u)])
     beyond = np.abs(force) - could
     moves = np.abs(run["delta_q"][k]) >= LOCKED * run.h**2 * beyond / inertia
-    locked = (np.arange(step.n_v) >= step.n_a) & (np.abs(force) > 2 * could) & ~moves
+    stuck = (np.arange(step.n_v) >= step.n_a) & (np.abs(force) > 2 * could) & ~moves
     said: set[str] = set()
     for guide in found:
-        held = np.flatnonzero(guide.moved & locked)
+        held = np.flatnonzero(guide.moved & stuck)
         if not held.size or (joint := run.system.coordinates[held[0]].joint) in said:
             continue
         said.add(joint)

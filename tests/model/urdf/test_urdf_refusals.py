@@ -101,7 +101,7 @@ REFUSED: dict[str, tuple[str, str, str, str]] = {
         THREE,
         'name="k" type="revolute"',
         'name="k" type="continuous"',
-        r"joint\[k\].mimic: a continuous joint can only mimic",
+        r"joint\[k\].mimic: a continuous joint can only mimic, .*; write type=\"revolute\" ",
     ),
     "mimic first": (
         robot(link("a"), link("b"), link("c"), joint("z", "a", "b"), joint("k", "a", "c")),

@@ -11,7 +11,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
-from quasistatic_ref.tolerances import IN_METRES, SUNK
+from quasistatic_ref.tolerances import SUNK
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
 
 GUIDE = Path(__file__).parents[3] / "docs" / "findings.md"
@@ -140,13 +140,6 @@ def test_a_scene_with_too_few_contacts_names_step_pair_point_depth_and_k(hostile
     assert f"quasistatic-ref: {said}\n" in GUIDE.read_text()
 
 
-def test_with_all_points_of_the_faces_the_same_scene_finds_no_contact(hostile):
-    settings = ["contacts.grip.k=100", "solver.certify=off", "steps=120"]
-    run = load_scenario(hostile, settings, fast=True).run(progress=False)
-    assert of_contacts(run) == []
-    assert risen(run) > 0.012  # of 0.014 m, at t = 1.2 s
-
-
 def test_findings_are_printed_once_and_strict_fails_on_grave_ones(hostile, tmp_path, capsys):
     arguments = ["run", str(hostile), "--out", str(tmp_path), "--set", "steps=40"]
     assert main(arguments) == 0
@@ -175,28 +168,3 @@ def test_of_a_scenario_that_comes_along_nothing_is_found_but_its_drag(name):
     settings = ["solver.certify=off", "record=light", "steps=60"]
     run = load_scenario(name, settings, fast=True).run(progress=False)
     assert [found.name for found in run.findings] == ["drag"] * (name in DRAGS)
-
-
-@pytest.mark.parametrize(("size", "warned"), [(0.99 * IN_METRES, False), (40.0, True)])
-def test_a_cloud_of_forty_metres_looks_like_one_of_forty_millimetres(hostile, size, warned):
-    written(hostile.parent, f"0 0 0\n{size} 0 0\n0 1 0\n", "long.xyz")
-    settings = {"bodies.cube.cloud": hostile.parent / "long.xyz", "steps": 1}
-    run = load_scenario(hostile, settings, fast=True).run(progress=False)
-    said = [found for found in run.findings if found.name == "unit of a shape"]
-    assert [found.numbers for found in said] == [{"length_m": size}] * warned
-
-
-def test_a_run_that_fails_at_once_still_says_that_a_unit_is_wrong(hostile, tmp_path, capsys):
-    points = "".join(f"{1e3 * x} {1e3 * y} {1e3 * z}\n" for x, y, z in POINTS)  # in millimetres
-    cloud = written(hostile.parent, points, "millimetres.xyz")
-    arguments = ["run", str(hostile), "--out", str(tmp_path)]
-    assert main([*arguments, "--set", f"bodies.cube.cloud={cloud}",
-                 "--set", "contacts.floor.beta=cube"]) == 3  # fmt: skip
-    printed = capsys.readouterr().err.splitlines()
-    assert printed[-1].startswith("quasistatic-ref: step 0: contact ")
-    assert printed[0] == (
-        "quasistatic-ref: check the unit of cube: lengths are in metres, and it is 40 m long; "
-        "scale it by 0.001 if that is meant in millimetres"
-    )
-    run = trajectory_read(tmp_path / "hostile.npz")
-    assert [f"quasistatic-ref: {found}" for found in run.findings] == printed[:-1]

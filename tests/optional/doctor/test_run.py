@@ -3,15 +3,13 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.optional.doctor.leaps import leaps
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.sunk import sunk
-from quasistatic_ref.optional.doctor.targets import beyond_limits, half_turns
-from quasistatic_ref.optional.doctor.units import far_targets, large_mu_omega
+from quasistatic_ref.optional.doctor.targets import half_turns
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
-from quasistatic_ref.tolerances import BEYOND, IN_METRES, LEAP, SUNK
+from quasistatic_ref.tolerances import SUNK
 from tests.scenes import chain_scene, written_scenario
 
 
@@ -89,49 +87,6 @@ def test_a_pair_of_solids_that_could_keep_more_contacts_is_asked_for_k(scene):
         "raise k of contacts.push: point 5 of push(rail/plate#0, ball/ball#0) was not among its 2 "
         "closest at step 1 and is 2 mm deep at step 2"
     )
-
-
-@pytest.mark.parametrize(("entry", "motion", "words"), [
-    (2, 1.01 * LEAP * 0.1, "ball/base.x moves"), (2, 0.99 * LEAP * 0.1, None),
-    (5, 1.01 * LEAP, "turns by 14.5 degrees"), (5, 0.99 * LEAP, None),
-    (0, 1.01 * LEAP * 0.2, "rail/slide moves by 50.5 mm"), (0, 0.99 * LEAP * 0.2, None),
-    (1, 7.0, None),  # the wheel touches nothing
-])  # fmt: skip
-def test_a_step_that_moves_a_body_by_a_quarter_of_its_size_is_named(scene, entry, motion, words):
-    delta_q = np.zeros((3, 8))
-    delta_q[1, entry] = motion
-    said = sentences(leaps, load_scenario(scene, fast=True), delta_q=delta_q)
-    assert len(said) == (words is not None)
-    if words is not None:
-        assert words.replace("base.x", "base") in said[0]
-        assert ", in step 1, " in said[0]
-
-
-@pytest.mark.parametrize(("target", "words"), [
-    (1.0, None), (-1.0, None), (1.0 + BEYOND / 2, None),
-    (1.5, "1.5 m at step 2, or the limit in its URDF, 1 m"),
-    (-1.5, "-1.5 m at step 2, or the limit in its URDF, -1 m"),
-    (1.01 * IN_METRES, "check the unit of the targets of rail/slide: lengths are in metres"),
-])  # fmt: skip
-def test_a_target_beyond_the_limits_of_a_urdf_is_named(scene, target, words):
-    # (cos, sin) of the wheel's angle: it is continuous and has no limits.
-    q_bar_a = np.array([[0.0, 1.0, 0.0], [0.0, 1.0, 0.0], [target, 1.0, 0.0]])
-    scenario = load_scenario(scene, fast=True)
-    said = [
-        s for f in (far_targets, beyond_limits) for s in sentences(f, scenario, q_bar_a=q_bar_a)
-    ]
-    assert len(said) == (words is not None)
-    assert words is None or words in said[0]
-
-
-@pytest.mark.parametrize(("mu_omega", "warned"), [(0.1, False), (0.101, True), (20.0, True)])
-def test_a_mu_omega_longer_than_the_smaller_body_looks_like_millimetres(scene, mu_omega, warned):
-    scenario = load_scenario(scene, {"contacts.floor.mu_omega": mu_omega}, fast=True)
-    sentence = (
-        "check the unit of mu_omega of contacts.floor: it is a length in metres, and "
-        f"{mu_omega:.3g} m is more than the size of the smaller body, 0.1 m"
-    )
-    assert sentences(large_mu_omega, scenario) == ([sentence] if warned else [])
 
 
 @pytest.mark.parametrize("name", ["arm/spin", "arm/base"])

@@ -6,7 +6,6 @@ from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.measures import exact, grid
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import CLOSED_FORM
 
@@ -57,16 +56,15 @@ def evidence() -> Evidence:
         torque = share * INERTIA * max(c, 1e-5) / (MU_OMEGA * H**2)
         turns.append(turned(torque, c))
         limits.append(min(H**2 * torque / INERTIA, c / MU_OMEGA))
-    drawn = np.linspace(0.0, 3.0, 13)
-    reach = np.linspace(0.0, 2 * np.pi, 25)
-    unit = M * 1e-3 / (MU_V * H**2)
+    drawn, unit = np.linspace(0.0, 3.0, 13), M * 1e-3 / (MU_V * H**2)
+    along = [slid(force, 0.0, 1e-3) for force in drawn * unit]
+    around = [slid(1e6, angle, 1e-3) for angle in np.linspace(0, 2 * np.pi, 25)]
     picture = {
         "h": H,
         "forces": drawn,
-        "slips": np.array([slid(x * unit, 0.0, 1e-3).delta_q[0] for x in drawn]) * MU_V / 1e-3,
-        "loads": np.array([slid(x * unit, 0.0, 1e-3).wrench[:, 2].sum() for x in drawn]) / unit,
-        "mu": MU_V,
-        "reached": np.array([_reached(angle) for angle in reach]) * MU_V / 1e-3,
+        "slips": np.array([x.delta_q[0] for x in along]) * MU_V / 1e-3,
+        "friction": MU_V * np.array([x.wrench[:, 2].sum() for x in along]) / unit,
+        "reached": np.array([x.delta_q[[0, 2]] for x in around]) * MU_V / 1e-3,
     }
     scale = np.abs(expected).max(axis=1, keepdims=True) + 1e-5
     return Evidence.of(
@@ -76,11 +74,6 @@ def evidence() -> Evidence:
         comparison("turn [rad]", turns, limits, CLOSED_FORM, 1.0),
         **picture,
     )  # fmt: skip
-
-
-def _reached(angle: float) -> Array:
-    """Where a force of 1 MN takes the body, along d1 and d2 [m]."""
-    return slid(1e6, angle, 1e-3).delta_q[[0, 2]]
 
 
 CLAIM = Claim(
