@@ -195,6 +195,8 @@ class Proofs:
 
     def _near(self, step: StepData, lam: Array, slack: Array) -> Mask:
         """Which contacts may touch, as an answer says, shape (n_c,); in small groups all do."""
+        if step.n_v <= SMALL:
+            return np.ones(step.contacts.n_c, dtype=bool)
         coupling = _coupling(step)
         if not _same(coupling, self._of_small):
             large = [g.contacts for g in groups(step) if len(g.coordinates) > SMALL]
@@ -225,8 +227,8 @@ class Proofs:
 
 def _coupling(step: StepData) -> list[NDArray[Any]]:
     """What couples the coordinates of a step, and how."""
-    inertia = vars(step)["M_u"]  # whole, or in blocks
-    return [step.K_q, inertia, step.contacts.moves(), step.extra.A != 0, step.counts]
+    h, M_u = np.array(step.h), vars(step)["M_u"]  # whole, or in blocks
+    return [h, step.K_q, M_u, step.contacts.moves(), step.extra.A != 0, step.counts]
 
 
 def _same(one: list[NDArray[Any]], two: list[NDArray[Any]]) -> bool:

@@ -8,8 +8,9 @@ import pytest
 from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
-from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.lab.scenes.piles import SIDE, pile
 from quasistatic_ref.optional.fast import proofs
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.tolerances import ACCURACY
 from tests.oracles.random_steps import mixed_step
@@ -52,3 +53,15 @@ def test_a_row_of_boxes_that_is_pushed_has_the_bits_of_the_whole(monkeypatch):
     whole = exact_optimum(exact_form(result.step), np.flatnonzero(result.solution.lam).tolist())
     assert result.solution.delta_q.tobytes() == whole.delta_q.tobytes()
     assert unlike(optimum_of(result.step)[0], whole) == []
+
+
+def test_groups_are_kept_while_h_and_what_couples_them_stay():
+    some = pile((2, 1, 1), gap=SIDE, certify="off", backend="daqp")
+    step = some.simulator.step(some.q, np.zeros(0), some.force).step.replace()
+    solver = solver_for(step, "daqp", fast=True)
+    others = step.replace(h=2 * step.h), step.replace(M_u=2 * step.M_u), step
+    for other in (step, *others):
+        assert solve_step(other, solver) == solve_step(other, "daqp", fast=True)
+        before = solver.proofs.parts
+        solve_step(other, solver)
+        assert solver.proofs.parts is before

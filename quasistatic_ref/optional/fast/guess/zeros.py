@@ -66,7 +66,8 @@ def zeros(
     if not coordinates and spanned_in_contacts(step, working, rows):
         return all_active
     every, k = (*working, *rows), len(working)
-    if _implied(_Claim(_numbers(step, every), k, every, tuple(coordinates), step)):
+    implied = _implied_of_few if step.n_v <= FEW else _implied_of_many
+    if implied(_Claim(_numbers(step, every), k, every, tuple(coordinates), step)):
         return all_active
     form, w = form_on(step, *_some_rows(step, every)), tuple(range(k))
     solution = rational_solution(form, w)
@@ -106,13 +107,20 @@ def _numbers(step: StepData, rows: Sequence[int]) -> bytes:
     return b"".join([step.cone.encode(), *parts])
 
 
-@lru_cache(maxsize=8)
 def _implied(claim: _Claim) -> bool:
-    """Whether W implies all zeros; kept, since a body at rest has the same claim in every step."""
+    """Whether W implies all zeros."""
     n, k = claim.step.n_v, claim.k
     exact = exact_rows(claim.step, claim.rows)
     zeros = [[fmpz(int(i == v)) for i in range(n + 1)] for v in claim.coordinates]
     return all(follow(exact[:k], [*exact[k:], *zeros]))
+
+
+FEW = 24
+"""Coordinates up to which a step is small enough for a thousand of them to be kept."""
+
+_implied_of_few = lru_cache(maxsize=1024)(_implied)
+"""Kept, since a body at rest has the same claim in every step, and a step may have many bodies."""
+_implied_of_many = lru_cache(maxsize=8)(_implied)
 
 
 def exact_rows(step: StepData, rows: Sequence[int]) -> list[list[int]]:
