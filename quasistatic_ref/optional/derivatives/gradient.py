@@ -8,6 +8,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.optional.derivatives.step.reach import Distance, Reach
@@ -70,8 +71,8 @@ class Parts:
     reach: Reach | None
 
 
-@dataclass(frozen=True, eq=False)
-class Derivatives(Plain):
+@dataclass(frozen=True, eq=False, repr=False)
+class Derivatives(Shown, Plain):
     """Derivatives of the configuration after a step, in tangent coordinates on both sides.
 
     Columns without a derivative are NaN, and `reasons` says why. So are those whose derivative

@@ -7,6 +7,7 @@ from quasistatic_ref.optional.show.model_words import system_page
 from quasistatic_ref.optional.show.show import Page, html_page, text_page
 from quasistatic_ref.optional.show.simulate_words import (
     NOT_IN_TEXT,
+    derivatives_page,
     result_page,
     scenario_page,
     simulator_page,
@@ -23,6 +24,7 @@ from quasistatic_ref.optional.show.step_words import (
 PAGES: dict[str, Callable[[Any], Page]] = {
     "Certificate": certificate_page,
     "Contacts": contacts_page,
+    "Derivatives": derivatives_page,
     "Extra": extra_page,
     "Scenario": scenario_page,
     "Simulator": simulator_page,

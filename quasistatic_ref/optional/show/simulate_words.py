@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 NOT_IN_TEXT = (CONTACT[2], *FORCE[:2])
 """Columns for which a line has no room."""
+DERIVATIVE = ("field", "columns", "largest", "reach", "kink")
 PAIR = ("pair", "contacts", "mu_v", "mu_omega [m]", "rows")
 
 
@@ -46,6 +47,21 @@ def result_page(result: StepResult) -> Page:
     at = [(row[0], row[1], row[2]) for row in contact_rows(step.contacts)]
     rows = [(*one, *two) for one, two in zip(at, force_rows(result.solution), strict=True)]
     return title, certificate_facts(certificate), (*CONTACT[:3], *FORCE), rows
+
+
+def derivatives_page(found: Any) -> Page:
+    """Derivatives, of the part of that name: what there is, how far it holds, and why not."""
+    title = f"Derivatives: {'' if found.differentiable else 'not '}differentiable, reach "
+    rows = []
+    for name, kinks in found.reaches.items():
+        least = min(kinks, key=lambda one: one.distance, default=None)
+        if least is not None:
+            largest = float(np.abs(getattr(found, name)).max())
+            rows.append(
+                (name, str(len(kinks)), number(largest), number(least.distance), least.where)
+            )
+    says = [why.sentence for why in found.reasons]
+    return f"{title}{number(found.reach)}", says, DERIVATIVE, rows
 
 
 def simulator_page(simulator: Simulator) -> Page:

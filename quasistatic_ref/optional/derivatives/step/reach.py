@@ -96,14 +96,17 @@ class Reach:
         beyond = Equations(Equations(self.touching).beyond(one))
         return Reach(beyond, beyond.rates(one), one).ahead(0)
 
-    def ahead(self, column: int, sign: int = 1) -> Distance:
-        """The distance to the next kink where a parameter grows, or falls: its sign is -1."""
+    def ahead(self, column: int, sign: int = 1, limit: float = np.inf) -> Distance:
+        """The distance to the next kink where a parameter grows, or falls: its sign is -1.
+
+        One that is farther than a `limit` may be left out.
+        """
         slack, rate = self.touching.slack, sign * self.closing[:, column]
         left = np.full(len(slack), np.inf)
         np.divide(slack, -rate, out=left, where=rate < 0)
         t = float(left.min(initial=np.inf))
         nearest = Distance(t, self.touching.open[left <= (1 + SPLIT) * t]) if t < np.inf else NEVER
-        if self.loaded[column] >= t:
+        if self.loaded[column] >= min(t, limit):
             return nearest
         return min(nearest, self._unloaded(column, sign), key=lambda one: one.t)
 
@@ -112,7 +115,8 @@ class Reach:
         opens = self.rates.opens[:, column]
         if opens.any():
             return Distance(0.0, self.touching.idle[opens])
-        return min((self.ahead(column, sign) for sign in (1, -1)), key=lambda one: one.t)
+        above = self.ahead(column)
+        return min(above, self.ahead(column, -1, above.t), key=lambda one: one.t)
 
     def within(self, distance: Array) -> Indices:
         """The contact and row of every kink nearer than a distance, shape (k, 2).
