@@ -1,4 +1,4 @@
-r"""How far the derivatives of an optimum hold, to first order: (R38).
+r"""How far the derivatives of an optimum hold, to first order: (R39).
 
 A parameter that grows by t changes the slack of an open row to s + t ds, and the row touches at
 t = -s / ds. The rows that touch, Z, exert A_Z' lam. But for their own motion, which carries that
@@ -22,7 +22,7 @@ from quasistatic_ref.optional.derivatives.step.optimum_rates import (
     OptimumRates,
 )
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.tolerances import DEPENDENT, FACET, SPLIT
+from quasistatic_ref.tolerances import DEPENDENT, FACET, NEARLY, SPLIT
 
 TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 """The least that HiGHS takes."""
@@ -105,18 +105,18 @@ class Reach:
         left = np.full(len(slack), np.inf)
         np.divide(slack, -rate, out=left, where=rate < 0)
         t = float(left.min(initial=np.inf))
-        nearest = Distance(t, self.touching.open[left <= (1 + SPLIT) * t]) if t < np.inf else NEVER
+        nearest = Distance(t, self.touching.open[left <= (1 + NEARLY) * t]) if t < np.inf else NEVER
         if self.loaded[column] >= min(t, limit):
             return nearest
         return min(nearest, self._unloaded(column, sign), key=lambda one: one.t)
 
-    def either(self, column: int) -> Distance:
-        """The distance to the next kink on either side; none at all where one side is a kink."""
+    def either(self, column: int, limit: float = np.inf) -> Distance:
+        """The distance to the next kink on the nearer side; 0 at a kink; `limit` as of `ahead`."""
         opens = self.rates.opens[:, column]
         if opens.any():
             return Distance(0.0, self.touching.idle[opens])
-        above = self.ahead(column)
-        return min(above, self.ahead(column, -1, above.t), key=lambda one: one.t)
+        above = self.ahead(column, 1, limit)
+        return min(above, self.ahead(column, -1, min(limit, above.t)), key=lambda one: one.t)
 
     def within(self, distance: Array) -> Indices:
         """The contact and row of every kink nearer than a distance, shape (k, 2).
