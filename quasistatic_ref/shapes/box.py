@@ -52,6 +52,11 @@ class Box(Rounded):
         heights = np.concatenate([points, -points], axis=1) - np.tile(self.half_extents, 2)
         return heights, np.broadcast_to(AXES, (len(points), 6, 3))
 
+    @property
+    def corner_count(self) -> int:
+        """Number of corners."""
+        return 8
+
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Its vertices, shape (8, 3) [m], whichever way `towards` [-] is."""
         bits = (np.arange(8)[:, None] >> np.array([0, 1, 2])) & 1

@@ -61,6 +61,11 @@ class Cone(Round):
         tip = self.half_length * axial
         return np.maximum(tip, self.radius * radial - tip)
 
+    @property
+    def corner_count(self) -> int:
+        """Number of corners."""
+        return 5
+
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Tip, and four points of the rim, the first `towards` [-] the other; shape (5, 3) [m]."""
         tip = np.array([[0, 0, self.half_length]])

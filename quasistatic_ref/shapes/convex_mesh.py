@@ -86,6 +86,11 @@ class ConvexMesh(Shape):
         """Of the vertices along `directions` (N, 3) [-], shape (N,) [m]."""
         return np.asarray(product(directions, self.vertices.T).max(axis=1))
 
+    @property
+    def corner_count(self) -> int:
+        """Number of corners."""
+        return len(self.vertices)
+
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Its vertices, shape (V, 3) [m], whichever way `towards` [-] is."""
         return self.vertices, 0.0

@@ -120,7 +120,7 @@ def program(step: StepData) -> Program:
         motion.append(J[3])
         for row in rows:
             A.append([dot(row, [motion[k][v] for k in range(4)]) for v in range(n)])
-            b.append(-row[0] * Fraction(float(c.phi[j])))
+            b.append(-row[0] * exact(c.phi)[j])
     return H, g, A + exact(step.extra.A), b + exact(step.extra.b)
 
 

@@ -128,6 +128,7 @@ RESULTS = (
     to_file("same_bits", "same_bits.json"),
     to_file("derivatives", "derivatives.md"),
     script("clouds", "jsonl"),
+    to_file("reach", "reach.md"),
     to_file("environments", "environments.md"),
     fuzzed("fuzzing"),
     fuzzed("hostile_steps", "--readers validation.make.hostile_steps --inputs 105000"),

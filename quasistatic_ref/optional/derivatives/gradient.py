@@ -154,28 +154,33 @@ class Derivatives(Shown, Plain):
     @property
     def reaches(self) -> dict[str, tuple[NextKink, ...]]:
         """How far each column holds to both sides, by field; computed when it is read."""
-        found, first = {}, 0
-        for name in FIELDS:
-            columns = getattr(self, name).reshape(len(self.dq_dq), -1).T
-            found[name] = tuple(self._ahead(name, p, c) for p, c in enumerate(columns, first))
-            first += len(columns)
+        found: dict[str, tuple[NextKink, ...]] = {}
+        for p, (name, missing) in enumerate(self._columns()):
+            found[name] = (*found.get(name, ()), self._ahead(p, name, missing))
         return found
 
     @property
     def reach(self) -> float:
         """The least of these distances, in natural units [-]; computed when it is read."""
-        distances = [one.distance for columns in self.reaches.values() for one in columns]
-        left = np.full(len(distances), np.inf)
-        units = self._parts.units  # of a link without mass it is zero: no change of it matters
-        np.divide(distances, units, out=left, where=units > 0)
-        return float(left.min(initial=np.inf))
+        least, units = np.inf, self._parts.units
+        for p, (name, missing) in enumerate(self._columns()):
+            if units[p] > 0:  # that of a link without mass is zero: no change of it matters
+                limit = least * units[p]
+                least = min(least, self._ahead(p, name, missing, limit).distance / units[p])
+        return float(least)
 
-    def _ahead(self, name: str, p: int, column: Array) -> NextKink:
-        for why in self.reasons if np.isnan(column).any() else ():
+    def _columns(self) -> list[tuple[str, bool]]:
+        """Of all columns: the field, and whether it is NaN."""
+        values = [(name, getattr(self, name).reshape(len(self.dq_dq), -1)) for name in FIELDS]
+        return [(name, bool(bad)) for name, own in values for bad in np.isnan(own).any(axis=0)]
+
+    def _ahead(self, p: int, name: str, missing: bool, limit: float = np.inf) -> NextKink:
+        """How far a column holds; where that is beyond a limit, it may be less far than is said."""
+        for why in self.reasons if missing else ():
             if why.kind not in reason.NO_KINK and name in why.fields:
                 return NextKink(0.0, f"{why.kind}: {', '.join(why.where)}")
         reach = self._parts.reach
-        return self._named(Distance(np.inf) if reach is None else reach.either(p))
+        return self._named(Distance(np.inf) if reach is None else reach.either(p, limit))
 
     def _named(self, kink: Distance) -> NextKink:
         step = self.result.step

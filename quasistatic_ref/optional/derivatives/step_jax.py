@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
+from functools import cache, partial
 from importlib import import_module
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,7 @@ from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.reason import KINDS, Reason
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import NEARLY
 
 BY = ("dq_dq", "dq_dq_bar_a", "dq_dtau")
 """The derivatives by what a step is given: q, q_bar_a and the force."""
@@ -43,6 +45,7 @@ def step_jax(
     *,
     towards: Mapping[str, Array | float] | None = None,
     kappa: float | None = None,
+    nearly: float = NEARLY,
 ) -> Callable[..., Any]:
     """The exact step as a function of JAX.
 
@@ -60,6 +63,8 @@ def step_jax(
     kappa : float, optional
         For ``"smoothed"``, > 0, as in
         :func:`~quasistatic_ref.optional.derivatives.smoothed.smoothed` [N m s].
+    nearly : float
+        Distance to a kink [-] below which the state counts as at it, as in `derivatives`.
 
     Returns
     -------
@@ -91,12 +96,12 @@ def step_jax(
             raise InputError(f"goes with kinks={needs!r}, and with that only", field=name)
 
     def exact(q: Array, q_bar_a: Array, force: Array, _: float) -> Derivatives:
-        return derivatives(simulator, q, q_bar_a, force)
+        return derivatives(simulator, q, q_bar_a, force, None, nearly)
 
     def instead(q: Array, q_bar_a: Array, force: Array, _: float) -> Derivatives:
         if kappa is not None:
             return smoothed(simulator, q, q_bar_a, kappa, force)
-        return derivatives(simulator, q, q_bar_a, force, towards)
+        return derivatives(simulator, q, q_bar_a, force, towards, nearly)
 
     step = _differentiable(simulator, exact, None if kinks == "raise" else instead)
     return lambda q, q_bar_a, force=0.0: step(q, q_bar_a, force, 0.0)
@@ -173,31 +178,45 @@ def _differentiable(
     def computed(names: tuple[str, ...], *given: Any) -> tuple[Array, ...]:
         return thread.submit(alone, names, *map(np.asarray, given)).result()
 
-    def alone(
-        names: tuple[str, ...], q: Array, q_bar_a: Array, force: Array, kappa: Array
-    ) -> tuple[Array, ...]:
+    def alone(names: tuple[str, ...], *given: Array) -> tuple[Array, ...]:
         with system.lock:  # a system is for one thread, and each function has its own
-            return _rates(system, found, instead, names, q, q_bar_a, force, float(kappa))
+            many = given[0].shape[:-1]  # of vmap, one inside of another
+            elements = [one.reshape(prod(many), *one.shape[len(many) :]) for one in given]
+            each = [
+                _rates(system, found, instead, names, *one) for one in zip(*elements, strict=True)
+            ]
+            return tuple(
+                np.reshape(some, (*many, *some[0].shape)) for some in zip(*each, strict=True)
+            )
+
+    @cache  # JAX compiles the call of each function once
+    def outside(names: tuple[str, ...]) -> Callable[..., tuple[Array, ...]]:
+        return partial(computed, names)
 
     def called(names: tuple[str, ...], *given: Any) -> Any:
         if not any(isinstance(one, jax.core.Tracer) for one in given):
             return tuple(map(jax.numpy.asarray, computed(names, *given)))  # errors come as they are
         what = ends + (matrices if names else ())
-        return jax.pure_callback(partial(computed, names), what, *given, vmap_method="sequential")
-
-    step = jax.custom_jvp(partial(called, ()))
+        return jax.pure_callback(outside(names), what, *given, vmap_method="broadcast_all")
 
     def rule(primals: tuple[Any, ...], tangents: tuple[Any, ...]) -> Any:
         *moves, by_kappa = [not isinstance(tangent, symbolic) for tangent in tangents]
         if by_kappa:
             raise InputError("has no derivative of a step in JAX", field="kappa")
         names = tuple(name for name, moved in zip(BY, moves, strict=True) if moved)
-        q_next, verdict, *by = called(names, *primals)
+        q_next, verdict, *by = once(names, *primals)
         change = sum(M @ t for M, t, on in zip(by, tangents, moves, strict=False) if on)
         none = jax.custom_derivatives.zero_from_primal(verdict, symbolic_zeros=True)
         return (q_next, verdict), (change, none)
 
+    def twice(*given: Any) -> Any:
+        problem = "has no second derivative: its first ones are given to JAX as numbers"
+        raise InputError(problem, field="step in JAX")
+
+    step = jax.custom_jvp(partial(called, ()))
     step.defjvp(rule, symbolic_zeros=True)
+    once = jax.custom_jvp(called, nondiff_argnums=(0,))
+    once.defjvp(twice)
 
     def checked(q: Any, q_bar_a: Any, force: Any, kappa: Any) -> Any:
         given = [jax.numpy.asarray(one) for one in (q, q_bar_a, force, kappa)]
@@ -212,19 +231,19 @@ def _differentiable(
 
 def _rates(
     system: System, found: Found, instead: Found | None, names: tuple[str, ...],
-    q: Array, q_bar_a: Array, force: Array, kappa: float,
+    q: Array, q_bar_a: Array, force: Array, kappa: Array,
 ) -> tuple[Array, ...]:  # fmt: skip
     """Where the step ends, its verdict, and the derivatives by the entries of `names`."""
     at = system.checked(normalised(system.joints, q))
     whole = system.with_actuated(at, q_bar_a)
     goal = system.checked(normalised(system.joints, whole))[: system.n_q_a]
-    of = found(at, goal, force, kappa)
+    of = found(at, goal, force, float(kappa))
     kinds = {why.kind for why in _lacking(of, BY)}
     end, verdict = of.result.q, np.array([kind in kinds for kind in KINDS])
     if not names:
         return end, verdict
     if instead is not None and _lacking(of, names):
-        of = instead(at, goal, force, kappa)
+        of = instead(at, goal, force, float(kappa))
     if lacking := _lacking(of, names):
         raise NotDifferentiable(lacking)
     onto = entry_rates(system.joints, end)

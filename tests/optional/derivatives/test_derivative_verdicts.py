@@ -9,7 +9,6 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import (
-    Box,
     Cylinder,
     HalfSpace,
     PlacedShape,
@@ -18,28 +17,10 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.simulate.simulator import Simulator
 from tests.model.urdf.urdf_texts import joint, link, robot
-from tests.optional.derivatives.free_bodies import BOX, FLOOR, NONE, G, H, free, sided, verdict
-from tests.oracles.differences import after, rate
-from tests.tolerances import DIFFERENCE_OF_STEPS
+from tests.optional.derivatives.free_bodies import BOX, FLOOR, NONE, H, free, sided, verdict
+from tests.oracles.differences import after
 
 WHEEL = robot(link("rail"), link("wheel"), joint("turn", "rail", "wheel", "continuous", "0 0 1"))
-
-
-def test_a_ball_that_just_reaches_the_floor_has_weak_rows():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
-    found, kinds = verdict(simulator, q)
-    assert kinds == {reason.WEAK}
-    assert {why.where[0] for why in found.reasons} == {"c0/0"}
-    assert np.isnan(found.dq_dq[:, 2]).all()
-    assert np.isfinite(found.dq_dq[:, :2]).all()  # along the floor nothing happens
-
-
-def test_exactly_at_the_limit_of_friction_a_row_is_weak():
-    simulator, q = free(PointCloud(np.zeros((1, 3))), (0, 0, 0), (FLOOR, (0, 0, 0)), mu=(0.5, 0.0))
-    force = np.array([0.5 * 0.3 * G, 0, 0, 0, 0, 0])
-    found, kinds = verdict(simulator, q, force)
-    assert kinds >= {reason.WEAK}
-    assert any("dq_dtau" in why.fields for why in found.reasons)
 
 
 def test_a_ladder_that_sticks_at_wall_and_floor_contradicts_itself():
@@ -62,15 +43,6 @@ def test_a_ladder_that_sticks_at_wall_and_floor_contradicts_itself():
 
         apart = np.abs(sided(moved) + sided(lambda t: moved(-t))).max()
         assert (apart > 0.1) if expected else (apart < 1e-3)
-
-
-def test_a_box_that_lies_flat_and_sticks_on_four_corners_has_a_derivative():
-    simulator, q = free(Box(np.array([0.1, 0.1, 0.05])), (0, 0, 0.0499), (FLOOR, (0, 0, 0)), k=4)
-    found, kinds = verdict(simulator, q)
-    assert kinds == set()
-    # It sticks: wherever it stood before along the floor it stands after, at the floor's height.
-    assert np.allclose(found.dq_dq[:, :2], np.eye(6)[:, :2], atol=1e-12)
-    assert np.allclose(found.dq_dq[:, 2], 0, atol=1e-12)
 
 
 KINKS = {
@@ -148,27 +120,6 @@ def test_a_kink_of_a_contact_that_is_far_away_does_not_matter():
     found, kinds = verdict(simulator, q)
     assert kinds == set()
     assert np.allclose(found.dq_dq, np.eye(6), atol=1e-2)
-
-
-def test_points_that_slide_where_nothing_depends_on_it_do_no_harm():
-    # In the plane, the upright edge of a box lies along the wall: which of its points is nearest
-    # is open, and all of them move alike. Flush with the wall, one of its edges or the other is.
-    wall = HalfSpace(np.array([1.0, 0, 0]), 0.0)
-    x = 0.1 * np.cos(0.3) + 0.1 * np.sin(0.3) - 1e-4
-    simulator, q = free(BOX, (x, 0, 0), (wall, (0, 0, 0)), rpy=(0, 0, 0.3), base="planar")
-    force = np.array([-3.0, 1.0, 0.002])
-    found, kinds = verdict(simulator, q, force)
-    assert kinds == set()
-    for e in np.eye(3):
-        there = rate(
-            lambda t, e=e: after(
-                simulator, found.result.q, simulator.system.integrate(q, t * e), NONE, force
-            )
-        )
-        size = np.abs(found.dq_dq).max()
-        assert np.abs(found.dq_dq @ e - there).max() <= DIFFERENCE_OF_STEPS * size
-    flush, q = free(BOX, (0.1 - 1e-4, 0, 0), (wall, (0, 0, 0)), base="planar")
-    assert verdict(flush, q, force)[1] == {reason.MANY}
 
 
 def test_a_normal_along_an_axis_is_no_kink_of_the_pyramid():

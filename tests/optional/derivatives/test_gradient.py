@@ -34,15 +34,6 @@ def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
     assert np.abs(found.along(tau=e) - push).max() <= DIFFERENCE_OF_STEPS * H**2 / 0.3
 
 
-def test_along_a_direction_is_the_derivative_where_there_is_one():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.0501), (FLOOR, (0, 0, 0)))
-    found, kinds = verdict(simulator, q)
-    assert kinds == set()
-    e = np.arange(6.0)
-    assert np.allclose(found.along(q=e), found.dq_dq @ e, rtol=0, atol=1e-12)
-    assert np.allclose(found.along(h=2.0), 2 * found.dq_dh, rtol=1e-12)
-
-
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
 def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
     simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))

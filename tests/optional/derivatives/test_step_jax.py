@@ -176,6 +176,8 @@ def test_a_wrong_question_is_refused_in_a_sentence():
         step_jax(simulator, "one-sided")
     with pytest.raises(InputError, match="kappa: has no derivative"):
         jax.grad(lambda kappa: smoothed_jax(simulator)(q, NONE, kappa)[0][2])(1e-6)
+    with pytest.raises(InputError, match="step in JAX: has no second derivative"):
+        jax.hessian(lambda force: smoothed_jax(simulator)(q, NONE, 1e-6, force)[0][2])(np.zeros(6))
     with jax.enable_x64(False), pytest.raises(InputError, match="must be float64"):
         step_jax(simulator)(q, NONE)
 

@@ -18,6 +18,7 @@ BY_PART = {
     "unsolved": "{unsolved}",
 }
 BY_PUSH = {"interface, certify": "{how}", "median [us]": "{median:.0f}", "p99 [us]": "{p99:.0f}"}
+BY_SLOPE = {"in the pyramid": "{what}", "median [us]": "{median:.0f}", "over step": "{over:.1f}"}
 BY_POINTS = {
     "points": "{points}",
     "step, mean [us]": "{mean:.0f}",
@@ -83,6 +84,7 @@ def page(tables: Mapping[str, Any]) -> str:
             certified,
         ),
         *_section("A planar push in the ellipsoid", _formatted(BY_PUSH, tables.get("push", []))),
+        *_section("Derivatives of the push", _formatted(BY_SLOPE, tables.get("slopes", []))),
         *_section("Points of the cloud", _formatted(BY_POINTS, tables["clouds"])),
         *_titled("Rows of boxes, four contacts a pair", _sizes(tables["chains"])),
         *_titled("A row of boxes, other numbers of contacts", _sizes(tables["contacts"])),

@@ -32,7 +32,7 @@ from quasistatic_ref.lab.study.bench.large import (
     large_step,
 )
 from quasistatic_ref.lab.study.bench.mujoco_grasp import mujoco_grasp
-from quasistatic_ref.lab.study.bench.push import pushes
+from quasistatic_ref.lab.study.bench.push import pushes, slopes
 from quasistatic_ref.lab.study.measuring import environment
 from quasistatic_ref.solve.backends import installed
 
@@ -73,6 +73,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     found["mujoco"] = mujoco_grasp(steps, repeat)
     tell("push")
     found["push"] = pushes(6 if quick else 60, repeat)
+    found["slopes"] = slopes(3 if quick else 60, repeat)
     tell("clouds")
     found["clouds"] = clouds(at, (2_000,) if quick else (1_000, 10_000, 100_000, 1_000_000))
     tell("sizes")

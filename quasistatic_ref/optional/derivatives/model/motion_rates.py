@@ -69,7 +69,7 @@ class MotionRates:
         rates : ndarray, shape (L, 6, n_v)
             Their derivatives by q [the same per m or rad].
         """
-        direct = np.einsum("lai,lak->ik", self.J, rates, optimize=True)
+        direct = self.J.reshape(-1, self.J.shape[2]).T @ rates.reshape(-1, rates.shape[2])
         on_columns = self.moves.T @ wrenches  # (n_x, 6)
         carried = np.einsum("ajk,ja->jk", self.turned, on_columns)
         return np.asarray(direct + self.coordinates.T @ carried @ self.coordinates)

@@ -22,7 +22,7 @@ from quasistatic_ref.optional.derivatives.step.optimum_rates import (
     OptimumRates,
 )
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.tolerances import DEPENDENT, FACET, SPLIT
+from quasistatic_ref.tolerances import DEPENDENT, FACET, NEARLY, SPLIT
 
 TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 """The least that HiGHS takes."""
@@ -96,23 +96,27 @@ class Reach:
         beyond = Equations(Equations(self.touching).beyond(one))
         return Reach(beyond, beyond.rates(one), one).ahead(0)
 
-    def ahead(self, column: int, sign: int = 1) -> Distance:
-        """The distance to the next kink where a parameter grows, or falls: its sign is -1."""
+    def ahead(self, column: int, sign: int = 1, limit: float = np.inf) -> Distance:
+        """The distance to the next kink where a parameter grows, or falls: its sign is -1.
+
+        One that is farther than a `limit` may be left out.
+        """
         slack, rate = self.touching.slack, sign * self.closing[:, column]
         left = np.full(len(slack), np.inf)
         np.divide(slack, -rate, out=left, where=rate < 0)
         t = float(left.min(initial=np.inf))
-        nearest = Distance(t, self.touching.open[left <= (1 + SPLIT) * t]) if t < np.inf else NEVER
-        if self.loaded[column] >= t:
+        nearest = Distance(t, self.touching.open[left <= (1 + NEARLY) * t]) if t < np.inf else NEVER
+        if self.loaded[column] >= min(t, limit):
             return nearest
         return min(nearest, self._unloaded(column, sign), key=lambda one: one.t)
 
-    def either(self, column: int) -> Distance:
-        """The distance to the next kink on either side; none at all where one side is a kink."""
+    def either(self, column: int, limit: float = np.inf) -> Distance:
+        """The distance to the next kink on the nearer side; 0 at a kink; `limit` as of `ahead`."""
         opens = self.rates.opens[:, column]
         if opens.any():
             return Distance(0.0, self.touching.idle[opens])
-        return min((self.ahead(column, sign) for sign in (1, -1)), key=lambda one: one.t)
+        above = self.ahead(column, 1, limit)
+        return min(above, self.ahead(column, -1, min(limit, above.t)), key=lambda one: one.t)
 
     def within(self, distance: Array) -> Indices:
         """The contact and row of every kink nearer than a distance, shape (k, 2).

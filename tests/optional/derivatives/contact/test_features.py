@@ -100,12 +100,10 @@ def test_a_feature_ends_where_another_begins(name) -> None:
 
 RIMS = {
     "a face of a box": (BOX, np.array([0.01, 0.02, 0.0]), X, Y, 2 * 0.03),
-    "a face of a mesh": (MESH, np.array([0.01, 0.02, 0.0]), X, Y, 2 * 0.03),
     "the side of a capsule": (PILL, TOP + 0.01 * U, U, Z, 0.02),
     "the side of a cylinder": (LOG, 0.01 * U + 0.02 * Z, U, Z, 0.03),
     "the top of a cylinder": (LOG, 0.01 * U + 0.02 * Z, Z, U, 0.03),
     "the side of a cone": (CONE, 0.03 * U - 0.02 * Z, SIDE, -GENERATOR, 0.05),
-    "the base of a cone": (CONE, 0.03 * U - 0.02 * Z, -Z, U, 0.05),
 }
 """Shape, point of a rim, normal, the way to the rim from inside of the face, the shape's size [m].
 

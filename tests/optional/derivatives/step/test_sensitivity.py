@@ -1,11 +1,12 @@
 """Derivatives of the exact optimum against central differences without rounding, and verdicts.
 
-The differences are taken of optima in rational numbers, of problems formed here by plain loops of
+The differences are taken of optima in rational numbers, of problems formed by plain loops of
 fractions, at parameters moved by 2^-80 of their size: their truncation is below 1e-40.
 """
 
 from fractions import Fraction as F
 from math import lcm
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -29,62 +30,50 @@ from tests.helpers import (
     sphere_on_floor,
 )
 from tests.oracles.random_steps import any_step
+from tests.oracles.solution_truth import exact, program
 from tests.tolerances import EXACT, ROUNDING
 
-WAYS = ((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
 TINY = F(1, 2**80)
+OF_CONTACTS = ("phi", "mu_v", "mu_omega")
 
 
-def numbers(step):
-    """Every parameter of a step as a fraction, by name."""
-    c = step.contacts
-    p = {"h": F(step.h)}
-    p |= {("delta_q_bar_a", i): F(v) for i, v in enumerate(step.delta_q_bar_a)}
-    p |= {("tau_a", i): F(v) for i, v in enumerate(step.tau_a)}
-    p |= {("tau_u", i): F(v) for i, v in enumerate(step.tau_u)}
-    p |= {("K_q", i): F(v) for i, v in enumerate(np.diag(step.K_q))}
-    for name in ("phi", "mu_v", "mu_omega"):
-        p |= {(name, j): F(v) for j, v in enumerate(getattr(c, name))}
-    return p
+def keys(step):
+    """Every parameter of a step: its name, and which."""
+    sizes = {"delta_q_bar_a": step.n_a, "tau_a": step.n_a, "tau_u": step.n_u, "K_q": step.n_a}
+    sizes |= dict.fromkeys(OF_CONTACTS, step.contacts.n_c)
+    return [("h", 0), *((name, i) for name, size in sizes.items() for i in range(size))]
 
 
-def form_of(step, p):
-    """Eqs. (1), (4)-(8), (13) of the pyramid by loops of fractions, then in integers."""
-    n_a, n, c, h = step.n_a, step.n_v, step.contacts, p["h"]
-    K = [[F(v) for v in row] for row in step.K_q]
-    for i in range(n_a):
-        K[i][i] = p["K_q", i]
-    H, g = [[F(0)] * n for _ in range(n)], [F(0)] * n
-    for i in range(n_a):
-        H[i][:n_a] = [h * v for v in K[i]]
-        pull = sum((K[i][k] * p["delta_q_bar_a", k] for k in range(n_a)), F(0))
-        g[i] = h * (pull + p["tau_a", i])
-    for i in range(step.n_u):
-        H[n_a + i][n_a:] = [F(v) / h for v in step.M_u[i]]
-        g[n_a + i] = h * p["tau_u", i]
-    A, b = [], []
-    for j in range(c.n_c):
-        J = [[F(v) for v in row] for row in c.J[j]]
-        axes = [[F(v) for v in getattr(c, key)[j]] for key in ("n", "d1", "d2")]
-        for t1, t2, w in WAYS[: c.rows[j]]:
-            m1, m2, spin = t1 * p["mu_v", j], t2 * p["mu_v", j], w * p["mu_omega", j]
-            d = [axes[0][k] + m1 * axes[1][k] + m2 * axes[2][k] for k in range(3)]
-            A.append([sum(d[k] * J[k][v] for k in range(3)) + spin * J[3][v] for v in range(n)])
-            b.append(-p["phi", j])
-    H, g = whole(H, [[v] for v in g])
-    A, b = whole(A, [[v] for v in b]) if A else (fmpz_mat(0, n), fmpz_mat(0, 1))
-    return ExactForm(H, g, A, b, fmpq(1), fmpq(1), fmpq(1), fmpq(1))
+def number(step, key):
+    name, i = key
+    values = getattr(step.contacts if name in OF_CONTACTS else step, name)
+    return exact(np.diag(values) if name == "K_q" else np.atleast_1d(values))[i]
 
 
-def whole(*parts):
-    """Fractions times their common denominator."""
-    common = lcm(*(v.denominator for part in parts for row in part for v in row))
-    return tuple(fmpz_mat([[int(v * common) for v in row] for row in part]) for part in parts)
+def changed_by(step, key, little):
+    """What :func:`program` reads of a step, in fractions, with one number changed."""
+    (name, i), c = key, step.contacts
+    fields = {name: exact(getattr(step, name)) for name in ("K_q", "M_u", "tau_a", "tau_u")}
+    fields |= {"h": F(step.h), "delta_q_bar_a": exact(step.delta_q_bar_a)}
+    contacts = {name: exact(getattr(c, name)) for name in OF_CONTACTS}
+    if name == "h":
+        fields["h"] += little
+    elif name == "K_q":
+        fields["K_q"][i][i] += little
+    else:
+        (contacts if name in OF_CONTACTS else fields)[name][i] += little
+    others = {name: getattr(c, name) for name in ("n_c", "rows", "J", "n", "d1", "d2")}
+    return SimpleNamespace(
+        n_a=step.n_a, n_v=step.n_v, cone=step.cone, extra=SimpleNamespace(A=[], b=[]),
+        contacts=SimpleNamespace(**contacts, **others), **fields,
+    )  # fmt: skip
 
 
-def optimum(step, p, warm):
+def optimum(step, warm):
     """The exact optimum as fractions, or None."""
-    end = dual_active_set(form_of(step, p), warm)
+    H, g, A, b = program(step)
+    (H, g), (A, b) = whole(H, g, step.n_v), whole(A, b, step.n_v)
+    end = dual_active_set(ExactForm(H, g, A, b, fmpq(1), fmpq(1), fmpq(1), fmpq(1)), warm)
     if isinstance(end, Farkas):
         return None
     solution = end.point.rational
@@ -92,21 +81,28 @@ def optimum(step, p, warm):
     return [F(int(v), d) for v in solution.x]
 
 
+def whole(matrix, column, n):
+    """Fractions times their common denominator."""
+    common = lcm(*(v.denominator for row in [*matrix, column] for v in row))
+    entries = [int(v * common) for row in matrix for v in row]
+    return fmpz_mat(len(matrix), n, entries), fmpz_mat(
+        len(column), 1, [int(v * common) for v in column]
+    )
+
+
 def moved(step, key, warm, sides=(-1, 0, 1)):
     """Optima at the parameter less a little, as it is, and plus a little; and that little."""
-    p = numbers(step)
-    little = TINY * (abs(p[key]) or 1)
-    return [optimum(step, p | {key: p[key] + s * little}, warm) for s in sides], little
+    little = TINY * (abs(number(step, key)) or 1)
+    return [optimum(changed_by(step, key, s * little), warm) for s in sides], little
 
 
 def column(found, key):
-    name, i = key if isinstance(key, tuple) else (key, 0)
-    return getattr(found, name)[:, i]
+    return getattr(found, key[0])[:, key[1]]
 
 
 def said(step, key):
-    name, i = key if isinstance(key, tuple) else (key, 0)
-    if name in ("phi", "mu_v", "mu_omega"):
+    name, i = key
+    if name in OF_CONTACTS:
         return f"{name}[{step.contacts.name[i]}]"
     return {"h": "h", "K_q": f"K_q[{i}, {i}]"}.get(name, f"{name}[{i}]")
 
@@ -122,9 +118,9 @@ def test_derivatives_agree_with_central_differences_on_50_random_steps():
         except StepNotSolved:
             continue
         found = sensitivity(step, exact_certificate(step, best))
-        keys = list(numbers(step))
-        for k in rng.permutation(len(keys))[:4]:
-            key = keys[k]
+        every = keys(step)
+        for k in rng.permutation(len(every))[:4]:
+            key = every[k]
             if said(step, key) in found.why_not:
                 assert np.isnan(column(found, key)).all()
                 refused += 1
