@@ -101,7 +101,7 @@ def solve_step(
     if not accuracy > 0:
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)
     if isinstance(solver, Solver) and fast:
-        problem = "is read where a solver is made; give it to solver_for"
+        problem = "has no effect on an existing solver; pass it to solver_for"
         raise InputError(problem, field="fast", value=fast)
     check_certify(solver.name if isinstance(solver, Solver) else solver, certify)
     if extension is not None:
@@ -135,7 +135,7 @@ def solved(scaled: NaturalStep, solver: Solver, accuracy: float, certify: str) -
     if certify != "off":
         check_arithmetic()
     if certify == "full" and not solver.certifies:
-        problem = "is sparse and certifies no exact optimum; use certify = 'residual'"
+        problem = "is sparse and cannot certify an exact optimum; use certify = 'residual'"
         raise BackendError(problem, field="solver", value=solver.name)
     solution = QUIET.copy().run(_solved, scaled, solver, accuracy, certify)
     if solution is None:

@@ -136,7 +136,7 @@ def _leaps(system: System, pairs: Iterable[ContactPair], delta_q: Array) -> list
             how = f"moves by {1e3 * length[k]:.3g} mm, {share[k]:.2g} of the {size:.3g} m it moves"
         text = (
             f"take a smaller h, move slower, or start nearer to the first target: {joint.name} "
-            f"{how}, in step {k}, and a step is right to first order only"
+            f"{how}, in step {k}, and a step is accurate to first order only"
         )
         found.append((k, -float(share[k]), text))
     return [text for _, _, text in sorted(found)[:1]]
