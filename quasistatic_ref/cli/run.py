@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -43,7 +44,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--scheduler", metavar="ADDRESS", help="with --sweep: a Dask scheduler")
     parser.add_argument(
-        "--strict", action="store_true", help="end with status 1 if the run warns of anything"
+        "--strict", action="store_true", help="end with status 1 if a finding is grave"
+    )
+    parser.add_argument(
+        "--table",
+        type=Path,
+        metavar="FILE",
+        help="write positions, targets and contacts, a row a step: FILE.csv (extra 'pandas') or "
+        "FILE.parquet (extra 'parquet' as well)",
     )
     parser.add_argument(
         "--view",
@@ -55,7 +63,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run it; exit status 3 where a step has no solution, its steps so far being kept.
 
-    With ``--strict`` a run that warns of something ends with status 1.
+    With ``--strict`` a run with a grave finding ends with status 1.
     """
     scenario = load_scenario(options.scenario, shared.scenario_settings(options))
     path = options.out / f"{scenario.path.stem}.npz"
@@ -66,8 +74,12 @@ def run(options: argparse.Namespace) -> int:
     if options.view:
         viewer = needed_part("show.figures.viewer", "--view")
         viewer.viewer_script()  # so that a missing extra is known before the work, too
+    table = None
+    if options.table is not None:
+        table = needed_part("show.table", "--table")
+        table.check_table_path(options.table)
     if options.strict:
-        needed_part("doctor.warnings", "--strict")
+        needed_part("doctor.observer", "--strict")
     if options.resume:
         said = f"goes on from step {first}" if first else "nothing is saved; begins from the start"
         shared.progress_line(options, said)
@@ -81,14 +93,16 @@ def run(options: argparse.Namespace) -> int:
         failure, trajectory = error, error.trajectory
     if not saving:
         trajectory.save(path)
-    if options.quiet:  # of progress; a warning is said all the same
-        for sentence in trajectory.warnings:
-            print(f"quasistatic-ref: {sentence}", file=sys.stderr)
+    if options.quiet:  # of progress; a finding is said all the same
+        for finding in trajectory.findings:
+            print(f"quasistatic-ref: {finding}", file=sys.stderr)
     if failure is not None:
         return shared.failed_run(failure, path)
     view = None
     if viewer is not None:
-        view = viewer.view_written(scenario, trajectory, path.with_suffix(".html"))
+        view = viewer.view_written(scenario, path.with_suffix(".html"), trajectory)
+    if table is not None:
+        table.table_written(trajectory, options.table)
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
     summary: dict[str, Any] = {
         "trajectory": str(path),
@@ -110,9 +124,9 @@ def run(options: argparse.Namespace) -> int:
             for body, motion in free_body_motions(scenario.system, trajectory).items()
         },
         "milliseconds_per_step": milliseconds,
-        "warnings": list(trajectory.warnings),
+        "findings": list(trajectory.header["findings"]),
     }
-    status = 1 if options.strict and trajectory.warnings else 0
+    status = 1 if options.strict and any(f.grave for f in trajectory.findings) else 0
     if view is not None:
         summary["view"] = str(view)
     if options.json:
@@ -125,13 +139,14 @@ def run(options: argparse.Namespace) -> int:
     print(
         f"{summary['certified']}; backend {scenario.backend}, {speed} path, worst residual {worst}"
     )
-    if part("doctor.warnings") is not None:
+    if part("doctor.observer") is not None:
         print(_artifacts(trajectory.header))
     for line in _moved(summary["free_bodies"]):
         print(line)
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")
-    print(f"wrote {path}{'' if view is None else f' and {view}'}")
+    written = [str(file) for file in (path, options.table, view) if file is not None]
+    print(f"wrote {' and '.join(written)}")
     return status
 
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import InputError, about_field
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.simulate.finding import finding_read
 from quasistatic_ref.step.cones import cone
 
 RECORDS = ("full", "light")
@@ -54,6 +55,10 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     n_v = top.integer("n_a", least=0) + top.integer("n_u", least=0)
     if len(top.words("coordinates")) != n_v:
         raise InputError(f"must have {n_v} entries", field="coordinates")
+    for name, count in (("units", n_v), ("positions", arrays["q"].shape[-1])):
+        if len(top.words(name, [""] * count)) != count:  # files from before there were any
+            raise InputError(f"must have {count} entries", field=name)
+    top.words("slots", [])
     extra = top.words("extra")
     needed: tuple[str, ...] = ("t", "delta_q")
     if steps:
@@ -76,7 +81,9 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
         raise top.fail("contacts", f"must have {steps} entries", len(contacts))
     if not all(isinstance(names, list) for names in contacts):
         raise top.fail("contacts", "must be lists of names", contacts)
-    top.words("warnings", [])
+    top.words("warnings", [])  # of files from before there were findings
+    for i, table in enumerate(top.sequence("findings", [])):
+        finding_read(table, f"findings[{i}]")
     top.close()
 
 

@@ -19,6 +19,7 @@ from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate import wrenches
+from quasistatic_ref.simulate.finding import Finding, finding_read
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 
@@ -40,11 +41,12 @@ class Trajectory(Plain, Shown):
     ----------
     header : mapping
         format, version, h, backend, cone, extra (names of an extension's rows), record, n_a, n_u,
-        coordinates, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
+        coordinates and their units, positions (entries of q) and slots (places of contacts) by
+        name, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
         step, or None), ``largest_drag_share`` (drag over what contacts can bear, or None) and
         ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.optional.doctor.artifacts`,
         without which all three are None;
-        ``warnings``, see :attr:`warnings`; and ``failed``: the reason, or None for a complete run.
+        ``findings``, see :attr:`findings`; and ``failed``: the reason, or None for a complete run.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
         step), ``delta_q``, ``q_bar_a``, ``phi``, ``alpha``, ``beta``, ``n``, ``d1``, ``d2``,
@@ -115,12 +117,13 @@ class Trajectory(Plain, Shown):
         return None if reason is None else str(reason)
 
     @property
-    def warnings(self) -> tuple[str, ...]:
-        """What needs a remedy, a sentence each; see :mod:`~quasistatic_ref.optional.doctor.watch`.
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong with its scene or doubtful in it: causes first, then what comes of them.
 
-        Files from before there were any have none.
+        There are none without ``optional/doctor``, nor in files from before there were findings.
         """
-        return tuple(self.header.get("warnings", ()))
+        listed = enumerate(self.header.get("findings", ()))
+        return tuple(finding_read(table, f"findings[{i}]") for i, table in listed)
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k (from 0), bit for bit as it was solved.
@@ -205,9 +208,9 @@ class Trajectory(Plain, Shown):
         return scene
 
     def to_pandas(self) -> DataFrame:
-        """One row a step, one column a number, for looking at.
+        """One row a step, one column a number: ``arm/elbow [rad]``, ``grip(mug, left)/2.f_n [N]``.
 
-        See :mod:`~quasistatic_ref.optional.show.table`.
+        See :func:`~quasistatic_ref.optional.show.table.data_frame`.
 
         Raises
         ------
@@ -215,6 +218,28 @@ class Trajectory(Plain, Shown):
             If pandas is not installed, or that part is missing.
         """
         frame: DataFrame = needed_part("show.table", "to_pandas").data_frame(self)
+        return frame
+
+    def coordinates_to_pandas(self) -> DataFrame:
+        """One row a step and entry of q: its name, unit, value and target.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`to_pandas`.
+        """
+        frame: DataFrame = needed_part("show.table", "to_pandas").coordinate_frame(self)
+        return frame
+
+    def contacts_to_pandas(self) -> DataFrame:
+        """One row a step and contact: its pair, point, gap, forces, points and frame.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`to_pandas`.
+        """
+        frame: DataFrame = needed_part("show.table", "to_pandas").contact_frame(self)
         return frame
 
     def save(self, path: str | Path) -> Path:

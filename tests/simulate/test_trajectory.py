@@ -91,7 +91,7 @@ def test_the_header_says_what_the_run_was(run):
     assert header.pop("quasi_dynamic_number") > 0  # their values: test_artifacts.py
     assert header.pop("largest_drag_share") > 0
     assert header.pop("largest_boundary_layer") > 0
-    assert header.pop("warnings") == list(run.warnings)  # their sentences: test_watch.py
+    assert header.pop("findings") == [dataclasses.asdict(found) for found in run.findings]
     assert header == {
         "format": "quasistatic-ref/trajectory",
         "version": 1,
@@ -106,6 +106,12 @@ def test_the_header_says_what_the_run_was(run):
             "rail/slide", "rail/turn", "ball/base.x", "ball/base.y", "ball/base.z", "ball/base.rx",
             "ball/base.ry", "ball/base.rz",
         ],
+        "units": ["m", "rad", "m", "m", "m", "rad", "rad", "rad"],
+        "positions": [
+            "rail/slide [m]", "rail/turn.cos [-]", "rail/turn.sin [-]",
+            *(f"ball.{axis} [m]" for axis in "xyz"), *(f"ball.q{axis} [-]" for axis in "xyzw"),
+        ],
+        "slots": ["floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0"],
         "steps": 5,
         "failed": None,
         "contacts": [("floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0")] * 5,
