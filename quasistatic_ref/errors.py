@@ -205,7 +205,7 @@ class StepNotSolved(QuasistaticError):
         self.accuracy, self.residuals = accuracy, residuals
         super().__init__(
             f"{backend} did not solve the step ({status}; accuracy {accuracy:g}); "
-            "try another backend, or look at the step itself"
+            "try another backend, or check the step"
         )
 
 
@@ -235,7 +235,7 @@ class StepInfeasible(StepNotSolved):
         self.farkas = farkas
         self.args = (
             f"the step has no solution: {farkas.in_words} (proved without rounding); "
-            "widen these gaps, or let one of the bodies give way",
+            "widen these gaps, or make one of the bodies compliant",
         )
 
 
@@ -267,8 +267,8 @@ class StepIllPosed(StepNotSolved):
         super().__init__("exact", "ill-posed", step, 0.0)
         self.delta_q, self.length = delta_q, length
         self.args = (
-            f"the exact optimum is {length:.0e} times longer than anything that the step asks for; "
-            "its contacts contradict each other but for rounding; look for opposite normals",
+            f"the exact optimum is {length:.0e} times longer than the step's forces, targets and "
+            "gaps explain; its contacts almost contradict each other; look for opposite normals",
         )
 
 

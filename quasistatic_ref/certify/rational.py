@@ -240,7 +240,7 @@ def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
     check_arithmetic()
     for name, array in (("H", H), ("g", g), ("A", A), ("b", b)):
         if not np.isfinite(array).all():
-            raise StepDataError("must hold finite numbers only", field=name, value=array)
+            raise StepDataError("must contain finite numbers only", field=name, value=array)
     if not np.array_equal(H, H.T):
         raise StepDataError("must be symmetric to the last bit", field="H", value=H.tolist())
     return _in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))

@@ -149,6 +149,6 @@ def refuse_unless_touching(name: str, phi: float, ways: Array, within: float) ->
         one, other = (np.array2string(way + 0.0, precision=4, separator=", ") for way in ways[:2])
         raise ContactError(
             f"the bodies are as deep in each other along {one} as along {other}, {-phi:.3g} m: "
-            "no normal is right; start them less deep along one of the two",
+            "the normal is not defined; start them less deep along one of the two",
             field=name,
         )

@@ -150,7 +150,7 @@ class Fields:
             if any(isinstance(v, list) for v in array.flat):
                 raise self.fail(field, f"must be {wanted} numbers, in lists of equal length", value)
             if any(isinstance(v, bool) or not isinstance(v, int | float) for v in array.flat):
-                raise self.fail(field, f"must hold numbers only ({wanted})", value)
+                raise self.fail(field, f"must contain numbers only ({wanted})", value)
             numbers = array.astype(np.float64)
         except (ValueError, OverflowError, TypeError):
             raise self.fail(field, f"must be {wanted} finite numbers", value) from None
@@ -161,7 +161,7 @@ class Fields:
         ):
             raise self.fail(field, f"must be {wanted} numbers", value)
         if not np.isfinite(numbers).all():
-            raise self.fail(field, "must hold finite numbers only", value)
+            raise self.fail(field, "must contain finite numbers only", value)
         return numbers
 
     def sequence(self, field: str, default: Any = REQUIRED) -> list[Any]:

@@ -60,4 +60,4 @@ def scenario_path(name: str | Path) -> Path:
         if known.stem == str(name):
             return known
     hint = suggestion(str(name), scenario_names())
-    raise ScenarioError(f"is neither a file nor a scenario that is installed{hint}", file=name)
+    raise ScenarioError(f"is neither a file nor an installed scenario{hint}", file=name)

@@ -168,7 +168,7 @@ class System(Shown):
             if joint.name == name:
                 return joint
         known = [joint.name for joint in self.joints]
-        raise ModelError(f"is no joint{suggestion(name, known)}", field="joint", value=name)
+        raise ModelError(f"is not a joint{suggestion(name, known)}", field="joint", value=name)
 
     def link(self, name: str) -> int:
         """Number of a link; the name of a body stands for its root link; ModelError if unknown."""
@@ -176,7 +176,7 @@ class System(Shown):
             return self._roots[name]
         if name not in self.links:
             known = (*self.links, *self._roots)
-            raise ModelError(f"is no link{suggestion(name, known)}", field="link", value=name)
+            raise ModelError(f"is not a link{suggestion(name, known)}", field="link", value=name)
         return self.links.index(name)
 
     def mass(self, body: str) -> float:

@@ -70,7 +70,7 @@ def check_made(made: Collection[tuple[str, str]], tables: dict[str, Any]) -> Non
         if kind in NAMED and NAMED[kind] not in tables[kind][name]:
             there = [other for other in tables[kind] if (kind, other) not in made]
             near = f"{nearest_name(name, there) or ';'} {known_names(there)}"
-            raise ScenarioError(f"is no table of this file{near}", field=f"{kind}.{name}")
+            raise ScenarioError(f"is not a table of this file{near}", field=f"{kind}.{name}")
 
 
 def check_sizes(value: Any, name: str = "") -> None:

@@ -46,7 +46,8 @@ def apply_settings(
         for setting in settings:
             key, equals, text = str(setting).partition("=")
             if not equals:
-                raise ScenarioError("must read dotted.key=value", field="--set", value=setting)
+                problem = "must have the form dotted.key=value"
+                raise ScenarioError(problem, field="--set", value=setting)
             _put(tables, key, parsed(text), "--set", setting)
     made = _second_level(tables) - there
     for key, value in named.items():
@@ -62,7 +63,7 @@ def _second_level(tables: Mapping[str, Any]) -> set[tuple[str, str]]:
 def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object) -> None:
     parts = [part.strip() for part in key.split(".")]
     if not all(parts):
-        raise ScenarioError("must read dotted.key=value", field=field, value=given)
+        raise ScenarioError("must have the form dotted.key=value", field=field, value=given)
     if len(parts) > MOST_PARTS:
         problem = f"names a key of more than {MOST_PARTS} parts"
         raise ScenarioError(problem, field=field, value=given)
@@ -70,7 +71,7 @@ def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object
     for part in parts[:-1]:
         at = at.setdefault(part, {}) if isinstance(at, dict) else None
     if not isinstance(at, dict):
-        raise ScenarioError("does not lead to a table", field=field, value=given)
+        raise ScenarioError("is not a table", field=field, value=given)
     at[parts[-1]] = value
 
 

@@ -256,7 +256,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     named = cone(value(top, TOP, "cone")).name
     solver = value(top, TOP, "solver")
     if "engine" in solver.names():
-        problem = "is no field any more; fast = true, next to h and steps, has the quick interface"
+        problem = "is not a field any more; use fast = true, next to h and steps"
         raise solver.fail("engine", problem)
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")
@@ -267,7 +267,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     entries = {name: body_entry(name, tables.table(name), path.parent) for name in tables.names()}
     tables.close()
     if not entries:
-        raise ScenarioError("holds no body; give at least one [bodies.NAME]", field="bodies")
+        raise ScenarioError("has no bodies; add at least one table [bodies.NAME]", field="bodies")
     system = System([entry.body for entry in entries.values()])
     shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
     pairs = contact_pairs(value(top, TOP, "contacts"), shapes, system.kinematics(system.q_start))

@@ -140,7 +140,7 @@ def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
         problem = "must be at least four points, as an array of shape (N, 3)"
         raise ModelError(problem, field="vertices", value=points.shape)
     if not np.isfinite(points).all():
-        raise ModelError("must hold finite numbers only", field="vertices")
+        raise ModelError("must contain finite numbers only", field="vertices")
     try:
         hull = ConvexHull(points)
     except QhullError:

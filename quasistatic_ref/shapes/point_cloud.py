@@ -30,7 +30,7 @@ class PointCloud(Shape):
     def __post_init__(self) -> None:
         points = np.asarray(self.points)
         if points.ndim != 2 or points.shape[0] < 1:
-            problem = "must hold at least one point, as an array of shape (N, 3)"
+            problem = "must contain at least one point, as an array of shape (N, 3)"
             raise ModelError(problem, field="points", value=points.shape)
         freeze_array(self, "points", (points.shape[0], 3))
         _, first = np.unique(self.points, axis=0, return_index=True)

@@ -48,7 +48,7 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
         return lambda t, q: checked(goal(t, q))
     values = np.asarray(target, dtype=np.float64)
     if values.shape not in {(n,), (steps, n)} or not np.isfinite(values).all():
-        problem = f"must hold finite numbers of shape ({n},) or ({steps}, {n})"
+        problem = f"must contain finite numbers of shape ({n},) or ({steps}, {n})"
         raise InputError(problem, field="target", value=values.shape)
     if values.ndim == 1:
         constant = checked(values)

@@ -55,8 +55,8 @@ class Limits:
         i = beyond[0]
         return (
             f"link {links[i]} is {distance[i]:.3g} m from the origin, farther than "
-            f"limits.reach = {self.reach:g} m; hold or support it, look at its wrenches and "
-            "targets, or raise the limit"
+            f"limits.reach = {self.reach:g} m; support it, check its wrenches and targets, or "
+            "raise the limit"
         )
 
     def check_reach(self, step: StepData, links: Sequence[str], t: Array) -> None:

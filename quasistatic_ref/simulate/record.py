@@ -68,10 +68,10 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     _check_known(arrays, ("q", *CONSTANT, *PER_STEP, *of_programs, *(EXTRA if extra else ())))
     for name, array in arrays.items():
         if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):
-            raise InputError("must hold numbers", field=name, value=str(array.dtype))
+            raise InputError("must contain numbers", field=name, value=str(array.dtype))
         known = array[~np.isnan(array)] if name in NOT_KNOWN else array
         if array.dtype.kind == "f" and not np.isfinite(known).all():
-            raise InputError("must hold finite numbers only", field=name)
+            raise InputError("must contain finite numbers only", field=name)
     for name, length in {**dict.fromkeys(needed, steps), "q": steps + 1}.items():
         if arrays[name].ndim == 0 or len(arrays[name]) != length:
             problem = f"must have {length} entries, as the header says"
@@ -103,4 +103,4 @@ def _check_known(arrays: Iterable[str], known: Collection[str]) -> None:
 def _check_present(arrays: Mapping[str, NDArray[Any]], names: Iterable[str]) -> None:
     missing = sorted(set(names) - set(arrays))
     if missing:
-        raise InputError(f"holds no array named {missing[0]!r}")
+        raise InputError(f"has no array named {missing[0]!r}")

@@ -45,8 +45,8 @@ def by_one_thread(step: Step) -> Step:
     def alone(simulator: Any, *given: Any, **named: Any) -> Any:
         lock = simulator.system.lock
         if not lock.acquire(blocking=False):
-            problem = "another thread is taking a step of the same system; "
-            problem += "give each thread a simulator of its own, which copy.deepcopy makes"
+            problem = "another thread is using the same system; "
+            problem += "give each thread its own copy, copy.deepcopy(simulator)"
             raise InputError(problem, field="simulator")
         try:
             return step(simulator, *given, **named)

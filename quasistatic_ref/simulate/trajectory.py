@@ -93,7 +93,7 @@ class Trajectory(Plain, Shown):
         arrays = self.__dict__.get("arrays", {})  # not there yet while it is unpickled
         if name not in arrays:
             hint = nearest_name(name, arrays)
-            raise AttributeError(f"this trajectory holds no {name!r}{hint}")
+            raise AttributeError(f"this trajectory has no {name!r}{hint}")
         return np.asarray(arrays[name])
 
     def __dir__(self) -> list[str]:
@@ -139,7 +139,8 @@ class Trajectory(Plain, Shown):
         if not 0 <= k < self.steps:
             raise InputError(f"must be 0 to {self.steps - 1}", field="step", value=k)
         if self.header["record"] != "full":
-            raise InputError("a light record holds no problems; run again with record = 'full'")
+            problem = "a light record has no quadratic programs; run again with record = 'full'"
+            raise InputError(problem)
         a = self.arrays
         keys = ("phi", "n", "d1", "d2", "J")
         contacts = Contacts(

@@ -243,7 +243,7 @@ def backend(name: str) -> Backend:
         raise BackendError(f"is not a backend{hint}", field="backend", value=name)
     if name not in known:
         other = QPSOLVERS + name
-        remedy = f"is reached as {other!r}" if other in known else "is not installed"
+        remedy = f"is available as {other!r}" if other in known else "is not installed"
         if other not in known:
             remedy += f"; {entry.to_install_it}"
         choices = ", ".join(known)
@@ -269,7 +269,7 @@ def cone_backend(name: str, what: str) -> None:
         return
     if not backend(name).cones or name.startswith(QPSOLVERS):
         able = ", ".join(b.name for b in BACKENDS.values() if b.cones)
-        raise BackendError(f"takes linear rows only; {what} needs one of {able}", field="backend",
+        raise BackendError(f"takes only linear rows; {what} needs one of {able}", field="backend",
                            value=name)  # fmt: skip
 
 
@@ -318,5 +318,5 @@ def check_certify(name: str | None, certify: str) -> None:
     if certify == "residual":
         needed_part("large.bound", RESIDUAL)
     if name == NONE and certify != CERTIFY[0]:
-        problem = f"gives no answer of its own; use certify = {CERTIFY[0]!r}"
+        problem = f"has no answer of its own; use certify = {CERTIFY[0]!r}"
         raise BackendError(problem, field="backend", value=NONE)

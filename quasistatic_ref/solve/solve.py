@@ -104,7 +104,7 @@ def solve_step(
     if not accuracy > 0:
         raise InputError("must be greater than 0", field="accuracy", value=accuracy)
     if isinstance(solver, Solver) and fast:
-        problem = "is read where a solver is made; give it to solver_for"
+        problem = "has no effect on an existing solver; pass it to solver_for"
         raise InputError(problem, field="fast", value=fast)
     check_certify(solver.name if isinstance(solver, Solver) else solver, certify)
     if extension is not None:

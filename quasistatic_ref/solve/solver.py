@@ -149,7 +149,7 @@ class Solver(ABC):
         """
         if not self.fits(step):
             what = ", ".join(self.differences(step))
-            problem = f"was made for steps that differ from this one in {what}; make one like it"
+            problem = f"was made for steps that differ from this one in {what}; make a new solver"
             raise InputError(problem, field="solver", value=f"{self.name}, {self.engine}")
 
     def differences(self, step: StepData) -> list[str]:

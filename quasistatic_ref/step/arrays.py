@@ -101,7 +101,7 @@ def frozen(
     if array.shape != shape and (array.size or 0 not in shape):
         raise error(f"must have shape {shape}", field=name, value=array.shape)
     if not np.isfinite(array).all():
-        raise error("must hold finite numbers only", field=name, value=array.tolist())
+        raise error("must contain finite numbers only", field=name, value=array.tolist())
     return read_only(array.reshape(shape) + 0.0)
 
 

@@ -152,4 +152,4 @@ class StepProblem(Shown):
         if cone != PYRAMID:
             raise StepDataError(f"is not the pyramid; {elsewhere}", field="cone", value=cone)
         if names:
-            raise StepDataError(f"holds a user's own rows; {elsewhere}", field="extra", value=names)
+            raise StepDataError(f"has a user's own rows; {elsewhere}", field="extra", value=names)

@@ -65,7 +65,7 @@ SOLUTION_REFUSED = {
     "a later version": (["version"], 3, "version: is not known here; this program reads 1 and 2"),
     "a field of version 1": (["backend"], "daqp", "backend: is unknown"),
     "another status": (["status"], "solved", "status: is not a choice"),
-    "delta_q NaN": (["delta_q"], [float("nan")] * 5, "delta_q: must hold finite"),
+    "delta_q NaN": (["delta_q"], [float("nan")] * 5, "delta_q: must contain finite"),
     "lam flat": (["lam"], [0.0] * 10, "lam: must have one list for each of 2 contacts"),
     "lam of a wrong contact": (["lam", 1], [0.0] * 6, "lam[1]: must be 4 numbers"),
     "wrench too narrow": (["wrench"], [[0.0] * 3] * 2, "wrench: must be 2 x 4"),

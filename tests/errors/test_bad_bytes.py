@@ -21,7 +21,7 @@ CAUSES = {
     "empty TOML": ("scene.toml", b"", "format: is missing"),
     "empty JSON": ("step.json", b"", "is not JSON: Expecting value: line 1"),
     "empty trajectory": ("run.npz", b"", NO_TRAJECTORY),
-    "empty cloud": ("cloud.xyz", b"", "points: must hold at least one point"),
+    "empty cloud": ("cloud.xyz", b"", "points: must contain at least one point"),
     "binary JSON": ("step.json", bytes(range(128, 256)), NOT_UTF8),
     "binary trajectory": ("run.npz", bytes(range(128, 256)), NO_TRAJECTORY),
     "binary cloud": ("cloud.xyz", bytes(range(128, 256)), NOT_UTF8),

@@ -67,9 +67,9 @@ def test_a_path_with_a_nul_character_is_none(tmp_path, refused):
 
 
 SETTINGS = {
-    "h": "must read dotted.key=value (got 'h')",
-    "h.x=1": "--set: does not lead to a table (got 'h.x=1')",
-    "bodies.rail.targets.0.t=1": "--set: does not lead to a table",
+    "h": "must have the form dotted.key=value (got 'h')",
+    "h.x=1": "--set: is not a table (got 'h.x=1')",
+    "bodies.rail.targets.0.t=1": "--set: is not a table",
     "h=0.01\nsteps=9": "h: must be a number (got '0.01 steps=9')",
     "h=" + "1" * 5000: "h: must be a number",
     "h=" + "[" * 5000: "h: must be a number",
@@ -104,7 +104,7 @@ def test_an_unknown_backend_is_refused_before_anything_is_done(tmp_path, refused
 @pytest.mark.parametrize("name", ["bunny_gras", "a" * 5000, "\x00", "", " "])
 def test_a_scenario_that_does_not_exist_is_refused(refused, name):
     sentence = refused("run", name)
-    assert "is neither a file nor a scenario" in sentence or "cannot be read" in sentence
+    assert "is neither a file nor an installed scenario" in sentence or "cannot be read" in sentence
     assert "did you mean 'bunny_grasp'" in sentence or name != "bunny_gras"
 
 

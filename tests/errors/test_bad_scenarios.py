@@ -47,7 +47,7 @@ CAUSES = {
     "an unknown backend": (("solver/backend", "clarable"), "solver.backend", "mean 'clarabel'"),
     "no backend, no certificate": (
         ("solver", {"backend": "none", "certify": "off"}),
-        "solver.backend", "gives no answer of its own; use certify = 'full' (got 'none')",
+        "solver.backend", "has no answer of its own; use certify = 'full' (got 'none')",
     ),
     "no depth at all": (("limits/penetration", 0), "limits.penetration", "greater than 0 (got 0)"),
     "a body out of the scene": (

@@ -31,7 +31,7 @@ CAUSES = {
     "K_q not symmetric": (("K_q", np.triu(np.ones((3, 3))).tolist()), "K_q", "must be symmetric"),
     "M_u massless": (("M_u", np.diag([1.0, 1, 0, 1]).tolist()), "M_u", "no massless link"),
     "tau_a short": (("tau_a", [1, 2]), "tau_a", "must be 3 numbers (got [1, 2])"),
-    "tau_u of words": (("tau_u", ["1", "2", "3", "4"]), "tau_u", "must hold numbers only (4)"),
+    "tau_u of words": (("tau_u", ["1", "2", "3", "4"]), "tau_u", "must contain numbers only (4)"),
     "an unknown cone": (("cone", "pyramide"), "cone", "did you mean 'pyramid'"),
     "contacts a table": (("contacts", {}), "contacts", "must be a list (got {})"),
     "a name a number": ((ONE + "name", 3), "contacts[1].name", "must be a string (got 3)"),

@@ -135,9 +135,9 @@ CAUSES = {
         lambda run: rewritten(run, header={"contacts": [[1, 2]] * 3}),
         "contacts.name: must be a sequence of strings",
     ),
-    "an array missing": (lambda run: rewritten(run, {"J": None}), "holds no array named 'J'"),
+    "an array missing": (lambda run: rewritten(run, {"J": None}), "has no array named 'J'"),
     "rows of an extension that are not there": (
-        lambda run: rewritten(run, header={"extra": ["a"]}), "holds no array named 'extra_A'",
+        lambda run: rewritten(run, header={"extra": ["a"]}), "has no array named 'extra_A'",
     ),
     "an array too short": (
         lambda run: rewritten(run, {"phi": npy(np.zeros((2, 2)))}), "phi: must have 3 entries",
@@ -146,7 +146,7 @@ CAUSES = {
         lambda run: rewritten(run, {"phi": npy(np.zeros((3, 5)))}), "contacts.phi: must have shape",
     ),
     "NaN in a step": (
-        lambda run: rewritten(run, {"tau_u": npy(np.full((3, 6), np.nan))}), "tau_u: must hold fin",
+        lambda run: rewritten(run, {"tau_u": npy(np.full((3, 6), np.nan))}), "tau_u: must contain",
     ),
 }  # fmt: skip
 
@@ -181,4 +181,4 @@ def test_a_light_record_has_no_steps_to_extract(tmp_path, refused, capsys):
     assert main(["run", str(path), "--set", "record=light", "--out", str(out)]) == 0
     capsys.readouterr()
     sentence = refused("extract", out / "scene.npz", "--step", 0)
-    assert sentence.startswith(f"{out / 'scene.npz'}: a light record holds no problems; run again")
+    assert sentence.startswith(f"{out / 'scene.npz'}: a light record has no quadratic")

@@ -40,7 +40,7 @@ CASES = {
     "without solution": (
         WEDGE, 0,
         ("left(left, ball/ball#0)/0", "right(right, ball/ball#0)/0", "contradict each other",
-         "widen these gaps, or let one of the bodies give way"),
+         "widen these gaps, or make one of the bodies compliant"),
     ),
     "too deep": (
         SUNK, 0,
@@ -50,7 +50,7 @@ CASES = {
     "out of the scene": (
         (*THROWN, ("limits/reach", 15.0), ("steps", 9)), 1,
         ("link ball/ball is 20 m from the origin, farther than limits.reach = 15 m",
-         "look at its wrenches and targets, or raise the limit"),
+         "check its wrenches and targets, or raise the limit"),
     ),
 }  # fmt: skip
 

@@ -53,9 +53,9 @@ def test_a_configuration_of_another_length_is_refused(scene: System) -> None:
 
 
 def test_unknown_names_are_answered_with_the_nearest(scene: System) -> None:
-    with pytest.raises(ModelError, match="joint: is no joint; did you mean 'arm/slide'"):
+    with pytest.raises(ModelError, match="joint: is not a joint; did you mean 'arm/slide'"):
         scene.joint("arm/slid")
-    with pytest.raises(ModelError, match="link: is no link; did you mean 'desk/upper'"):
+    with pytest.raises(ModelError, match="link: is not a link; did you mean 'desk/upper'"):
         scene.link("desk/uper")
     with pytest.raises(ModelError, match="body: is no body; did you mean 'desk'"):
         scene.mass("dessk")
@@ -74,7 +74,7 @@ BAD_BODY: dict[str, tuple[dict[str, Any], str]] = {
     "mimic joint": ({"actuated": ("swing_mimic",)}, "c.actuated: mimics 'swing' and has no coord"),
     "fixed base": ({"actuated": ("base",)}, 'c.actuated: is fixed; say base = "floating"'),
     "twice": ({"actuated": ("swing", "swing")}, "c.actuated: names a joint twice"),
-    "rpy": ({"rpy": (0, np.nan, 0)}, "c.rpy: must hold finite numbers only"),
+    "rpy": ({"rpy": (0, np.nan, 0)}, "c.rpy: must contain finite numbers only"),
     "unknown position": ({"positions": {"swin": 1}}, "c.positions: has no such joint; did you"),
     "base position": (
         {"base": "floating", "positions": {"base": 1}},

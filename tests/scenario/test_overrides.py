@@ -89,14 +89,14 @@ REFUSED = {
     "a contact that is not there": (
         ["contacts.flor.mu_v=1"],
         {},
-        "contacts.flor: is no table of this file; did you mean",
+        "contacts.flor: is not a table of this file; did you mean",
     ),
     "a body that is not there": (
         {"bodies.bal.base": "fixed"},
         {},
-        "bodies.bal: is no table of this file; did you mean",
+        "bodies.bal: is not a table of this file; did you mean",
     ),
-    "no key": ({"": 3}, {}, "settings: must read dotted.key=value"),
+    "no key": ({"": 3}, {}, "settings: must have the form dotted.key=value"),
     "too deep": ({".".join("a" * 33): 3}, {}, "settings: names a key of more than 32 parts"),
     "unknown keyword": ((), {"step": 3}, "step: is unknown; did you mean 'steps'"),
     "a function": ({"h": abs}, {}, "h: must be a number"),

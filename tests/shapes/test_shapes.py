@@ -52,9 +52,13 @@ REFUSED: list[tuple[str, Callable[[], Any], str]] = [
     ("short capsule", lambda: Capsule(1.0, -1.0), "half_length: must be a positive length"),
     ("no normal", lambda: HalfSpace(np.zeros(3), 0.0), "normal: must not be zero"),
     ("nan offset", lambda: HalfSpace(np.eye(3)[0], np.nan), "offset: must be a finite number"),
-    ("no points", lambda: PointCloud(np.zeros((0, 3))), "points: must hold at least one point"),
+    ("no points", lambda: PointCloud(np.zeros((0, 3))), "points: must contain at least one point"),
     ("plane points", lambda: PointCloud(np.zeros((4, 2))), r"points: must have shape \(4, 3\)"),
-    ("inf point", lambda: PointCloud(np.full((1, 3), np.inf)), "points: must hold finite numbers"),
+    (
+        "inf point",
+        lambda: PointCloud(np.full((1, 3), np.inf)),
+        "points: must contain finite numbers",
+    ),
     (
         "reflection",
         lambda: PlacedShape("a#0", 0, np.diag([1.0, 1.0, -1.0]), np.zeros(3), Sphere(1.0)),

@@ -106,7 +106,7 @@ TARGETS = {
 @pytest.mark.parametrize("target", TARGETS.values(), ids=TARGETS)
 def test_a_target_of_another_shape_or_not_finite_is_refused(scenario, target):
     with pytest.raises(
-        InputError, match=r"target: must hold finite numbers of shape \(3,\) or \(4"
+        InputError, match=r"target: must contain finite numbers of shape \(3,\) or \(4"
     ):
         rollout(scenario.simulator(), scenario.system.q_start, target, 4, progress=False)
 
@@ -129,7 +129,7 @@ def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):
         return np.full(8, np.nan if t > 0.015 else 0.0)
 
     q = scenario.system.q_start
-    with pytest.raises(RunFailed, match=r"^step 1: tau_a: must hold finite") as caught:
+    with pytest.raises(RunFailed, match=r"^step 1: tau_a: must contain finite") as caught:
         rollout(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
     assert caught.value.trajectory.steps == 1
     assert isinstance(caught.value.__cause__, StepDataError)

@@ -65,14 +65,14 @@ SPOILT = {
         lambda p: array_changed(p, "ph", np.zeros(5)),
         "ph: is unknown; did you mean 'phi'?",
     ),
-    "NaN in q": (lambda p: array_changed(p, "q", np.nan), "q: must hold finite numbers only"),
+    "NaN in q": (lambda p: array_changed(p, "q", np.nan), "q: must contain finite numbers only"),
     "infinity in phi": (
         lambda p: array_changed(p, "phi", np.inf),
-        "phi: must hold finite numbers only",
+        "phi: must contain finite numbers only",
     ),
     "no array of positions": (
         lambda p: np.savez(p, header=np.load(p)["header"], t=np.zeros(1)),
-        "holds no array named 'delta_q'",
+        "has no array named 'delta_q'",
     ),
 }
 

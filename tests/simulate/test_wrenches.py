@@ -107,7 +107,7 @@ def test_a_trajectory_from_a_file_or_a_pickle_is_given_its_scene(scenario, run, 
 
 
 def test_other_names_and_scenes_are_refused(scenario, run, pinch, tmp_path):
-    with pytest.raises(ModelError, match="link: is no link; did you mean 'ball'"):
+    with pytest.raises(ModelError, match="link: is not a link; did you mean 'ball'"):
         run.wrench_on("bal")
     with pytest.raises(InputError, match="scene: is another one than that of the trajectory"):
         run.wrench_on("held", pinch[0])

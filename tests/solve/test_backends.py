@@ -248,7 +248,7 @@ def test_a_backend_is_not_asked_for_more_than_it_can_and_says_so():
 def test_a_backend_of_the_other_interface_only_is_named_with_its_interface(monkeypatch):
     table = "quasistatic_ref.solve.backends.installed_backends"
     monkeypatch.setattr(table, lambda: ("clarabel", "qpsolvers:quadprog"))
-    with pytest.raises(BackendError, match="is reached as 'qpsolvers:quadprog'; choices"):
+    with pytest.raises(BackendError, match="is available as 'qpsolvers:quadprog'; choices"):
         backend("quadprog")
 
 

@@ -199,7 +199,7 @@ def test_the_paper_s_rows_are_not_taken_for_those_of_another_cone(name, rng):
 
 def test_rows_of_a_user_s_own_are_not_dropped(rng):
     step = random_step(rng).replace(extra=Extra(("a",), np.ones((1, 7)), [0.0]))
-    with pytest.raises(StepDataError, match="extra: holds a user's own rows; solve/cvxpy_problem"):
+    with pytest.raises(StepDataError, match="extra: has a user's own rows; solve/cvxpy_problem"):
         StepProblem(step)
 
 

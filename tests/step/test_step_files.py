@@ -122,7 +122,7 @@ REFUSED = {
     "n_a wrong": (["n_a"], 3, "K_q: must be 3 x 3 numbers"),
     "n_u wrong": (["n_u"], 2, "M_u: must be 2 x 2 numbers"),
     "K_q flat": (["K_q"], [1.0, 2.0, 3.0, 4.0], "K_q: must be 2 x 2 numbers"),
-    "tau_a true": (["tau_a"], [True, 0.0], "tau_a: must hold numbers only"),
+    "tau_a true": (["tau_a"], [True, 0.0], "tau_a: must contain numbers only"),
     "contacts a table": (["contacts"], {"a": 1}, "contacts: must be a list"),
     "a contact a list": (["contacts", 1], [1], "contacts[1]: must be a table of named fields"),
     "name a number": (["contacts", 0, "name"], 3, "contacts[0].name: must be a string"),

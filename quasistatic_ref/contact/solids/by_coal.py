@@ -77,7 +77,7 @@ def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
         best = _shallowest(here, there, best)
     if not best.defect <= WITNESS:  # `not <=`, so that NaN is refused as well
         raise ContactError(
-            "no trustworthy contact normal at this pose: move the bodies apart, or use a box, "
+            "the contact normal is not reliable at this pose: move the bodies apart, or use a box, "
             "a capsule, a convex mesh or a cloud",
             field=name,
             value={"phi": best.phi / scale, "n": best.n.tolist()},

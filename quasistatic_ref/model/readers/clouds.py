@@ -137,7 +137,7 @@ def _npz(path: Path) -> Array:
     arrays = npz_arrays(path, "a file of NumPy's arrays")
     name = "points" if "points" in arrays else next(iter(arrays), "")
     if name != "points" and len(arrays) != 1:
-        problem = "must hold one array, or one that is named points"
+        problem = "must contain one array, or one that is named points"
         raise ModelError(problem, field="its arrays", value=list(arrays))
     return _of_array(arrays[name], name)
 
@@ -145,7 +145,7 @@ def _npz(path: Path) -> Array:
 def _of_array(array: NDArray[Any], name: str) -> Array:
     if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
         given = f"{array.dtype} of shape {array.shape}"
-        raise ModelError("must hold numbers of shape (N, 3)", field=name, value=given)
+        raise ModelError("must contain numbers of shape (N, 3)", field=name, value=given)
     return array.astype(np.float64)
 
 

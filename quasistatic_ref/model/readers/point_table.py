@@ -72,7 +72,7 @@ def table_points(table: PointTable, field: str, what: str) -> Array:
     at = [table.names.index(name) for name in "xyz"]
     points = _ascii(table, at) if table.ascii else _binary(table, at)
     if len(points) < table.count:
-        raise ModelError(f"must hold {table.count} {what}", field=field, value=len(points))
+        raise ModelError(f"must contain {table.count} {what}", field=field, value=len(points))
     return points
 
 

@@ -202,7 +202,7 @@ def written_shape(collision: Tag) -> Shape | FileMesh:
     geometry = collision.child("geometry")
     tags = [child.tag for child in geometry.element]
     if len(tags) != 1:
-        raise ModelError("must hold exactly one shape", field=geometry.where, value=tags)
+        raise ModelError("must contain exactly one shape", field=geometry.where, value=tags)
     kind, shape = tags[0], Tag(geometry.element[0], f"{collision.where}.{tags[0]}")
     if kind not in _GEOMETRIES:
         raise ModelError(f"is not a shape{suggestion(kind, _GEOMETRIES)}", field=shape.where)

@@ -68,7 +68,7 @@ def checked_tree(
             raise ModelError("is the name of two joints", field=where)
         for field, link in (("parent", joint.parent), ("child", joint.child)):
             if link not in links:
-                problem = f"is no link{suggestion(link, links)}"
+                problem = f"is not a link{suggestion(link, links)}"
                 raise ModelError(problem, field=f"{where}.{field}", value=link)
         if joint.child in parent_of:
             problem = f"is already the child of joint {parent_of[joint.child].name!r}"
@@ -76,7 +76,7 @@ def checked_tree(
         named[joint.name] = parent_of[joint.child] = joint
     roots = [link for link in links if link not in parent_of]
     if len(roots) != 1:
-        problem = "there must be exactly one link that is no joint's child"
+        problem = "exactly one link must not be the child of a joint"
         raise ModelError(problem, field="root link", value=roots)
     children: dict[str, list[FileJoint]] = {}
     for joint in joints:
@@ -99,7 +99,7 @@ def _check_mimic(joint: FileJoint, named: Mapping[str, FileJoint]) -> None:
         return
     field, of = f"joint[{joint.name}].mimic", joint.mimic.of
     if of not in named:
-        raise ModelError(f"is no joint{suggestion(of, named)}", field=field, value=of)
+        raise ModelError(f"is not a joint{suggestion(of, named)}", field=field, value=of)
     leader = named[of]
     if leader.kind == "fixed" or leader.mimic is not None:
         problem = "must be a joint that moves by itself, neither fixed nor a mimic"

@@ -37,7 +37,7 @@ class Blocks(Plain):
     def __post_init__(self) -> None:
         column = np.asarray(self.column)
         if column.ndim != 2 or column.dtype.kind != "i":
-            problem = "must hold whole numbers, w for each contact"
+            problem = "must contain whole numbers, w for each contact"
             raise StepDataError(problem, field="blocks.column", value=column.shape)
         if column.flags.writeable:
             column = column.astype(np.int64)

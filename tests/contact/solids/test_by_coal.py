@@ -45,7 +45,7 @@ def test_a_bad_answer_of_coal_is_mended_or_refused(monkeypatch, spoil, gap):
     except ContactError as error:
         refusal = str(error)
     if found is None:
-        assert refusal.startswith("p: no trustworthy contact normal")
+        assert refusal.startswith("p: the contact normal is not reliable")
         assert spoil != "distance"
         return
     assert spoil not in REFUSED
@@ -101,7 +101,7 @@ def test_an_answer_does_not_depend_on_where_the_world_has_its_origin(t) -> None:
 @pytest.mark.parametrize("gap", [10.0, -0.01])
 def test_a_pair_that_is_refused_has_coal_s_distance_in_the_message(monkeypatch, gap) -> None:
     without_normals(monkeypatch, 1000)
-    with pytest.raises(ContactError, match="no trustworthy contact normal") as refused:
+    with pytest.raises(ContactError, match="the contact normal is not reliable") as refused:
         coal_witness("p", *tips(gap))
     np.testing.assert_allclose(refused.value.value["phi"], gap, rtol=EXACT, atol=10 * COAL)
 

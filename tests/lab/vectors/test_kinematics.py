@@ -113,5 +113,5 @@ def test_a_mechanism_that_cannot_be_is_refused(body, field):
 
 
 def test_a_q_of_another_length_is_refused():
-    with pytest.raises(InputError, match="q: must hold 7 numbers"):
+    with pytest.raises(InputError, match="q: must contain 7 numbers"):
         entered({"mechanism": FREE, "q": [0.0] * 6})

@@ -121,9 +121,9 @@ BAD: dict[str, tuple[str, bytes, str]] = {
     "pcd cut off": (
         ".pcd",
         pcd("binary", binary_body("<B3d")[:-1]),
-        "must hold 2 points .got 1",
+        "must contain 2 points .got 1",
     ),
-    "pcd of too few lines": (".pcd", pcd("ascii", b"0 1 2 3\n"), "must hold 2 points .got 1"),
+    "pcd of too few lines": (".pcd", pcd("ascii", b"0 1 2 3\n"), "must contain 2 points .got 1"),
     "pcd of more points than memory": (
         ".pcd",
         pcd(
@@ -131,7 +131,7 @@ BAD: dict[str, tuple[str, bytes, str]] = {
             b"",
             PCD_HEADER.replace("TH 2", "TH 999999999999999").replace("TS 2", "TS 999999999999999"),
         ),
-        "must hold 9+ points .got 0",
+        "must contain 9+ points .got 0",
     ),
     "pcd that contradicts itself": (
         ".pcd",
@@ -165,10 +165,14 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         npy(POINTS[:, :2]),
         "numbers of shape .N, 3. .got 'float64",
     ),
-    "npz of two arrays": (".npz", npz(a=POINTS, b=POINTS), "must hold one array, or one that is"),
+    "npz of two arrays": (
+        ".npz",
+        npz(a=POINTS, b=POINTS),
+        "must contain one array, or one that is",
+    ),
     "npz of a pickle": (".npz", npz(points=np.array([{}], dtype=object)), "points.npy is a pickle"),
     "unknown extension": (".stl", b"", "extension: is not a known kind of point cloud.*'.stl'"),
-    "empty xyz": (".xyz", b"\n# nothing\n", "points: must hold at least one point"),
+    "empty xyz": (".xyz", b"\n# nothing\n", "points: must contain at least one point"),
     "two numbers": (".xyz", b"0 0 0\n1 2\n", r"line 2: must be three numbers, x y z.*'1 2'"),
     "nan": (".xyz", b"0 0 0\n\n0 nan 1\n", r"line 3: must be a finite decimal number \(got 'nan'"),
     "overflow": (".xyz", b"0 1e999 0\n", "line 1:.*overflows.*'1e999'"),
@@ -185,7 +189,7 @@ BAD: dict[str, tuple[str, bytes, str]] = {
     "short ascii ply": (
         ".ply",
         PLY_ASCII.split("1.0 2e-3")[0].encode(),
-        r"body: must hold 2 vertices \(got 1\)",
+        r"body: must contain 2 vertices \(got 1\)",
     ),
     "no property z": (
         ".ply",
@@ -206,7 +210,7 @@ BAD: dict[str, tuple[str, bytes, str]] = {
     "impossible count": (
         ".ply",
         binary_ply("float", "f").replace(b"vertex 2", b"vertex 999999999999999999"),
-        r"body: must hold 999999999999999999 vertices \(got 2\)",
+        r"body: must contain 999999999999999999 vertices \(got 2\)",
     ),
 }
 

@@ -43,7 +43,7 @@ def test_a_posed_step_is_equal_to_the_checked_one_and_to_the_one_of_a_file(thing
 )
 def test_whatever_is_made_of_a_posed_step_is_checked(things, name, like):
     step = things[name]
-    with pytest.raises(StepDataError, match=r"^tau_u: must hold finite"):
+    with pytest.raises(StepDataError, match=r"^tau_u: must contain finite"):
         step.replace(tau_u=np.full(step.n_u, NAN))
     with pytest.raises(StepDataError, match=r"^M_u: must be positive definite"):
         step.replace(M_u=-step.M_u)

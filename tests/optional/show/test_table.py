@@ -30,9 +30,7 @@ def test_arrays_are_attributes_by_the_names_of_the_format(run):
     for name, array in run.arrays.items():
         assert getattr(run, name) is array
     assert set(dir(run)) >= {*run.arrays, "wrench_on", "header", "steps"}
-    with pytest.raises(
-        AttributeError, match=r"this trajectory holds no 'phis'; did you mean 'phi'"
-    ):
+    with pytest.raises(AttributeError, match=r"this trajectory has no 'phis'; did you mean 'phi'"):
         attrgetter("phis")(run)
     assert not hasattr(run, "lam_extra")
 

@@ -149,7 +149,7 @@ def _axes(tables: Fields, quick: bool) -> tuple[Axis, ...]:
         chosen = dict.fromkeys([values[0], values[-1]] if quick else values)
         axes.append(Axis(name, tuple(given["fields"] or [name]), tuple(chosen)))
     if not axes:
-        raise tables.error("must hold at least one table", field=tables.where)
+        raise tables.error("must contain at least one table", field=tables.where)
     return tuple(axes)
 
 

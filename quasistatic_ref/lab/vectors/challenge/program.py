@@ -35,7 +35,7 @@ STRAY: Final = 20
 FLOOD: Final = 2**20
 """Standard error beyond that [bytes] is said to be a flood."""
 TAIL: Final = 2000
-"""Of it so much is kept [bytes]."""
+"""The size of the part that is kept [bytes]."""
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,9 @@ def entered(case: Json) -> Json:
         for part, field in enumerate(("q", "delta_q")):
             length = max((at[part].stop for at in places), default=0)
             if len(case.get(field, range(length))) != length:
-                raise InputError(f"must hold {length} numbers", field=field, value=len(case[field]))
+                raise InputError(
+                    f"must contain {length} numbers", field=field, value=len(case[field])
+                )
         named = [contact[side] for contact in case.get("contacts", []) for side in SIDES]
         named += [shape["body"] for shape in case.get("shapes", {}).values()]
         known = [None, *(body["name"] for body in bodies)]
