@@ -173,6 +173,52 @@ def test_equal_cubes_on_each_other_carry_all_above(count, k) -> None:
     np.testing.assert_allclose(total, count * MASS * G, rtol=CLOSED_FORM)
 
 
+@pytest.mark.parametrize("k", [4, 8, 12])
+def test_three_cubes_with_offsets_stand_still(k) -> None:
+    # 10 and 20 mm each: the centre of the upper two is (15, 30) mm off that of the lowest.
+    at_rest([(0.01 * i, 0.02 * i, SIDE * (i + 0.5)) for i in range(3)], k)
+
+
+TABLE, RAIL = Box(np.array([0.2, 0.2, 0.01])), Box(np.array([0.02, 0.2, 0.01]))
+BOOK, PUCK = Box(np.array([0.1, 0.07, 0.01])), Cylinder(0.07, 0.01)
+LOG, CAPSULE, SPIRE = Cylinder(0.03, 0.1), Capsule(0.03, 0.1), Cone(0.03, 0.1)
+STRAIGHT, AN_EIGHTH = np.eye(3), Rotation.from_rotvec(np.pi / 4 * UP).as_matrix()
+ALONG_X = Rotation.from_rotvec([0.0, np.pi / 2, 0.0]).as_matrix()
+ON_EDGE = Rotation.from_rotvec([np.pi / 4, 0.0, 0.0]).as_matrix()
+SLANT = np.arctan2(0.03, 0.2)
+ON_SIDE = Rotation.from_rotvec([0.0, np.pi / 2 + SLANT, 0.0]).as_matrix()
+RESTING = {
+    # A fixed body whose top is at z = 0.01, another, how that is turned, its place, the least k.
+    "a book over an edge": (TABLE, BOOK, STRAIGHT, (0.19, 0.0, 0.02), 4),
+    "a turned box on its like": (TABLE, TABLE, AN_EIGHTH, (0.0, 0.0, 0.02), 8),
+    "a hull over an edge": (TABLE, frustum(), STRAIGHT, (0.19, 0.02, 0.06), 4),
+    "a puck over an edge": (TABLE, PUCK, STRAIGHT, (0.19, 0.0, 0.02), 4),
+    "a cone over an edge": (TABLE, Cone(0.07, 0.01), STRAIGHT, (0.19, 0.0, 0.02), 4),
+    "a puck on a puck": (PUCK, Cylinder(0.05, 0.01), STRAIGHT, (0.04, 0.0, 0.02), 4),
+    "a box on a puck": (PUCK, cube(), STRAIGHT, (0.03, 0.04, 0.06), 4),
+    "a capsule on a rail": (RAIL, CAPSULE, ALONG_X, (0.01, 0.0, 0.04), 2),
+    "a capsule over an edge": (TABLE, CAPSULE, ALONG_X, (0.19, 0.0, 0.04), 2),
+    "a log on a rail": (RAIL, LOG, ALONG_X, (0.01, 0.0, 0.04), 2),
+    "a log on a puck": (PUCK, LOG, ALONG_X, (0.02, 0.01, 0.04), 2),
+    "a box on its edge": (RAIL, cube(), ON_EDGE, (0.01, 0.0, 0.01 + SIDE / np.sqrt(2)), 2),
+    "a cone on its side": (RAIL, SPIRE, ON_SIDE, (0.0, 0.0, 0.01 + 0.015 * np.cos(SLANT)), 2),
+}
+
+
+@pytest.mark.parametrize("name", RESTING)
+def test_a_body_whose_centre_is_over_what_touches_rests(name) -> None:
+    """Nothing moves, and the contacts carry the weight, whichever is alpha and for every k."""
+    low, top, R, place, least = RESTING[name]
+    system = System([body("top", place)])
+    own = PlacedShape("top", system.link("top/solid"), R, np.zeros(3), top)
+    for k in (least, least + 1, 12):
+        for sides in ((fixed(low), own), (own, fixed(low))):
+            result = taken(system, [sides], k, 0.5)
+            np.testing.assert_allclose(result.solution.delta_q, 0.0, atol=1e-15)
+            force = result.solution.wrench[:, 2].sum()
+            np.testing.assert_allclose(force, MASS * G, rtol=CLOSED_FORM)
+
+
 def test_a_brick_bond_and_a_flush_wall_stand() -> None:
     half, z = SIDE / 2, SIDE * np.array([0.5, 1.5, 2.5])
     at_rest([(x * half, 0.0, z[row]) for row in range(3) for x in range(row, 6 - row, 2)], 4)

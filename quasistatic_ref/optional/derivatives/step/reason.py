@@ -13,10 +13,11 @@ NO_NORMAL = "no normal at zero distance"
 TANGENTS = "tangents switch axis"
 RIM = "level rim"
 HALF_TURN = "half a turn"
+CROSSING = "crossing of edges"
 
 KINDS: Final = (
     WEAK, CONTRADICTION, ZERO_FRICTION, POINTS, SURFACES, FEATURE, MANY, NO_NORMAL, TANGENTS, RIM,
-    HALF_TURN,
+    HALF_TURN, CROSSING,
 )  # fmt: skip
 """All of them, in one order."""
 
