@@ -10,6 +10,7 @@ that it stands for nothing.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 from operator import itemgetter
 from typing import NamedTuple
 
@@ -87,11 +88,12 @@ def check_finite(R: Array, t: Array) -> None:
 
 
 def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
-    """Several lists of contacts as one."""
+    """Several lists of contacts as one, in which zero is 0.0, never -0.0."""
     if not found:
         empty, none = np.zeros((0, 3)), np.zeros(0, dtype=np.int64)
         return ClosestPoints(np.zeros(0), empty, empty, empty, none, none)
-    return ClosestPoints(*map(np.concatenate, zip(*found, strict=True)))
+    every = ClosestPoints(*map(np.concatenate, zip(*found, strict=True)))
+    return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
 
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
@@ -109,6 +111,28 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     order = closest(np.where(late(candidates, pair.k), np.inf, candidates.phi), pair.k)
     kept = candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
     return joined([kept, *filling(pair, nearest, pair.n_c - len(order))])
+
+
+def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
+    """How many candidates of a pair are at most that much farther than its nearest one.
+
+    Parameters
+    ----------
+    pair : ContactPair
+        Of any k.
+    R, t : ndarray, shapes (L, 3, 3) and (L, 3)
+        The links'.
+    within : float
+        [m].
+    """
+    whole = replace(pair, k=pair.candidates)
+    if pair.has_cloud:
+        phi = pair_closest_points(whole, R, t).phi
+    else:
+        a, b = in_world(pair.alpha, R, t), in_world(pair.beta, R, t)
+        every = every_candidate(whole, a, b, nearest_of_solids(whole, a, b))
+        phi = every.phi[~late(every, 1)]  # without the closest pair, if a corner is as near
+    return int(np.count_nonzero(phi <= phi.min() + within))
 
 
 def filling(pair: ContactPair, nearest: ClosestPoints, count: int) -> list[ClosestPoints]:

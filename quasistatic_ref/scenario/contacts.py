@@ -1,25 +1,31 @@
 """The ``[shapes.NAME]`` and ``[contacts.NAME]`` tables of a scenario."""
 
+import re
 from collections.abc import Mapping
+from dataclasses import replace
 from fnmatch import fnmatchcase
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.contact.distance import number_within
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, ScenarioError, about_field
 from quasistatic_ref.formats.fields import REQUIRED, Fields
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.clouds import point_cloud
+from quasistatic_ref.model.readers.text import decimal
 from quasistatic_ref.model.rotation import rotation
-from quasistatic_ref.model.system import System
+from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.scenario.bodies import BodyEntry
 from quasistatic_ref.scenario.checks import check_names
-from quasistatic_ref.scenario.scenario_table import CONTACT, SHAPE, pose, value
+from quasistatic_ref.scenario.scenario_table import CONTACT, SHAPE, WITHIN, pose, value
 from quasistatic_ref.scenario.world_solids import SOLIDS
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 
 Shapes = dict[str, list[PlacedShape]]
+METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
 WORLD = 0
 """Number of the world among the links."""
 
@@ -83,8 +89,11 @@ def world_shape(name: str, table: Fields, folder: Path) -> PlacedShape:
     return PlacedShape(name, WORLD, rotation(rpy), t, shape)
 
 
-def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
-    """The pairs of all ``[contacts.NAME]`` tables, in file order."""
+def contact_pairs(tables: Fields, shapes: Shapes, start: Kinematics) -> tuple[ContactPair, ...]:
+    """The pairs of all ``[contacts.NAME]`` tables, in file order.
+
+    A k that is a distance becomes a number where the scenario starts.
+    """
     pairs = []
     for name in tables.names():
         table = tables.table(name)
@@ -94,14 +103,36 @@ def contact_pairs(tables: Fields, shapes: Shapes) -> tuple[ContactPair, ...]:
         mu_omega = value(table, CONTACT, "mu_omega", 0.0 if rows == 4 else REQUIRED)
         if rows == 4 and mu_omega > 0:
             raise table.fail("mu_omega", "does nothing with rows = 4; use 6, or leave it", mu_omega)
-        k, hull = value(table, CONTACT, "k"), value(table, CONTACT, "hull")
+        given = value(table, CONTACT, "k")
+        within, k = _within(given, table.name("k")), 1
+        if within is None:
+            k = Fields({"k": given}, table.where, ScenarioError).integer("k", least=1)
+        hull = value(table, CONTACT, "hull")
         for alpha in sides[0]:
             for beta in sides[1]:
                 label = f"{name}({alpha.name}, {beta.name})"
                 with about_field(table.where):
-                    pairs.append(ContactPair(label, alpha, beta, mu_v, mu_omega, rows, k, hull))
+                    pair = ContactPair(label, alpha, beta, mu_v, mu_omega, rows, k, hull)
+                    if within is not None:
+                        number = number_within(pair, start.R, start.t, within)
+                        pair = replace(pair, k=number)
+                    pairs.append(pair)
     tables.close()
     return tuple(pairs)
+
+
+def _within(given: Any, where: str) -> float | None:
+    """The distance [m] of a k such as ``{ within = "5 mm" }``; None of anything but a table."""
+    if not isinstance(given, dict):
+        return None
+    table = Fields(given, where, ScenarioError)
+    check_names(table, WITHIN)
+    text = value(table, WITHIN, "within")
+    found = re.fullmatch(r"(\d[\d.eE-]*) *([a-z]+)", text.strip())
+    if found is None or found[2] not in METRES:
+        raise table.fail("within", f"must be a length in {', '.join(METRES)}, as '5 mm'", text)
+    with about_field(table.name("within")):
+        return decimal(found[1]) * METRES[found[2]]
 
 
 def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:

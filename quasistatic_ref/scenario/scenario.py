@@ -231,7 +231,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         raise ScenarioError("holds no body; give at least one [bodies.NAME]", field="bodies")
     system = System([entry.body for entry in entries.values()])
     shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
-    pairs = contact_pairs(value(top, TOP, "contacts"), shapes)
+    pairs = contact_pairs(value(top, TOP, "contacts"), shapes, system.kinematics(system.q_start))
     K_q = np.zeros((system.n_a, system.n_a))
     for entry in entries.values():
         stiffness(system, entry, K_q)

@@ -22,7 +22,7 @@ MOST_STEPS = 10_000_000
 TOP, SOLVER, LIMITS = "the top of the file", "[solver]", "[limits]"
 BODY, CONTACT, WRENCH = "[bodies.NAME]", "[contacts.NAME]", "[[bodies.NAME.wrenches]]"
 SHAPE, POSE, WAYPOINT = "[shapes.NAME]", "pose", "[[bodies.NAME.targets]]"
-SUPPORT = "[bodies.NAME.support]"
+SUPPORT, WITHIN = "[bodies.NAME.support]", "k"
 ORIGIN = (0.0, 0.0, 0.0)
 NUMBER, TEXT = {"type": "number"}, {"type": "string"}
 LIST = {"type": "array", "items": NUMBER}
@@ -151,9 +151,20 @@ TABLES = Tables({
                           least=0.0),
         "rows": Field("integer", "rows of a contact; 4 goes without mu_omega", default=6,
                       choices=(4, 6)),
-        "k": Field("integer", "how many of the closest points are kept", default=1, least=1),
+        "k": Field(
+            "whole number from 1, or table",
+            "how many of the closest points are kept; or how near they are at the start, "
+            '{ within = "5 mm" }',
+            default=1,
+            schema={"anyOf": [{"type": "integer", "minimum": 1}, {"$ref": "#/definitions/k"}]},
+        ),
         "hull": Field("boolean", "whether a mesh that is not convex counts as its hull",
                       default=False),
+    },
+    WITHIN: {
+        "within": Field(
+            "text", "how much farther than the nearest one at most: a number, and m, cm, mm or um",
+        ),
     },
     SUPPORT: {
         "mu_v": Field("number", "tangential friction", "-", least=0.0),

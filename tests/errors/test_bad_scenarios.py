@@ -141,6 +141,12 @@ CAUSES = {
         ("contacts/push/mu_omega", 0.01), "contacts.push.mu_omega", "does nothing with rows = 4",
     ),
     "no points": (("contacts/push/k", 0), "contacts.push.k", "must be at least 1 (got 0)"),
+    "a distance without a unit": (
+        ("contacts/push/k", {"within": "5"}), "contacts.push.k.within", "in m, cm, mm, um, as",
+    ),
+    "a distance of no number": (
+        ("contacts/push/k", {"within": "5e mm"}), "contacts.push.k.within", "finite decimal number",
+    ),
 }  # fmt: skip
 
 

@@ -132,6 +132,19 @@ def test_wrenches_are_linear_in_time_and_act_at_the_centre_of_mass(load):
     assert force.shape == (system.n_v,)
 
 
+@pytest.mark.parametrize(("within", "reach"), [("5 mm", 0.005), ("0.5cm", 0.005), ("2e-2 m", 0.02)])
+def test_k_may_be_how_near_points_are_at_the_start(within, reach):
+    """Of a box on the floor its four lower corners, of a cloud all points that low."""
+    k = {"within": within}
+    box, _ = load_scenario("block_push", {"contacts.floor.k": k}).pairs
+    assert (box.k, box.n_c) == (4, 4)
+    bunny = load_scenario(
+        "bunny_grasp", {"contacts.floor.k": k, "bodies.bunny.pose.rpy": [0, 0, 0]}
+    )
+    height = np.loadtxt(bunny.path.parent / "bunny_992.csv", delimiter=",", skiprows=1)[:, 2]
+    assert bunny.pairs[0].k == np.count_nonzero(height <= height.min() + reach) > 5
+
+
 def test_without_wrenches_there_is_no_force(load):
     text = PUSH[PUSH.index("[[bodies.ball.wrenches]]") : PUSH.index("[shapes.floor]")]
     assert load((text, "")).force is None
