@@ -34,6 +34,17 @@ def test_a_ball_that_just_reaches_the_floor_has_weak_rows():
     assert np.isfinite(found.dq_dq[:, :2]).all()  # along the floor nothing happens
 
 
+def test_a_box_over_an_edge_is_borne_where_edges_cross():
+    # Two of its lower corners are over the other box, and two edges cross that one's.
+    low = (Box(np.array([0.1, 0.1, 0.05])), (0, 0, 0))
+    simulator, q = free(Box(np.array([0.05, 0.04, 0.03])), (0.08, 0, 0.08), low, k=4)
+    found, kinds = verdict(simulator, q)
+    crossing = [why for why in found.reasons if why.kind == reason.CROSSING]
+    assert reason.CROSSING in kinds
+    assert len(crossing) == 2
+    assert {why.fields for why in crossing} == {("dq_dq",)}
+
+
 def test_exactly_at_the_limit_of_friction_a_row_is_weak():
     simulator, q = free(PointCloud(np.zeros((1, 3))), (0, 0, 0), (FLOOR, (0, 0, 0)), mu=(0.5, 0.0))
     force = np.array([0.5 * 0.3 * G, 0, 0, 0, 0, 0])

@@ -60,7 +60,9 @@ def kinks(
         if couple.phi >= FILLED:
             continue  # it stands for nothing
         if couple.crosses:
-            yield Kink(j, reason.CROSSING, "is where two edges cross: it has none here", False)
+            yield Kink(
+                j, reason.CROSSING, "is where edges cross: its derivative is not computed", False
+            )
             continue
         blurs = bool(rates.blurred[j])
         if rates.level_rim[j]:
