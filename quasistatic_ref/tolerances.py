@@ -155,6 +155,10 @@ OVER_FACE: Final = 1e-9
 """How far outside of a face the foot of a corner may be, relative to the shape's extent [-], for
 the corner to be over the face: a body that is flush with another turns by about that."""
 
+SKEW: Final = 1e-6
+"""Sine of the angle between two edges or rims [-] up to which they have no crossing: its place is
+known to rounding over that, and corners next to it bound the common area as well."""
+
 SAME_NORMAL: Final = 1e-6
 """Largest difference of the components of two normals that count as one [-]: the coplanar
 triangles of a mesh, or the face of one body and the face of another that lies flat on it."""

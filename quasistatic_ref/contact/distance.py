@@ -1,11 +1,12 @@
 """Closest points, signed distances and normals of the pairs, in the world frame.
 
 For a cloud on a solid, the k closest points are kept. Two solids have as candidates alpha's corners
-on beta, beta's corners on alpha, and the closest pair, in that order; of these, the ones whose
-normal is about the pair's. The k with the smallest signed distances are kept; two kinds rank after
-all others: candidates that repeat an earlier one, and the closest pair if k corners are as near. No
-candidate is nearer than the closest pair, so k = 1 keeps that one alone. Where fewer than k are
-left, the closest pair fills the rest, put so far apart that it stands for nothing.
+on beta, beta's corners on alpha, crossings of their edges and the closest pair, in that order; of
+these, the ones whose normal is about the pair's. The k with the smallest signed distances are kept;
+some rank after all others: candidates that repeat an earlier one; the closest pair if k others are
+as near; and crossings if k corners are. No candidate is nearer than the closest pair, so k = 1
+keeps that one alone. Where fewer than k are left, the closest pair fills the rest, put so far apart
+that it stands for nothing.
 """
 
 from collections.abc import Sequence
@@ -16,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.cloud import closest, signed_distance
+from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.contact.separations import BISECTOR, OWN, pair_normal, rounding
@@ -105,7 +107,7 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     nearest = nearest_of_solids(pair, a, b)
     if pair.n_c == 1:
         return nearest
-    candidates = with_corners(a, b, nearest)
+    candidates = every_candidate(pair, a, b, nearest)
     order = closest(np.where(late(candidates, pair.k), np.inf, candidates.phi), pair.k)
     kept = candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
     return joined([kept, *filling(pair, nearest, pair.n_c - len(order))])
@@ -128,7 +130,7 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
         phi = pair_closest_points(whole, R, t).phi
     else:
         a, b = in_world(pair.alpha, R, t), in_world(pair.beta, R, t)
-        every = with_corners(a, b, nearest_of_solids(whole, a, b))
+        every = every_candidate(whole, a, b, nearest_of_solids(whole, a, b))
         phi = every.phi[~late(every, 1)]  # without the closest pair, if a corner is as near
     return int(np.count_nonzero(phi <= phi.min() + within))
 
@@ -147,8 +149,10 @@ def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> Cl
     return ClosestPoints(phi, *ends, found.n[None], point, np.array([tie]))
 
 
-def with_corners(a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints) -> ClosestPoints:
-    """All candidates of two solids: alpha's corners on beta, beta's on alpha, the closest pair.
+def every_candidate(
+    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints
+) -> ClosestPoints:
+    """All candidates: alpha's corners on beta, beta's on alpha, crossings, the closest pair.
 
     Corners whose normal is not about the pair's are none: they cannot bear with it.
     """
@@ -158,11 +162,28 @@ def with_corners(a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints) -> Cl
     on_b = _corners_on_solid(b, a, corners_a, radius_a, -n).swapped()
     on_a = _corners_on_solid(a, b, corners_b, radius_b, n)
     on_a = on_a._replace(point=len(corners_a) + on_a.point)
-    every = joined([on_b, on_a, nearest])
+    every = joined([on_b, on_a, _crossings(pair, a, b, nearest), nearest])
     if nearest.tie[0] == BISECTOR:
         alike = np.abs(every.n - n).max(axis=1) <= SAME_NORMAL
         every = every._replace(tie=np.where(alike, BISECTOR, every.tie))
     return every.chosen(np.flatnonzero(dot(every.n, n) >= TURNED))
+
+
+def _crossings(
+    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, nearest: ClosestPoints
+) -> ClosestPoints:
+    """Crossings of edges, with the pair's normal, numbered after contacts that fill the number."""
+    n = nearest.n[0]
+    found = crossings(a, b, nearest.alpha[0], nearest.beta[0], n)
+    count = len(found.number)
+    return ClosestPoints(
+        phi=dot(found.beta - found.alpha, n),
+        alpha=found.alpha,
+        beta=found.beta,
+        n=np.tile(n, (count, 1)),
+        point=pair.corners + pair.n_c + found.number,
+        tie=np.full(count, OWN),
+    )
 
 
 def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
@@ -181,18 +202,21 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
 
 
 def late(candidates: ClosestPoints, k: int) -> Mask:
-    """Which candidates rank last: repetitions, and a closest pair if k corners are as near.
+    """Which candidates rank last: repetitions, a closest pair if k others are as near, crossings.
 
-    The closest pair mostly coincides with a corner candidate. On parallel faces, whose corners
-    are equally near but for rounding, it can be any point between them; ranked by its distance it
-    would displace one of these corners, and a box on a table would have three corner contacts
-    instead of four.
+    These do if k corners are as near as the closest pair, so that rounding does not decide whether
+    they displace one. The closest pair mostly coincides with a corner candidate. On parallel faces,
+    whose corners are equally near but for rounding, it can be any point between them; ranked by its
+    distance it would displace one of these corners, and a box on a table would have three corner
+    contacts instead of four.
     """
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
     same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED
     found = np.tril(same, -1).any(axis=1)
     level = ~found & (candidates.phi <= candidates.phi[-1] + REPEATED)
     found[-1] |= np.count_nonzero(level[:-1]) >= k
+    corner = candidates.point < candidates.point[-1]
+    found |= ~corner & (np.count_nonzero(level & corner) >= k)
     return np.asarray(found)
 
 

@@ -89,16 +89,17 @@ class ContactPair(Plain):
 
     @property
     def corners(self) -> int:
-        """Number of corners of both shapes: the candidates other than the closest pair."""
+        """Number of corners of both shapes: the closest pair's, which is counted after them."""
         return self.alpha.shape.corner_count + self.beta.shape.corner_count
 
     @property
     def candidates(self) -> int:
-        """Number of points that its contacts are chosen from."""
+        """Largest number of points that its contacts are chosen from."""
         for shape in (self.alpha.shape, self.beta.shape):
             if isinstance(shape, PointCloud):
                 return len(shape.points)
-        return self.corners + 1
+        pieces = min(self.alpha.shape.edge_count, self.beta.shape.edge_count)
+        return self.corners + 2 * pieces + 1  # two convex curves cross twice for each piece
 
     @property
     def n_c(self) -> int:

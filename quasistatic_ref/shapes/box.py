@@ -62,6 +62,11 @@ class Box(Rounded):
         bits = (np.arange(8)[:, None] >> np.array([0, 1, 2])) & 1
         return (2 * bits - 1) * self.half_extents, 0.0
 
+    @property
+    def edge_count(self) -> int:
+        """Those of a face."""
+        return 4
+
     def resized(self, scale: float) -> Box:
         """All lengths by a scale [-]."""
         return Box(scale * self.half_extents)

@@ -95,6 +95,11 @@ class ConvexMesh(Shape):
         """Its vertices, shape (V, 3) [m], whichever way `towards` [-] is."""
         return self.vertices, 0.0
 
+    @property
+    def edge_count(self) -> int:
+        """A face has no more than the whole has vertices."""
+        return len(self.vertices)
+
     def resized(self, scale: float) -> ConvexMesh:
         """All lengths by a scale [-]."""
         vertices, offsets = scale * self.vertices, scale * self.offsets

@@ -34,6 +34,11 @@ class Round(Shape):
         freeze_size(self, "radius")
         freeze_size(self, "half_length")
 
+    @property
+    def edge_count(self) -> int:
+        """As of a square: a rim crosses each edge twice, a line once."""
+        return 4
+
     def resized(self, scale: float) -> Round:
         """All lengths by a scale [-]."""
         return type(self)(scale * self.radius, scale * self.half_length)

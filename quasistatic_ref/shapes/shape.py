@@ -126,6 +126,11 @@ class Shape(Plain):
         return 0
 
     @property
+    def edge_count(self) -> int:
+        """Most pieces of its edges that touch another body at once; by default there are none."""
+        return 0
+
+    @property
     def extent(self) -> float:
         """Longest edge of the bounding box along its own axes [m]; of a half-space, infinity."""
         reach = self.support_value(AXES)

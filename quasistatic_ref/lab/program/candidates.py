@@ -2,8 +2,11 @@
 
 import numpy as np
 
-from .distance import closest_points
+from .distance import closest_points, transformed
 from .rotation import AXES, unit
+
+OVER, SKEW = 1e-9, 1e-6
+"""How far off a face a point is on it, over the box's size; sine between edges that cross [-]."""
 
 REPEATED = 1e-9
 """[m], and [-] of normals: candidates that differ by less are one."""
@@ -31,8 +34,57 @@ def corners(shape):
     return signs * np.array(shape["size"]) / 2
 
 
+def edges(shape):
+    """Ends of the edges of a box, (12, 2, 3), along x first; and its faces' normals at each."""
+    if shape["kind"] != "box":
+        return np.zeros((0, 2, 3)), np.zeros((0, 2, 3))
+    ends = np.array(corners(shape))
+    found, sides = [], []
+    for axis in range(3):
+        for i in range(8):
+            if not i >> axis & 1:
+                found.append((ends[i], ends[i | 1 << axis]))
+                across = [other for other in range(3) if other != axis]
+                sides.append([np.sign(ends[i][other]) * AXES[other] for other in across])
+    return np.array(found), np.array(sides)
+
+
+def touching(shape, pose, x, n):
+    """Which edges of a box may bear: those of faces through x towards n, and level ones there."""
+    ends, sides = edges(shape)
+    if not len(ends):
+        return []
+    size = np.array(shape["size"])
+    x, n = (x - pose[1]) @ pose[0], n @ pose[0]
+    on = sides @ x >= np.abs(sides) @ size / 2 - OVER * max(size)
+    facing = on & (sides @ n >= np.cos(0.25))
+    along = ends[:, 1] - ends[:, 0]
+    level = np.abs(along @ n) <= np.sin(0.25) * np.linalg.norm(along, axis=1)
+    return np.flatnonzero(facing.any(axis=1) | on.all(axis=1) & level).tolist()
+
+
+def crossings(alpha, pose_alpha, beta, pose_beta, nearest):
+    """Edges of two boxes that cross along n, by numbers, with phi, alpha, beta and n there."""
+    _, a, b, n = nearest
+    (ends_a, _), (ends_b, _) = edges(alpha), edges(beta)
+    found = []
+    for i in touching(alpha, pose_alpha, a, n):
+        for j in touching(beta, pose_beta, b, -n):
+            tail, head = transformed(pose_alpha, ends_a[i])
+            start, end = transformed(pose_beta, ends_b[j])
+            u, v, w = head - tail, end - start, start - tail
+            steep = np.cross(u, v) @ n
+            if abs(steep) <= SKEW * np.linalg.norm(u) * np.linalg.norm(v):
+                continue
+            s, t = np.cross(w, v) @ n / steep, np.cross(w, u) @ n / steep
+            if 0 <= s <= 1 and 0 <= t <= 1:
+                one, other = tail + s * u, start + t * v
+                found.append((i, j, (other - one) @ n, one, other, n))
+    return found
+
+
 def candidates(alpha, pose_alpha, beta, pose_beta, k):
-    """phi, alpha, beta, n of all candidates, and which come after all others."""
+    """phi, alpha, beta, n and index of all candidates, and which come after all others."""
     clouds = "cloud" in (alpha["kind"], beta["kind"])
     parts = []
     if k > 1 and not clouds:
@@ -45,30 +97,47 @@ def candidates(alpha, pose_alpha, beta, pose_beta, k):
     found = [closest_points(*part) for part in parts]
     phi = np.concatenate([np.atleast_1d(one[0]) for one in found])
     a, b, n = (np.concatenate([np.reshape(one[i], (-1, 3)) for one in found]) for i in (1, 2, 3))
-    late = np.zeros(len(phi), dtype=bool)
+    late, index, last = np.zeros(len(phi), dtype=bool), np.arange(len(phi)), len(phi) - 1
     if k > 1 and not clouds:
-        late, _ = lateness(phi, a, n, k, REPEATED)
-    return phi, a, b, n, late
+        crossed = crossings(
+            alpha, pose_alpha, beta, pose_beta, (phi[last], a[last], b[last], n[last])
+        )
+        if crossed:
+            *edge, own, on_a, on_b, normal = zip(*crossed, strict=True)
+            index = np.insert(index, last, crossing_index(last, k, *map(np.array, edge)))
+            phi, a = np.insert(phi, last, own), np.insert(a, last, on_a, axis=0)
+            b, n = np.insert(b, last, on_b, axis=0), np.insert(n, last, normal, axis=0)
+        late, _ = lateness(phi, a, n, k, REPEATED, last)
+    return phi, a, b, n, index, late
 
 
-def lateness(phi, alpha, n, k, repeated):
-    """Which candidates of two solids come after all others, and whether k corners will do.
+def crossing_index(last, k, i, j):
+    """Of alpha's edge i and beta's j: after the closest pair, and what fills the number."""
+    return last + np.minimum(k, last + 9) + 2 * (12 * i + j)
 
-    Late are those that repeat an earlier one, and the closest pair, which is the last, where k
-    corners are as near. What differs by no more than `repeated`, of their kind of number, is one.
+
+def lateness(phi, alpha, n, k, repeated, corners=None):
+    """Which candidates of two solids come after all others, and whether k of them will do.
+
+    Late are those that repeat an earlier one; the closest pair, which is the last, where k others
+    are as near; and those behind the corners where k of these are. What differs by no more than
+    `repeated`, of their kind of number, is one. Without `corners`, all but the last are.
     """
     every = np.column_stack([phi, alpha, n])
     same = np.all(np.abs(every[:, None] - every) <= repeated, axis=2)
     late = np.tril(same, -1).any(axis=1)
-    enough = np.sum(~late[:-1] & (phi[:-1] <= phi[-1] + repeated)) >= k
+    level = ~late[:-1] & (phi[:-1] <= phi[-1] + repeated)
+    enough = np.sum(level) >= k
     late[-1] |= enough
+    if corners is not None:
+        late[corners:-1] |= np.sum(level[:corners]) >= k
     return late, enough
 
 
-def chosen(phi, late, k):
+def chosen(phi, index, late, k):
     """The k nearest of the candidates, in the order of their index."""
-    order = np.lexsort((np.arange(len(phi)), phi, late))
-    return np.sort(order[:k])
+    order = np.lexsort((np.arange(len(phi)), phi, late))[:k]
+    return order[np.argsort(index[order])]
 
 
 def tangents(n):

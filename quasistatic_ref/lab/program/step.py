@@ -27,12 +27,12 @@ def contacts_of(case, at):
     for pair in case["pairs"]:
         alpha, beta = case["shapes"][pair["alpha"]], case["shapes"][pair["beta"]]
         k = pair["k"]
-        phi, a, b, n, late = candidates(
+        phi, a, b, n, index, late = candidates(
             alpha["shape"], placed(alpha, at), beta["shape"], placed(beta, at), k
         )
-        for i in chosen(phi, late, k):
+        for i in chosen(phi, index, late, k):
             d1, d2 = tangents(n[i])
-            contact = {"pair": pair["name"], "index": int(i)}
+            contact = {"pair": pair["name"], "index": int(index[i])}
             contact |= {"phi": phi[i], "alpha": a[i], "beta": b[i], "n": n[i], "d1": d1, "d2": d2}
             contact |= {"alpha_body": alpha["body"], "beta_body": beta["body"]}
             contact |= {key: pair[key] for key in ("mu_v", "mu_omega", "rows")}

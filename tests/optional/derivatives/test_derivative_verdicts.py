@@ -8,7 +8,7 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.shapes.placed_shape import (
+from quasistatic_ref.shapes.placed_shape import Box, (
     Cylinder,
     HalfSpace,
     PlacedShape,
@@ -21,6 +21,17 @@ from tests.optional.derivatives.free_bodies import BOX, FLOOR, NONE, H, free, si
 from tests.oracles.differences import after
 
 WHEEL = robot(link("rail"), link("wheel"), joint("turn", "rail", "wheel", "continuous", "0 0 1"))
+
+
+def test_a_box_over_an_edge_is_borne_where_edges_cross():
+    # Two of its lower corners are over the other box, and two edges cross that one's.
+    low = (Box(np.array([0.1, 0.1, 0.05])), (0, 0, 0))
+    simulator, q = free(Box(np.array([0.05, 0.04, 0.03])), (0.08, 0, 0.08), low, k=4)
+    found, kinds = verdict(simulator, q)
+    crossing = [why for why in found.reasons if why.kind == reason.CROSSING]
+    assert reason.CROSSING in kinds
+    assert len(crossing) == 2
+    assert {why.fields for why in crossing} == {("dq_dq",)}
 
 
 def test_a_ladder_that_sticks_at_wall_and_floor_contradicts_itself():

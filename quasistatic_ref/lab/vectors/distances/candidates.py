@@ -1,10 +1,10 @@
 """Candidate contacts of a pair of shapes in the world, and those that are kept.
 
 Of a cloud on a solid: every point. Of two solids: alpha's corners on beta, beta's corners on alpha,
-and the closest pair, in that order; for one contact, the closest pair alone. The k
-of least signed distance are kept, those that repeat an earlier one after all others, and so the
-closest pair where k corners are as near. Everything is decided on distances, points and normals
-that are rounded to float64.
+crossings of the edges of boxes, and the closest pair, in that order; for one contact, the closest
+pair alone. The k of least signed distance are kept, those that repeat an earlier one after all
+others, and so the closest pair where k others are as near, and crossings where k corners are.
+Everything is decided on distances, points and normals that are rounded to float64.
 """
 
 from collections.abc import Sequence
@@ -15,9 +15,12 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.program.candidates import lateness
+from quasistatic_ref.lab.program.candidates import crossing_index, crossings, edges, lateness
+from quasistatic_ref.lab.program.rotation import frame
+from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
-from quasistatic_ref.lab.vectors.exact.precision import rounded
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, along, cross, dot, subtract
+from quasistatic_ref.lab.vectors.exact.precision import number, rounded
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.tolerances import REPEATED
@@ -67,7 +70,13 @@ def chosen(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k: int) -
     """
     case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
     candidates = [one for part in parts(case, k) for one in _candidates(part)]
-    return _kept(candidates, k, solids="cloud" not in (alpha["kind"], beta["kind"]))
+    index, last = list(range(len(candidates))), len(candidates) - 1
+    if k > 1 and alpha["kind"] == beta["kind"] == "box":
+        crossed = _crossings(case, candidates[last])
+        candidates[last:last] = [one for _, one in crossed]
+        index[last:last] = [int(crossing_index(last, k, *edges)) for edges, _ in crossed]
+    solids = "cloud" not in (alpha["kind"], beta["kind"])
+    return _kept(candidates, index, k, corners=last if solids else None)
 
 
 def parts(case: Json, k: int) -> list[Json]:
@@ -113,23 +122,51 @@ def _candidates(case: Json) -> list[_Candidate]:
     return [_Candidate(found[0], found[0].pop("unique"), case)]
 
 
-def _kept(candidates: Sequence[_Candidate], k: int, *, solids: bool = False) -> Chosen:
+def _crossings(case: Json, nearest: _Candidate) -> list[tuple[tuple[int, int], _Candidate]]:
+    """Where edges of two boxes cross: which do is decided on rounded numbers, where is not."""
+    poses = [frame(case[f"pose_{side}"]) for side in ("alpha", "beta")]
+    at = [np.array(nearest.numbers[key]) for key in FIELDS]
+    found = []
+    for i, j, *_ in crossings(case["alpha"], poses[0], case["beta"], poses[1], at):
+
+        def place(i: int = i, j: int = j) -> Json:
+            n = witnesses(case)[0].n
+            (tail, head), (start, end) = _edge(case, "alpha", i), _edge(case, "beta", j)
+            u, v, w = subtract(head, tail), subtract(end, start), subtract(start, tail)
+            steep = dot(cross(u, v), n)
+            alpha = along(tail, u, dot(cross(w, v), n) / steep)
+            beta = along(start, v, dot(cross(w, u), n) / steep)
+            return {"phi": dot(subtract(beta, alpha), n), "alpha": alpha, "beta": beta, "n": n}
+
+        found.append(((i, j), _Candidate(rounded(place)[0], nearest.unique, nearest.case)))
+    return found
+
+
+def _edge(case: Json, side: str, i: int) -> list[Vector]:
+    """Ends of an edge of a box in the world, in exact numbers."""
+    box = placed(case[side], case[f"pose_{side}"])
+    return [box.world([number(x) for x in end]) for end in edges(case[side])[0][i].tolist()]
+
+
+def _kept(
+    candidates: Sequence[_Candidate], index: Sequence[int], k: int, *, corners: int | None
+) -> Chosen:
     phi, alpha, n = (
         np.array([one.numbers[key] for one in candidates]) for key in ("phi", "alpha", "n")
     )
     late, spare = [False] * len(candidates), False
-    if solids:
-        late, spare = lateness(phi, alpha, n, k, REPEATED)
+    if corners is not None:
+        late, spare = lateness(phi, alpha, n, k, REPEATED, corners)
     order = sorted(range(len(candidates)), key=lambda i: (late[i], phi[i], i))
-    kept, rest = sorted(order[:k]), order[k:]
+    kept, rest = sorted(order[:k], key=lambda i: index[i]), order[k:]
     last = order[len(kept) - 1]
     clear = not rest or late[rest[0]] != late[last] or phi[rest[0]] - phi[last] > TIED
-    if solids and len(candidates) > k and not candidates[-1].unique:
+    if corners is not None and len(candidates) > k and not candidates[-1].unique:
         # The closest pair may then be any point of an edge or a face, and no corner again.
         clear = clear and spare
     answers = [layer("distance").expected(candidates[i].case) for i in kept]
     return Chosen(
-        contacts=[{"index": i, **candidates[i].numbers} for i in kept],
+        contacts=[{"index": index[i], **candidates[i].numbers} for i in kept],
         clear=bool(clear),
         unique=all(answer.flags["unique"] for answer in answers),
         tolerance={

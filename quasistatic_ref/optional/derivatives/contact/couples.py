@@ -54,6 +54,8 @@ class Couple(NamedTuple):
         Where one side is a point with a ball about it: the other side, the point (3,) [m] in the
         world and the ball's radius [m].
     rim : Rim or None
+    crosses : bool
+        Whether the points are where edges cross.
     extents : (float, float)
         How large the bodies are [m]; of a half-space, infinity.
     """
@@ -66,6 +68,7 @@ class Couple(NamedTuple):
     features: tuple[Feature, Feature]
     centre: tuple[int, Array, float] | None
     rim: Rim | None
+    crosses: bool
     extents: tuple[float, float]
 
     @property
@@ -133,7 +136,9 @@ def _couple(
         features.append(local.turned(body.R))
         if isinstance(body.shape, Sphere):
             centre = (1 - side, body.t, body.shape.radius)
-    return Couple(pair, (a, b), phi, ends, n, (features[0], features[1]), centre, rim, extents)
+    crosses = not pair.has_cloud and index >= pair.corners + pair.n_c > pair.corners + 1
+    both = features[0], features[1]
+    return Couple(pair, (a, b), phi, ends, n, both, centre, rim, crosses, extents)
 
 
 def _corner(

@@ -59,6 +59,11 @@ def kinks(
     for j, couple in enumerate(couples):
         if couple.phi >= FILLED:
             continue  # it stands for nothing
+        if couple.crosses:
+            yield Kink(
+                j, reason.CROSSING, "is where edges cross: its derivative is not computed", False
+            )
+            continue
         blurs = bool(rates.blurred[j])
         if rates.level_rim[j]:
             says = "is on a rim that is level: no point of it is lowest"

@@ -7,10 +7,10 @@ import numpy as np
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import (
     ClosestPoints,
+    every_candidate,
     late,
     nearest_of_solids,
     relative_pose,
-    with_corners,
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
@@ -38,16 +38,16 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
     pair, (a, b) = kept[0].pair, kept[0].bodies
     if pair.n_c >= pair.candidates or (pair.n_c == 1 and not pair.has_cloud):
         return [], []  # all of them, or the closest pair of two solids
+    number = np.arange(pair.candidates)
     if isinstance(b.shape, PointCloud):
         phi = _cloud_distances(a, b, b.shape.points)
     elif isinstance(a.shape, PointCloud):
         phi = _cloud_distances(b, a, a.shape.points)
     else:
-        every = with_corners(a, b, nearest_of_solids(pair, a, b))
-        phi = np.full(pair.candidates, np.inf)
-        phi[every.point] = np.where(late(every, pair.k), np.inf, every.phi)
+        every = every_candidate(pair, a, b, nearest_of_solids(pair, a, b))
+        phi, number = np.where(late(every, pair.k), np.inf, every.phi), every.point
     worst = points.phi.max()
-    as_near = np.flatnonzero(np.abs(phi - worst) <= TIED * kept[0].size)
+    as_near = number[np.abs(phi - worst) <= TIED * kept[0].size]
     left_out = np.setdiff1d(as_near, points.point).tolist()
     if not left_out:
         return [], []

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints, nearest_of_solids, with_corners
+from quasistatic_ref.contact.distance import ClosestPoints, every_candidate, nearest_of_solids
 from quasistatic_ref.contact.solids.faces import face
 from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, merged_features
 from quasistatic_ref.optional.derivatives.contact.couples import Couple, closest_pair
@@ -43,7 +43,7 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
     merged = couple_rates([nearest], across[None], J, features=[merged_features(nearest)])
     if merged.unique[0]:
         return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
-    every = with_corners(a, b, one)
+    every = every_candidate(pair, a, b, one)
     level = every.phi <= one.phi + REPEATED
     of_alpha, of_beta = every.point < a.shape.corner_count, every.point < pair.corners
     counts = int((level & of_alpha).sum()), int((level & of_beta & ~of_alpha).sum())

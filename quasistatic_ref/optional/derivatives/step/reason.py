@@ -14,10 +14,11 @@ TANGENTS = "tangents switch axis"
 RIM = "level rim"
 HALF_TURN = "half a turn"
 NEARLY = "nearly a kink"
+CROSSING = "crossing of edges"
 
 KINDS: Final = (
     WEAK, CONTRADICTION, ZERO_FRICTION, POINTS, SURFACES, FEATURE, MANY, NO_NORMAL, TANGENTS, RIM,
-    HALF_TURN, NEARLY,
+    HALF_TURN, NEARLY, CROSSING,
 )  # fmt: skip
 """All of them, in one order."""
 

@@ -1,0 +1,92 @@
+"""Bodies on the edges of others: borne where edges, rims and lines of contact cross."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.contact.crossings import crossings
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
+from tests.tolerances import ROUNDING
+from validation.make.aligned_poses import FLAT, HALF, UP
+from validation.make.forces_by_hand import Scene, slab, wrong
+
+ORIGIN, STRAIGHT = np.zeros(3), np.eye(3)
+CUBE, HULL = FLAT["box"](HALF), FLAT["hull"](HALF)
+TABLE, RAIL = Box(np.array([0.2, 0.2, 0.01])), Box(np.array([0.02, 0.2, 0.01]))
+BOOK, PUCK = Box(np.array([0.1, 0.07, 0.01])), Cylinder(0.07, 0.01)
+LOG, CAPSULE, SPIRE = Cylinder(0.03, 0.1), Capsule(0.03, 0.1), Cone(0.03, 0.1)
+AN_EIGHTH = Rotation.from_rotvec(np.pi / 4 * UP).as_matrix()
+ALONG_X = Rotation.from_rotvec([0.0, np.pi / 2, 0.0]).as_matrix()
+ON_EDGE = Rotation.from_rotvec([np.pi / 4, 0.0, 0.0]).as_matrix()
+SLANT = np.arctan2(0.03, 0.2)
+ON_SIDE = Rotation.from_rotvec([0.0, np.pi / 2 + SLANT, 0.0]).as_matrix()
+RESTING = {
+    # A fixed body whose top is at z = 0.01, another, how that is turned, its place, the least k.
+    "a book over an edge": (TABLE, BOOK, STRAIGHT, (0.19, 0.0, 0.02), 4),
+    "a turned box on its like": (TABLE, TABLE, AN_EIGHTH, (0.0, 0.0, 0.02), 8),
+    "a hull over an edge": (TABLE, HULL, STRAIGHT, (0.19, 0.02, 0.06), 4),
+    "a puck over an edge": (TABLE, PUCK, STRAIGHT, (0.19, 0.0, 0.02), 4),
+    "a cone over an edge": (TABLE, Cone(0.07, 0.01), STRAIGHT, (0.19, 0.0, 0.02), 4),
+    "a puck on a puck": (PUCK, Cylinder(0.05, 0.01), STRAIGHT, (0.04, 0.0, 0.02), 4),
+    "a box on a puck": (PUCK, CUBE, STRAIGHT, (0.03, 0.04, 0.06), 4),
+    "a capsule on a rail": (RAIL, CAPSULE, ALONG_X, (0.01, 0.0, 0.04), 2),
+    "a capsule over an edge": (TABLE, CAPSULE, ALONG_X, (0.19, 0.0, 0.04), 2),
+    "a log on a rail": (RAIL, LOG, ALONG_X, (0.01, 0.0, 0.04), 2),
+    "a log on a puck": (PUCK, LOG, ALONG_X, (0.02, 0.01, 0.04), 2),
+    "a box on its edge": (RAIL, CUBE, ON_EDGE, (0.01, 0.0, 0.01 + np.sqrt(2) * HALF), 2),
+    "a cone on its side": (RAIL, SPIRE, ON_SIDE, (0.0, 0.0, 0.01 + 0.015 * np.cos(SLANT)), 2),
+}
+
+
+@pytest.mark.parametrize("name", RESTING)
+def test_a_body_whose_centre_is_over_what_touches_rests(name):
+    """It does not move, and is borne by its weight, whichever is alpha and for every k."""
+    low, top, R, place, least = RESTING[name]
+    bodies = [(top, R, np.array(place)), (low, STRAIGHT, ORIGIN)]
+    for normals in ({(1, 0): UP}, {(0, 1): -UP}):
+        scene = Scene(bodies, normals, np.zeros((1, 3)))
+        assert [wrong(scene, k, 0.5) for k in (least, least + 1, 12)] == [""] * 3
+
+
+@pytest.mark.parametrize("k", [4, 8, 12])
+def test_three_cubes_with_offsets_of_10_and_20_mm_stand_still(k):
+    """The centre of the upper two is (15, 30) mm off that of the lowest."""
+    places = [np.array([0.01 * i, 0.02 * i, (2 * i + 1) * HALF]) for i in range(3)]
+    bodies = [*((CUBE, STRAIGHT, place) for place in places), slab()]
+    normals = {(3, 0): UP, (0, 1): UP, (1, 2): UP}
+    assert wrong(Scene(bodies, normals, np.zeros((3, 3))), k, 0.5) == ""
+
+
+def found(low, top, R, place, nearest):
+    """Points of alpha's, sorted, of a body over a fixed one."""
+    a, b = ShapeInWorld(low, STRAIGHT, ORIGIN), ShapeInWorld(top, R, np.array(place))
+    alpha = np.array([*nearest, 0.01])
+    points = crossings(a, b, alpha, alpha, UP)
+    assert len(set(points.number.tolist())) == len(points.number)
+    np.testing.assert_allclose((points.beta - points.alpha)[:, :2], 0.0, atol=ROUNDING)
+    return sorted(points.alpha[:, :2].round(12).tolist())
+
+
+def test_crossings_are_where_they_are_by_hand():
+    # Equal squares, one turned by 45 degrees: the sides of an octagon of inner radius 0.2.
+    t = 0.2 * np.tan(np.pi / 8)
+    corners = [[x * u, y * v] for x, y in ((0.2, t), (t, 0.2)) for u in (-1, 1) for v in (-1, 1)]
+    octagon = found(TABLE, TABLE, AN_EIGHTH, (0.0, 0.0, 0.02), (0.0, 0.0))
+    np.testing.assert_allclose(octagon, sorted(corners), rtol=0.0, atol=ROUNDING)
+    # A circle of 0.07 about x = 0.19 at the edge x = 0.2; two circles, 0.07 and 0.05, 0.04 apart.
+    edge = found(TABLE, PUCK, STRAIGHT, (0.19, 0.0, 0.02), (0.19, 0.0))
+    y = np.sqrt(0.07**2 - 0.01**2)
+    np.testing.assert_allclose(edge, [[0.2, -y], [0.2, y]], rtol=0.0, atol=ROUNDING)
+    rims = found(PUCK, Cylinder(0.05, 0.01), STRAIGHT, (0.04, 0.0, 0.02), (0.04, 0.0))
+    x = (0.04**2 + 0.07**2 - 0.05**2) / 0.08
+    y = np.sqrt(0.07**2 - x**2)
+    np.testing.assert_allclose(rims, [[x, -y], [x, y]], rtol=0.0, atol=ROUNDING)
+
+
+def test_edges_that_are_parallel_or_no_part_of_what_touches_do_not_cross():
+    assert found(TABLE, TABLE, STRAIGHT, (0.0, 0.0, 0.02), (0.1, 0.1)) == sorted(
+        [[x, y] for x in (-0.2, 0.2) for y in (-0.2, 0.2) for _ in range(2)]
+    )
+    assert found(PUCK, PUCK, STRAIGHT, (1e-9, 0.0, 0.02), (0.0, 0.0)) == []
+    assert found(TABLE, Box(np.full(3, 0.01)), STRAIGHT, (0.0, 0.0, 0.02), (0.0, 0.0)) == []
