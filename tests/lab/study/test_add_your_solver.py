@@ -63,7 +63,12 @@ def test_every_command_of_the_page_does_what_it_says(folder, monkeypatch):
     assert len(solved) >= 3
     assert all(row["digits"]["delta_q"] > 9 for row in solved)
     report = Path("report/report.md").read_text()
-    for title in ("Time to 6", "Setting default", "False claims of success", "How the calls ended"):
+    for title in (
+        "Each solver",
+        "Setting default",
+        "False claims of success",
+        "How the calls ended",
+    ):
         table = report.partition(f"**{title}")[2].partition("\n**")[0]
         assert "nnls" in table, title
         assert "hildreth" in table, title

@@ -149,7 +149,7 @@ def test_several_beginnings_of_ids_are_looked_at(tmp_path, capsys):
 
 def test_a_mistake_of_a_partial_program_is_found_and_named():
     bugs = {name: partial_ports.BUGS[name] for name in ("size of phi in b",)}
-    text, good = partial_ports.written(bugs, 32)
+    text, good = partial_ports.written(bugs, partial_ports.CASES)
     assert good, text
 
 
