@@ -102,6 +102,7 @@ RESULTS = (
     ),
     printed("options_of_backends", "options_of_backends.csv"),
     printed("large_steps", "large_steps.md"),
+    printed("grouped_proofs", "grouped_proofs.md"),
     Result(
         "contact_qp",
         "validation.make.contact_qp",
