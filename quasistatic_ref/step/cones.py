@@ -35,6 +35,7 @@ from quasistatic_ref.parts import needed_part
 from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 
 if TYPE_CHECKING:
+    from quasistatic_ref.certify.forces import ContactForces
     from quasistatic_ref.certify.verdict import Verdict
     from quasistatic_ref.solve.solver import Solver
     from quasistatic_ref.step.data import StepData
@@ -166,6 +167,12 @@ class CurvedCone(Cone, ABC):
     @abstractmethod
     def in_words(self, certificate: Certificate) -> str:
         """What a certificate of kind ``"exact"`` claims, in a sentence."""
+
+    @abstractmethod
+    def forces(
+        self, step: StepData, compliance: float, near: tuple[Array, Array] | None
+    ) -> ContactForces:
+        """As :func:`~quasistatic_ref.certify.forces.contact_forces`."""
 
     @abstractmethod
     def verdict(

@@ -25,6 +25,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
     enclosure,
     point,
 )
+from quasistatic_ref.optional.ellipsoid.forces import ContactForces, compliant_forces
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.step.arrays import Array, Mask, largest
 from quasistatic_ref.step.cones import ELLIPSOID, CurvedCone, Judge, Rows, Violations
@@ -118,6 +119,12 @@ class EllipsoidCone(CurvedCone):
     def in_words(self, certificate: Certificate) -> str:
         """What ``"exact"`` means here."""
         return "exact: the optimum of the step, correctly rounded; every loaded contact sticks"
+
+    def forces(
+        self, step: StepData, compliance: float, near: tuple[Array, Array] | None
+    ) -> ContactForces:
+        """See :mod:`~quasistatic_ref.optional.ellipsoid.forces`; arguments as of the base."""
+        return compliant_forces(step, compliance, near)
 
     def verdict(
         self,
