@@ -279,6 +279,16 @@ UNIQUE: Final = 1e-6
 distance from the world's origin, whichever is larger, at which the pair counts as unique [-].
 Places are right to 2e-16 of that length, and the solution to 2e-10. Parallel faces leave 1e-16."""
 
+NEARLY: Final = 1e-9
+"""First-order distance to the next kink, in natural units [-], below which a derivative that
+exists gives way to those of both sides. A step is about one, and a settled scene creeps to its
+kinks by 1e-12 of it and less; differences of usable steps do not see a derivative that ends so
+soon."""
+
+FACET: Final = 1e-8
+"""Product of a row of length one and the unit normal of a facet at which the row lies on it [-]:
+a hundred times what HiGHS leaves."""
+
 INSIDE: Final = 1e-6
 """A load or a motion that is at least this far inside of a cone, relative to its own size [-],
 stays inside when the normal of the cone turns by TIED and float64 rounds."""
@@ -286,3 +296,6 @@ stays inside when the normal of the cone turns by TIED and float64 rounds."""
 TIED: Final = 1e-10
 """Difference of two distances, relative to the pair's size, at which they count as equal [-]:
 REPEATED for sizes of some decimetres."""
+
+LIGHT: Final = 1e-6
+"""Mass of a private rise over that of what it lies on [-]: sliding is slower by as much, (R60)."""

@@ -85,11 +85,12 @@ def check_finite(R: Array, t: Array) -> None:
 
 
 def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
-    """Several lists of contacts as one."""
+    """Several lists of contacts as one, in which zero is 0.0, never -0.0."""
     if not found:
         empty, none = np.zeros((0, 3)), np.zeros(0, dtype=np.int64)
         return ClosestPoints(np.zeros(0), empty, empty, empty, none, none)
-    return ClosestPoints(*map(np.concatenate, zip(*found, strict=True)))
+    every = ClosestPoints(*map(np.concatenate, zip(*found, strict=True)))
+    return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
 
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:

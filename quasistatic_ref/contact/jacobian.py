@@ -76,7 +76,7 @@ class ContactGeometry:
         # [nu; n'omega] of alpha's body and of beta's
         of_alpha, of_beta = self.moves * columns_at(columns, np.array([alpha, beta]), n)
         f = of_beta - of_alpha  # Eq. (2): nu_beta - nu_alpha and n'(omega_beta - omega_alpha)
-        return self.motion.of_coordinates(f)  # Eq. (3)
+        return self.motion.of_coordinates(f) + 0.0  # Eq. (3); zero is 0.0, never -0.0
 
 
 def columns_at(columns: Array, r: Array, n: Array) -> Array:
@@ -121,7 +121,7 @@ def tangents(n: Array) -> tuple[Array, Array]:
     axis = AXES.take(least, axis=0)
     along = dot(n, axis)[:, None]
     length = np.sqrt(1 - along * along)  # of axis - along n, and of n x axis
-    return (axis - along * n) / length, crossed(n, axis) / length
+    return (axis - along * n) / length, crossed(n, axis) / length + 0.0  # zero is 0.0
 
 
 def contact_jacobian(

@@ -57,7 +57,7 @@ class Motion:
         # Without mimics it is a permutation, which costs less for many coordinates.
         if not self.mimics:
             return self.order.paper_v(columns)
-        of_joints = columns.take(self.own, axis=-1) + 0.0
+        of_joints = columns.take(self.own, axis=-1)
         for x in self.copies.tolist():
             of_joints[..., self.owner[x]] += columns[..., x]
         return of_joints

@@ -14,9 +14,18 @@ from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.paths import path_in, shared_folders
-from quasistatic_ref.scenario.scenario_table import BODY, WAYPOINT, WRENCH, pose, value
+from quasistatic_ref.scenario.scenario_table import (
+    BODY,
+    SUPPORT,
+    URDF,
+    WAYPOINT,
+    WRENCH,
+    pose,
+    value,
+)
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
 from quasistatic_ref.step.arrays import Array, keep, positive_definite
 
@@ -67,6 +76,10 @@ class BodyEntry(Plain):
         Whether the robot compensates gravity on its actuated coordinates (default), so that the
         model leaves it out.
     wrenches : Wrenches or None
+    joint_friction : object
+        As parsed: a table of joints, or ``"urdf"``.
+    support : tuple of float, optional
+        mu_v [-] and mu_omega [m] of a planar base on its floor.
     """
 
     body: Body
@@ -76,6 +89,8 @@ class BodyEntry(Plain):
     cloud: Path | None
     gravity_compensated: bool
     wrenches: Wrenches | None
+    joint_friction: Any
+    support: tuple[float, float] | None
 
     def actuated(self, system: System) -> list[Joint]:
         """The actuated joints of this body, in the order of q."""
@@ -113,7 +128,11 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
         cloud=path_in(folder, table, "cloud"),
         gravity_compensated=value(table, BODY, "gravity_compensated"),
         wrenches=_wrenches(name, table),
+        joint_friction=value(table, BODY, "joint_friction"),
+        support=_support(table) if "support" in table else None,
     )
+    if entry.support is not None and base != "planar":
+        raise table.fail("support", 'is for a body with base = "planar"')
     if entry.wrenches is not None and base == "fixed":
         raise table.fail("wrenches", 'do nothing to a body with base = "fixed"')
     return entry
@@ -145,6 +164,35 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
         block = _joint_stiffness(given, entry.short(joint), joint)
         positive_definite(given.name(entry.short(joint)), block)
         K_q[joint.v, joint.v] = block
+
+
+def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:
+    """Friction of a body's coordinates, by their names [N, N m].
+
+    Raises
+    ------
+    ScenarioError
+        If a joint is unknown or a floating base, or a friction is no number >= 0.
+    """
+    if entry.joint_friction == URDF:
+        rises = needed_part("extensions.rises", "joint_friction")
+        return dict(rises.urdf_friction(system, entry.body.name))
+    table = {} if entry.joint_friction is None else entry.joint_friction
+    given = Fields(table, entry.table.name("joint_friction"), ScenarioError)
+    own = [joint for joint in system.joints if joint.name.startswith(f"{entry.body.name}/")]
+    rubbed = [joint for joint in own if joint.kind != "floating"]
+    given.only(entry.short(joint) for joint in rubbed)
+    found: dict[str, float] = {}
+    for joint in rubbed:
+        name, coordinates = entry.short(joint), joint.coordinates
+        if name not in given:
+            continue
+        one = len(coordinates) == 1
+        loads = [given.number(name)] if one else given.array(name, (len(coordinates),)).tolist()
+        if min(loads) < 0:
+            raise given.fail(name, "must be at least 0", loads)
+        found |= {c.name: load for c, load in zip(coordinates, loads, strict=True)}
+    return found
 
 
 def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
@@ -232,6 +280,13 @@ def _planar(waypoint: Fields, name: str, body: Body) -> tuple[Array, Array]:
         problem = f"must keep the height {height:g} and turn about the vertical: the base is planar"
         raise waypoint.fail(name, problem, [*xyz.tolist(), *rpy.tolist()])
     return xyz, rpy
+
+
+def _support(table: Fields) -> tuple[float, float]:
+    """mu_v [-] and mu_omega [m] of a planar base on its floor."""
+    rubs = table.table("support")
+    check_names(rubs, SUPPORT)
+    return value(rubs, SUPPORT, "mu_v"), value(rubs, SUPPORT, "mu_omega")
 
 
 def _wrenches(name: str, table: Fields) -> Wrenches | None:

@@ -1,7 +1,7 @@
 """A scenario file (TOML, version 1): bodies, shapes, contacts and targets, ready to simulate."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,14 @@ from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import System
 from quasistatic_ref.parts import needed_part
-from quasistatic_ref.scenario.bodies import BodyEntry, Wrenches, body_entry, joint_tracks, stiffness
+from quasistatic_ref.scenario.bodies import (
+    BodyEntry,
+    Wrenches,
+    body_entry,
+    joint_friction,
+    joint_tracks,
+    stiffness,
+)
 from quasistatic_ref.scenario.checks import check_made, check_motion, check_names, check_sizes
 from quasistatic_ref.scenario.contacts import contact_pairs, placed_shapes
 from quasistatic_ref.scenario.overrides import Settings, apply_settings
@@ -37,9 +44,30 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
 from quasistatic_ref.step.arrays import Array, keep
 from quasistatic_ref.step.cones import PYRAMID, cone
-from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.extension import NO_RISES, Extension, Rises
 from quasistatic_ref.step.ordered import total
 from quasistatic_ref.tolerances import ACCURACY
+
+
+@dataclass(frozen=True, eq=False)
+class Rising(Plain):
+    """An extension with private rises, at each q: those of a scenario and those of its own.
+
+    Parameters
+    ----------
+    rises : Rises
+        Of the scenario.
+    extension : callable, optional
+        A function of q, without rises.
+    """
+
+    rises: Rises
+    extension: Callable[[Array], Extension] | None = None
+
+    def __call__(self, q: Array) -> Extension:
+        """The extension at q, shape (n_q,)."""
+        own = Extension() if self.extension is None else self.extension(q)
+        return replace(own, rises=self.rises)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -70,6 +98,8 @@ class Scenario(Plain, Shown):
         As for :class:`~quasistatic_ref.simulate.simulator.Simulator`.
     limits : Limits
         Beyond which no step is taken.
+    rises : Rises
+        Private ones, of friction in joints and of supports.
     """
 
     path: Path
@@ -90,6 +120,7 @@ class Scenario(Plain, Shown):
     limits: Limits = field(default_factory=Limits)
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
     fast: bool = False
+    rises: Rises = NO_RISES
 
     def __post_init__(self) -> None:
         keep(self, "gravity", "K_q", "gravity_acts")
@@ -108,7 +139,7 @@ class Scenario(Plain, Shown):
             accuracy=self.accuracy,
             certify=self.certify,
             cone=self.cone,
-            extension=extension,
+            extension=Rising(self.rises, extension) if len(self.rises) else extension,
             limits=self.limits,
         )
 
@@ -201,7 +232,11 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     system = System([entry.body for entry in entries.values()])
     shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
     pairs = contact_pairs(value(top, TOP, "contacts"), shapes)
-    blocks = system.constant_mass_matrix
+    K_q = np.zeros((system.n_a, system.n_a))
+    for entry in entries.values():
+        stiffness(system, entry, K_q)
+    pairs, rises = _with_rises(system, pairs, entries, h, K_q, gravity)
+    blocks = system.constant_mass_matrix and not len(rises)
     entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if blocks else 0
     fast = value(top, TOP, "fast")
     backend = _backend(solver, certify, named, entries_of_J, fast)
@@ -209,10 +244,9 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
 
-    K_q, gravity_acts = np.zeros((system.n_a, system.n_a)), np.zeros(system.n_a, dtype=bool)
+    gravity_acts = np.zeros(system.n_a, dtype=bool)
     tracks, wrenches = [], []
     for entry in entries.values():
-        stiffness(system, entry, K_q)
         for joint in entry.actuated(system):
             gravity_acts[joint.v] = not entry.gravity_compensated
         tracks += joint_tracks(system, entry)
@@ -237,7 +271,31 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         limits=limits,
         bodies=entries,
         fast=fast,
+        rises=rises,
     )
+
+
+def _with_rises(
+    system: System,
+    pairs: tuple[ContactPair, ...],
+    entries: Mapping[str, BodyEntry],
+    h: float,
+    K_q: Array,
+    gravity: Array,
+) -> tuple[tuple[ContactPair, ...], Rises]:
+    """The pairs with those of supports, and the private rises of all friction."""
+    friction: dict[str, float] = {}
+    for entry in entries.values():
+        friction |= joint_friction(system, entry)
+    support = {name: entry.support for name, entry in entries.items() if entry.support is not None}
+    if not friction and not support:
+        return pairs, NO_RISES
+    made: tuple[tuple[ContactPair, ...], Rises] = needed_part(
+        "extensions.rises", "joint_friction and support"
+    ).private_rises(
+        system, pairs, h=h, K_q=K_q, gravity=gravity, friction=friction, support=support
+    )
+    return made
 
 
 def _backend(solver: Fields, certify: str, cone_name: str, entries: int, fast: bool) -> str:

@@ -22,6 +22,7 @@ MOST_STEPS = 10_000_000
 TOP, SOLVER, LIMITS = "the top of the file", "[solver]", "[limits]"
 BODY, CONTACT, WRENCH = "[bodies.NAME]", "[contacts.NAME]", "[[bodies.NAME.wrenches]]"
 SHAPE, POSE, WAYPOINT = "[shapes.NAME]", "pose", "[[bodies.NAME.targets]]"
+SUPPORT = "[bodies.NAME.support]"
 ORIGIN = (0.0, 0.0, 0.0)
 NUMBER, TEXT = {"type": "number"}, {"type": "string"}
 LIST = {"type": "array", "items": NUMBER}
@@ -30,6 +31,8 @@ _TURN = "roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll)"
 _SIDE = {"anyOf": [TEXT, {"type": "array", "items": TEXT, "minItems": 1}]}
 _NAMES = "a link (body/link), a body, a shape, a list of these, or a pattern of links (hand/*)"
 _STIFF = {"anyOf": [{"type": "number", "minimum": 0, "exclusiveMinimum": True}, LIST, MATRIX]}
+URDF = "urdf"
+"""In place of a table: what the URDF says."""
 TARGET = {"anyOf": [NUMBER, {"$ref": f"#/definitions/{POSE}"}]}
 
 TABLES = Tables({
@@ -108,6 +111,19 @@ TABLES = Tables({
             "boolean", "whether the robot carries its own weight at actuated joints", default=True,
         ),
         "wrenches": Field("list of tables", "external forces and torques", default=[], of=WRENCH),
+        "joint_friction": Field(
+            'table by joint, or "urdf"',
+            "force at which a joint slides: a number, of a planar base three; \"urdf\" takes "
+            "<dynamics friction> of the file",
+            "N, N m", None,
+            schema={"anyOf": [
+                {"enum": [URDF]},
+                {"type": "object", "additionalProperties": {"anyOf": [NUMBER, LIST]}},
+            ]},
+        ),
+        "support": Field(
+            "table", "friction of a planar base on its floor", default=None, of=SUPPORT,
+        ),
     },
     POSE: {
         "xyz": Field("three numbers", "origin in the world", "m", ORIGIN),
@@ -138,6 +154,10 @@ TABLES = Tables({
         "k": Field("integer", "how many of the closest points are kept", default=1, least=1),
         "hull": Field("boolean", "whether a mesh that is not convex counts as its hull",
                       default=False),
+    },
+    SUPPORT: {
+        "mu_v": Field("number", "tangential friction", "-", least=0.0),
+        "mu_omega": Field("number", "torsional friction, of a patch by (R15)", "m", 0.0, least=0.0),
     },
 })  # fmt: skip
 """The fields of each kind of table, in the order of the reference page."""

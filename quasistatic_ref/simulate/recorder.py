@@ -94,7 +94,7 @@ class Recorder:
         step, solution, points = result.step, result.solution, result.points
         row: dict[str, Any] = {
             "t": self.t,
-            "delta_q": solution.delta_q,
+            "delta_q": solution.delta_q[: self.system.n_v],  # without private rises
             "q_bar_a": q_bar_a,
             "phi": points.phi,
             "alpha": points.alpha,
@@ -109,7 +109,7 @@ class Recorder:
             "worst_residual": max(solution.certificate.residuals.values(), default=np.nan),
             "digits": _or_nan(solution.statistics.digits),
             "q": result.q,
-            "tau": np.concatenate([step.tau_a, step.tau_u]),
+            "tau": np.concatenate([step.tau_a, step.tau_u])[: self.system.n_v],
         }
         for observer in self.observers:
             notes = observer.after(self, result)

@@ -224,10 +224,10 @@ class Simulator(Shown):
         step = self.step_data(q, q_bar_a, force, points, kinematics)
         lap("rows")
         solution = self.solution(step) if self.extension is None else self.extended(step, q)
-        step = solution.step  # an extension adds rows; Eq. (13), certified
+        step = solution.step  # an extension adds rows and private rises; Eq. (13), certified
         self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
         lap("solve")
-        q_next = self.system.integrate(q, solution.delta_q)  # q (+) delta_q
+        q_next = self.system.integrate(q, solution.delta_q[: self.system.n_v])  # q (+) delta_q
         self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds)

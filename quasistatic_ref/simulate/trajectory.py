@@ -137,14 +137,13 @@ class Trajectory(Plain, Shown):
         )
         parts = ("K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
         names = tuple(self.header["extra"])
-        none = np.zeros((0, a["delta_q"].shape[1])), np.zeros(0)
-        rows = (a["extra_A"][k], a["extra_b"][k]) if names else none
+        extra = Extra(names, a["extra_A"][k], a["extra_b"][k]) if names else None
         return StepData(
             h=self.header["h"],
             **{key: a[key][k] for key in parts},
             contacts=contacts,
             cone=self.header["cone"],
-            extra=Extra(names, *rows),
+            extra=extra,
         )
 
     def wrench_on(self, name: str, scene: HasScene | None = None) -> Array:

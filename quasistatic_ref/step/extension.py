@@ -1,4 +1,4 @@
-"""What a user adds to a step: constraints and costs, written in SI units with CVXPY.
+"""What a user adds to a step: constraints and costs in SI units with CVXPY, and private rises.
 
 CVXPY itself is not needed to say what an extension is;
 :mod:`~quasistatic_ref.optional.extensions.extended` builds its symbols and solves with it.
@@ -9,6 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.step.arrays import Array, Indices, frozen, keep
 
 if TYPE_CHECKING:
     import cvxpy as cp
@@ -46,8 +52,55 @@ class Symbols:
 
 
 @dataclass(frozen=True, eq=False)
+class Rises(Plain):
+    """Private rises: un-actuated coordinates of a step alone, without a pose, 0 where it starts.
+
+    Whatever slides lifts its rise against a load, which is friction, (R60). The first rises lie on
+    coordinates, r >= |delta_q_i|; each of the others adds to the gap of a contact.
+
+    Parameters
+    ----------
+    loads : ndarray, shape (p,)
+        Forces that press them down, >= 0 [N, or N m on an angle].
+    masses : ndarray, shape (p,)
+        > 0 [kg, kg m^2].
+    coordinates : ndarray of int, shape (c,)
+        Entries of delta_q, of the first c rises.
+    contacts : ndarray of int, shape (p - c,)
+        Numbers of contacts, of the others.
+
+    Raises
+    ------
+    StepDataError
+        If a shape or a sign is wrong.
+    """
+
+    loads: Array
+    masses: Array
+    coordinates: Indices = ()  # type: ignore[assignment]
+    contacts: Indices = ()  # type: ignore[assignment]
+
+    def __post_init__(self) -> None:
+        for name in ("coordinates", "contacts"):
+            object.__setattr__(self, name, np.array(getattr(self, name), dtype=np.int64))
+        p = len(self.coordinates) + len(self.contacts)
+        for name in ("loads", "masses"):
+            object.__setattr__(self, name, frozen(getattr(self, name), f"rises.{name}", (p,)))
+        keep(self, "coordinates", "contacts")
+        if (self.loads < 0).any():
+            problem = "must be >= 0: friction holds, it does not push"
+            raise StepDataError(problem, field="rises.loads", value=self.loads.tolist())
+
+    def __len__(self) -> int:
+        return len(self.loads)
+
+
+NO_RISES = Rises(np.zeros(0), np.zeros(0))
+
+
+@dataclass(frozen=True, eq=False)
 class Extension:
-    """Constraints and costs of a user's own.
+    """Constraints and costs of a user's own, and private rises.
 
     Parameters
     ----------
@@ -56,7 +109,10 @@ class Extension:
         is h times an energy [N m s]; parameters and further variables are the user's own.
     without_stiffness : bool
         Whether the costs take the place of the impedance (1): K_q and tau_k are then zero.
+    rises : Rises
+        No symbol holds their displacements.
     """
 
-    terms: Callable[[Symbols], Sequence[cp.Constraint | cp.Expression]]
+    terms: Callable[[Symbols], Sequence[cp.Constraint | cp.Expression]] = none
     without_stiffness: bool = False
+    rises: Rises = NO_RISES

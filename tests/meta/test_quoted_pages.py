@@ -19,6 +19,7 @@ PAGES = sorted(
 
 
 PRINTED = {
+    "README.md": "tests/meta/test_readme.py",
     "docs/quickstart.md": "tests/quoted_pages.py: the lines of demo",
     "docs/guides/check_your_implementation.md": "below",
     "docs/guides/run_a_study.md": "below",

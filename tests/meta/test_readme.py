@@ -1,10 +1,14 @@
-"""The README's commands are the ones that CI runs."""
+"""What the README shows is what runs: its commands, its example, the order of reading."""
 
 import re
 import sys
 from pathlib import Path
 
+import numpy as np
+
+from quasistatic_ref.cli.main import COMMANDS as NAMES
 from quasistatic_ref.scenario.scenario import load_scenario
+from tests.quoted import printed
 from validation.tools.installs import COMMANDS, shell_lines
 
 ROOT = Path(__file__).parents[2]
@@ -18,9 +22,21 @@ def bare(command):
 NAMED = re.compile(r"^\d\. `(\w+/\w+\.py)`: (.*)$", re.MULTILINE)
 
 
+def test_the_example_prints_what_the_readme_shows(capsys):
+    text = (ROOT / "README.md").read_text("utf-8")
+    (example,) = re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    exec(compile(example, "README.md", "exec"), {})
+    shown = [line.rsplit(maxsplit=1) for line in printed(text)[0].splitlines()]
+    found = [line.rsplit(maxsplit=1) for line in capsys.readouterr().out.splitlines()]
+    assert [answer for answer, _ in found] == [answer for answer, _ in shown]
+    # A solver's own digits depend on the instructions of the processor.
+    digits = [[int(own) for _, own in lines] for lines in (found, shown)]
+    assert np.abs(np.subtract(*digits)).max() <= 1
+
+
 def test_the_functions_to_be_read_first_are_those_that_a_run_executes():
     """Every function that the reading path names runs in the first steps of bunny_grasp."""
-    text = (ROOT / "README.md").read_text()
+    text = (ROOT / "docs" / "contributing.md").read_text("utf-8")
     package = ROOT / "quasistatic_ref"
     wanted = {
         (str(package / file), name.partition(".")[2] or name)
@@ -44,7 +60,9 @@ def test_the_functions_to_be_read_first_are_those_that_a_run_executes():
     assert wanted - executed == set()
     quick = package / "optional" / "fast"
     assert [file for file, _ in executed if file.startswith(str(quick))] == []
-    named = re.findall(r"`(\w+/\w+\.py)`", text[text.index("## Read it") :])
+    named = re.findall(
+        r"`(\w+/\w+\.py)`", text[text.index("## Read the code") : text.index("## Where things are")]
+    )
     assert [name for name in named if not (package / name).is_file()] == []
 
 
@@ -55,14 +73,15 @@ def test_the_tests_command_is_the_one_that_ci_runs():
     assert bare(testing[0]) in [bare(line) for line in lines]
 
 
-def test_every_command_that_it_lists_is_tried_from_an_installed_wheel():
-    text = (ROOT / "README.md").read_text("utf-8")
-    listed = re.search(r"` lists the commands:(.*?)\. The$", text, re.MULTILINE | re.DOTALL)[1]
-    names = set()
-    for one in re.findall(r"`([a-z][^`]*)`", listed):
-        name, _, rest = one.partition(" ")
-        actions = re.match(r"[a-z|]+", rest)
-        names |= {f"{name} {action}" for action in actions[0].split("|")} if actions else {name}
-    assert {"demo", "run", "vectors check", "study run", "study pack", "bench"} <= names
+def test_every_command_of_the_guide_is_tried_from_an_installed_wheel():
+    text = (ROOT / "docs" / "guides" / "install.md").read_text("utf-8")
+    table = text[text.index("## The commands") : text.index("## Completion")]
+    cells = re.findall(r"^\| (`.*?`) \|", table, re.MULTILINE)
+    names = {
+        re.match(r"[a-z]+(?: [a-z]+)?", one)[0]
+        for c in cells
+        for one in re.findall(r"`([^`]+)`", c)
+    }
+    assert {name.partition(" ")[0] for name in names} == {*NAMES}
     tried = "\n".join(line for lines in COMMANDS.values() for line in lines)
     assert {name for name in names if not re.search(rf"quasistatic-ref {name}\b", tried)} == set()

@@ -73,9 +73,9 @@ def light_or_heavy(rng: np.random.Generator, step: StepData) -> StepData:
     return step.replace(**{name: getattr(step, name) * weight for name in names})
 
 
-def steps(family: str) -> Iterator[StepData]:
-    """Steps of a family, without end."""
-    for seed in count():
+def steps(family: str, first: int = 0) -> Iterator[StepData]:
+    """Steps of a family, without end, from a seed on."""
+    for seed in count(first):
         rng = np.random.default_rng(seed)
         try:
             step = hostile_step(random.Random(seed)) if "scales" in family else mixed_step(seed)

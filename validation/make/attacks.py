@@ -6,12 +6,14 @@
 - *Bounds* of backends' own answers to ordinary steps, to steps of subnormal, tiny and huge numbers
   and to steps of nearly singular matrices: what a file claims is compared with the optimum by
   fractions, and `verify` of the package has to verify it.
+- *Forgeries* of files of every kind: what `verify` of the package verifies has to be true.
 - *Nearly singular matrices*: exact pivots say which are positive definite; reading a step and
   ``verify.js`` have to say the same. What is accepted has to end in an answer or in a sentence.
 
 Nothing that is expected comes from the package: see :mod:`tests.oracles.solution_truth`. Its exact
-method only names working sets, whose optimality is proved here. Writes a table, and exits with
-status 1 if anything is wrong.
+method only names working sets, whose optimality is proved here. Prints a table, and exits with
+status 1 if anything is wrong. With ``--log FILE`` each batch is kept as it ends, and the same
+command goes on from there. The counts of the committed table take 15 minutes of one core.
 """
 
 from __future__ import annotations
@@ -20,9 +22,10 @@ import argparse
 import json
 import sys
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import cycle, islice, pairwise
+from operator import itemgetter
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -35,12 +38,15 @@ from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.parallel import Log, Record, results, workers
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_text
 from tests.oracles.attacked_steps import FAMILIES, singular, steps
+from tests.oracles.forged_scenes import scenes
+from tests.oracles.forgeries import at_random, good_file
 from tests.oracles.random_steps import any_step
 from tests.oracles.solution_truth import (
     Judge,
@@ -50,12 +56,15 @@ from tests.oracles.solution_truth import (
     proof,
     proved,
     rounded,
+    truth_of,
     wrenches,
 )
 from validation.tools.check_verifier import verdicts
 from validation.tools.verifier_files import Case
 
 Json = Any
+BATCH = 50
+"""Cases of a record of the log."""
 BACKENDS = "daqp", "clarabel", "osqp", "piqp", "quadprog"
 SHARE = Fraction(1e-14)
 """Of its diagonal entry, what a pivot has to be above."""
@@ -161,9 +170,11 @@ def right_file(step: StepData, record: Json) -> Json:
     }
 
 
-def exact_answers(attack: Attack, family: str, number: int) -> None:
-    """Exact answers, and proofs that there is none."""
-    for step in islice(steps(family), number):
+def exact_answers(attack: Attack, family: str, number: int, first: int = 0) -> None:
+    """Exact answers and proofs that there is none, until there are so many."""
+    for step in islice(steps(family, first), 50 * number):
+        if attack.counts["optimal"] + attack.counts["infeasible"] == number:
+            break
         text, file = step_text(step), attack.file(step, NONE, "full")
         if file is None:
             continue
@@ -179,9 +190,10 @@ def exact_answers(attack: Attack, family: str, number: int) -> None:
         attack.ask(text, file)
 
 
-def bounds(attack: Attack, family: str, number: int) -> None:
+def bounds(attack: Attack, family: str, number: int, first: int = 0) -> None:
     """Bounds of backends' own answers, until there are so many."""
-    for backend, step in islice(zip(cycle(BACKENDS), steps(family), strict=False), 50 * number):
+    tried = zip(cycle(BACKENDS), steps(family, first), strict=False)
+    for backend, step in islice(tried, 50 * number):
         if attack.counts["bounded"] == number:
             break
         text, file = step_text(step), attack.file(step, backend, "residual")
@@ -202,9 +214,26 @@ def bounds(attack: Attack, family: str, number: int) -> None:
         attack.add("bounded", holds and attack.refused(text, file) is None, text)
 
 
-def matrices(attack: Attack, key: str, number: int) -> None:
+def forgeries(attack: Attack, kind: str, number: int, first: int = 0) -> None:
+    """Files of a kind in which some values are others."""
+    genuine = [step for (name, _), step in scenes(every=True).items() if name == kind]
+    files = [good_file(step, kind) for step in genuine]
+    judges = [truth_of(step, file) for step, file in zip(genuine, files, strict=True)]
+    for seed in range(first, first + number):
+        step, file = genuine[seed % len(genuine)], files[seed % len(genuine)]
+        forged = at_random(np.random.default_rng(seed), step, file)
+        if forged == file:
+            attack.add("the same file")
+        elif attack.refused(step_text(step), json.dumps(forged)) is not None:
+            attack.add("refused")
+        else:
+            true = judges[seed % len(genuine)](forged)
+            attack.add("verified, still true", true, json.dumps(forged))
+
+
+def matrices(attack: Attack, key: str, number: int, first: int = 0) -> None:
     """Nearly singular matrices, through both checkers and all that is made of a step."""
-    for seed in range(number):
+    for seed in range(first, first + number):
         rng = np.random.default_rng(seed)
         n, n_c = int(rng.integers(1, 8)), int(rng.integers(0, 4))
         sizes = (n, 0) if key == "K_q" else (0, n)
@@ -232,35 +261,59 @@ def matrices(attack: Attack, key: str, number: int) -> None:
                 attack.ask(step_text(read), file)
 
 
-ATTACKS = {"exact answers": exact_answers, "bounds": bounds, "nearly singular": matrices}
+ATTACKS = {
+    "exact answers": exact_answers,
+    "bounds": bounds,
+    "forgeries": forgeries,
+    "nearly singular": matrices,
+}
 
 
-def attacked(kind: str, family: str, number: int) -> Attack:
-    """What came of one family of an attack."""
+def attacked(kind: str, family: str, number: int, first: int) -> Record:
+    """What came of a batch of a family, from this seed on."""
     with TemporaryDirectory() as folder:
         attack = Attack(f"{kind}, {family}", folder)
-        ATTACKS[kind](attack, family, number)
+        ATTACKS[kind](attack, family, number, first)
         attack.asked()
-    return attack
+    counts = dict(attack.counts)
+    return {"family": attack.name, "first": first, "counts": counts, "wrong": attack.wrong}
+
+
+def batches(kind: str, family: str, number: int) -> Iterator[tuple[str, str, int, int]]:
+    """The calls of :func:`attacked` for so many cases of a family."""
+    room = 100 * BATCH  # seeds of a batch: not each of them is a case
+    for k, start in enumerate(range(0, number, BATCH)):
+        yield kind, family, min(BATCH, number - start), k * room
 
 
 def main() -> int:
     """Print the table; exit status 1 if anything is wrong."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=500, help="of each of the families")
+    parser.add_argument("--count", type=int, default=500, help="exact answers of each family")
+    parser.add_argument("--jobs", type=int, default=1, help="processes")
+    parser.add_argument("--log", type=Path, help="batches, from which the same command goes on")
     parser.add_argument("--out", type=Path, help="write the table here too")
     options = parser.parse_args()
-    once, of_two = options.count, options.count * len(FAMILIES) // 2
-    jobs = [("bounds", family, 2 * once) for family in FAMILIES]
-    jobs += [("exact answers", family, once) for family in FAMILIES]
-    jobs += [("nearly singular", key, of_two) for key in ("K_q", "M_u")]
-    rows, wrong = list[tuple[str, str, str]](), list[str]()
-    with ProcessPoolExecutor(2) as pool:
-        for attack in tqdm(pool.map(attacked, *zip(*jobs, strict=True)), total=len(jobs)):
-            counts = sorted(attack.counts.items())
-            rows += [(attack.name, outcome, f"{n:,}") for outcome, n in counts]
-            wrong += attack.wrong
-    lines = markdown_table(("what", "what came of it", "cases"), rows, left=2)
+    count, kinds = options.count, dict.fromkeys(kind for kind, _ in scenes(every=True))
+    families = [("exact answers", family, count) for family in FAMILIES]
+    families += [("bounds", family, 2 * count) for family in FAMILIES]
+    families += [("forgeries", kind, 10 * count // len(kinds) + 1) for kind in kinds]
+    families += [("nearly singular", key, 5 * count // 2) for key in ("K_q", "M_u")]
+    log = Log(options.log, itemgetter("family", "first"), {"count": count})
+    tasks = [batch for family in families for batch in batches(*family)]
+    left = [task for task in tasks if (f"{task[0]}, {task[1]}", task[3]) not in log.found]
+    with workers(options.jobs) as pool:
+        made = results(pool, options.jobs, attacked, left)
+        for record in tqdm(made, "batches", len(tasks), initial=len(tasks) - len(left)):
+            log.add(record)
+    sums, wrong = dict[str, Counter[str]](), list[str]()
+    for record in log.found.values():
+        sums.setdefault(record["family"], Counter()).update(record["counts"])
+        wrong += record["wrong"]
+    rows = [(family, *cells) for family in sums for cells in sorted(sums[family].items())]
+    lines = markdown_table(
+        ("what", "what came of it", "cases"), [(*row[:2], f"{row[2]:,}") for row in rows], left=2
+    )
     lines.append(f"\n{len(wrong)} are wrong.")
     print(*lines, *wrong[:20], sep="\n")
     if options.out:
@@ -268,7 +321,7 @@ def main() -> int:
     return int(bool(wrong))
 
 
-HEAD = """# Answers, bounds and matrices, attacked
+HEAD = """# Answers, bounds, files and matrices, attacked
 
 Made by `python -m validation.make.attacks`, whose first lines say what is asked.
 

@@ -1,13 +1,14 @@
 """SHA-256 of q of every scenario's run, on code for several processors, and with several NumPys.
 
-    python -m validation.make.run_hashes [--steps STEPS] [--python PYTHON]
+    python -m validation.make.run_hashes [--steps STEPS] [--python PYTHON] [--log FILE]
 
 Runs are taken in processes of their own: with the kernels of OpenBLAS for other processors
 (``OPENBLAS_CORETYPE``), without the vector code of NumPy and of the C library
 (``NPY_DISABLE_CPU_FEATURES``, ``GLIBC_TUNABLES``), and with the oldest NumPy that the package
 supports, which pip fetches into a temporary folder. ``--python`` names another Python, for which
-pip installs the package with the newest of all that it needs. Takes some five minutes. Exit status
-1 if a hash differs.
+pip installs the package with the newest of all that it needs. With ``--log`` what each process says
+is kept as it ends, and the same command goes on from there. Takes some five minutes. Exit status 1
+if a hash differs.
 """
 
 from __future__ import annotations
@@ -23,12 +24,15 @@ import tempfile
 import venv
 from collections.abc import Sequence
 from importlib.metadata import requires
+from operator import itemgetter
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+from tqdm import tqdm
 
 from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.scenario.scenario import load_scenario
 
 ROOT = Path(__file__).parents[2]
@@ -125,13 +129,19 @@ def environments(python: str | None, folder: str) -> list[Environment]:
     return every
 
 
-def report(steps: int | None, python: str | None) -> tuple[str, bool]:
-    """The committed result, and whether all hashes are equal."""
+def report(steps: int | None, python: str | None, path: Path | None) -> tuple[str, bool]:
+    """The committed result, and whether all hashes are equal; a log at `path`."""
     names, lines, first, equal = scenario_names(), [], list[str](), True
+    log = Log(path, itemgetter("number"), {"steps": steps, "python": python})
     with tempfile.TemporaryDirectory() as folder:
-        for where in environments(python, folder):
-            print(where, file=sys.stderr, flush=True)
-            version, numpy, *found = hashes_in(where, names, steps)
+        places = environments(python, folder)
+
+        def run(number: int) -> Record:
+            return {"number": number, "said": hashes_in(places[number], names, steps)}
+
+        records = tqdm(log.records(range(len(places)), run), "processes", len(places))
+        for where, record in zip(places, records, strict=True):
+            version, numpy, *found = record["said"]
             first = first or found
             same = sum(a == b for a, b in zip(first, found, strict=True))
             equal &= same == len(names)
@@ -152,8 +162,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--steps", type=int, help="of each run, in place of all")
     parser.add_argument("--python", help="another Python, with the newest of all packages")
+    parser.add_argument("--log", type=Path, help="what was found, from which the command goes on")
     options = parser.parse_args()
-    text, equal = report(options.steps, options.python)
+    text, equal = report(options.steps, options.python, options.log)
     print(text)
     return int(not equal)
 

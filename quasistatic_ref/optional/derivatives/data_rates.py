@@ -13,6 +13,7 @@ from quasistatic_ref.optional.derivatives.model.tangent import difference_rates
 from quasistatic_ref.optional.derivatives.row_rates import RowRates
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.solve.units import natural_units
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import frame_jacobian
 
@@ -57,6 +58,26 @@ def data_rates(
         "dq_dK_q": _loads(springs, n_c),
         "dq_dh": _loads(tau[:, None], n_c),
         "dq_dmasses": _loads(weights, n_c),
+    }
+
+
+def parameter_units(simulator: Simulator, step: StepData) -> dict[str, Array]:
+    """The natural units of the parameters, by each field of the derivatives, shape (P,) of each.
+
+    Coordinates and forces have those of the step, coefficients of friction 1 and its length, and
+    stiffness, time step and masses are measured by their own size.
+    """
+    units, pairs = natural_units(step), len(simulator.pairs)
+    coordinate = units.size * units.coordinate
+    return {
+        "dq_dq": coordinate,
+        "dq_dq_bar_a": coordinate[: step.n_a],
+        "dq_dtau": units.size / (step.h * units.coordinate),
+        "dq_dmu_v": np.ones(pairs),
+        "dq_dmu_omega": np.full(pairs, units.size * units.length),
+        "dq_dK_q": np.diag(step.K_q),
+        "dq_dh": np.array([step.h]),
+        "dq_dmasses": simulator.system.masses,
     }
 
 

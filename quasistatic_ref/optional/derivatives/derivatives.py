@@ -11,7 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.derivatives.gradient import Derivatives, OneSided, combined, directed
+from quasistatic_ref.optional.derivatives.gradient import Derivatives, combined, directed
 from quasistatic_ref.optional.derivatives.kink_reasons import geometry_reasons, out_of_reach
 from quasistatic_ref.optional.derivatives.program_reasons import (
     forbidden,
@@ -19,6 +19,7 @@ from quasistatic_ref.optional.derivatives.program_reasons import (
     target_reasons,
 )
 from quasistatic_ref.optional.derivatives.step.optimum_rates import Equations
+from quasistatic_ref.optional.derivatives.step.reach import Reach
 from quasistatic_ref.optional.derivatives.step.touching import touching_rows
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
@@ -26,6 +27,7 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import NEARLY
 
 __all__ = ["Derivatives", "derivatives"]
 
@@ -36,6 +38,7 @@ def derivatives(
     q_bar_a: Array,
     force: Array | float = 0.0,
     towards: Mapping[str, Array | float] | None = None,
+    nearly: float = NEARLY,
 ) -> Derivatives:
     """The derivatives of the step that a simulator would take.
 
@@ -51,6 +54,9 @@ def derivatives(
         A direction of the parameters, with names, shapes (n_v,), (n_a,), ... and units
         [of the parameter] as in :meth:`Derivatives.along`. Where rows touch without load, the
         derivatives are then those next to the kink, on the side to which it points.
+    nearly : float
+        Distance to a kink, in natural units [-], below which the state counts as at it: rows that
+        nearly touch, or nearly bear no load, are then as rows that touch without load.
 
     Returns
     -------
@@ -68,33 +74,28 @@ def derivatives(
     q = np.asarray(q, dtype=np.float64)
     result = _certified(simulator, q, q_bar_a, force)
     rates = StepRates(simulator, q, result)
-    touching = touching_rows(result.solution, rates.far)
-    equations = Equations(touching)
-    if towards is not None:
-        widths = {name: stop - start for name, (start, stop) in rates.places.items()}
-        one = combined(rates.data, directed(widths, towards, "towards"))
-        touching = equations.beyond(one)
-        equations = Equations(touching)
+    equations = Equations(touching_rows(result.solution, rates.far))
     found = equations.rates(rates.data)
+    reach = Reach(equations, found, rates.data)
+    near = reach.within(nearly * rates.units)
+    if len(near):
+        equations = Equations(equations.of.unloaded(near))
+    if towards is not None:
+        one = combined(rates.data, directed(rates.widths, towards, "towards"))
+        equations = Equations(equations.beyond(one))
+    touching = equations.of
+    if touching is not reach.touching:
+        found = equations.rates(rates.data)
 
     safe = out_of_reach(result, rates.couples, rates.motion.J)
     reasons = [
         *geometry_reasons(simulator, result, rates, touching, safe),
         *target_reasons(simulator, result.step.delta_q_bar_a),
-        *row_reasons(simulator, result, touching, found, rates.places),
+        *row_reasons(simulator, result, touching, found, rates.places, {*map(tuple, near)}),
     ]
-    columns = rates.onward @ found.x
-    columns[:, : len(columns)] += rates.carried
     pairs = [pair.name for pair in simulator.pairs]
-    columns[:, forbidden(found, reasons, rates.places, pairs)] = np.nan
-    parts = OneSided(equations.along, rates.data, rates.carried, rates.onward)
-    return Derivatives(
-        **rates.shaped(columns),
-        differentiable=not reasons,
-        reasons=tuple(reasons),
-        result=result,
-        _parts=parts,
-    )
+    bad = forbidden(found, reasons, rates.places, pairs)
+    return rates.derivatives(found.x, bad, reasons, equations.along, reach)
 
 
 def check_derivable(simulator: Simulator) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,8 +10,10 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
+from quasistatic_ref.optional.derivatives.step.reach import Distance, Reach
 from quasistatic_ref.optional.derivatives.step.reason import Reason
 from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
 
 FIELDS = (
@@ -25,8 +28,24 @@ FIELDS = (
 )
 
 
+class NextKink(NamedTuple):
+    """How far a derivative holds, to first order.
+
+    Parameters
+    ----------
+    distance : float
+        By how much the parameter may change [of the parameter]; 0 where there is no derivative,
+        infinite where no kink is ahead.
+    where : str
+        The rows that begin or end to bear load there, or why there is no derivative.
+    """
+
+    distance: float
+    where: str
+
+
 @dataclass(frozen=True, eq=False)
-class OneSided:
+class Parts:
     """What the derivatives along a direction are made of; see :meth:`Derivatives.along`.
 
     Parameters
@@ -37,19 +56,27 @@ class OneSided:
         By all parameters, in the order of the fields.
     carried, onward : ndarray, shape (n_v, n_v)
         Derivatives of q (+) delta_q by q and by delta_q [m, rad per m or rad].
+    units : ndarray, shape (P,)
+        Natural units of the parameters [each in its parameter's unit].
+    reach : Reach or None
+        The distances to kinks; None of a smoothed step, which has none.
     """
 
     displacement: Callable[[DataRates], Array]
     data: DataRates
     carried: Array
     onward: Array
+    units: Array
+    reach: Reach | None
 
 
 @dataclass(frozen=True, eq=False)
 class Derivatives(Plain):
     """Derivatives of the configuration after a step, in tangent coordinates on both sides.
 
-    Columns without a derivative are NaN, and `reasons` says why.
+    Columns without a derivative are NaN, and `reasons` says why. So are those whose derivative
+    ends nearer than the `nearly` of
+    :func:`~quasistatic_ref.optional.derivatives.derivatives.derivatives`.
 
     Parameters
     ----------
@@ -66,7 +93,7 @@ class Derivatives(Plain):
     dq_dmasses : ndarray, shape (n_v, L)
         By the mass of each link, its inertia about its centre of mass staying [per kg].
     differentiable : bool
-        Whether all of them exist.
+        Whether all of them exist, and hold farther than that.
     reasons : tuple of Reason
         Why those that are NaN do not; empty if all exist.
     result : StepResult
@@ -84,12 +111,12 @@ class Derivatives(Plain):
     differentiable: bool
     reasons: tuple[Reason, ...]
     result: StepResult
-    _parts: OneSided = field(compare=False, repr=False)
+    _parts: Parts = field(compare=False, repr=False)
 
     def along(self, **directions: Array | float) -> Array:
         """The one-sided derivative of q+ along a direction, shape (n_v,).
 
-        It exists where the only reasons are rows that touch without load.
+        It exists where the only reasons are rows that touch without load, or nearly.
 
         Parameters
         ----------
@@ -107,18 +134,64 @@ class Derivatives(Plain):
         InputError
             If a name or a shape is wrong, or the reasons are others.
         """
+        direction, one = self._one(directions, "along")
+        x = self._parts.displacement(one)
+        return np.asarray(self._parts.onward @ x + self._parts.carried @ direction[: len(x)])
+
+    def reach_along(self, **directions: Array | float) -> NextKink:
+        """How far the derivative along a direction holds; `directions` and errors as `along`.
+
+        Returns
+        -------
+        NextKink
+            Its distance in multiples of the direction.
+        """
+        _, one = self._one(directions, "reach_along")
+        reach = self._parts.reach
+        return self._named(Distance(np.inf) if reach is None else reach.along(one))
+
+    @property
+    def reaches(self) -> dict[str, tuple[NextKink, ...]]:
+        """How far each column holds to both sides, by field; computed when it is read."""
+        found, first = {}, 0
+        for name in FIELDS:
+            columns = getattr(self, name).reshape(len(self.dq_dq), -1).T
+            found[name] = tuple(self._ahead(name, p, c) for p, c in enumerate(columns, first))
+            first += len(columns)
+        return found
+
+    @property
+    def reach(self) -> float:
+        """The least of these distances, in natural units [-]; computed when it is read."""
+        distances = [one.distance for columns in self.reaches.values() for one in columns]
+        left = np.full(len(distances), np.inf)
+        units = self._parts.units  # of a link without mass it is zero: no change of it matters
+        np.divide(distances, units, out=left, where=units > 0)
+        return float(left.min(initial=np.inf))
+
+    def _ahead(self, name: str, p: int, column: Array) -> NextKink:
+        for why in self.reasons if np.isnan(column).any() else ():
+            if why.kind not in reason.ONE_SIDED and name in why.fields:
+                return NextKink(0.0, f"{why.kind}: {', '.join(why.where)}")
+        reach = self._parts.reach
+        return self._named(Distance(np.inf) if reach is None else reach.either(p))
+
+    def _named(self, kink: Distance) -> NextKink:
+        step = self.result.step
+        names = cone(step.cone).row_names
+        rows = [f"row {names[i]} of {step.contacts.name[j]}" for j, i in kink.rows]
+        return NextKink(kink.t, ", ".join(rows))
+
+    def _one(self, directions: Mapping[str, Array | float], where: str) -> tuple[Array, DataRates]:
+        """A direction of all parameters, shape (P,), and the rates of the data along it."""
         fields = {name: getattr(self, name) for name in FIELDS}
         widths = {name: value.size // len(self.dq_dq) for name, value in fields.items()}
-        direction = directed(widths, directions, "along")
+        direction = directed(widths, directions, where)
         used = {f"dq_d{name}" for name, value in directions.items() if np.any(value)}
         for found in self.reasons:
-            if found.kind != reason.WEAK and used & set(found.fields):
-                raise InputError(
-                    "has no one-sided derivative here: " + found.sentence, field="along"
-                )
-        parts = self._parts
-        x = parts.displacement(combined(parts.data, direction))
-        return np.asarray(parts.onward @ x + parts.carried @ direction[: len(x)])
+            if found.kind not in reason.ONE_SIDED and used & set(found.fields):
+                raise InputError("has no one-sided derivative here: " + found.sentence, field=where)
+        return direction, combined(self._parts.data, direction)
 
 
 def directed(

@@ -1,6 +1,6 @@
 """Which rows of the program, and which targets, stand in the way of derivatives."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 
 import numpy as np
 
@@ -42,6 +42,7 @@ def row_reasons(
     touching: Touching,
     found: OptimumRates,
     places: Places,
+    near: Set[tuple[int, ...]],
 ) -> list[Reason]:
     """Rows that stand in the way of some parameters.
 
@@ -53,6 +54,8 @@ def row_reasons(
     found : OptimumRates
     places : Mapping
         As `Places`.
+    near : set of (int, int)
+        Contact and row of those that nearly touch, or nearly bear no load.
     """
     names, row_names = result.step.contacts.name, cone(result.step.cone).row_names
     reasons = []
@@ -69,11 +72,11 @@ def row_reasons(
         reasons.append(Reason(reason.CONTRADICTION, where, fields(bad), says))
     for (j, i), bad in zip(touching.idle.tolist(), found.opens, strict=True):
         if bad.any():
-            where = names[j], row_names[i]
-            says = (
-                f"row {row_names[i]} of {names[j]} touches without load: it holds on one side only"
-            )
-            reasons.append(Reason(reason.WEAK, where, fields(bad), says))
+            where, row = (names[j], row_names[i]), f"row {row_names[i]} of {names[j]}"
+            kind, says = reason.WEAK, f"{row} touches without load: it holds on one side only"
+            if (j, i) in near:
+                kind, says = reason.NEARLY, f"settled: nearly a kink at {row}"
+            reasons.append(Reason(kind, where, fields(bad), says))
     touched = {names[j].rpartition("/")[0] for j in touching.contacts}
     for pair in simulator.pairs:
         for key, used in (("mu_v", True), ("mu_omega", pair.rows == 6)):
@@ -104,7 +107,7 @@ def forbidden(
     bad = np.asarray(found.opens.any(axis=0))
     for _, own in found.contradicts:
         bad = bad | own
-    by_field = (reason.WEAK, reason.CONTRADICTION)
+    by_field = (*reason.ONE_SIDED, reason.CONTRADICTION)
     for why in reasons:
         for name in why.fields if why.kind not in by_field else ():
             first, last = places[name]

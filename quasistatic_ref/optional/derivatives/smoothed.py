@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.derivatives.derivatives import check_derivable
-from quasistatic_ref.optional.derivatives.gradient import Derivatives, OneSided
+from quasistatic_ref.optional.derivatives.gradient import Derivatives
 from quasistatic_ref.optional.derivatives.kink_reasons import geometry_reasons
 from quasistatic_ref.optional.derivatives.program_reasons import target_reasons
 from quasistatic_ref.optional.derivatives.step.barrier import Barrier, barrier_rates, barrier_step
@@ -69,20 +69,12 @@ def smoothed(
         *geometry_reasons(simulator, result, rates, None, nowhere),
         *target_reasons(simulator, step.delta_q_bar_a),
     ]
-    columns = rates.onward @ barrier_rates(step, found, rates.data)
-    columns[:, : len(columns)] += rates.carried
+    bad = np.zeros(rates.data.load.shape[1], dtype=bool)
     for why in reasons:
         for name in why.fields:
-            columns[:, slice(*rates.places[name])] = np.nan
-    return Derivatives(
-        **rates.shaped(columns),
-        differentiable=not reasons,
-        reasons=tuple(reasons),
-        result=result,
-        _parts=OneSided(
-            partial(_displacement, step, found), rates.data, rates.carried, rates.onward
-        ),
-    )
+            bad[slice(*rates.places[name])] = True
+    x, along = barrier_rates(step, found, rates.data), partial(_displacement, step, found)
+    return rates.derivatives(x, bad, reasons, along, None)
 
 
 def _displacement(step: StepData, found: Barrier, one: DataRates) -> Array:

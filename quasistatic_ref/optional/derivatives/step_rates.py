@@ -1,18 +1,23 @@
 """How everything that a step is made of changes, at one configuration."""
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 
 from quasistatic_ref.optional.derivatives.contact.contact_rates import contact_rates
 from quasistatic_ref.optional.derivatives.contact.couples import couples
-from quasistatic_ref.optional.derivatives.data_rates import data_rates
+from quasistatic_ref.optional.derivatives.data_rates import data_rates, parameter_units
+from quasistatic_ref.optional.derivatives.gradient import Derivatives, Parts
 from quasistatic_ref.optional.derivatives.model.mass_rates import MassRates
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.optional.derivatives.model.tangent import sum_rates
 from quasistatic_ref.optional.derivatives.row_rates import RowRates
-from quasistatic_ref.optional.derivatives.step.optimum_rates import parameters
+from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, parameters
+from quasistatic_ref.optional.derivatives.step.reach import Reach
+from quasistatic_ref.optional.derivatives.step.reason import Reason
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Mask
 
 
 class StepRates:
@@ -35,6 +40,8 @@ class StepRates:
         By all parameters.
     places : dict
         Which columns of them each field of the derivatives has.
+    units : ndarray, shape (P,)
+        Their natural units.
     carried, onward : ndarray, shape (n_v, n_v)
         Derivatives of q (+) delta_q by q and by delta_q.
     far : ndarray, shape (n_c,)
@@ -42,6 +49,7 @@ class StepRates:
     """
 
     def __init__(self, simulator: Simulator, q: Array, result: StepResult) -> None:
+        self.result = result
         system, step, points = simulator.system, result.step, result.points
         x = result.solution.delta_q
         kinematics = system.kinematics(q)
@@ -55,12 +63,48 @@ class StepRates:
         self.data = parameters(*data.values())
         ends = np.cumsum([part.load.shape[1] for part in data.values()]).tolist()
         self.places = dict(zip(data, zip([0, *ends[:-1]], ends, strict=True), strict=True))
+        units = parameter_units(simulator, step)
+        self.units = np.concatenate([units[name] for name in data])
         self.carried, self.onward = sum_rates(system.joints, x)
         both = np.abs(np.stack([points.alpha, points.beta]))
         self.far: Array = both.max(axis=(0, 2), initial=0.0)
 
-    def shaped(self, columns: Array) -> dict[str, Array]:
-        """All columns, shape (n_v, P) [per unit of each parameter], by fields."""
+    @property
+    def widths(self) -> dict[str, int]:
+        """How many columns each field has."""
+        return {name: stop - start for name, (start, stop) in self.places.items()}
+
+    def derivatives(
+        self,
+        x: Array,
+        bad: Mask,
+        reasons: Sequence[Reason],
+        along: Callable[[DataRates], Array],
+        reach: Reach | None,
+    ) -> Derivatives:
+        """The derivatives of the configuration.
+
+        Parameters
+        ----------
+        x : ndarray, shape (n_v, P)
+            Those of delta_q.
+        bad : ndarray of bool, shape (P,)
+            Which of them do not exist.
+        reasons : sequence of Reason
+        along, reach
+            As `displacement` and `reach` of
+            :class:`~quasistatic_ref.optional.derivatives.gradient.Parts`.
+        """
+        columns = self.onward @ x
+        columns[:, : len(x)] += self.carried
+        columns[:, bad] = np.nan
         fields = {name: columns[:, slice(*place)] for name, place in self.places.items()}
         fields["dq_dh"] = fields["dq_dh"][:, 0]
-        return fields
+        parts = Parts(along, self.data, self.carried, self.onward, self.units, reach)
+        return Derivatives(
+            **fields,
+            differentiable=not reasons,
+            reasons=tuple(reasons),
+            result=self.result,
+            _parts=parts,
+        )

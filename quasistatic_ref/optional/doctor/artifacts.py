@@ -110,10 +110,14 @@ def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: floa
     return None if v is None else _quotient(v, float(rough.min()) * g * step.h)
 
 
-def gap_after(solution: StepSolution) -> Array:
-    """Gap phi + n'J delta_q [m] of each contact after the step, to first order, shape (n_c,)."""
-    contacts = solution.step.contacts
-    motion = contacts.motion(solution.delta_q)[:, :3]
+def gap_after(solution: StepSolution, n_v: int) -> Array:
+    """Gap phi + n'J delta_q [m] of each contact after the step, to first order, shape (n_c,).
+
+    Of delta_q count the first n_v coordinates: private rises are not in the gap.
+    """
+    contacts, delta_q = solution.step.contacts, solution.delta_q.copy()
+    delta_q[n_v:] = 0.0
+    motion = contacts.motion(delta_q)[:, :3]
     return np.asarray(contacts.phi + np.sum(contacts.n * motion, axis=1))
 
 

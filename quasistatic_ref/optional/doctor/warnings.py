@@ -38,7 +38,7 @@ class Warnings(Observer):
         """Gaps after the step, shape (n_c,) [m], Pi, share of drag [-] and boundary layer [m]."""
         step, solution = result.step, result.solution
         system, gravity = recorder.system, recorder.gravity
-        gap = gap_after(solution)
+        gap = gap_after(solution, system.n_v)
         return {
             "gap": gap,
             "Pi": quasi_dynamic_number(system, step, solution.delta_q, gravity),

@@ -3,6 +3,7 @@
 An extension that is nothing but linear equations and inequalities is read once, as rows of the
 step: they are then certified like any others, and travel in the step's file. Anything else (costs,
 curved constraints, further variables) is solved as a conic program whose residuals are reported.
+Private rises are coordinates and rows of the step, too.
 """
 
 import warnings
@@ -15,6 +16,7 @@ import numpy as np
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
+from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import DEFAULT, backend, cone_backend
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
@@ -23,8 +25,8 @@ from quasistatic_ref.solve.solver import RELAXED, Solver
 from quasistatic_ref.solve.through_cvxpy import CANON
 from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural_units, to_natural
 from quasistatic_ref.step.cones import cone, frictionless
-from quasistatic_ref.step.data import Array, Extra, StepData
-from quasistatic_ref.step.extension import Extension, Own, Symbols
+from quasistatic_ref.step.data import Array, Extra, StepData, no_rows
+from quasistatic_ref.step.extension import Extension, Own, Symbols, none
 from quasistatic_ref.step.solution import (
     Certificate,
     SolverStatistics,
@@ -42,7 +44,7 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
     Parameters
     ----------
     step : StepData
-        SI units.
+        SI units; with the extension's private rises.
     extension : Extension
 
     Returns
@@ -50,9 +52,13 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
     Extra or None
         The extension's rows alone.
     """
+    if extension.without_stiffness:
+        return None
+    if extension.terms is none:
+        return no_rows(step.n_v)
     problem = CvxpyProblem(step)
     constraints, costs = _own_terms(extension, step, Units(np.ones(step.n_v), 1.0, 1.0))
-    if costs(problem) or extension.without_stiffness:
+    if costs(problem):
         return None
     unknowns = (problem.delta_q_a, problem.delta_q_u)
     problem.fill(step)
@@ -75,6 +81,13 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
             A.append(sign * row)
             b.append(sign * value)
     return Extra(tuple(names), np.vstack(A), np.concatenate(b))
+
+
+def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
+    """A step with what of an extension is data, and whether that is all of it."""
+    step = with_rises(step, extension.rises)
+    own = extension_rows(step, extension)
+    return (step, False) if own is None else (with_rows(step, own), True)
 
 
 def with_rows(step: StepData, own: Extra) -> StepData:
@@ -103,10 +116,9 @@ def extended_step(
     BackendError
         If the extension holds more than linear constraints, and the solver is made for rows.
     """
-    own = extension_rows(step, extension)
-    if own is not None:
-        rows = with_rows(step, own)
-        return solve_step(rows, solver, fast=fast, accuracy=accuracy, certify=certify)
+    step, whole = posed(step, extension)
+    if whole:
+        return solve_step(step, solver, fast=fast, accuracy=accuracy, certify=certify)
     if isinstance(solver, Solver):
         problem = "takes linear constraints only; for a cost or a nonlinear constraint pass "
         problem += "the name of a backend"
@@ -117,9 +129,9 @@ def extended_step(
 
 def simulated_solution(simulator: Simulator, step: StepData, extension: Extension) -> StepSolution:
     """The solution of a step of a simulator, whose solver serves all steps with linear rows."""
-    own = extension_rows(step, extension)
-    if own is not None:
-        return simulator.solution(with_rows(step, own))
+    step, whole = posed(step, extension)
+    if whole:
+        return simulator.solution(step)
     name = simulator.named_backend or DEFAULT
     return extended_solution(step, extension, name, simulator.accuracy, simulator.certify)
 
@@ -132,7 +144,7 @@ def extended_solution(
     Parameters
     ----------
     step : StepData
-        SI units.
+        SI units; with the extension's private rises.
     extension : Extension
     name : str
         A backend that takes cones.
@@ -184,7 +196,7 @@ def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own,
 
     @cache  # its terms are formed once: further variables of its own are in both
     def terms(problem: CvxpyProblem) -> list[cp.Constraint | cp.Expression]:
-        return list(extension.terms(_symbols(problem, step, units)))
+        return list(extension.terms(_symbols(problem, step, units, len(extension.rises))))
 
     def constraints(problem: CvxpyProblem) -> list[cp.Constraint]:
         return [t for t in terms(problem) if isinstance(t, cp.Constraint)]
@@ -195,15 +207,16 @@ def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own,
     return constraints, costs
 
 
-def _symbols(problem: CvxpyProblem, step: StepData, units: Units) -> Symbols:
-    """The symbols of a problem in SI units."""
-    coordinate, length = units.size * units.coordinate, units.size * units.length
+def _symbols(problem: CvxpyProblem, step: StepData, units: Units, private: int = 0) -> Symbols:
+    """The symbols of a problem in SI units, of whose coordinates the last ones are private."""
+    public, own = step.n_v - private, step.n_u - private
+    coordinate, length = units.size * units.coordinate[:public], units.size * units.length
     kind = cone(step.cone)
     rows = kind.function if kind.polyhedral else frictionless  # the gap alone
     return Symbols(
-        delta_q=cp.multiply(coordinate, problem.delta_q),
+        delta_q=cp.multiply(coordinate, problem.delta_q[:public]),
         delta_q_a=cp.multiply(coordinate[: step.n_a], problem.delta_q_a),
-        delta_q_u=cp.multiply(coordinate[step.n_a :], problem.delta_q_u),
+        delta_q_u=cp.multiply(coordinate[step.n_a :], problem.delta_q_u[:own]),
         delta_q_bar_a=cp.Constant(step.delta_q_bar_a),
         slack=tuple(
             length * row[j] for row, j in zip(rows(*problem.motion), step.mask.T, strict=False)

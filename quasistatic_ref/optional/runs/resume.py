@@ -110,15 +110,15 @@ class _Again:
         return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
 
     def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, bool]:
-        """The step from q, and whether its rows are all there is of an extension."""
+        """The step from q, and whether that holds all there is of an extension."""
         simulator, kinematics = self.simulator, self.simulator.system.kinematics(q)
         points = simulator.closest_points(kinematics)
         step = simulator.step_data(q, goal, pushed, points, kinematics)
         if simulator.extension is None:
             return step, True
         extended = needed_part("extensions.extended", "extension")
-        own = extended.extension_rows(step, simulator.extension(q))
-        return (step, False) if own is None else (extended.with_rows(step, own), True)
+        posed: tuple[StepData, bool] = extended.posed(step, simulator.extension(q))
+        return posed
 
     def _ask(self, step: StepData, linear: bool) -> None:
         """Ask the solver as the step did, for what it keeps; nothing else is done with it."""

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.optimize import nnls
 
 from quasistatic_ref.optional.derivatives.step.touching import Touching, bearing
-from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, INDEPENDENT, SPLIT
 
 
@@ -62,12 +62,16 @@ class OptimumRates:
         Which rows that touch without load would open on one side.
     closing : ndarray, shape (idle rows, P)
         How fast the slacks of these rows would change [m per unit].
+    exerted : ndarray, shape (n_v, P)
+        How the force of all rows changes but for the rows' own motion, solved by the Cholesky
+        factor of H [(N m s)^0.5 per unit].
     """
 
     x: Array
     contradicts: list[tuple[set[int], Mask]]
     opens: Mask
     closing: Array
+    exerted: Array
 
 
 class Equations:
@@ -106,13 +110,32 @@ class Equations:
         forces = np.linalg.solve(t.L, data.load + data.pull(t.multipliers))
         y = self.V.T @ ((self.U.T @ right) / self.s[:, None]) + self.free.T @ (self.free @ forces)
         x = np.linalg.solve(t.L.T, y)
-        rows = t.rows(t.idle)
-        moved = np.einsum("ki,kip->kp", t.table[t.idle[:, 1]], data.motion[t.idle[:, 0]])
-        closing = rows @ x + moved
+        closing, opens = self.slack_rates(t.idle, x, data)
+        contradicts = self._contradictions(data, right, y)
+        exerted = y - forces
+        known = np.linalg.norm(exerted, axis=0) > CONSISTENT * np.linalg.norm(forces, axis=0)
+        return OptimumRates(x, contradicts, opens, closing, exerted * known)
+
+    def slack_rates(self, some: Indices, x: Array, data: DataRates) -> tuple[Array, Mask]:
+        """How fast the slacks of some rows change [m per unit], and which of these are no rounding.
+
+        Parameters
+        ----------
+        some : ndarray of int, shape (k, 2)
+            Contact and row.
+        x : ndarray, shape (n_v, P)
+            Derivatives of the optimum.
+        data : DataRates
+
+        Returns
+        -------
+        rates, known : ndarray, shape (k, P)
+        """
+        rows = self.of.rows(some)
+        moved = np.einsum("ki,kip->kp", self.of.table[some[:, 1]], data.motion[some[:, 0]])
+        rates = rows @ x + moved
         scale = np.abs(rows) @ np.abs(x) + np.abs(moved) + data.terms
-        return OptimumRates(
-            x, self._contradictions(data, right, y), np.abs(closing) > CONSISTENT * scale, closing
-        )
+        return rates, np.abs(rates) > CONSISTENT * scale
 
     def _contradictions(
         self, data: DataRates, right: Array, y: Array

@@ -13,12 +13,16 @@ NO_NORMAL = "no normal at zero distance"
 TANGENTS = "tangents switch axis"
 RIM = "level rim"
 HALF_TURN = "half a turn"
+NEARLY = "nearly a kink"
 
 KINDS: Final = (
     WEAK, CONTRADICTION, ZERO_FRICTION, POINTS, SURFACES, FEATURE, MANY, NO_NORMAL, TANGENTS, RIM,
-    HALF_TURN,
+    HALF_TURN, NEARLY,
 )  # fmt: skip
 """All of them, in one order."""
+
+ONE_SIDED: Final = (WEAK, NEARLY)
+"""Those with a derivative on each side."""
 
 
 class Reason(NamedTuple):

@@ -6,7 +6,7 @@ its multiplier is more than that in some optimal lam: as a displacement in the H
 the step.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import linprog
@@ -16,7 +16,7 @@ from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import load
-from quasistatic_ref.tolerances import BEARING, DEPENDENT, TOUCHING
+from quasistatic_ref.tolerances import BEARING, DEPENDENT, FILLED, TOUCHING
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +35,10 @@ class Touching:
         Contact and row of those that bear load in some optimal lam, and of the others.
     multipliers : ndarray, shape (n_c, 4)
         Those of an optimal lam, of the generators [N s].
+    open : ndarray of int, shape (k, 2)
+        Contact and row of those that do not touch.
+    slack : ndarray, shape (k,)
+        Theirs [m].
     """
 
     L: Array
@@ -43,17 +47,33 @@ class Touching:
     strict: Indices
     idle: Indices
     multipliers: Array
+    open: Indices
+    slack: Array
 
     @property
     def contacts(self) -> set[int]:
         """The contacts that touch."""
         return {int(j) for j, _ in (*self.strict, *self.idle)}
 
+    def unloaded(self, some: Indices) -> "Touching":
+        """The same where some rows, shape (k, 2), touch without load."""
+        strict, open_ = (~_among(own, some) for own in (self.strict, self.open))
+        idle = np.concatenate([self.idle, some[~_among(some, self.idle)]])
+        return replace(
+            self, strict=self.strict[strict], idle=idle,
+            open=self.open[open_], slack=self.slack[open_],
+        )  # fmt: skip
+
     def rows(self, some: Indices) -> Array:
         """Some rows of A, shape (k, n_v) [m], by contact and row (k, 2)."""
         return np.asarray(
             np.einsum("ki,kiv->kv", self.table[some[:, 1]], self.generators[some[:, 0]])
         )
+
+
+def _among(rows: Indices, some: Indices) -> Mask:
+    """Which rows, shape (k, 2), are among some."""
+    return np.asarray((rows[:, None] == some).all(axis=2).any(axis=1))
 
 
 def touching_rows(solution: StepSolution, places: Array) -> Touching:
@@ -78,7 +98,7 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     x, n_c = solution.delta_q, contacts.n_c
     moved = generators @ x
     moved[:, 0] += contacts.phi
-    slack = moved @ table.T
+    slack = (moved @ table.T)[step.mask]
     L = np.asarray(np.linalg.cholesky(step.H), dtype=np.float64)
     every = np.argwhere(step.mask)
     rows = np.einsum("ki,kiv->kv", table[every[:, 1]], generators[every[:, 0]])
@@ -90,14 +110,17 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
         size = float((np.abs(contacts.phi[every[:, 0]]) / length).min())
     terms = np.abs(generators) @ np.abs(x)
     terms[:, 0] += np.abs(contacts.phi) + places
-    touches = slack[step.mask] <= TOUCHING * (terms @ np.abs(table).T)[step.mask]
+    touches = slack <= TOUCHING * (terms @ np.abs(table).T)[step.mask]
     touches |= solution.lam > 0
     Z, lam = every[touches], solution.lam[touches]
     scaled = rows[touches] / length[touches, None]
     bears = bearing(np.linalg.solve(L, scaled.T).T, lam * length[touches], size)
     multipliers = np.zeros((n_c, 4))
     np.add.at(multipliers, Z[:, 0], lam[:, None] * table[Z[:, 1]])
-    return Touching(L, generators, table, Z[bears], Z[~bears], multipliers)
+    away = ~touches & (contacts.phi[every[:, 0]] < FILLED)
+    return Touching(
+        L, generators, table, Z[bears], Z[~bears], multipliers, every[away], slack[away]
+    )
 
 
 def bearing(rows: Array, lam: Array, size: float) -> Mask:

@@ -167,7 +167,7 @@ static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, 
     const double *solid = s->world + 24 * pair, *cloud = solid + 12;
     double at[3], normal[3];
     in_solid(pose, s->x[p], s->y[p], s->z[p], at);
-    s->phi[c] = distance(s->kind[pair], s->size + 4 * pair, at, normal);
+    s->phi[c] = distance(s->kind[pair], s->size + 4 * pair, at, normal) + 0.0;
     s->point[c] = s->index[p];
     double places = 0.0;
     for (int i = 0; i < 3; i++)
@@ -179,7 +179,7 @@ static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, 
         double centre = along(cloud + 4 * i, s->x[p], s->y[p], s->z[p]) + cloud[4 * i + 3];
         double foot = centre - s->phi[c] * n;
         int swapped = s->sign[pair] < 0.0;
-        s->n[3 * c + i] = s->sign[pair] * n;
+        s->n[3 * c + i] = s->sign[pair] * n + 0.0; /* zero is 0.0, never -0.0 */
         s->alpha[3 * c + i] = swapped ? centre : foot;
         s->beta[3 * c + i] = swapped ? foot : centre;
     }

@@ -13,7 +13,7 @@ static void tangents(const double *n, double *d1, double *d2)
     for (int i = 0; i < 3; i++) {
         int next = (i + 1) % 3, last = (i + 2) % 3;
         d1[i] = (a[i] - along * n[i]) / length;
-        d2[i] = (n[next] * a[last] - n[last] * a[next]) / length; /* n x axis */
+        d2[i] = (n[next] * a[last] - n[last] * a[next]) / length + 0.0; /* n x axis */
     }
 }
 
@@ -46,7 +46,7 @@ static void jacobian(const Scene *s, const double *col, int64_t c, double *own, 
             double f = s->moves_beta[c * n_x + x] * of_beta[i * n_x + x]
                      - s->moves_alpha[c * n_x + x] * of_alpha[i * n_x + x];
             double *entry = J + i * n_v + s->owner[x];
-            *entry = s->mimics ? *entry + f : f;
+            *entry = s->mimics ? *entry + f : f + 0.0; /* zero is 0.0, never -0.0 */
         }
 }
 

@@ -18,7 +18,8 @@ def walls(normals, strict, idle):
     table = np.array([[1.0, 0, 0, 0]])
     rows = [np.array([[j, 0] for j in some], dtype=np.int64).reshape(-1, 2)
             for some in (strict, idle)]  # fmt: skip
-    return Touching(np.eye(n), generators, table, *rows, np.zeros((len(normals), 4)))
+    multipliers, none = np.zeros((len(normals), 4)), np.zeros(0)
+    return Touching(np.eye(n), generators, table, *rows, multipliers, rows[0][:0], none)
 
 
 def rates(normals, load=None, motion=None, terms=0.0, turns=None):

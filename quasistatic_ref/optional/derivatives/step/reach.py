@@ -1,0 +1,152 @@
+r"""How far the derivatives of an optimum hold, to first order: (R38).
+
+A parameter that grows by t changes the slack of an open row to s + t ds, and the row touches at
+t = -s / ds. The rows that touch, Z, exert A_Z' lam. But for their own motion, which carries that
+along, it changes to v + t dv, and they go on touching while v + t dv is in the cone of A_Z'. Where
+it leaves, at a facet whose normal u points inwards, the rows off that facet bear no more load:
+
+.. math:: t = \min_u\; u\cdot v \quad\text{over}\quad A_Z u \ge 0,\; u\cdot dv = -1 .
+
+No single lam is needed, and a lam of few rows would reach zero too early.
+"""
+
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import linprog, nnls
+
+from quasistatic_ref.optional.derivatives.step.optimum_rates import (
+    DataRates,
+    Equations,
+    OptimumRates,
+)
+from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.tolerances import DEPENDENT, FACET, SPLIT
+
+TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+"""The least that HiGHS takes."""
+
+
+class Distance(NamedTuple):
+    """The distance to a kink.
+
+    Parameters
+    ----------
+    t : float
+        By how much the parameter changes until then [of the parameter]; infinite without a kink.
+    rows : ndarray of int, shape (k, 2)
+        Contact and row of those that touch there, or bear no more load.
+    """
+
+    t: float
+    rows: Indices = np.zeros((0, 2), dtype=np.int64)
+
+
+NEVER = Distance(np.inf)
+
+
+class Reach:
+    """The distances from an optimum to the next kinks, along P parameters.
+
+    Parameters
+    ----------
+    equations : Equations
+        What the optimum keeps.
+    rates : OptimumRates
+        Its derivatives.
+    data : DataRates
+        Those of the step.
+    """
+
+    def __init__(self, equations: Equations, rates: OptimumRates, data: DataRates) -> None:
+        t = self.touching = equations.of
+        self.rates = rates
+        closing, known = equations.slack_rates(t.open, rates.x, data)
+        self.closing = np.where(known, closing, 0.0)
+        held = np.concatenate([t.strict, t.idle])
+        rows = np.linalg.solve(t.L, t.rows(held).T).T
+        length = np.linalg.norm(rows, axis=1)
+        self.held = held[length > 0]
+        self.cone = rows[length > 0] / length[length > 0, None]
+        exerted = np.einsum("jiv,ji->v", t.generators, t.multipliers)
+        self.force = np.linalg.solve(t.L, exerted)  # what the rows exert [(N m s)^0.5]
+
+    @cached_property
+    def loads(self) -> Array:
+        """Multipliers of the touching rows of length one, each far from zero if it can be, (k,)."""
+        size = float(np.linalg.norm(self.force))
+        for share in 10.0 ** -np.arange(1, 12) if size else ():
+            least = np.full(len(self.cone), share * size / len(self.cone))
+            more, miss = nnls(self.cone.T, self.force - self.cone.T @ least)
+            if miss <= SPLIT * share * size:
+                return np.asarray(least + more)
+        return np.zeros(len(self.cone))
+
+    @cached_property
+    def loaded(self) -> Array:
+        """How far at least each parameter may change until a row has no load, shape (P,)."""
+        shares = np.linalg.lstsq(self.cone.T, self.rates.exerted, rcond=DEPENDENT)[0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            left = np.nan_to_num(self.loads[:, None] / np.abs(shares), nan=np.inf)
+        return np.asarray(left.min(axis=0, initial=np.inf))
+
+    def along(self, one: DataRates) -> Distance:
+        """The distance along a single parameter as it grows, beyond a kink that is here."""
+        beyond = Equations(Equations(self.touching).beyond(one))
+        return Reach(beyond, beyond.rates(one), one).ahead(0)
+
+    def ahead(self, column: int, sign: int = 1) -> Distance:
+        """The distance to the next kink where a parameter grows, or falls: its sign is -1."""
+        slack, rate = self.touching.slack, sign * self.closing[:, column]
+        left = np.full(len(slack), np.inf)
+        np.divide(slack, -rate, out=left, where=rate < 0)
+        t = float(left.min(initial=np.inf))
+        nearest = Distance(t, self.touching.open[left <= (1 + SPLIT) * t]) if t < np.inf else NEVER
+        if self.loaded[column] >= t:
+            return nearest
+        return min(nearest, self._unloaded(column, sign), key=lambda one: one.t)
+
+    def either(self, column: int) -> Distance:
+        """The distance to the next kink on either side; none at all where one side is a kink."""
+        opens = self.rates.opens[:, column]
+        if opens.any():
+            return Distance(0.0, self.touching.idle[opens])
+        return min((self.ahead(column, sign) for sign in (1, -1)), key=lambda one: one.t)
+
+    def within(self, distance: Array) -> Indices:
+        """The contact and row of every kink nearer than a distance, shape (k, 2).
+
+        Parameters
+        ----------
+        distance : ndarray, shape (P,)
+            One for each parameter [each in its parameter's unit].
+        """
+        slack, rates = self.touching.slack[:, None], np.abs(self.closing)
+        found = [self.touching.open[(slack < distance * rates).any(axis=1)]]
+        for column in np.flatnonzero(self.loaded < distance):
+            each = (self._unloaded(int(column), sign) for sign in (1, -1))
+            found += [one.rows for one in each if one.t < distance[column]]
+        return np.unique(np.concatenate(found), axis=0)
+
+    def _unloaded(self, column: int, sign: int) -> Distance:
+        """Where rows bear no more load."""
+        change = sign * self.rates.exerted[:, column]
+        size, speed = np.linalg.norm(self.force), np.linalg.norm(change)
+        if not size or not speed:
+            return NEVER
+        _, s, V = np.linalg.svd(self.cone, full_matrices=False)
+        V = V[s > DEPENDENT * s[0]]
+        rows, v, dv = self.cone @ V.T, V @ self.force / size, V @ change / speed
+        nearest = max(self.loaded[column] * speed / size, FACET)  # so that the cost is about one
+        found = linprog(
+            v / nearest, A_ub=-rows, b_ub=np.zeros(len(rows)), A_eq=dv[None], b_eq=[-1.0],
+            bounds=(None, None), options=TIGHT,
+        )  # fmt: skip
+        if found.status != 0:
+            return NEVER
+        u = np.asarray(found.x)
+        off = rows @ u > FACET * np.linalg.norm(u)
+        u = u - np.linalg.pinv(rows[~off], rcond=DEPENDENT) @ (rows[~off] @ u)
+        t = max(float(u @ v) / -float(u @ dv), 0.0) * float(size / speed)
+        return Distance(t, self.held[off])

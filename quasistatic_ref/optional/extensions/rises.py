@@ -1,0 +1,142 @@
+"""Friction of coordinates, and of a planar base on its floor, by private rises of a step, (R60)."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.plain import field_values
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.model.system import System
+from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.step.arrays import whole
+from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
+from quasistatic_ref.step.extension import Rises
+from quasistatic_ref.step.ordered import product
+from quasistatic_ref.tolerances import LIGHT
+
+WAYS = (1.0, -1.0)
+"""r + delta_q_i >= 0 and r - delta_q_i >= 0."""
+
+
+def with_rises(step: StepData, rises: Rises) -> StepData:
+    """A step with private rises: its last coordinates, and rows after those that it has."""
+    p, c = len(rises), len(rises.coordinates)
+    if not p:
+        return step
+    n_v, contacts = step.n_v, step.contacts
+    own = np.arange(n_v, n_v + p)
+    M_u = np.zeros((step.n_u + p, step.n_u + p))
+    M_u[: step.n_u, : step.n_u] = whole(step.M_u)
+    M_u[step.n_u :, step.n_u :] = np.diag(rises.masses)
+    J = np.concatenate([contacts.J, np.zeros((contacts.n_c, 4, p))], axis=2)
+    J[rises.contacts, :3, own[c:]] = contacts.n[rises.contacts]
+    rows = np.zeros((2, c, n_v + p))
+    rows[:, np.arange(c), own[:c]] = 1.0
+    rows[:, np.arange(c), rises.coordinates] = np.array(WAYS)[:, None]
+    extra, lies = step.extra, rises.coordinates.tolist()
+    names = tuple(f"rise {way} delta_q[{i}]" for way in "+-" for i in lies)
+    A = np.concatenate([np.pad(extra.A, ((0, 0), (0, p))), *rows])
+    return step.replace(
+        M_u=M_u,
+        tau_u=np.concatenate([step.tau_u, -rises.loads]),
+        contacts=Contacts(**(field_values(contacts) | {"J": J})),
+        extra=Extra(extra.names + names, A, np.concatenate([extra.b, np.zeros(2 * c)])),
+    )
+
+
+def private_rises(
+    system: System,
+    pairs: Sequence[ContactPair],
+    *,
+    h: float,
+    K_q: Array,
+    gravity: Sequence[float],
+    friction: Mapping[str, float] | None = None,
+    support: Mapping[str, tuple[float, float]] | None = None,
+) -> tuple[tuple[ContactPair, ...], Rises]:
+    """Pairs with a contact more for each support, and the rises of an extension.
+
+    Each rise weighs 1e-6 of what it lies on at the start: M_u of its coordinate (of an actuated
+    one, h^2 K_q), or its body.
+
+    Parameters
+    ----------
+    system : System
+    pairs : sequence of ContactPair
+        Of the simulator.
+    h : float
+        Time step [s].
+    K_q : ndarray, shape (n_a, n_a)
+        [N/m, N m/rad]
+    gravity : array_like, shape (3,)
+        [m/s^2], world frame.
+    friction : mapping of str to float, optional
+        Force at which a coordinate slides, by its name: ``cabinet/drawer``, ``slider/base.x``
+        [N, N m].
+    support : mapping of str to (float, float), optional
+        mu_v [-] and mu_omega [m] of bodies with a planar base on their floor, by their names: at
+        one point below the centre of mass as it is at the start, which bears the body's weight.
+
+    Raises
+    ------
+    InputError
+        If a name or a base is another, or gravity presses no body down.
+    """
+    friction = {name: load for name, load in (friction or {}).items() if load}
+    support = support or {}
+    numbers = {coordinate.name: i for i, coordinate in enumerate(system.coordinates)}
+    for name in friction:
+        if name not in numbers:
+            known = suggestion(name, numbers)
+            raise InputError(f"is no coordinate{known}", field="joint_friction", value=name)
+    coordinates = [numbers[name] for name in friction]
+    heavy = np.concatenate([h**2 * np.diag(K_q), np.diag(whole(system.M_u(system.q_start)))])
+    bodies = [system.mass(name) for name in support]
+    weights = [-mass * gravity[2] for mass in bodies]
+    if any(weight <= 0 for weight in weights):
+        problem = "needs a body with a mass, and gravity that presses it down"
+        raise InputError(problem, field="support", value=list(support))
+    supports = tuple(_support(system, name, *rubs) for name, rubs in support.items())
+    first = sum(pair.n_c for pair in pairs)
+    rises = Rises(
+        loads=np.array([*friction.values(), *weights]),
+        masses=LIGHT * np.array([*heavy[coordinates], *bodies]),
+        coordinates=np.array(coordinates, dtype=np.int64),
+        contacts=np.arange(first, first + len(supports)),
+    )
+    return (*pairs, *supports), rises
+
+
+def _support(system: System, name: str, mu_v: float, mu_omega: float) -> ContactPair:
+    """The contact of a planar base with the horizontal plane through its origin."""
+    body = next((body for body in system.bodies if body.name == name), None)
+    if body is None or body.base != "planar":
+        problem = 'is for a body with base = "planar"'
+        raise InputError(problem, field="support", value=name)
+    root, at = system.link(name), system.kinematics(system.q_start)
+    own = [i for i, link in enumerate(system.links) if link.startswith(f"{name}/")]
+    centres = np.einsum("lij,lj->li", at.R[own], system.centres[own]) + at.t[own]
+    centre = np.average(centres, axis=0, weights=system.masses[own]) - at.t[root]
+    below = product(at.R[root].T, centre) * [1.0, 1.0, 0.0]
+    plane = HalfSpace(np.array([0.0, 0.0, 1.0]), at.t[root, 2])
+    floor = PlacedShape(f"floor of {name}", 0, np.eye(3), np.zeros(3), plane)
+    foot = PlacedShape(f"foot of {name}", root, np.eye(3), np.zeros(3), PointCloud(below[None]))
+    rows = 6 if mu_omega else 4
+    return ContactPair(f"support of {name}", floor, foot, mu_v, mu_omega, rows, 1)
+
+
+def urdf_friction(system: System, name: str) -> dict[str, float]:
+    """What ``<dynamics friction>`` says of the joints of a body, by coordinate [N, N m]."""
+    (text,) = (t for body, t in zip(system.bodies, system.texts, strict=True) if body.name == name)
+    joints = {joint.get("name"): joint.find("dynamics") for joint in xml_root(text).iter("joint")}
+    found = {}
+    for coordinate in system.coordinates:
+        owner, _, joint = coordinate.name.partition("/")
+        dynamics = joints.get(joint) if owner == name else None
+        if dynamics is not None:
+            says = Tag(dynamics, f"{name}: joint[{joint}].dynamics")
+            found[coordinate.name] = float(says.numbers("friction", 1, default=0.0)[0])
+    return found

@@ -1,0 +1,195 @@
+"""Private rises, (R60): drawers and planar bases that slide, against h^2 (F - f) / (m + m_r)."""
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+from docs.examples.joint_limits import joint_limits
+from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.lab.scenes.slider import GYRATION, M, push, push_step
+from quasistatic_ref.optional.extensions.rises import private_rises, with_rises
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.extension import Extension, Rises
+from tests.helpers import changed, random_step
+from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
+from tests.tolerances import ROUNDING
+
+H, G = 0.01, 9.81
+DRAWER = robot(
+    link("cabinet", inertial=""),
+    link("drawer"),
+    joint("slide", "cabinet", "drawer", "prismatic", "1 0 0", '<dynamics friction="3.0"/>'),
+)
+"""2 kg that slide along x."""
+L = robot(
+    link(
+        "l",
+        collision('<box size="0.1 0.04 0.03"/>')
+        + collision('<box size="0.04 0.06 0.03"/>', '<origin xyz="-0.03 0.05 0"/>'),
+        inertial("0.5", ("1e-3",) * 3, '<origin xyz="0.01 0.02 0"/>'),
+    )
+)
+"""An L of 0.5 kg whose straight side, y = -0.02, is 0.1 m long."""
+DRAWN = """format = "quasistatic-ref/scenario"
+version = 1
+h = 0.01
+steps = 4
+[bodies.cabinet]
+urdf = "drawer.urdf"
+joint_friction = { slide = 3.0 }
+"""
+PUSHED = """format = "quasistatic-ref/scenario"
+version = 1
+h = 0.01
+steps = 4
+[bodies.l]
+urdf = "l.urdf"
+base = "planar"
+support = { mu_v = 0.4, mu_omega = 0.01 }
+[[bodies.l.wrenches]]
+t = 0
+force = [4.0, -2.0, 0]
+[shapes.wall]
+halfspace = { normal = [0, 1, 0], offset = -0.02 }
+[contacts.wall]
+alpha = "wall"
+beta = "l"
+mu_v = 0.25
+rows = 4
+k = 4
+"""
+
+
+def scene(folder, text, **settings):
+    written(folder, DRAWER, "drawer.urdf")
+    written(folder, L, "l.urdf")
+    (folder / "scene.toml").write_text(text)
+    return load_scenario(folder / "scene.toml", **settings)
+
+
+def step(scenario: Scenario, *force: float):
+    q = scenario.system.q_start
+    return scenario.simulator().step(q, np.zeros(0), np.array(force)).solution
+
+
+@pytest.mark.parametrize("force", [0.0, 2.999, 3.0, -3.0, 3.5, -20.0])
+def test_a_drawer_sticks_up_to_its_friction_and_then_opens(tmp_path, force):
+    """delta_q = h^2 (F - f) / (m + m_r) beyond f = 3 N, else exactly 0; m_r = 1e-6 m."""
+    m, f = 2.0, 3.0
+    expected = np.sign(force) * H**2 * max(abs(force) - f, 0.0) / (m + 1e-6 * m)
+    answers = [step(scene(tmp_path, DRAWN, fast=fast), force) for fast in (False, True)]
+    assert [answer.certificate.kind for answer in answers] == ["exact", "exact"]
+    assert answers[0].delta_q.tolist() == answers[1].delta_q.tolist()
+    np.testing.assert_allclose(answers[0].delta_q[0], expected, rtol=ROUNDING, atol=0.0)
+
+
+def test_the_files_own_friction_is_taken_when_asked_for(tmp_path):
+    said = scene(tmp_path, DRAWN)
+    asked = scene(tmp_path, DRAWN.replace("{ slide = 3.0 }", '"urdf"'))
+    assert asked.rises.loads.tolist() == said.rises.loads.tolist() == [3.0]
+    assert not len(scene(tmp_path, DRAWN.replace("joint_friction", "positions")).rises)
+
+
+def test_terms_of_an_extension_see_no_rise():
+    """Two of them on a joint whose spring of 100 N/m 0.5 N of 1.5 would bend by 5 mm.
+
+    A limit of 2 mm is of the joint alone; a cost c/2 |x|^2 leaves h (tau - f) / (h K + c) = 2.5 mm.
+    """
+    one = random_step(np.random.default_rng(0), 1, 0, rows=())
+    one = one.replace(h=H, K_q=[[100.0]], tau_a=[1.5], delta_q_bar_a=[0.0])
+    rises = Rises([1.0], [1e-6 * H**2 * 100.0], [0])
+    limited = joint_limits(np.zeros(1), np.array([-1.0]), np.array([0.002]))
+    answer = solve_step(one, extension=Extension(limited.terms, rises=rises))
+    assert answer.certificate.kind == "exact"
+    assert answer.delta_q.tolist() == [0.002, 0.002]  # of the joint, and of its rise
+    cost = Extension(lambda s: [0.5 * cp.sum_squares(s.delta_q)], rises=rises)
+    answer = solve_step(one, extension=cost)
+    np.testing.assert_allclose(answer.delta_q, [0.0025, 0.0025], rtol=1e-5, atol=0.0)
+
+
+def test_an_l_is_pushed_along_a_wall_on_its_support(tmp_path):
+    """The force (F_x, -F_y) acts at the centre of mass, the wall has the friction w.
+
+    From touch it lifts off by w delta_x, and
+    delta_x = h^2 (F_x - mu m g - w F_y) / (m (1 + w^2) + m_r mu^2).
+    It goes straight: the wall bears w 40 mm = 10 mm ahead of the centre of mass, where the side is.
+    """
+    m, mu, w = 0.5, 0.4, 0.25
+    x = H**2 * (4.0 - mu * m * G - w * 2.0) / (m * (1 + w**2) + 1e-6 * m * mu**2)
+    run = scene(tmp_path, PUSHED).run(progress=False)
+    expected = [x, w * x, 0.0]
+    np.testing.assert_allclose(run["delta_q"][0], expected, rtol=ROUNDING, atol=ROUNDING * x)
+    assert set(run["certificate"].tolist()) == {"exact"}
+    assert run.header["contacts"][0][-1] == "support of l/0"
+    # It bears m g + m_r r / h^2, never more than m_r F / m above m g, on a plane that it is on.
+    assert (run["phi"][:, -1] == 0.0).all()
+    np.testing.assert_allclose(run["wrench"][:, -1, 2], m * G, rtol=1e-6, atol=0.0)
+    # Nothing of the rise is in the records but the programs, which can be solved again.
+    assert run["delta_q"].shape == (4, 3)
+    read = trajectory_read(run.save(tmp_path / "run.npz"))
+    answer = solve_step(read.step_data(3), "daqp")
+    assert answer.delta_q[:3].tolist() == read["delta_q"][3].tolist()
+    assert run.header["largest_boundary_layer"] < 2 * w * x  # of the wall, not of the rise
+
+
+def test_a_support_holds_and_turns_as_a_sphere_does(tmp_path):
+    """(R5): alone, a torque t turns it by h^2 (t - mu_omega m g) / (I + m_r mu_omega^2)."""
+    m, mu_omega, inertia = 0.5, 0.01, 1e-3
+    free = scene(tmp_path, PUSHED.partition("[[")[0])
+    # The twist of the base, from whose origin the centre of mass is (0.01, 0.02) off.
+    turn = np.array([0.02, -0.01, 1.0])
+    assert not step(free, 0.0, 0.0, 0.999 * mu_omega * m * G).delta_q.any()
+    angle = H**2 * (0.2 - mu_omega * m * G) / (inertia + 1e-6 * m * mu_omega**2)
+    found = step(free, 0.0, 0.0, 0.2).delta_q
+    np.testing.assert_allclose(found[:3], angle * turn, rtol=ROUNDING, atol=0.0)
+
+
+def test_a_support_follows_lynchs_law_from_its_first_step():
+    """(R28) in steady motion, N = m g: what a slider that has to lift itself comes to only then."""
+    of = push(np.array([0.03, -0.02]), np.array([0.6, 0.8]), mu_v=0.4, c=0.025, Pi=0.5,
+              lifted=1.0, sticks=True)  # fmt: skip
+    lifting = push_step(of)
+    level = [0, 1, 2, 3, 5]
+    contacts = changed(lifting.contacts, phi=[0.0, 0.0], J=lifting.contacts.J[:, :, level])
+    planar = lifting.replace(
+        M_u=np.diag([M, M, M * GYRATION**2]), tau_u=np.zeros(3), contacts=contacts, extra=None
+    )
+    rises = Rises([M * G], [1e-6 * M], contacts=[0])
+    answer = solve_step(planar, extension=Extension(rises=rises))
+    assert answer.certificate.kind == "enclosure"
+    np.testing.assert_allclose(answer.delta_q[2:5], of.motion, rtol=1e-6, atol=0.0)
+
+
+def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):
+    system = scene(tmp_path, DRAWN).system
+    one = random_step(np.random.default_rng(0))
+    assert with_rises(one, Extension().rises) is one
+    with pytest.raises(StepDataError, match=r"rises.loads: must be >= 0"):
+        Rises([-1.0], [1.0], [0])
+    with pytest.raises(StepDataError, match=r"rises.masses: must have shape \(1,\)"):
+        Rises([1.0], [], [0])
+    given = {"h": H, "K_q": np.zeros((0, 0)), "gravity": (0.0, 0.0, -G)}
+    with pytest.raises(InputError, match=r"joint_friction: .*did you mean 'cabinet/slide'"):
+        private_rises(system, [], **given, friction={"cabinet/slid": 1.0})
+    with pytest.raises(InputError, match=r'support: is for a body with base = "planar"'):
+        private_rises(system, [], **given, support={"cabinet": (0.5, 0.0)})
+
+
+REFUSED = {
+    ("slide = 3.0", "slid = 3.0"): r"cabinet.joint_friction.slid: .*did you mean 'slide'",
+    ("slide = 3.0", "slide = -3.0"): r"cabinet.joint_friction.slide: must be at least 0",
+    ("joint_friction = { slide = 3.0 }", "support = { mu_v = 1 }"): r"support: .*\"planar\"",
+}
+
+
+@pytest.mark.parametrize(("change", "says"), REFUSED.items())
+def test_a_friction_that_means_nothing_is_refused_by_name(tmp_path, change, says):
+    with pytest.raises(InputError, match=says):
+        scene(tmp_path, DRAWN.replace(*change))
+
+
+def test_a_support_without_a_weight_is_refused(tmp_path):
+    with pytest.raises(InputError, match="gravity that presses it down"):
+        scene(tmp_path, PUSHED, gravity=[0, 0, 0])
