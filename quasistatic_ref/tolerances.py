@@ -41,11 +41,11 @@ Multipliers are not unique. Rounding them to float64 alone leaves a gap of 1e-16
 nothing touches leaves a gap of the size of its work."""
 
 COMPLIANCE: Final = 1e-9
-"""How much each contact gives way in the step that defines its force [m/N], 1 um under 1 kN.
+"""How much each contact gives way in the step that defines its force [m/N]: 1 um under 1 kN.
 
-Steel balls of 10 mm radius pressed with 10 N give way by 1e-7 m/N. Forces then miss the balance of
-the rigid step by 1e-6 of its loads on grasps, in proportion to the compliance; float64 displacements
-of 1e-4 m are right to 1e-20 m, which are 1e-11 N."""
+On grasps the forces then miss the balance of the rigid step by 1e-6 of its loads, in proportion.
+Displacements of 1e-4 m are right to 1e-20 m in float64, which are 1e-11 N: the faces that float64
+guesses are the right ones but where a force is next to nothing."""
 
 RESIDUAL_LIMIT: Final = 1e-6
 """Largest residual, in natural units [-], at which a solver's "optimal" is believed.

@@ -144,10 +144,10 @@ def nearest_numbers(
     entries: Sequence[int] | NDArray[np.int64],
     zeros: Callable[[Sequence[int]], Sequence[int]] = lambda _: (),
 ) -> Array:
-    """The numbers unit * values[entries] of a point in float64, rounded correctly.
+    """The numbers unit * values of a point in float64, rounded correctly, shape (entries,).
 
-    Each is rounded from its ball; where the ball leaves that open, it is zero if `zeros` proves
-    so, and otherwise rounded from the rational solution.
+    Each of the `entries`, shape (entries,), is rounded from its ball; where the ball leaves that
+    open, it is zero if `zeros` proves so, and otherwise rounded from the rational solution.
     """
     rounded: dict[int, float | None] = {int(i): None for i in entries}
     if point.balls is not None:

@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass, field
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.separations import OWN, SAYS
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.solution import StepSolution
 
 
 @dataclass(frozen=True, eq=False, repr=False)

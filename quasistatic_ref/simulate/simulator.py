@@ -7,6 +7,7 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
@@ -23,7 +24,6 @@ from quasistatic_ref.step.arrays import definite
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 
 GRAVITY = (0.0, 0.0, -9.81)

@@ -18,7 +18,8 @@ from typing import Final
 import numpy as np
 from flint import arb, arb_mat, ctx
 
-from quasistatic_ref.certify.forces import WRENCH, ContactForces, scaled_by
+from quasistatic_ref.certify.face_guess import P_OF_WRENCH
+from quasistatic_ref.certify.forces import WRENCH, ContactForces
 from quasistatic_ref.certify.point import square_root
 from quasistatic_ref.certify.rational import (
     Dyadic,
@@ -32,10 +33,13 @@ from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.friction import scaled_by
 
 BITS: Final = 640
 ROUNDS: Final = 20
 """Changes of the set of the user's rows that hold as equations, at most."""
+ITERATIONS: Final = 1000
+"""Newton iterations, at most; eight to twenty do on grasps."""
 ROUGH, NEAR = arb(2) ** -200, arb(2) ** -500
 """Squares of the length of a Newton step, relative to that of x in the norm of H: down to the first
 the energy decides how much of it is taken; below the second it is the last one."""
@@ -44,6 +48,10 @@ INSIDE: Final = arb(2) ** -400
 surely satisfies them."""
 DESCENT: Final = arb(1e-4)
 """Share of the descent that the slope promises with which a step is content (Armijo)."""
+TIGHT: Final = arb(2) ** -40
+"""Slack of a user's row, relative to the terms of its sum, below which the row is held at first."""
+WIDE: Final = arb(2) ** -200
+"""Largest square of an enclosure's size that is accepted, relative to those of x and H^-1 g."""
 LEAST: Final = arb(2) ** -60
 """Shortest part of a Newton step."""
 
@@ -101,9 +109,12 @@ class CompliantStep:
         self.E = arb_mat(m, n, step.extra.A.ravel().tolist())
         self.e = arb_mat(m, 1, step.extra.b.tolist())
 
-    def pushed(self, x: arb_mat) -> list[Pushed]:
-        """What each contact gives way at x."""
-        return [pushed(B * x + gap) for B, gap in zip(self.B, self.gap, strict=True)]
+    def pushed(self, x: arb_mat, more: Sequence[arb_mat] | None = None) -> list[Pushed]:
+        """What each contact gives way at x, where z is as it is there, and perhaps `more`."""
+        z = [B * x + gap for B, gap in zip(self.B, self.gap, strict=True)]
+        if more is not None:
+            z = [z_j + more_j for z_j, more_j in zip(z, more, strict=True)]
+        return [pushed(z_j) for z_j in z]
 
     def energy(self, x: arb_mat, give: Sequence[Pushed]) -> arb:
         """The energy at x [N m s]."""
@@ -140,19 +151,22 @@ class CompliantStep:
                 K[j, row] = -self.E[i, j]
         return K.solve(right, algorithm="approx").mid()
 
-    def minimiser(self, x: arb_mat, held: Sequence[int]) -> tuple[arb_mat, list[arb]]:
+    def minimiser(
+        self, x: arb_mat, give: list[Pushed], held: Sequence[int]
+    ) -> tuple[arb_mat, list[arb]]:
         """The minimiser of the energy where the rows `held` are equations; and multipliers."""
-        n, on_rows = x.nrows(), not held
-        while True:
-            give = self.pushed(x)
+        n, first = x.nrows(), True  # the first step starts from a guess, and off the rows
+        for _ in range(ITERATIONS):
             found = self.newton(x, give, held).entries()
             way, y = arb_mat(n, 1, found[:n]), found[n:]
             length, whole = self.squared(way), self.squared(x) + self.squared(way)
-            if on_rows and length > ROUGH * whole:
+            if not first and length > ROUGH * whole:
                 way = way * self.share(x, give, way)
-            x, on_rows = (x + way).mid(), True
+            x, first = (x + way).mid(), False
             if not length > NEAR * whole:
-                return x, y
+                break
+            give = self.pushed(x)
+        return x, y
 
     def share(self, x: arb_mat, give: Sequence[Pushed], way: arb_mat) -> arb:
         """The part of a Newton step that lowers the energy by enough."""
@@ -170,11 +184,12 @@ class CompliantStep:
         """||x||_H^2 [N m s]."""
         return (x.transpose() * (self.H * x))[0, 0].mid()
 
-    def on_active_rows(self, x: arb_mat) -> tuple[arb_mat, arb_mat]:
+    def on_active_rows(self, x: arb_mat, give: list[Pushed]) -> tuple[arb_mat, arb_mat]:
         """The minimiser under the user's own rows, and the multipliers of all of them."""
-        held: list[int] = []
+        held = [i for i in range(self.E.nrows()) if self.tight(i, x)]
         for _ in range(ROUNDS):
-            x, y = self.minimiser(x, held)
+            x, y = self.minimiser(x, give, held)
+            give = self.pushed(x)
             pressed = [i for i, y_i in zip(held, y, strict=True) if y_i > 0]
             broken = [i for i, v in enumerate((self.E * x - self.e).entries()) if v < 0]
             if pressed == held and not broken:
@@ -184,6 +199,12 @@ class CompliantStep:
         for i, y_i in zip(held, y, strict=True):
             every[i, 0] = y_i
         return x, every
+
+    def tight(self, i: int, x: arb_mat) -> bool:
+        """Whether x seems to break a user's row, or to be on it."""
+        terms = [self.E[i, v] * x[v, 0] for v in range(x.nrows())]
+        size = sum((abs(term) for term in terms), arb(0))
+        return bool(sum(terms, arb(0)) - self.e[i, 0] < TIGHT * size)
 
     def distance(self, x: arb_mat, y: arb_mat, H_inv: arb_mat) -> arb:
         """A bound of ||x - x*||_H; infinite where x or y is not proved to be admissible."""
@@ -195,42 +216,55 @@ class CompliantStep:
         return square_root(2 * work + (off.transpose() * (H_inv * off))[0, 0])
 
 
-def compliant_forces(
-    step: StepData, compliance: float, near: tuple[Array, Array] | None
-) -> ContactForces:
-    """As :func:`~quasistatic_ref.certify.forces.contact_forces`, which see.
+def compliant_forces(step: StepData, compliance: float, near: tuple[Array, Array]) -> ContactForces:
+    """The contact forces of a step in the ellipsoid.
 
-    A number whose enclosure, of about 1e-60 of the loads, holds zero is 0.0.
+    Parameters
+    ----------
+    step : StepData
+    compliance : float
+        Of each contact [m/N].
+    near : (ndarray, ndarray)
+        delta_q, shape (n_v,) [m, rad], and wrenches, shape (n_c, 4) [N, N m], of the step without
+        compliance.
+
+    Returns
+    -------
+    ContactForces
+        Rounded from enclosures of 1e-30 of the loads or less; 0.0 where an enclosure holds zero.
 
     Raises
     ------
     StepNotSolved
         If no enclosure is found.
     """
-    x = np.zeros(step.n_v) if near is None else near[0]
+    n, mu = step.n_v, scaled_by(step.contacts)
+    delta_q, wrench = near
+    p = np.divide(wrench[:, P_OF_WRENCH], mu, out=np.zeros_like(mu), where=mu > 0)
+    numbers: list[list[float]] = []
     with ctx.workprec(BITS):
         program = CompliantStep(step, compliance)
         H_inv = program.H.inv()
-        place, y = program.on_active_rows(arb_mat(step.n_v, 1, x.tolist()))
+        start = arb_mat(n, 1, delta_q.tolist())
+        guess = [arb_mat(4, 1, (-compliance * p_j).tolist()) for p_j in p]
+        place, y = program.on_active_rows(start, program.pushed(start, guess))
         error = program.distance(place, y, H_inv)
-        if not error.is_finite():
-            raise StepNotSolved("none", "no enclosure of the contact forces was found", step, 0.0)
-        numbers = []
-        for B, mu, one in zip(
-            program.B, scaled_by(step.contacts).tolist(), program.pushed(place), strict=True
+        if not error * error <= WIDE * (
+            program.squared(place) + program.squared(H_inv * program.g)
         ):
-            farthest = B * H_inv * B.transpose()
-            moved = square_root(sum((farthest[i, i] for i in range(4)), arb(0))) * error
+            raise StepNotSolved("none", "no enclosure of the contact forces was found", step, 0.0)
+        for B, mu_j, one in zip(program.B, mu.tolist(), program.pushed(place), strict=True):
+            reach = B * H_inv * B.transpose()
+            moved = square_root(sum((reach[i, i] for i in range(4)), arb(0))) * error
             s = [v + arb(0, moved.upper()) for v in one.s.entries()]
-            numbers.append([rounded(m * v / compliance) for m, v in zip(mu, s, strict=True)])
-        radii = [square_root(H_inv[i, i]) * error for i in range(step.n_v)]
-        delta_q = [rounded(v + arb(0, r.upper())) for v, r in zip(place.entries(), radii, strict=True)]
-    wrench = np.array(numbers).reshape(-1, 4)[:, WRENCH]
-    return ContactForces(wrench, np.array(delta_q))
+            numbers.append([rounded(m * v / compliance) for m, v in zip(mu_j, s, strict=True)])
+        off = [square_root(H_inv[i, i]) * error for i in range(n)]
+        x = [rounded(place[i, 0] + arb(0, off[i].upper())) for i in range(n)]
+    return ContactForces(np.array(numbers).reshape(-1, 4)[:, WRENCH], np.array(x))
 
 
 def rounded(ball: arb) -> float:
-    """The float64 nearest to a ball; 0.0 if it holds zero."""
+    """The float64 nearest to a ball [its unit]; 0.0 if it holds zero."""
     nearest = nearest_in(ball)
     if ball.contains(0):
         return 0.0

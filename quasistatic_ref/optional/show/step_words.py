@@ -10,9 +10,9 @@ from quasistatic_ref.optional.show.show import Page, Row, counted, direction, nu
 from quasistatic_ref.step.cones import cone
 
 if TYPE_CHECKING:
+    from quasistatic_ref.certify.solution import Certificate, StepSolution
     from quasistatic_ref.step.contacts import Contacts
     from quasistatic_ref.step.data import Extra, StepData
-    from quasistatic_ref.step.solution import Certificate, StepSolution
 
 CONTACT = ("contact", "gap [m]", "normal", "mu_v", "mu_omega [m]", "rows")
 FORCE = ("f_d1 [N]", "f_d2 [N]", "f_n [N]", "tau_n [N m]", "active rows")

@@ -191,7 +191,7 @@ step/files.py
     step_files solution_files bad_steps
 optional/show/show.py optional/show/step_words.py
     words DATA
-step/solution.py
+certify/solution.py
     kept_and_shown certificate newton
 cli/solution_files.py
     kept_and_shown solution_files solutions_of_version_1 FORGED

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.plain import bits
@@ -28,7 +29,6 @@ from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.arrays import QUIET
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 if TYPE_CHECKING:
