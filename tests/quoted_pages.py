@@ -78,6 +78,7 @@ QUOTED = {
         f"{100 * of.drag()[3]:.1f} %",
         f"Above {100 * SLOW:.0f} % a run warns",
         f"its angle, {of.since_the_start():.2f} degrees,",
+        f"the gap is 0.5 c = {0.5e6 * H**2 * (6 - 0.5 * G):.0f} micrometres",
     ],
     "docs/lecture.md": lambda: [
         "$\\delta q_a = (h^2K_q\\,\\delta\\bar q_a + m\\phi)/(h^2K_q + m)$ = "

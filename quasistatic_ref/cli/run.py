@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -46,6 +47,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--strict", action="store_true", help="end with status 1 if the run warns of anything"
     )
     parser.add_argument(
+        "--table",
+        type=Path,
+        metavar="FILE",
+        help="write positions, targets and contacts, a row a step: FILE.csv (extra 'pandas') or "
+        "FILE.parquet (extra 'parquet' as well)",
+    )
+    parser.add_argument(
         "--view",
         action="store_true",
         help="write an HTML file that plays the run in 3-D, without network (extra 'view')",
@@ -66,6 +74,10 @@ def run(options: argparse.Namespace) -> int:
     if options.view:
         viewer = needed_part("show.figures.viewer", "--view")
         viewer.viewer_script()  # so that a missing extra is known before the work, too
+    table = None
+    if options.table is not None:
+        table = needed_part("show.table", "--table")
+        table.check_table_path(options.table)
     if options.strict:
         needed_part("doctor.warnings", "--strict")
     if options.resume:
@@ -89,6 +101,8 @@ def run(options: argparse.Namespace) -> int:
     view = None
     if viewer is not None:
         view = viewer.view_written(scenario, trajectory, path.with_suffix(".html"))
+    if table is not None:
+        table.table_written(trajectory, options.table)
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
     summary: dict[str, Any] = {
         "trajectory": str(path),
@@ -131,7 +145,8 @@ def run(options: argparse.Namespace) -> int:
         print(line)
     parts = ", ".join(f"{part} {ms:.2f}" for part, ms in milliseconds.items())
     print(f"ms per step: {parts}")
-    print(f"wrote {path}{'' if view is None else f' and {view}'}")
+    written = [str(file) for file in (path, options.table, view) if file is not None]
+    print(f"wrote {' and '.join(written)}")
     return status
 
 

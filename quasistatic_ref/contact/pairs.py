@@ -121,6 +121,11 @@ class ContactLayout(Plain):
         numbered = zip(self.names, point.tolist(), strict=True)
         return tuple([f"{pair}/{i}" for pair, i in numbered])
 
+    @property
+    def slots(self) -> tuple[str, ...]:
+        """A name for the place of each contact: its pair, and its number within that from 0."""
+        return tuple(f"{name}/{self.names[:i].count(name)}" for i, name in enumerate(self.names))
+
 
 def contact_layout(pairs: Sequence[ContactPair]) -> ContactLayout:
     """The layout of the contacts of some pairs, in order."""

@@ -17,6 +17,12 @@ _TWISTS = {
     "floating": (("x", "m"), ("y", "m"), ("z", "m"), ("rx", "rad"), ("ry", "rad"), ("rz", "rad")),
     "planar": (("x", "m"), ("y", "m"), ("rz", "rad")),
 }
+_ENTRIES = {
+    "floating": ("x [m]", "y [m]", "z [m]", "qx [-]", "qy [-]", "qz [-]", "qw [-]"),
+    "planar": ("x [m]", "y [m]", "cos [-]", "sin [-]"),
+    "continuous": ("cos [-]", "sin [-]"),
+}
+"""What q holds of joints that have more entries there than one."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +84,15 @@ class Joint(Plain):
             )
         unit = "m" if self.kind == "prismatic" else "rad"
         return (Coordinate(self.name, self.name, unit, self.actuated),)
+
+    @property
+    def positions(self) -> tuple[str, ...]:
+        """Its entries of q, with their units: ``arm/elbow [rad]``, ``mug.z [m]``."""
+        if self.kind not in _ENTRIES:
+            (coordinate,) = self.coordinates
+            return (f"{self.name} [{coordinate.unit}]",)
+        owner = self.name if self.kind == "continuous" else self.name.removesuffix("/base")
+        return tuple(f"{owner}.{entry}" for entry in _ENTRIES[self.kind])
 
 
 @dataclass(frozen=True)

@@ -54,6 +54,10 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     n_v = top.integer("n_a", least=0) + top.integer("n_u", least=0)
     if len(top.words("coordinates")) != n_v:
         raise InputError(f"must have {n_v} entries", field="coordinates")
+    for name, count in (("units", n_v), ("positions", arrays["q"].shape[-1])):
+        if len(top.words(name, [""] * count)) != count:  # files from before there were any
+            raise InputError(f"must have {count} entries", field=name)
+    top.words("slots", [])
     extra = top.words("extra")
     needed: tuple[str, ...] = ("t", "delta_q")
     if steps:

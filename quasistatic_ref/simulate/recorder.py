@@ -187,6 +187,9 @@ class Recorder:
             "n_a": self.system.n_a,
             "n_u": self.system.n_u,
             "coordinates": [c.name for c in self.system.coordinates],
+            "units": [c.unit for c in self.system.coordinates],
+            "positions": [name for joint in self.system.joints for name in joint.positions],
+            "slots": list(self.layout.slots),
             "steps": self.steps,
             "failed": failed,
             "quasi_dynamic_number": None,  # the observers know

@@ -40,7 +40,8 @@ class Trajectory(Plain, Shown):
     ----------
     header : mapping
         format, version, h, backend, cone, extra (names of an extension's rows), record, n_a, n_u,
-        coordinates, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
+        coordinates and their units, positions (entries of q) and slots (places of contacts) by
+        name, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
         step, or None), ``largest_drag_share`` (drag over what contacts can bear, or None) and
         ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.optional.doctor.artifacts`,
         without which all three are None;
@@ -198,9 +199,9 @@ class Trajectory(Plain, Shown):
         return scene
 
     def to_pandas(self) -> DataFrame:
-        """One row a step, one column a number, for looking at.
+        """One row a step, one column a number: ``arm/elbow [rad]``, ``grip(mug, left)/2.f_n [N]``.
 
-        See :mod:`~quasistatic_ref.optional.show.table`.
+        See :func:`~quasistatic_ref.optional.show.table.data_frame`.
 
         Raises
         ------
@@ -208,6 +209,28 @@ class Trajectory(Plain, Shown):
             If pandas is not installed, or that part is missing.
         """
         frame: DataFrame = needed_part("show.table", "to_pandas").data_frame(self)
+        return frame
+
+    def coordinates_to_pandas(self) -> DataFrame:
+        """One row a step and entry of q: its name, unit, value and target.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`to_pandas`.
+        """
+        frame: DataFrame = needed_part("show.table", "to_pandas").coordinate_frame(self)
+        return frame
+
+    def contacts_to_pandas(self) -> DataFrame:
+        """One row a step and contact: its pair, point, gap, forces, points and frame.
+
+        Raises
+        ------
+        InputError
+            As for :meth:`to_pandas`.
+        """
+        frame: DataFrame = needed_part("show.table", "to_pandas").contact_frame(self)
         return frame
 
     def save(self, path: str | Path) -> Path:

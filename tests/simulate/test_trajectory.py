@@ -106,6 +106,12 @@ def test_the_header_says_what_the_run_was(run):
             "rail/slide", "rail/turn", "ball/base.x", "ball/base.y", "ball/base.z", "ball/base.rx",
             "ball/base.ry", "ball/base.rz",
         ],
+        "units": ["m", "rad", "m", "m", "m", "rad", "rad", "rad"],
+        "positions": [
+            "rail/slide [m]", "rail/turn.cos [-]", "rail/turn.sin [-]",
+            *(f"ball.{axis} [m]" for axis in "xyz"), *(f"ball.q{axis} [-]" for axis in "xyzw"),
+        ],
+        "slots": ["floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0"],
         "steps": 5,
         "failed": None,
         "contacts": [("floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0")] * 5,

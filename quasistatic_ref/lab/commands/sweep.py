@@ -11,6 +11,10 @@ MEASURES = ("rotation_deg", "rise_mm", "travel_mm", "exact")
 """What is printed of each run; the rest is in the table."""
 
 
+OF_ONE_RUN = ("view", "strict", "table")
+"""Options of ``run`` that a sweep does not take."""
+
+
 def run(options: argparse.Namespace) -> int:
     """Run all of them; those that are there are not run again. Status 1 if any was not done.
 
@@ -19,9 +23,9 @@ def run(options: argparse.Namespace) -> int:
     InputError
         If an option is of one run alone, or a sweep cannot be read.
     """
-    if options.view or options.strict:
-        other = "--view" if options.view else "--strict"
-        raise InputError("is of one run; leave out --sweep", field=other)
+    for name in OF_ONE_RUN:
+        if getattr(options, name):
+            raise InputError("is of one run; leave out --sweep", field=f"--{name}")
     variations: dict[str, list[float | str]] = {}
     for text in options.sweeps:
         field, values = swept_values(text)

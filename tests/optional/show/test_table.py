@@ -1,4 +1,4 @@
-"""A trajectory as attributes, as a sequence of steps, and as a table of pandas."""
+"""A trajectory as attributes, as a sequence of steps, and as tables of pandas."""
 
 import sys
 from operator import attrgetter
@@ -7,17 +7,23 @@ import numpy as np
 import pandas
 import pytest
 
+from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from tests.scenes import written_scenario
+
+PUSH, FLOOR = "push(rail/plate#0, ball/ball#0)/0", "floor(floor, ball/ball#0)/0"
 
 
 @pytest.fixture(scope="module")
-def run(tmp_path_factory):
-    return load_scenario(written_scenario(tmp_path_factory.mktemp("scene")), fast=True).run(
-        progress=False
-    )
+def scene(tmp_path_factory):
+    return written_scenario(tmp_path_factory.mktemp("scene"))
+
+
+@pytest.fixture(scope="module")
+def run(scene):
+    return load_scenario(scene, fast=True).run(progress=False)
 
 
 def test_arrays_are_attributes_by_the_names_of_the_format(run):
@@ -38,19 +44,24 @@ def test_the_length_is_that_in_steps_and_an_empty_run_is_a_run(run):
     assert empty
 
 
-def test_a_table_has_a_row_a_step_and_a_column_a_number(run):
+def test_the_wide_table_has_a_row_a_step_and_a_column_a_number_by_name_and_unit(run):
     table = run.to_pandas()
-    assert isinstance(table, pandas.DataFrame)
     np.testing.assert_array_equal(table.index, run.t)
-    assert table.index.name == "t"
+    assert table.index.name == "t [s]"
     expected = {
-        "q.0": run.q[1:, 0], "q.9": run.q[1:, 9],
-        "delta_q.rail/slide": run.delta_q[:, 0], "delta_q.ball/base.rz": run.delta_q[:, 7],
-        "q_bar_a.2": run.q_bar_a[:, 2], "phi.1": run.phi[:, 1], "alpha.0.y": run.alpha[:, 0, 1],
-        "n.1.x": run.n[:, 1, 0], "wrench.0.f_n": run.wrench[:, 0, 2],
-        "wrench.1.tau_n": run.wrench[:, 1, 3], "lam.9": run.lam[:, 9], "point.0": run.point[:, 0],
-        "digits": run.digits, "worst_residual": run.worst_residual,
+        "rail/slide [m]": run.q[1:, 0], "ball.qw [-]": run.q[1:, 9],
+        "delta_q rail/slide [m]": run.delta_q[:, 0],
+        "delta_q ball/base.rz [rad]": run.delta_q[:, 7],
+        "target rail/slide [m]": run.q_bar_a[:, 0],
+        "digits [-]": run.digits, "worst residual [-]": run.worst_residual,
     }  # fmt: skip
+    for i, slot in enumerate(run.header["slots"]):
+        expected |= {
+            f"{slot}.phi [m]": run.phi[:, i], f"{slot}.alpha.y [m]": run.alpha[:, i, 1],
+            f"{slot}.n.x [-]": run.n[:, i, 0], f"{slot}.f_n [N]": run.wrench[:, i, 2],
+            f"{slot}.tau_n [N m]": run.wrench[:, i, 3], f"{slot}.point": run.point[:, i],
+        }  # fmt: skip
+    expected[f"{run.header['slots'][1]}.lam_3 [N s]"] = run.lam[:, 9]
     for name, column in expected.items():
         np.testing.assert_array_equal(table[name], column)
     assert set(table["certificate"]) == {"exact"}
@@ -58,9 +69,48 @@ def test_a_table_has_a_row_a_step_and_a_column_a_number(run):
     assert table.shape == (5, 10 + 8 + 3 + 2 + 5 * 2 * 3 + 2 + 2 * 4 + 10 + 3)
 
 
-def test_a_run_without_steps_is_an_empty_table(run):
+def test_the_tidy_tables_have_a_row_a_step_and_coordinate_or_contact(run):
+    coordinates, contacts = run.coordinates_to_pandas(), run.contacts_to_pandas()
+    slide = coordinates[coordinates.coordinate == "rail/slide"]
+    np.testing.assert_array_equal(slide["value"], run.q[1:, 0])
+    np.testing.assert_array_equal(slide["target"], run.q_bar_a[:, 0])
+    assert set(slide["unit"]) == {"m"}
+    height = coordinates[coordinates.coordinate == "ball.z"]
+    assert height["target"].isna().all()  # nothing drives it
+    by_pair = contacts.groupby("pair")["f_n [N]"]
+    for i, slot in enumerate(run.header["slots"]):
+        pair = slot.rpartition("/")[0]
+        np.testing.assert_array_equal(by_pair.get_group(pair), run.wrench[:, i, 2])
+
+
+@pytest.mark.parametrize(("kind", "read"), [("csv", pandas.read_csv), ("parquet", None)])
+def test_run_writes_the_wide_table(tmp_path, scene, capsys, kind, read):
+    file = tmp_path / f"table.{kind}"
+    assert main(["run", str(scene), "--fast", "--out", str(tmp_path), "--table", str(file)]) == 0
+    assert f"and {file}" in capsys.readouterr().out
+    table = (read or pandas.read_parquet)(file)
+    run = trajectory_read(tmp_path / f"{scene.stem}.npz")
+    np.testing.assert_array_equal(table["ball.z [m]"], run.to_pandas()["ball.z [m]"])
+
+
+def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, capsys):
+    assert main(["run", str(scene), "--out", str(tmp_path), "--table", "table.xls"]) == 2
+    assert "--table: must end in .csv or .parquet (got 'table.xls')" in capsys.readouterr().err
+    assert not list(tmp_path.glob("*.npz"))
+
+
+def test_files_without_names_have_numbers(run):
+    plain = {name: words for name, words in run.header.items()
+             if name not in ("positions", "slots", "units")}  # fmt: skip
+    table = Trajectory(plain, run.arrays).to_pandas()
+    np.testing.assert_array_equal(table["contact/0.f_n [N]"], run.wrench[:, 0, 2])
+    np.testing.assert_array_equal(table["q.0 [m, rad]"], run.q[1:, 0])
+
+
+def test_a_run_without_steps_is_an_empty_table():
     empty = load_scenario("sphere_spin", steps=0, fast=True).run(progress=False)
-    assert len(empty.to_pandas()) == 0
+    tables = empty.to_pandas(), empty.coordinates_to_pandas(), empty.contacts_to_pandas()
+    assert [len(table) for table in tables] == [0, 0, 0]
 
 
 def test_without_pandas_a_table_is_one_sentence(run, monkeypatch):
