@@ -16,6 +16,8 @@ from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.step.standard_form import load
 
+UNKNOWN = "are not known: a step holds no costs, nonlinear constraints or smoothing"
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Certificate(Plain, Shown):
@@ -179,10 +181,7 @@ class StepSolution(Plain, Shown):
     def compliant(self) -> ContactForces:
         """The forces, and delta_q of the step with compliance; InputError as of `forces`."""
         if not self.alone:
-            problem = (
-                "are not known: costs, nonlinear constraints and smoothing are not in the step"
-            )
-            raise InputError(problem, field="forces")
+            raise InputError(UNKNOWN, field="forces")
         return contact_forces(self.step, near=(self.delta_q, self.wrench))
 
     @cached_property

@@ -17,6 +17,7 @@ from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.wrenches import Scene
 from quasistatic_ref.solve.backends import DEFAULT, check_backend
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
@@ -150,6 +151,7 @@ class Simulator(Shown):
     ) -> None:
         self.system = system
         self.pairs = tuple(pairs)
+        self.scene = Scene(system, self.pairs)
         self.layout = contact_layout(pairs)
         self.h = seconds(h)
         self.K_q = definite("K_q", K_q, system.n_a)
@@ -230,7 +232,7 @@ class Simulator(Shown):
         q_next = self.system.integrate(q, solution.delta_q[: self.system.n_v])  # q (+) delta_q
         self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
-        return StepResult(q_next, step, solution, points, lap.seconds)
+        return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
     def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
         """The contacts of all pairs, in order, each pair's in ascending distance.

@@ -164,7 +164,7 @@ class CompiledStep:
         if not self.reach(self.scene.address) <= SURELY * limits.reach**2:
             limits.check_reach(step, system.links, system.kinematics(q_next).t)
         lap("integrate")
-        return StepResult(q_next, step, solution, points, lap.seconds)
+        return StepResult(q_next, step, solution, points, lap.seconds, q, simulator.scene)
 
     def find_points(self, simulator: FastSimulator, q: Array) -> None:
         """Write the closest points at q: from the short lists; NumPy's where these prove none."""
