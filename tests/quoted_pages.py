@@ -76,7 +76,7 @@ QUOTED = {
         f"During the lift this drag is {of.drag()[0]:.2f} N, {100 * of.drag()[2]:.1f} % of the "
         f"friction that the grip can bear, 2 x 0.6 x {of.pressed():.1f} N; at most it is "
         f"{100 * of.drag()[3]:.1f} %",
-        f"Above {100 * SLOW:.0f} % a run warns",
+        f"Above {100 * SLOW:.0f} % a run",
         f"its angle, {of.since_the_start():.2f} degrees,",
         f"the gap is 0.5 c = {0.5e6 * H**2 * (6 - 0.5 * G):.0f} micrometres",
     ],
@@ -120,7 +120,7 @@ QUOTED = {
         f"h = 10 ms: {1e3 * H**2 * G:.0f} mm a step, a terminal velocity of {1e3 * H * G:.0f} mm/s",
         f"0.2 kg at 50 mm/s, h = 10 ms: {0.2 * 0.05 / H:.1f} N against {0.5 * 0.2 * G:.2f} N of "
         "friction at",
-        f"A warning is given above {SLOW:g}",
+        f"it above {SLOW:g}",
         f"for the same velocity {100 - 100 * 4 / ((4 + 0.1 * 9) / 1.1):.0f} % less turn",
         f"50 mm/s, h = 10 ms, $\\mu_v$ = 0.5: {0.5 * H * 50:.2f} mm",
         "a block on 25° with $\\mu_v$ = 0.2: "

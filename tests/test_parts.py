@@ -40,7 +40,7 @@ def test_a_part_is_a_module_or_none_and_a_mistaken_name_is_no_missing_part(witho
         parts.part("show.tabel")
     without("show")
     assert parts.part("show.table") is None
-    assert parts.part("doctor.watch") is not None
+    assert parts.part("doctor.table") is not None
 
 
 def test_a_name_of_the_front_door_needs_its_part(without):
@@ -55,7 +55,7 @@ def test_a_run_without_doctor_and_runs_is_recorded_and_written(without, tmp_path
     without("doctor")
     run = scenario.run(progress=False)
     unknown = ("quasi_dynamic_number", "largest_drag_share", "largest_boundary_layer")
-    assert run.header == {**whole.header, **dict.fromkeys(unknown), "warnings": []}
+    assert run.header == {**whole.header, **dict.fromkeys(unknown), "findings": []}
     assert run.arrays.keys() == whole.arrays.keys()
     without("runs")
     with pytest.raises(InputError, match=r"^save needs quasistatic_ref/optional/runs$"):

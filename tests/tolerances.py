@@ -120,10 +120,6 @@ DIFFERENCE_OF_STEPS: Final = 1e-7
 entry: steps are right to 1e-16 of a metre, 1e-11 after division by the difference's 1e-5, times the
 conditioning of the contacts; a mistake of the geometry is a tenth."""
 
-SEEN: Final = 1e-3
-"""Least error of a derivative in which a part of the geometry is left out, in the scene in which it
-is planted, relative to the largest entry: a step of a few mm turns bodies of some cm by a tenth."""
-
 QUASI_STATIC: Final = 5.0
 """Times the quasi-dynamic number: how far a slow push may be from Lynch's motion, relative to it.
 (R28) has the distance as Pi (rho^2 / c^2 - 1) and more, of which the factor is below 5 here."""

@@ -22,6 +22,7 @@ from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.groups import Group, parts
 
 
 def exact_certificate(
@@ -72,10 +73,9 @@ def in_words(certificate: Certificate) -> str:
     kind = cone(step.cone)
     if isinstance(kind, CurvedCone):
         return kind.in_words(certificate)
-    m = int(step.offsets[-1]) + len(step.extra.names)
     words = [
         "exact: the optimum of the step, correctly rounded",
-        f"working set: {len(certificate.active)} of {m} rows",
+        f"working set: {len(certificate.active)} of {step.m} rows",
         "multipliers unique" if certificate.multipliers_unique else "multipliers not unique",
         f"delta_q {'' if certificate.differentiable else 'not '}differentiable with respect to "
         "forces and targets",
@@ -137,55 +137,64 @@ def verify(
         return kind.verdict(step, delta_q, active, lam, claims)
     if claims is not None and claims.kind != "exact":
         return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing here")
-    form = exact_form(step)
     try:
         working = flat_rows(step, active)
     except IndexError as error:
         return Verdict(False, str(error))
-    try:
-        solution = rational_solution(form, working)
-    except ZeroDivisionError:
-        return Verdict(False, "the rows of the working set are not independent")
-    x, lam_w, _, slack = rounded_solution(form, solution)
-    reason = _wrong_sign(step, working, solution) or wrong_bits("delta_q", delta_q, x)
+    delta_q_exact, lam_exact, reason = np.zeros(step.n_v), np.zeros(step.m), ""
+    solved = []
+    for group, part in parts(step):
+        form, own = exact_form(part), tuple(group.within(working))
+        try:
+            solution = rational_solution(form, own)
+        except ZeroDivisionError:
+            return Verdict(False, "the rows of the working set are not independent")
+        x, lam_w, _, slack = rounded_solution(form, solution)
+        delta_q_exact[group.coordinates] = x
+        lam_exact[group.rows[list(own)]] = lam_w
+        reason = reason or _wrong_sign(step, group, own, solution)
+        solved.append((form, own, solution, slack))
+    reason = reason or wrong_bits("delta_q", delta_q, delta_q_exact)
     if lam is not None and not reason:
-        full = np.zeros(form.m)
-        full[list(working)] = lam_w
-        reason = wrong_bits("lam", lam, full)
+        reason = wrong_bits("lam", lam, lam_exact)
     if claims is not None and not reason:
-        reason = _wrong_claim(form, working, solution, claims, lam_w, slack)
+        reason = _wrong_claim(solved, claims, lam_exact[list(working)])
     return Verdict(not reason, reason)
 
 
-def _wrong_sign(step: StepData, working: Sequence[int], solution: RationalSolution) -> str:
+def _wrong_sign(
+    step: StepData, group: Group, working: Sequence[int], solution: RationalSolution
+) -> str:
     for i, lam_i in zip(working, solution.lam, strict=True):
         if lam_i <= 0:
             sign = "negative" if lam_i < 0 else "zero"
-            return f"the multiplier of {_row_name(step, i)} is {sign}"
-    for i, slack_i in enumerate(solution.slack):
+            return f"the multiplier of {_row_name(step, group.rows[i])} is {sign}"
+    for i, slack_i in zip(group.rows, solution.slack, strict=True):
         if slack_i < 0:
             return f"{_row_name(step, i)} is violated by the minimiser on the working set"
     return ""
 
 
 def _wrong_claim(
-    form: ExactForm,
-    working: Sequence[int],
-    solution: RationalSolution,
+    solved: Sequence[tuple[ExactForm, tuple[int, ...], RationalSolution, Array]],
     claims: Certificate,
     lam_w: Array,
-    slack: Array,
 ) -> str:
-    spanned, unspanned = idle_rows(form, working, solution.slack)
-    smooth = differentiable(form, working, unspanned)
-    open_ = [float(slack[i]) for i, s in enumerate(solution.slack) if s]
+    """What is wrong with the claims, from each group's form, working set and solution."""
+    unique = smooth = True
+    slacks: list[float] = []
+    for form, working, solution, slack in solved:
+        spanned, unspanned = idle_rows(form, working, solution.slack)
+        smooth = smooth and differentiable(form, working, unspanned)
+        unique = unique and multipliers_unique(form, working, spanned, unspanned)
+        slacks += [float(slack[i]) for i, s in enumerate(solution.slack) if s]
     right = {
         "error_bound": 0.0,
         "gap": None,
-        "multipliers_unique": multipliers_unique(form, working, spanned, unspanned),
+        "multipliers_unique": unique,
         "differentiable": smooth,
-        "smallest_inactive_slack": min(open_, default=None) if smooth else 0.0,
-        "smallest_active_multiplier": min((float(v) for v in lam_w), default=None),
+        "smallest_inactive_slack": min(slacks, default=None) if smooth else 0.0,
+        "smallest_active_multiplier": min(lam_w.tolist(), default=None),
     }
     wrong = (wrong_claim(name, getattr(claims, name), value) for name, value in right.items())
     return next(filter(None, wrong), "")

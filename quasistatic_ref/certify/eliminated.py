@@ -27,7 +27,6 @@ from quasistatic_ref.certify.rational import (
     ExactForm,
     contact_motion,
     dyadic,
-    exact_form,
     fraction,
     h_times_hessian,
     h_times_load,
@@ -124,9 +123,8 @@ class EliminatedStep:
         end = dual_active_set(under, held)
         if not isinstance(end, Farkas):
             return end.point.working
-        first = int(self.step.offsets[-1])
-        proof = Farkas({first + i: y for i, y in end.y.items()})
-        raise StepInfeasible(self.step, farkas_vector(self.step, exact_form(self.step), proof))
+        own = np.arange(self.step.offsets[-1], self.step.m)
+        raise StepInfeasible(self.step, farkas_vector(self.step, under, end, own))
 
     def wrong_faces(self, found: Candidate) -> list[int]:
         """The contacts that break a condition of their face."""

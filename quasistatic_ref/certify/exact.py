@@ -35,7 +35,8 @@ from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.standard_form import load, standard_form
+from quasistatic_ref.step.groups import Group, parts
+from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ILL_POSED
 
 
@@ -165,7 +166,7 @@ def nearest_numbers(
 
 
 def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
-    """The exact optimum of Eq. :eq:`eq-13`.
+    """The exact optimum of Eq. :eq:`eq-13`, sought and proved for each of its groups by itself.
 
     Parameters
     ----------
@@ -185,52 +186,92 @@ def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     StepInfeasible
         If no displacement satisfies the rows, with the proof.
     StepIllPosed
-        If the optimum is absurdly long.
+        If the optimum of a group is absurdly long.
     """
     if not cone(step.cone).polyhedral:
         raise InputError("has no rational optimum", field="cone", value=step.cone)
-    form = exact_form(step)
+    divided = parts(step)
+    optima = [group_optimum(step, group, part, group.within(warm)) for group, part in divided]
+    optimum = joined(step, [group for group, _ in divided], optima)
+    check_length(step, optimum.delta_q, divided)
+    return optimum
+
+
+def group_optimum(
+    step: StepData, group: Group, part: StepData, warm: Sequence[int]
+) -> ExactOptimum:
+    """The exact optimum of a group of a step, which is the step `part`, from its `warm` rows.
+
+    Raises
+    ------
+    StepInfeasible
+        If no displacement satisfies the rows of the group, with the proof in the step's rows.
+    """
+    form = exact_form(part)
     optimum = exact_optimum(form, warm)
     if isinstance(optimum, Farkas):
-        raise StepInfeasible(step, farkas_vector(step, form, optimum))
-    norm = energy_norm(step.H)
-    return well_posed(step, optimum, norm, norm.impulse(load(step)))
+        raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
+    return optimum
 
 
-def well_posed(
-    step: StepData, optimum: ExactOptimum, norm: EnergyNorm, unconstrained: float
-) -> ExactOptimum:
-    """An optimum of a step, unless it is absurdly long.
+def joined(step: StepData, of: Sequence[Group], optima: Sequence[ExactOptimum]) -> ExactOptimum:
+    """The optimum of a step from the `optima` of all of its groups."""
+    if len(of) == 1:
+        return optima[0]
+    delta_q, net = np.zeros((2, step.n_v))
+    lam, slack = np.zeros((2, step.m))
+    working: list[int] = []
+    for group, optimum in zip(of, optima, strict=True):
+        delta_q[group.coordinates] = optimum.delta_q
+        net[group.coordinates] = optimum.net
+        lam[group.rows] = optimum.lam
+        slack[group.rows] = optimum.slack
+        working += group.rows[list(optimum.working_set)].tolist()
+    # A row is strictly active, or spanned by others, within its group.
+    slacks = [optimum.smallest_inactive_slack for optimum in optima]
+    multipliers = [optimum.smallest_active_multiplier for optimum in optima]
+    return ExactOptimum(
+        delta_q=delta_q,
+        lam=lam,
+        net=net,
+        slack=slack,
+        working_set=tuple(sorted(working)),
+        multipliers_unique=all(optimum.multipliers_unique for optimum in optima),
+        differentiable=all(optimum.differentiable for optimum in optima),
+        smallest_inactive_slack=min((s for s in slacks if s is not None), default=None),
+        smallest_active_multiplier=min((v for v in multipliers if v is not None), default=None),
+        walks=sum(optimum.walks for optimum in optima),
+    )
+
+
+def check_length(
+    step: StepData, delta_q: Array, divided: Sequence[tuple[Group, StepData]] | None = None
+) -> None:
+    """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long in one of the step's groups.
 
     Parameters
     ----------
     step : StepData
-    optimum : ExactOptimum
-    norm : EnergyNorm
-        That of the step.
-    unconstrained : float
-        ||H^-1 g||_H in it [(N m s)^0.5].
+    delta_q : ndarray, shape (n_v,)
+    divided : sequence of (Group, StepData), optional
+        The groups of the step, where they are known.
 
     Raises
     ------
     StepIllPosed
     """
-    # Of three loads' steps the longest is at least a third of the step that they cause together.
-    if norm.displacement(optimum.delta_q) <= ILL_POSED / 4 * unconstrained:
-        return optimum
-    check_length(step, optimum.delta_q, norm)
-    return optimum
-
-
-def check_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = None) -> None:
-    """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long: StepIllPosed."""
-    length = relative_length(step, delta_q, norm)
-    if not length <= ILL_POSED:
-        raise StepIllPosed(step, delta_q, length)
+    divided = parts(step) if divided is None else divided
+    lengths = [relative_length(part, delta_q[group.coordinates]) for group, part in divided]
+    longest = max(lengths, key=lambda length: math.inf if math.isnan(length) else length)
+    if not longest <= ILL_POSED:
+        raise StepIllPosed(step, delta_q, longest)
 
 
 def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = None) -> float:
     """||delta_q||_H over the largest step that the loads or a single row ask for alone [-].
+
+    It is compared with ``ILL_POSED`` for each group of a step by itself, lest a heavy body hide
+    what is absurd in a light one.
 
     That is the largest of four lengths in the H norm. Three are those of the unconstrained steps
     that the targets, tau_a and tau_u would each cause alone (together they may cancel, but for

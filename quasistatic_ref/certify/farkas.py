@@ -16,7 +16,7 @@ from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import row_owners
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array, Indices, StepData
 
 _FRACTION = re.compile(r"(-?[0-9]+)(?:/([0-9]*[1-9][0-9]*))?")
 
@@ -51,28 +51,33 @@ class FarkasVector(Plain):
         return f"{', '.join(named[:-1])} and {named[-1]} contradict each other"
 
 
-def farkas_vector(step: StepData, form: ExactForm, proof: Farkas) -> FarkasVector:
+def farkas_vector(step: StepData, form: ExactForm, proof: Farkas, rows: Indices) -> FarkasVector:
     """An exact proof in the terms of its step.
 
     Parameters
     ----------
     step : StepData
     form : ExactForm
-        That of the step.
+        That of a group of the step.
     proof : Farkas
+        About the rows of `form`.
+    rows : ndarray of int, shape (form.m,)
+        Which rows of the step these are.
 
     Returns
     -------
     FarkasVector
     """
     largest = max(proof.y.values())
-    y = [proof.y.get(i, fmpq(0)) / largest for i in range(form.m)]
-    contradiction = sum((y_i * form.b[i, 0] for i, y_i in enumerate(y) if y_i), fmpq(0))
+    y = [fmpq(0)] * step.m
+    for i, y_i in proof.y.items():
+        y[int(rows[i])] = y_i / largest
+    contradiction = sum((y_i * form.b[i, 0] for i, y_i in proof.y.items()), fmpq(0)) / largest
     return FarkasVector(
         y=np.array([nearest_fraction(y_i) for y_i in y]),
         exact=tuple(str(y_i) for y_i in y),
         contradiction=nearest_fraction(contradiction * form.slack_unit),
-        owners=row_owners(step, sorted(proof.y)),
+        owners=row_owners(step, rows[sorted(proof.y)]),
     )
 
 

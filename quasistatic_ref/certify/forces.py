@@ -46,6 +46,7 @@ from quasistatic_ref.step.arrays import QUIET, read_only
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches, row_gaps, scaled_by
+from quasistatic_ref.step.groups import parts
 from quasistatic_ref.tolerances import COMPLIANCE
 
 WRENCH: Final = [1, 2, 0, 3]
@@ -109,6 +110,16 @@ def contact_forces(
     if not 0 < compliance < np.inf:
         problem = "must be a positive number of metres per newton"
         raise InputError(problem, field="compliance", value=compliance)
+    wrench, delta_q = np.zeros((step.contacts.n_c, 4)), np.zeros(step.n_v)
+    for group, part in parts(step):
+        x, f = group.coordinates, group.contacts
+        found = _of_group(part, compliance, None if near is None else (near[0][x], near[1][f]))
+        delta_q[x], wrench[f] = found.delta_q, found.wrench
+    return ContactForces(wrench, delta_q)
+
+
+def _of_group(step: StepData, compliance: float, near: tuple[Array, Array] | None) -> ContactForces:
+    """The forces of a step by itself, or of a group of bodies of one."""
     kind = cone(step.cone)
     if isinstance(kind, CurvedCone):
         return kind.forces(step, compliance, near)

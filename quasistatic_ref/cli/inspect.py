@@ -17,6 +17,7 @@ from quasistatic_ref.contact.separations import OWN, SAYS
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.parts import part
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.step.cones import cone
 
@@ -101,6 +102,8 @@ def scenario_record(scenario: Scenario) -> dict[str, Any]:
     record["pairs"] = [_pair(pair, scenario.cone) for pair in scenario.pairs]
     record["size"] = [scenario.system.n_v, sum(p["contacts"] * p["rows"] for p in record["pairs"])]
     record["tied"] = tied_at_start(scenario)
+    doctor = part("doctor.table") is not None
+    record["findings"] = [asdict(found) for found in scenario.findings()] if doctor else []
     record["fields"] = named_fields(scenario.path)
     return record
 
@@ -180,6 +183,10 @@ def _print(record: dict[str, Any]) -> None:
         print("\nnormals that are one of several at the start:")
     for sentence in record.get("tied", []):
         shared.print_wrapped(sentence, "  ", "- ")
+    if record.get("findings"):
+        print("\nfindings, before a run:")
+    for finding in record.get("findings", []):
+        shared.print_wrapped(finding["sentence"], "  ", "- ")
     print("\nthe model ignores:")
     for sentence in record["ignored"]:
         shared.print_wrapped(sentence, "  ", "- ")

@@ -44,7 +44,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--scheduler", metavar="ADDRESS", help="with --sweep: a Dask scheduler")
     parser.add_argument(
-        "--strict", action="store_true", help="end with status 1 if the run warns of anything"
+        "--strict", action="store_true", help="end with status 1 if a finding is grave"
     )
     parser.add_argument(
         "--table",
@@ -63,7 +63,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Run it; exit status 3 where a step has no solution, its steps so far being kept.
 
-    With ``--strict`` a run that warns of something ends with status 1.
+    With ``--strict`` a run with a grave finding ends with status 1.
     """
     scenario = load_scenario(options.scenario, shared.scenario_settings(options))
     path = options.out / f"{scenario.path.stem}.npz"
@@ -79,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
         table = needed_part("show.table", "--table")
         table.check_table_path(options.table)
     if options.strict:
-        needed_part("doctor.warnings", "--strict")
+        needed_part("doctor.observer", "--strict")
     if options.resume:
         said = f"goes on from step {first}" if first else "nothing is saved; begins from the start"
         shared.progress_line(options, said)
@@ -93,14 +93,14 @@ def run(options: argparse.Namespace) -> int:
         failure, trajectory = error, error.trajectory
     if not saving:
         trajectory.save(path)
-    if options.quiet:  # of progress; a warning is said all the same
-        for sentence in trajectory.warnings:
-            print(f"quasistatic-ref: {sentence}", file=sys.stderr)
+    if options.quiet:  # of progress; a finding is said all the same
+        for finding in trajectory.findings:
+            print(f"quasistatic-ref: {finding}", file=sys.stderr)
     if failure is not None:
         return shared.failed_run(failure, path)
     view = None
     if viewer is not None:
-        view = viewer.view_written(scenario, trajectory, path.with_suffix(".html"))
+        view = viewer.view_written(scenario, path.with_suffix(".html"), trajectory)
     if table is not None:
         table.table_written(trajectory, options.table)
     milliseconds = {part: 1e3 * float(s.mean()) for part, s in trajectory.seconds.items()}
@@ -124,9 +124,9 @@ def run(options: argparse.Namespace) -> int:
             for body, motion in free_body_motions(scenario.system, trajectory).items()
         },
         "milliseconds_per_step": milliseconds,
-        "warnings": list(trajectory.warnings),
+        "findings": list(trajectory.header["findings"]),
     }
-    status = 1 if options.strict and trajectory.warnings else 0
+    status = 1 if options.strict and any(f.grave for f in trajectory.findings) else 0
     if view is not None:
         summary["view"] = str(view)
     if options.json:
@@ -139,7 +139,7 @@ def run(options: argparse.Namespace) -> int:
     print(
         f"{summary['certified']}; backend {scenario.backend}, {speed} path, worst residual {worst}"
     )
-    if part("doctor.warnings") is not None:
+    if part("doctor.observer") is not None:
         print(_artifacts(trajectory.header))
     for line in _moved(summary["free_bodies"]):
         print(line)

@@ -56,7 +56,7 @@ def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object
     dict
         rotation_deg (largest since the grip closed), lift_mm, drag_share (largest of the whole run:
         drag over the friction that contacts can bear), variables, rows, worst_residual (natural
-        units), warnings, and the milliseconds of each part of a step.
+        units), findings, and the milliseconds of each part of a step.
     """
     motion = link_motion(scenario.system, trajectory, "bunny")
     a, b = motion.index(CLOSED), motion.index(TOP)
@@ -71,6 +71,6 @@ def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object
         "lift_mm": 1e3 * float(motion.t[b, 2] - motion.t[a, 2]),
         "drag_share": trajectory.header["largest_drag_share"],
         "worst_residual": worst_residual(trajectory),
-        "warnings": list(trajectory.warnings),
+        "findings": [str(finding) for finding in trajectory.findings],
         **parts,
     }

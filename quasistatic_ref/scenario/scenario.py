@@ -35,6 +35,7 @@ from quasistatic_ref.scenario.scenario_table import (
     VERSION,
     value,
 )
+from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.simulator import Simulator
@@ -148,6 +149,18 @@ class Scenario(Plain, Shown):
         if not self.wrenches:
             return None
         return lambda t, q: total(w.force(self.system, t, q) for w in self.wrenches)
+
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong with the scene where it starts; a run's findings have these, too.
+
+        Raises
+        ------
+        InputError
+            If there is no ``optional/doctor``.
+        """
+        doctor = needed_part("doctor.table", "findings")
+        found: list[Finding] = doctor.scene_findings(self.simulator(), self.system.q_start)
+        return tuple(found)
 
     def run(self, progress: bool = True, **saving: Any) -> Trajectory:
         """Simulate the whole scenario.

@@ -42,10 +42,10 @@ class Observer:
         return trajectory
 
 
-def warnings_of_runs(printed: bool = False) -> list[Observer]:
-    """What warns of a run at its end, in its header and perhaps on standard error.
+def doctors(printed: bool = False) -> list[Observer]:
+    """What finds at the end of a run what is wrong with it, and perhaps prints it.
 
     Nothing does where ``optional/doctor`` is missing.
     """
-    doctor = part("doctor.warnings")
-    return [] if doctor is None else [doctor.Warnings(printed)]
+    doctor = part("doctor.observer")
+    return [] if doctor is None else [doctor.Doctor(printed)]

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import InputError, about_field
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.simulate.finding import finding_read
 from quasistatic_ref.step.cones import cone
 
 RECORDS = ("full", "light", "forces")
@@ -84,7 +85,9 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
         raise top.fail("contacts", f"must have {steps} entries", len(contacts))
     if not all(isinstance(names, list) for names in contacts):
         raise top.fail("contacts", "must be lists of names", contacts)
-    top.words("warnings", [])
+    top.words("warnings", [])  # of files from before there were findings
+    for i, table in enumerate(top.sequence("findings", [])):
+        finding_read(table, f"findings[{i}]")
     top.boolean("alone", True)
     top.close()
 

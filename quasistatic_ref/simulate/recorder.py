@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.simulate.observer import Observer, warnings_of_runs
+from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
 from quasistatic_ref.step.data import Array, StepData
@@ -39,10 +39,11 @@ class Recorder:
         ``"full"``; ``"light"`` to leave out the quadratic programs; ``"forces"`` to have the forces
         of single contacts in their place.
     observers : sequence of Observer, optional
-        What watches the run; by default what warns of it.
+        What watches the run; by default the doctor, if it is there.
 
     Attributes
     ----------
+    simulator : Simulator
     observers : list of Observer
     steps : int
         Number of steps so far.
@@ -66,11 +67,11 @@ class Recorder:
     ) -> None:
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
+        self.simulator = simulator
         self.scene = simulator.scene
         self.system, self.h, self.backend = simulator.system, simulator.h, simulator.backend
         self.cone, self.layout, self.record = simulator.cone, simulator.layout, record
-        self.gravity = float(np.linalg.norm(simulator.gravity))
-        self.observers = list(warnings_of_runs() if observers is None else observers)
+        self.observers = list(doctors() if observers is None else observers)
         self.start = self.system.checked(q)
         self.q, self.steps = self.start, 0
         self.extra: tuple[str, ...] = ()
@@ -200,7 +201,7 @@ class Recorder:
             "largest_drag_share": None,
             "largest_boundary_layer": None,
             "contacts": [self.layout.contact_names(p) for p in arrays["point"]] if full else [],
-            "warnings": [],
+            "findings": [],
         } | ({} if self.alone else {"alone": False})
         constant = {k: getattr(self.layout, k) if self.steps else np.zeros(0) for k in CONSTANT}
         q = np.concatenate([self.start[None], *(part["q"] for part in parts)])

@@ -15,7 +15,7 @@ from quasistatic_ref.simulate.goals import (
     target_function,
 )
 from quasistatic_ref.simulate.interrupt import Interrupt
-from quasistatic_ref.simulate.observer import Observer, warnings_of_runs
+from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.pace import Pace
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import Recorder
@@ -67,8 +67,8 @@ def rollout(
         of single contacts in their place.
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal, and to print
-        there that `fast` would save ten seconds or more, and, at the end of a run, what it warns of
-        (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.warnings`).
+        there that `fast` would save ten seconds or more, and, at the end of a run, its findings
+        (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`).
     save : str or Path, optional
         The trajectory's file, written when the run ends, also when it ends early: then next to it,
         as ``NAME_failed.npz``, if a longer run is there. While the run goes on, its steps are saved
@@ -97,7 +97,7 @@ def rollout(
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.
     """
-    recorder = Recorder(simulator, q, record, [*warnings_of_runs(printed=progress), *observers])
+    recorder = Recorder(simulator, q, record, [*doctors(printed=progress), *observers])
     q_bar_a = target_function(simulator.system, simulator.h, target, steps)
     pushed = force_function(simulator.system, force)
     saved = None

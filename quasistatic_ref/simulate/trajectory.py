@@ -22,6 +22,7 @@ from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate import wrenches
+from quasistatic_ref.simulate.finding import Finding, finding_read
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 
@@ -49,7 +50,7 @@ class Trajectory(Plain, Shown):
         ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.optional.doctor.artifacts`,
         without which all three are None; ``alone``, false where the steps are not all that was
         solved, see :class:`~quasistatic_ref.certify.solution.StepSolution`;
-        ``warnings``, see :attr:`warnings`; and ``failed``: the reason, or None for a complete run.
+        ``findings``, see :attr:`findings`; and ``failed``: the reason, or None for a complete run.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
         step), ``delta_q``, ``q_bar_a``, ``phi``, ``alpha``, ``beta``, ``n``, ``d1``, ``d2``,
@@ -115,12 +116,13 @@ class Trajectory(Plain, Shown):
         return None if reason is None else str(reason)
 
     @property
-    def warnings(self) -> tuple[str, ...]:
-        """What needs a remedy, a sentence each; see :mod:`~quasistatic_ref.optional.doctor.watch`.
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong with its scene or doubtful in it: causes first, then what comes of them.
 
-        Files from before there were any have none.
+        There are none without ``optional/doctor``, nor in files from before there were findings.
         """
-        return tuple(self.header.get("warnings", ()))
+        listed = enumerate(self.header.get("findings", ()))
+        return tuple(finding_read(table, f"findings[{i}]") for i, table in listed)
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k (from 0), bit for bit as it was solved.

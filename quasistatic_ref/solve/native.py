@@ -81,7 +81,7 @@ class NativeSolver(Solver):
     def empty(self) -> Program | SparseProgram:
         """A program of the right size."""
         like, order = self.like, self.adapter.ORDER
-        n, m = like.n_v, int(like.offsets[-1]) + len(like.extra.names)
+        n, m = like.n_v, like.m
         return Program(
             np.zeros((n, n), order=order), np.zeros(n), np.zeros((m, n), order=order), np.zeros(m)
         )

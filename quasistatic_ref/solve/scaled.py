@@ -27,6 +27,14 @@ class NaturalStep(Protocol):
     step: StepData
     units: Units
 
+    @property
+    def form(self) -> StandardForm:
+        """Its standard form in SI units; H and A may be sparse."""
+
+    @property
+    def natural_form(self) -> StandardForm:
+        """The same in natural units."""
+
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of delta_q (n_v,) and lam (m,), all in natural units [-]."""
 

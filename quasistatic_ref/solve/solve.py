@@ -15,10 +15,10 @@ from quasistatic_ref.certify.solution import (
     StepSolution,
     step_solution,
 )
-from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
+from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import NONE, check_certify
-from quasistatic_ref.solve.scaled import DenseStep, NaturalStep, out_of_range
+from quasistatic_ref.solve.scaled import NaturalStep, out_of_range
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import from_natural, in_natural
 from quasistatic_ref.step.arrays import QUIET, Array, finite
@@ -120,17 +120,9 @@ def solved(scaled: NaturalStep, solver: Solver, accuracy: float, certify: str) -
     scaled : NaturalStep
     solver, accuracy, certify
         As of :func:`solve_step`, and its errors.
-
-    Raises
-    ------
-    BackendError
-        If the solver does not support `certify`.
     """
     if certify != "off":
         check_arithmetic()
-    if certify == "full" and not solver.certifies:
-        problem = "is sparse and certifies no exact optimum; use certify = 'residual'"
-        raise BackendError(problem, field="solver", value=solver.name)
     solution = QUIET.copy().run(_solved, scaled, solver, accuracy, certify)
     if solution is None:
         raise out_of_range(scaled.step)
@@ -142,7 +134,6 @@ def _solved(
 ) -> StepSolution | None:
     """The solution, or None if it is not finite."""
     if certify == "full":
-        assert isinstance(scaled, DenseStep)  # as of every solver that certifies
         solution = _certified(scaled, solver, accuracy)
     else:
         solution = uncertified(scaled, solver, solver.answer(scaled, accuracy), certify)
@@ -160,7 +151,7 @@ def _far_from_largest(solution: StepSolution) -> bool:
     return bool(solution.step.h > 1 / LARGE and np.vdot(mu, mu) + np.vdot(lam, lam) < LARGE)
 
 
-def _certified(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSolution:
+def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolution:
     """The proved optimum; a backend that fails costs its start, not the answer."""
     step, units, kind = scaled.step, scaled.units, cone(scaled.step.cone)
     answer, statistics = _attempt(scaled, solver, accuracy)
@@ -192,7 +183,7 @@ def _certified(scaled: DenseStep, solver: Solver, accuracy: float) -> StepSoluti
 
 
 def _attempt(
-    scaled: DenseStep, solver: Solver, accuracy: float
+    scaled: NaturalStep, solver: Solver, accuracy: float
 ) -> tuple[NaturalAnswer | None, SolverStatistics]:
     """A backend's answer, or None and why not."""
     statistics = SolverStatistics(

@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum, exact_step
-from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
+from quasistatic_ref.certify.norm import Norm, energy_norm
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError, StepNotSolved
@@ -112,8 +112,6 @@ class Solver(ABC):
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
         What the steps that it solves have in common, of ``KIND``.
-    certifies : bool
-        Whether its answers can be the start of an exact certificate.
     remembers : bool
         Whether its answer to a step may depend on the steps before.
     unsafe : bool
@@ -122,7 +120,6 @@ class Solver(ABC):
 
     engine: ClassVar[str]
     fixed: ClassVar[tuple[str, ...]]
-    certifies: ClassVar[bool] = True
     remembers: ClassVar[bool] = False
 
     def __init__(self, like: StepData, name: str) -> None:
@@ -168,7 +165,7 @@ class Solver(ABC):
         """The step in natural units."""
         return DenseStep(step)
 
-    def optimum(self, scaled: DenseStep, answer: NaturalAnswer | None) -> ExactOptimum:
+    def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum, sought from where an answer shows it to be, or from cold.
 
         Raises
@@ -177,9 +174,9 @@ class Solver(ABC):
         """
         return exact_step(scaled.step, warm_start(scaled, answer))
 
-    def norm(self, scaled: DenseStep) -> EnergyNorm:
+    def norm(self, scaled: NaturalStep) -> Norm:
         """The norm ||.||_H of a step, in which errors and lengths are measured."""
-        return energy_norm(scaled.form.H)
+        return energy_norm(scaled.step.H)
 
     def error_bound(self, scaled: NaturalStep, delta_q: Array, lam: Array) -> float:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units.
@@ -289,7 +286,7 @@ class NoSolver(Solver):
         return Reply(None, None, False, "not called")
 
 
-def warm_start(scaled: DenseStep, answer: NaturalAnswer | None) -> list[int]:
+def warm_start(scaled: NaturalStep, answer: NaturalAnswer | None) -> list[int]:
     """Rows that an answer shows to be active, from which the exact method starts; none without."""
     if answer is None:
         return []

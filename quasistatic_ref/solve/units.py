@@ -26,6 +26,8 @@ from quasistatic_ref.tolerances import FAR
 
 STANDSTILL = 2.0**-100
 """Size of a step that nothing drives [(N m s)^0.5]."""
+SMALLEST = 2.0**-960
+"""Least size of a step [(N m s)^0.5]: its inverse, times a coordinate's unit, is a float64."""
 
 
 class Units(NamedTuple):
@@ -120,8 +122,23 @@ def units_of(form: StandardForm, of_H: NaturalHessian) -> Units:
     of_H : NaturalHessian
     """
     squares = squared_lengths(form, of_H)
-    energy = math.sqrt(max(float(form.g.dot(of_H.inverse).dot(form.g)), 0.0))  # ||H^-1 g||_H
-    return units_from(of_H.coordinate, squares, energy, form.b)
+    power = small_power(form.g * of_H.coordinate)
+    g = np.ldexp(form.g, -power)
+    energy = math.sqrt(max(float(g.dot(of_H.inverse).dot(g)), 0.0))  # ||H^-1 g||_H
+    return units_from(of_H.coordinate, squares, math.ldexp(energy, power), form.b)
+
+
+def small_power(load: Array) -> int:
+    """A power of two near the largest of small loads, at most 0.
+
+    Of loads over that power the squares do not vanish.
+
+    Parameters
+    ----------
+    load : ndarray, shape (n_v,)
+        [N s, N m s].
+    """
+    return min(int(np.frexp(np.abs(load).max(initial=0.0))[1]), 0)
 
 
 def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Units:
@@ -144,7 +161,7 @@ def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Un
         size = -float(b.min(initial=0.0)) / length or STANDSTILL
     if not math.isfinite(energy + push_out + (squares[-1] if b.size else 0.0)):
         size = math.nan
-    return Units(coordinate, length, _power_of_two(size))
+    return Units(coordinate, length, _power_of_two(max(size, SMALLEST)))
 
 
 def natural_form(form: StandardForm, units: Units, H: Array | None = None) -> StandardForm:

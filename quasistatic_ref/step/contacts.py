@@ -8,7 +8,16 @@ import numpy as np
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.step.arrays import Array, Indices, columns, freeze, names, numbers, read_only
+from quasistatic_ref.step.arrays import (
+    Array,
+    Indices,
+    Mask,
+    columns,
+    freeze,
+    names,
+    numbers,
+    read_only,
+)
 from quasistatic_ref.tolerances import ORTHONORMAL
 
 AXES = np.eye(3)
@@ -82,6 +91,35 @@ class Contacts(Plain, Shown):
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""
         return self.J @ delta_q
+
+    def moved(self) -> tuple[Indices, Indices]:
+        """Contact and coordinate of each pair of which the first moves with the second."""
+        contact, coordinate = np.nonzero(self.moves())
+        return contact, coordinate
+
+    def moves(self) -> Mask:
+        """Whether each contact moves with each column that is kept of its J: (n_c, columns)."""
+        moves: Mask = (self.J != 0).any(axis=1)
+        return moves
+
+    def some(self, contacts: Indices, coordinates: Indices) -> "Contacts":
+        """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""
+        return Contacts(
+            name=tuple(self.name[j] for j in contacts.tolist()),
+            phi=self.phi[contacts],
+            n=self.n[contacts],
+            d1=self.d1[contacts],
+            d2=self.d2[contacts],
+            J=self.columns(contacts, coordinates),
+            mu_v=self.mu_v[contacts],
+            mu_omega=self.mu_omega[contacts],
+            rows=self.rows[contacts],
+        )
+
+    def columns(self, contacts: Indices, coordinates: Indices) -> Array:
+        """J of some contacts, those columns of it, shape (k, 4, n)."""
+        columns: Array = self.J[contacts][:, :, coordinates]
+        return columns
 
     @property
     def n_c(self) -> int:

@@ -174,6 +174,16 @@ class StepData(Plain, Shown):
         """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
         return self.M_u @ delta_q[self.n_a :]
 
+    def inertia(self, u: Indices) -> Array:
+        """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
+        return self.M_u[np.ix_(u, u)]
+
+    def coupled(self) -> tuple[Indices, Indices]:
+        """Both coordinates of each entry below the diagonal of K_q or M_u that is not zero."""
+        of_a, of_u = (np.argwhere(np.tril(M, -1)) for M in (self.K_q, self.M_u))
+        one, other = np.concatenate([of_a, of_u + self.n_a]).T
+        return one, other
+
     @property
     def n_a(self) -> int:
         """Number of actuated coordinates."""
@@ -188,6 +198,11 @@ class StepData(Plain, Shown):
     def n_v(self) -> int:
         """Number of coordinates of delta_q."""
         return self.n_a + self.n_u
+
+    @property
+    def m(self) -> int:
+        """Number of all multipliers, the user's own rows last; in a polyhedral cone, of rows."""
+        return int(self.offsets[-1]) + len(self.extra.names)
 
     @cached_property
     def layout(self) -> RowLayout:

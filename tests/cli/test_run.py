@@ -67,8 +67,8 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(swing, out, c
     trajectory = trajectory_read(out / "swing.npz")
     assert trajectory.steps == 3
     assert trajectory.failed is not None
-    assert warned == list(trajectory.warnings)
-    assert "turns by 270 degrees, in step 2" in warned[0]
+    assert warned == [str(finding) for finding in trajectory.findings]
+    assert any("turns by 270 degrees, in step 2" in sentence for sentence in warned)
     assert main(["run", swing, "--out", str(out), "--quiet"]) == 3
     assert capsys.readouterr().err == captured.err
     np.testing.assert_allclose(step_read(step_file).contacts.phi, [-0.11], rtol=MULTIPLIERS)
@@ -105,13 +105,9 @@ def test_quiet_leaves_nothing_on_a_terminal_s_standard_error(scene, tmp_path, mo
         assert ("step/s" in terminal.getvalue()) is shown
 
 
-def test_a_quiet_run_still_says_what_it_warns_of(tmp_path, capsys):
+def test_a_quiet_run_still_says_its_findings(tmp_path, capsys):
     assert main(["run", "block_incline", "--fast", "--quiet", "--out", str(tmp_path)]) == 0
-    warned = capsys.readouterr().err
-    assert warned.startswith("quasistatic-ref: the spurious drag")
-    assert (
-        main(["run", "block_incline", "--fast", "--quiet", "--strict", "--out", str(tmp_path)]) == 1
-    )
+    assert "the spurious drag" in capsys.readouterr().err
 
 
 NAMES = ("product", "facets-6", "frictionless", "ellipsoid")

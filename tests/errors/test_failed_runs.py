@@ -69,9 +69,7 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, cap
     assert trajectory.steps == steps
     assert trajectory.failed is not None
     assert trajectory.failed in captured.err
-    # Thrown by 10 m a step, it is warned of as well; the others fail in their first step.
-    assert warned == [f"quasistatic-ref: {sentence}" for sentence in trajectory.warnings]
-    assert bool(warned) == (case == "out of the scene")
+    assert warned == [f"quasistatic-ref: {finding}" for finding in trajectory.findings]
     assert trajectory["q"].shape[0] == steps + 1
     failed = step_read(out / "scene_failed_step.json")
     assert f"the failing step in {out / 'scene_failed_step.json'}" in captured.err
@@ -152,7 +150,7 @@ def test_ctrl_c_leaves_a_trajectory_of_whole_steps(tmp_path):
     assert n > 0
     assert trajectory.failed == f"step {n}: interrupted"
     ended = f"step {n}: interrupted; the first {n} steps are in {out / 'scene.npz'}"
-    sentences = (*trajectory.warnings, ended)
+    sentences = (*trajectory.findings, ended)
     assert complained.splitlines() == [f"quasistatic-ref: {sentence}" for sentence in sentences]
     assert os.listdir(out) == ["scene.npz"]
     # The same steps as of a run that was set to end there, bit for bit.

@@ -40,7 +40,7 @@ def test_the_page_has_five_files_and_a_command_for_each_step(folder):
 
 def test_the_can_rises_with_the_lift_less_the_stretch_of_the_spring(folder):
     run = trajectory_read(folder / "results" / "scene.npz")
-    assert run.header["warnings"] == []
+    assert run.header["findings"] == []
     assert set(run["certificate"]) == {"exact"}
     mass, gravity, h, K_lift, rise, speed = 0.2, 9.81, 0.02, 2000.0, 0.03, 0.01
     drag = mass * speed / h  # (R13); the lift still moves in the last step

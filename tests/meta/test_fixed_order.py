@@ -48,7 +48,6 @@ EXCEPTIONS = {
     ),
     "measured of an answer or of a run; the next step does not read it": (
         "model/system.py:System.mass",
-        "simulate/recorder.py:Recorder.__init__",
         "simulate/wrenches.py:_forces",
         "simulate/wrenches.py:pair_forces",
         "simulate/wrenches.py:wrench_on",

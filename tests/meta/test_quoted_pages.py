@@ -23,7 +23,7 @@ PRINTED = {
     "docs/quickstart.md": "tests/quoted_pages.py: the lines of demo",
     "docs/guides/check_your_implementation.md": "below",
     "docs/guides/run_a_study.md": "below",
-    "docs/guides/write_a_scenario.md": "tests/optional/doctor/test_warnings.py",
+    "docs/findings.md": "tests/optional/doctor/test_observer.py and test_findings.py",
 }
 """Pages with text that a command printed, and what holds it."""
 

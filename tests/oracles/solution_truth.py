@@ -1,6 +1,6 @@
 """What a solution file claims, decided by fractions from the equations: the judge of forgeries.
 
-H, g, A and b are formed by plain loops, linear systems are solved by elimination. The optimum of a
+H, g, A and b are formed by plain loops, solutions of linear systems are checked. The optimum of a
 polyhedral cone is proved here from the working set that a file or the package names: all
 multipliers and slacks are at least zero. In the ellipsoid the package encloses it to 40 digits.
 """
@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from flint import arb
+from flint import arb, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import exact_optimum
@@ -39,20 +39,22 @@ ROUNDING = 1 + Fraction(1, 10**30)
 
 
 def solved(M: Matrix, right: Vector) -> Vector:
-    """The solution of M x = right, by elimination in whole numbers with exchange of rows."""
+    """The solution of M x = right: FLINT finds it, and here it is put into the equations.
+
+    Raises
+    ------
+    ArithmeticError
+        If M is singular.
+    """
+    if not M:
+        return []
     rows = [whole([*row, value]) for row, value in zip(M, right, strict=True)]
-    n, last = len(rows), 1
-    for k in range(n):
-        pivot = next(i for i in range(k, n) if rows[i][k])
-        rows[k], rows[pivot] = rows[pivot], rows[k]
-        at = rows[k][k]
-        for i in range(n):
-            if i != k:
-                factor = rows[i][k]
-                rows[i] = [(at * a - factor * b) // last
-                           for a, b in zip(rows[i], rows[k], strict=True)]  # fmt: skip
-        last = at
-    return [Fraction(row[n], last) for row in rows]
+    found = fmpz_mat([row[:-1] for row in rows]).solve(fmpz_mat([row[-1:] for row in rows]))
+    x = [Fraction(int(v.p), int(v.q)) for v in found.entries()]
+    *parts, unit = whole([*x, Fraction(1)])
+    for *row, value in rows:
+        assert sum(a * part for a, part in zip(row, parts, strict=True)) == value * unit
+    return x
 
 
 def whole(row: Vector) -> list[int]:

@@ -18,22 +18,21 @@ from quasistatic_ref.solve.adapters.piqp import Piqp
 from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.tolerances import DENSE_BELOW, SPARSE_FROM_PIQP
+from quasistatic_ref.tolerances import DENSE_BELOW, DENSE_BELOW_PROOFS, SPARSE_FROM_PIQP
 from tests.helpers import error
 from tests.tolerances import OPTIMUM
 
 FAILED = Reply(None, None, False, "at a loss")
 
 
-def test_the_default_of_fast_and_uncertified_rows_is_daqp_then_piqp():
-    for certify, least in (("off", DENSE_BELOW), ("residual", SPARSE_FROM_PIQP)):
+def test_the_default_of_fast_and_rows_is_daqp_then_piqp():
+    by_certify = {"off": DENSE_BELOW, "residual": SPARSE_FROM_PIQP, "full": DENSE_BELOW_PROOFS}
+    for certify, least in by_certify.items():
         assert default_backend("pyramid", certify, least - 1) == "daqp"
         assert default_backend("product", certify, least) == "piqp"
-        assert sparse_from("piqp", certify, "product") == SPARSE_FROM_PIQP
-        assert sparse_from("daqp", certify, "product") == 0
-        assert sparse_from("qpsolvers:piqp", certify, "product") == 0
-    assert default_backend("pyramid", "full", 10**9) == "daqp"
-    assert sparse_from("piqp", "full", "pyramid") == 0
+    assert sparse_from("piqp", "product") == SPARSE_FROM_PIQP
+    assert sparse_from("daqp", "product") == sparse_from("piqp", "ellipsoid") == 0
+    assert sparse_from("qpsolvers:piqp", "product") == 0
     few, many = pile((2, 1, 1), certify="residual"), pile((8, 1, 1), certify="residual")
     for some, named in ((few, "daqp"), (many, "piqp")):
         own = some.simulator

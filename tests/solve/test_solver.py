@@ -175,13 +175,16 @@ def test_rows_of_an_extension_count_as_rows_of_the_step(step):
             solve_step(step, solver_for(step, "clarabel", fast), extension=floor)
 
 
-def test_a_sparse_solver_certifies_nothing_exactly_and_says_so(large_step):
-    solver = solver_for(large_step, "osqp", fast=True)
+@pytest.mark.parametrize("alone", [False, True])
+def test_a_sparse_solver_certifies_the_same_bits_by_fast_and_by_itself(large_step, alone):
+    made = SparseSolver(large_step, "osqp") if alone else solver_for(large_step, "osqp", fast=True)
+    solver = copy.copy(made)
     assert type(solver) is SparseSolver
-    said = solve_step(large_step, solver, certify="residual").statistics
-    assert (said.backend, said.engine) == ("osqp", "native")
-    with pytest.raises(BackendError, match="is sparse and certifies no exact optimum"):
-        solve_step(large_step, solver, certify="full")
+    assert (solver.proofs is None) == alone
+    answer = solve_step(large_step, solver)
+    assert (answer.statistics.backend, answer.statistics.engine) == ("osqp", "native")
+    assert answer.certificate.kind == "exact"
+    assert answer.delta_q.tobytes() == solve_step(large_step, "none").delta_q.tobytes()
 
 
 def test_no_solver_gives_no_answer_of_its_own(step):

@@ -115,19 +115,18 @@ def test_the_answer_does_not_depend_on_the_units(seed):
         np.testing.assert_allclose(impulses, lam, rtol=0.0, atol=ACTIVE_SET * lam.max())
 
 
-def test_a_power_of_two_in_the_data_moves_the_units_and_nothing_else():
-    # Twice the motion and force: the natural step is the same, bit for bit.
+@pytest.mark.parametrize("power", [2.0, 2.0**-900])
+def test_a_power_of_two_in_the_data_moves_the_units_and_nothing_else(power):
+    # More motion and force, or so little that its square is 0: the natural step has the same bits.
     step = STEPS["random"]
-    contacts = dataclasses.replace(step.contacts, phi=2 * step.contacts.phi)
-    twice = step.replace(
-        tau_a=2 * step.tau_a,
-        tau_u=2 * step.tau_u,
-        delta_q_bar_a=2 * step.delta_q_bar_a,
-        contacts=contacts,
+    loads = ("tau_a", "tau_u", "delta_q_bar_a")
+    other = step.replace(
+        **{name: power * getattr(step, name) for name in loads},
+        contacts=dataclasses.replace(step.contacts, phi=power * step.contacts.phi),
     )
-    one, two = natural_units(step), natural_units(twice)
-    assert two.size == 2 * one.size
-    assert to_natural(twice, two) == to_natural(step, one)
+    one, two = natural_units(step), natural_units(other)
+    assert two.size == power * one.size
+    assert to_natural(other, two) == to_natural(step, one)
 
 
 def test_a_step_without_force_or_gap_has_units_too(rng):

@@ -17,7 +17,7 @@ import numpy as np
 from PIL import Image
 
 from quasistatic_ref.cli.main import main as command
-from quasistatic_ref.optional.show.figures.moments import Moment, extent, frames
+from quasistatic_ref.optional.show.figures.moments import Moment, focus, frames
 from quasistatic_ref.optional.show.figures.viewer import FRAMES_PER_SECOND, metres_per_newton
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
@@ -67,7 +67,7 @@ def check_scene(name: str, settings: list[str], folder: Path) -> None:
     scenario = load_scenario(name, settings)
     run = trajectory_read(folder / f"{name}.npz")
     moments, fps = frames(scenario, run, FRAMES_PER_SECOND)
-    half = float(np.ptp(extent(moments[0]), axis=0).max()) / 2
+    half = float(np.ptp(focus(moments), axis=0).max()) / 2
     scale = metres_per_newton(moments, half)
     with Browser() as browser:
         browser.ask(

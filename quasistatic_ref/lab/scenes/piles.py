@@ -57,8 +57,10 @@ def pile(
     shape: tuple[int, int, int],
     k: int = 4,
     *,
-    backend: str = "clarabel",
+    backend: str | None = "clarabel",
     certify: str = "off",
+    gap: float = GAP,
+    yaw: float = 0.0,
 ) -> Pile:
     """Boxes in a grid of nx x ny x nz, each touching its neighbours and the lowest the floor.
 
@@ -72,18 +74,26 @@ def pile(
         Contacts of each pair.
     backend, certify : str
         As in :class:`~quasistatic_ref.simulate.simulator.Simulator`.
+    gap : float
+        Between neighbours side by side [m]; with a side or more they are no pairs.
+    yaw : float
+        Each box is turned about the vertical by up to so much, at random [rad].
     """
     index = np.arange(np.prod(shape)).reshape(shape)
     places = np.stack(np.unravel_index(index.ravel(), shape), axis=1)
-    xyz = (SIDE + GAP) * places + [0.0, 0.0, SIDE / 2]
+    xyz = SIDE * places + [gap, gap, GAP] * places + [0.0, 0.0, SIDE / 2]
     names = [f"box{i}" for i in range(index.size)]
-    starts = {name: {"xyz": tuple(at)} for name, at in zip(names, xyz.tolist(), strict=True)}
+    turned = yaw * np.random.default_rng(0).uniform(-1, 1, index.size)
+    starts = {
+        name: {"xyz": tuple(at), "rpy": (0.0, 0.0, angle)}
+        for name, at, angle in zip(names, xyz.tolist(), turned.tolist(), strict=True)
+    }
     system = system_of(dict.fromkeys(names, BOX), **starts)
     cloud, floor = PointCloud(_surface()), world_plane()
     boxes = {shape.link: shape for shape in system.shapes}
     clouds = [on_link(system, name, cloud) for name in names]
     pairs = [_pair(floor, clouds[i], k) for i in index[:, :, 0].ravel()]
-    for axis in range(3):
+    for axis in range(3) if gap < SIDE else [2]:
         before = np.delete(index, -1, axis=axis).ravel()
         after = np.delete(index, 0, axis=axis).ravel()
         pairs += [

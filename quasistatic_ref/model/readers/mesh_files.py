@@ -11,7 +11,7 @@ from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.dae import check_dae
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, hull_of_mesh
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, Indices
 
 MESHES = (".stl", ".obj", ".dae")
 PACKAGE = "package://"
@@ -76,14 +76,40 @@ def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
     ModelError
         If coal cannot read the file, or its vertices have no volume.
     """
+    with about_file(path):
+        return hull_of_loaded(_loaded(path, scale))
+
+
+def mesh_corners(path: Path, scale: Array) -> Array:
+    """The triangles of a mesh file, three corners each, shape (3T, 3) [m].
+
+    Parameters
+    ----------
+    path : Path
+    scale : ndarray, shape (3,)
+        Of each coordinate [-].
+
+    Raises
+    ------
+    ModelError
+        If coal cannot read the file.
+    """
+    loaded = _loaded(path, scale)
+    return np.asarray(np.array(loaded.vertices())[_triangles(loaded).ravel()])
+
+
+def _loaded(path: Path, scale: Array) -> Any:
     try:
-        loaded = coal.MeshLoader().load(str(path), scale)
+        return coal.MeshLoader().load(str(path), scale)
     except (ValueError, RuntimeError) as error:
         lines = [line.strip() for line in str(error).splitlines() if line.strip()]
         reason = lines[-2] if len(lines) > 1 else "".join(lines)
         raise ModelError(f"cannot be read as a mesh: {reason}", file=path) from None
-    with about_file(path):
-        return hull_of_loaded(loaded)
+
+
+def _triangles(geometry: Any) -> Indices:
+    corners = (geometry.tri_indices(i) for i in range(geometry.num_tris))
+    return np.array([(c[0], c[1], c[2]) for c in corners], dtype=np.int64)
 
 
 def hull_of_loaded(geometry: Any) -> ConvexMesh:
@@ -91,9 +117,7 @@ def hull_of_loaded(geometry: Any) -> ConvexMesh:
     if geometry.num_vertices < 4 or geometry.num_tris < 1:
         problem = "must be at least four vertices, and triangles"
         raise ModelError(problem, field="vertices", value=int(geometry.num_vertices))
-    corners = (geometry.tri_indices(i) for i in range(geometry.num_tris))
-    triangles = np.array([(c[0], c[1], c[2]) for c in corners], dtype=np.int64)
-    return hull_of_mesh(np.array(geometry.vertices()), triangles)
+    return hull_of_mesh(np.array(geometry.vertices()), _triangles(geometry))
 
 
 def hull_note(name: str, mesh: ConvexMesh) -> str:

@@ -150,7 +150,7 @@ def _link(element: Element, ignored: list[str]) -> FileLink:
         collision = Tag(each, f"{link.where}.collision[{number}]")
         ignored += collision.ignored("origin", "geometry")
         R, t = collision.frame()
-        collisions.append((_geometry(collision), R, t))
+        collisions.append((written_shape(collision), R, t))
     return FileLink(name, mass, com, inertia, tuple(collisions), defect)
 
 
@@ -187,7 +187,14 @@ def inertia_defect(inertia: Array) -> Defect | None:
     return None
 
 
-def _geometry(collision: Tag) -> Shape | FileMesh:
+def written_shape(collision: Tag) -> Shape | FileMesh:
+    """The shape of a collision or visual element.
+
+    Raises
+    ------
+    ModelError
+        If it has none, more than one, or one that is not known.
+    """
     geometry = collision.child("geometry")
     tags = [child.tag for child in geometry.element]
     if len(tags) != 1:

@@ -171,7 +171,7 @@ class Derivatives(Plain):
 
     def _ahead(self, name: str, p: int, column: Array) -> NextKink:
         for why in self.reasons if np.isnan(column).any() else ():
-            if why.kind not in reason.ONE_SIDED and name in why.fields:
+            if why.kind not in reason.NO_KINK and name in why.fields:
                 return NextKink(0.0, f"{why.kind}: {', '.join(why.where)}")
         reach = self._parts.reach
         return self._named(Distance(np.inf) if reach is None else reach.either(p))

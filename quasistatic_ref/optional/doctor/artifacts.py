@@ -2,50 +2,73 @@
 
 import math
 import sys
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterable
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.doctor.start import free_bases
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.tolerances import BEARS, SLOW
+from quasistatic_ref.tolerances import BEARS
 
 
-def drag_share(system: System, solution: StepSolution, g: float) -> float | None:
-    """Spurious drag on a free body over the friction that its contacts can bear, (R13).
+class Drag(NamedTuple):
+    """Spurious drag on a free body, and what its contacts can bear by friction.
 
-    Of a floating base that is not actuated, the drag is the force ||M_u delta_q_u / h^2|| on its
-    translation, and what its contacts can bear is the sum of mu_v f_n. Where they bear nothing by
-    friction, the drag is divided by the body's weight: in free fall the share is 1.
+    Parameters
+    ----------
+    body : str
+    drag : float
+        ||M_u delta_q_u / h^2|| of its translation [N].
+    bears : float
+        Sum of mu_v f_n of its contacts [N]; where they bear nothing by friction, its weight.
+    touched, rubs : bool
+        Whether its contacts press at all, and whether they bear anything by friction.
+    """
+
+    body: str
+    drag: float
+    bears: float
+    touched: bool
+    rubs: bool
+
+    @property
+    def share(self) -> float | None:
+        """The quotient (R13) [-], 1 in free fall; None where float64 has no number for it."""
+        return _quotient(self.drag, self.bears)
+
+
+def drags(system: System, step: StepData, delta_q: Array, wrench: Array, g: float) -> list[Drag]:
+    """The drag on each floating base that is not actuated.
 
     Parameters
     ----------
     system : System
-    solution : StepSolution
+    step : StepData
+    delta_q : ndarray, shape (n_v,)
+    wrench : ndarray, shape (n_c, 4)
+        Of its contacts [N, N m]: those of this delta_q, or of a step with another M_u.
     g : float
         Length of gravity [m/s^2].
-
-    Returns
-    -------
-    float or None
-        Of the body that has the largest share; None where no body floats, or none that floats rubs
-        or weighs anything, or where float64 has no number for it.
     """
-    step, friction = solution.step, _friction(solution)
-    momentum = step.momentum(solution.delta_q)
-    shares = []
-    for base in _free_bases(system):
-        x = base.v.start
+    momentum, found = step.momentum(delta_q), []
+    presses = _carried(step, np.ones(len(wrench)), wrench[:, 2])
+    friction = _carried(step, step.contacts.mu_v, wrench[:, 2])
+    for base in free_bases(system):
+        x, body = base.v.start, base.name.removesuffix("/base")
         drag = _quotient(np.linalg.norm(momentum[x - step.n_a : x - step.n_a + 3]), step.h**2)
-        if drag is None:
-            continue
-        weight = system.mass(base.name.removesuffix("/base")) * g
-        bears = float(friction[x]) if friction[x] > BEARS * drag else weight
-        shares.append(_quotient(drag, bears))
-    return max((share for share in shares if share is not None), default=None)
+        if drag is not None:
+            touched, rubs = bool(presses[x] > BEARS * drag), bool(friction[x] > BEARS * drag)
+            bears = float(friction[x]) if rubs else system.mass(body) * g
+            found.append(Drag(body, drag, bears, touched, rubs))
+    return found
+
+
+def largest_share(found: Iterable[Drag]) -> float | None:
+    """The largest share of some drags; None where none has any."""
+    return max((x.share for x in found if x.share is not None), default=None)
 
 
 def _quotient(over: Any, under: Any) -> float | None:
@@ -59,26 +82,22 @@ def _quotient(over: Any, under: Any) -> float | None:
     return over / under if under > 0 and within else None
 
 
-def _free_bases(system: System) -> list[Joint]:
-    return [j for j in system.joints if j.kind == "floating" and not j.actuated]
-
-
-def _friction(solution: StepSolution) -> Array:
-    """For each coordinate that translates a base: sum of mu_v f_n [N] over its body's contacts.
+def _carried(step: StepData, factor: Array, f_n: Array) -> Array:
+    """For each coordinate that translates a base: sum of factor f_n [N] over its body's contacts.
 
     Shape (n_v,), or (n_v + 1,) in blocks; other entries mean nothing. A coordinate that translates
     a base moves the points of its body's contacts by one metre per metre, and others not at all.
     """
-    contacts, f_n = solution.step.contacts, solution.wrench[:, 2]
-    bears = contacts.mu_v * np.where(f_n > BEARS * f_n.max(initial=0.0), f_n, 0.0)
+    contacts = step.contacts
+    bears = factor * np.where(f_n > BEARS * f_n.max(initial=0.0), f_n, 0.0)
     blocks = getattr(contacts, "blocks", None)  # of many bodies
     J = contacts.J if blocks is None else blocks.J
     moved = np.linalg.norm(J[:, :3], axis=1) > 0.5  # it is 1 or 0, but for rounding
     if blocks is None:
         return np.asarray(bears @ moved)
-    friction = np.zeros(blocks.n_v + 1)
-    np.add.at(friction, blocks.column, bears[:, None] * moved)
-    return friction
+    carried = np.zeros(blocks.n_v + 1)
+    np.add.at(carried, blocks.column, bears[:, None] * moved)
+    return carried
 
 
 def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: float) -> float | None:
@@ -101,7 +120,7 @@ def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: floa
         None where nothing floats, nothing rubs or nothing weighs, or where float64 has no number
         for it, as with a mu_v of 1e-323.
     """
-    bases = [base.v.start for base in _free_bases(system)]
+    bases = [base.v.start for base in free_bases(system)]
     rough = step.contacts.mu_v[step.contacts.mu_v > 0]
     if not (bases and rough.size and g > 0):
         return None
@@ -133,15 +152,3 @@ def boundary_layer(gap: Array, solution: StepSolution) -> float:
     force = solution.wrench[:, 2]
     loaded = force > BEARS * force.max(initial=0.0)
     return max(0.0, float(gap[loaded].max(initial=0.0)))
-
-
-def warning(header: Mapping[str, Any]) -> str | None:
-    """One sentence on a run whose drag is not small against what contacts bear, or None."""
-    share = header["largest_drag_share"]
-    if share is None or share <= SLOW:
-        return None
-    return (
-        f"the spurious drag m v / h on a free body reaches {share:.2g} times the friction that its "
-        "contacts can bear (its weight, where they bear none); move more slowly or take larger "
-        "steps (the documentation's page 'Where the model is wrong')"
-    )

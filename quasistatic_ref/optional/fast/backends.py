@@ -1,6 +1,5 @@
 """The backends of `fast`: the quickest by default, each by its own interface where it has one."""
 
-import math
 from importlib.util import find_spec
 
 from quasistatic_ref.solve.backends import (
@@ -11,13 +10,12 @@ from quasistatic_ref.solve.backends import (
 )
 from quasistatic_ref.solve.native import native_backends
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.tolerances import DENSE_BELOW, SPARSE_FROM_PIQP
+from quasistatic_ref.tolerances import DENSE_BELOW, DENSE_BELOW_PROOFS, SPARSE_FROM_PIQP
 
 DEFAULT_OF_FAST = "daqp" if find_spec("daqp") else DEFAULT
 """Backend of small steps: the fastest; certified steps have the same bits with any backend."""
 DEFAULT_OF_LARGE = "piqp" if find_spec("piqp") else DEFAULT
-"""Backend of large steps that are not certified exactly: with sparse matrices, in half of the time
-that DEFAULT takes."""
+"""Backend of large steps: with sparse matrices, in half of the time that DEFAULT takes."""
 
 
 def fast_backend(name: str | None, cone_name: str, certify: str = "full", entries: int = 0) -> str:
@@ -49,17 +47,14 @@ def default_backend(cone_name: str, certify: str, entries: int) -> str:
     """The backend where none is named; arguments are those of :func:`fast_backend`."""
     if not cone(cone_name).polyhedral:
         return DEFAULT
-    # Rows that are certified exactly are dense, and have the same bits with any backend.
-    sparse = {"full": math.inf, "residual": SPARSE_FROM_PIQP, "off": DENSE_BELOW}
-    return DEFAULT_OF_LARGE if entries >= sparse.get(certify, math.inf) else DEFAULT_OF_FAST
+    least = {"off": DENSE_BELOW, "residual": SPARSE_FROM_PIQP, "full": DENSE_BELOW_PROOFS}
+    return DEFAULT_OF_LARGE if entries >= least[certify] else DEFAULT_OF_FAST
 
 
-def sparse_from(name: str, certify: str, cone_name: str) -> int:
+def sparse_from(name: str, cone_name: str) -> int:
     """Entries of J, 4 n_c n_v, from which steps are handed over in blocks; 0 if they never are.
 
-    They can be by the backend's own interface, where the cone is polyhedral and nothing is
-    certified exactly.
+    They can be by the backend's own interface, where the cone is polyhedral.
     """
-    native = name in native_backends(cone_name)
-    may = native and certify != "full" and cone(cone_name).polyhedral
+    may = name in native_backends(cone_name) and cone(cone_name).polyhedral
     return BACKENDS[name].sparse if may else 0

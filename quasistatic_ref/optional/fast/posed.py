@@ -7,6 +7,8 @@ the same numbers. A step that a user makes of their parts, also through ``replac
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.step.arrays import (
@@ -178,6 +180,20 @@ class BlockStep(PosedStep):
     def H(self) -> Array:
         """All of H of Eq. :eq:`eq-13`, shape (n_v, n_v): formed whenever it is read, too."""
         return hessian(self.h, self.K_q, self.M_u)
+
+    def inertia(self, u: Indices) -> Array:
+        """M_u of some un-actuated coordinates, (k,), counted from the first: shape (k, k)."""
+        blocks = vars(self)["M_u"]
+        block, place = np.divmod(u, blocks.shape[-1])
+        entries = blocks[block[:, None], place[:, None], place]
+        return np.where(block[:, None] == block, entries, 0.0)
+
+    def coupled(self) -> tuple[Indices, Indices]:
+        """Both coordinates of each entry below the diagonal of K_q or M_u that is not zero."""
+        block, one, other = np.nonzero(np.tril(vars(self)["M_u"], -1))
+        first = self.n_a + vars(self)["M_u"].shape[-1] * block
+        of_a, with_a = np.nonzero(np.tril(self.K_q, -1))
+        return np.concatenate([of_a, first + one]), np.concatenate([with_a, first + other])
 
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""

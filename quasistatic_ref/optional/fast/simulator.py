@@ -53,7 +53,7 @@ class FastSimulator(Simulator):
             default_backend(self.cone, self.certify, entries), self.accuracy, self.certify
         )
         self.tracker = ContactTracker(self.pairs)
-        least = sparse_from(self.backend, self.certify, self.cone) if entries else 0
+        least = sparse_from(self.backend, self.cone) if entries else 0
         self.geometry = posed_geometry(self.layout, system.motion, least)
         M_u = system.mass_blocks if self.geometry.in_blocks else system.M_u(system.q_start)
         rows = self.layout.rows

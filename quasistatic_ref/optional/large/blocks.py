@@ -47,10 +47,17 @@ class Blocks(Plain):
 
     def dense(self) -> Array:
         """All columns, shape (n_c, 4, n_v)."""
-        n_c = len(self.column)
-        wide = np.zeros((n_c, 4, self.n_v + 1))
-        np.put_along_axis(wide, np.broadcast_to(self.column[:, None], self.J.shape), self.J, axis=2)
-        return np.ascontiguousarray(wide[:, :, : self.n_v])
+        return self.columns(np.arange(len(self.column)), np.arange(self.n_v))
+
+    def columns(self, contacts: Indices, coordinates: Indices) -> Array:
+        """J of some contacts, shape (k, 4, n), in ascending coordinates that alone move them."""
+        place = np.searchsorted(coordinates, self.column[contacts])
+        known = np.append(coordinates, self.n_v)
+        place[known[place] != self.column[contacts]] = len(coordinates)  # columns of zeros
+        wide = np.zeros((len(contacts), 4, len(coordinates) + 1))
+        J = self.J[contacts]
+        np.put_along_axis(wide, np.broadcast_to(place[:, None], J.shape), J, axis=2)
+        return np.ascontiguousarray(wide[:, :, :-1])
 
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""

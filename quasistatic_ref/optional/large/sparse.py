@@ -1,8 +1,7 @@
 """Large steps: the sparse standard form handed to a backend's own interface.
 
 As :mod:`~quasistatic_ref.solve.native`, in time and memory that grow with the number of entries
-that are not zero. Nothing here is certified exactly: residuals, and a bound of the error
-(:mod:`~quasistatic_ref.optional.large.sparse_bound`), are what can be computed at this size.
+that are not zero. XX
 """
 
 import math
@@ -11,6 +10,8 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csc_matrix
 
+from quasistatic_ref.certify.exact import ExactOptimum, exact_step
+from quasistatic_ref.certify.norm import Norm
 from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.large.sizes import sizes_of
@@ -20,9 +21,10 @@ from quasistatic_ref.solve.adapters.program import SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import NaturalStep, check_units
-from quasistatic_ref.solve.solver import OptionSet
-from quasistatic_ref.solve.units import coordinate_units, in_natural, units_from
+from quasistatic_ref.solve.solver import NaturalAnswer, OptionSet
+from quasistatic_ref.solve.units import coordinate_units, in_natural, small_power, units_from
 from quasistatic_ref.step.data import Array, Mask, StepData
+from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import FAR
 
 GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_rel")
@@ -58,6 +60,8 @@ class SparseSolver(NativeSolver):
         Of a backend whose adapter takes sparse matrices.
     warm : bool
         Whether to start from the answer to the step before, where the backend can.
+    proofs : object, optional
+        What proves the optimum of a step that is certified exactly, as the Proofs of `fast`.
 
     Raises
     ------
@@ -67,14 +71,30 @@ class SparseSolver(NativeSolver):
         If the step is not in blocks.
     """
 
-    certifies = False
-
-    def __init__(self, like: StepData, name: str, warm: bool = True) -> None:
+    def __init__(self, like: StepData, name: str, warm: bool = True, proofs: Any = None) -> None:
         able = [entry.name for entry in BACKENDS.values() if entry.sparse]
         if name not in able:
             problem = f"takes no sparse matrices; a step this large needs {', '.join(able)}"
             raise BackendError(problem, field="backend", value=name)
+        self.proofs = proofs
         super().__init__(like, name, warm)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        proofs = None if self.proofs is None else type(self.proofs)()
+        return type(self), (self.like, self.name, self.warm, proofs)
+
+    def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
+        """The exact optimum: by the proofs of `fast`, where they are given."""
+        if self.proofs is not None:
+            proved: ExactOptimum = self.proofs.optimum(scaled, answer)
+            return proved
+        pressed = () if answer is None else np.argsort(-answer.lam)[: np.sum(answer.lam > 0)]
+        return exact_step(scaled.step, [int(i) for i in pressed])
+
+    def norm(self, scaled: NaturalStep) -> Norm:
+        """The norm ||.||_H of a step."""
+        norm: Norm = super().norm(scaled) if self.proofs is None else self.proofs.norm()
+        return norm
 
     def empty(self) -> SparseProgram:
         """A program with H in natural units, which stays, and the pattern of A."""
@@ -147,13 +167,17 @@ class SparseStep:
         rows = form.A.data * S[solver.pattern.column]
         squares = np.bincount(form.A.indices, rows * rows, minlength=len(form.b))
         y = form.g * S
-        energy = math.sqrt(max(float(y @ solver.of_H.factor.solve(y)), 0.0))  # ||H^-1 g||_H
-        self.units = units = units_from(S, np.sort(squares), energy, form.b)
+        power = small_power(y)
+        near_one = np.ldexp(y, -power)
+        energy = math.sqrt(max(float(near_one @ solver.of_H.factor.solve(near_one)), 0.0))
+        length = math.ldexp(energy, power)  # ||H^-1 g||_H
+        self.units = units = units_from(S, np.sort(squares), length, form.b)
         check_units(units, step)
         self.A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
         self.g, self.b = y / units.size, form.b / (units.size * units.length)
+        self.form: Any = form
+        self.natural_form: Any = StandardForm(self.H, self.g, self.A, self.b)
 
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
-        form: Any = (self.H, self.g, self.A, self.b)
-        return optimality_residuals(form, delta_q, lam)
+        return optimality_residuals(self.natural_form, delta_q, lam)

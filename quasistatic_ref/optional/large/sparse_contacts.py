@@ -2,9 +2,11 @@
 
 from typing import Any
 
+import numpy as np
+
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.step.arrays import Array, Indices, read_only
+from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 from quasistatic_ref.step.contacts import Contacts
 
 
@@ -54,6 +56,20 @@ class SparseContacts(Contacts):
     def n_v(self) -> int:
         """Number of columns of J."""
         return self.blocks.n_v
+
+    def moved(self) -> tuple[Indices, Indices]:
+        """Contact and coordinate of each pair of which the first moves with the second."""
+        contact, place = np.nonzero(self.moves())
+        return contact, self.blocks.column[contact, place]
+
+    def moves(self) -> Mask:
+        """Whether each contact moves with each of its columns, shape (n_c, w)."""
+        moves: Mask = (self.blocks.J != 0).any(axis=1)
+        return moves
+
+    def columns(self, contacts: Indices, coordinates: Indices) -> Array:
+        """J of some contacts, those columns of it, shape (k, 4, n)."""
+        return self.blocks.columns(contacts, coordinates)
 
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""

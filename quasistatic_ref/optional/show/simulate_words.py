@@ -106,7 +106,7 @@ def trajectory_page(trajectory: Trajectory) -> Page:
         f"boundary layer {number(header.get('largest_boundary_layer'))} m",
         f"arrays: {', '.join(trajectory.arrays)}",
     ]
-    facts += [f"warning: {sentence}" for sentence in trajectory.warnings]
+    facts += [f"finding: {finding}" for finding in trajectory.findings]
     n_c = np.size(trajectory["mu_v"])
     shapes = {"phi": (), "n": (3,), "wrench": (4,)}
     fits = (trajectory[key].shape == (steps, n_c, *last) for key, last in shapes.items())

@@ -47,6 +47,8 @@ step/friction.py
     PAGE cones kept_and_shown wrenches
 step/cones.py
     PAGE JUDGE completion
+step/groups.py
+    own
 step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
 certify/digits.py model/angles.py step/ordered.py model/rotation.py contact/cloud.py
 model/readers/mesh_files.py simulate/pace.py

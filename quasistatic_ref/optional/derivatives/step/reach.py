@@ -21,7 +21,7 @@ from quasistatic_ref.optional.derivatives.step.optimum_rates import (
     Equations,
     OptimumRates,
 )
-from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import DEPENDENT, FACET, SPLIT
 
 TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
@@ -139,14 +139,37 @@ class Reach:
         V = V[s > DEPENDENT * s[0]]
         rows, v, dv = self.cone @ V.T, V @ self.force / size, V @ change / speed
         nearest = max(self.loaded[column] * speed / size, FACET)  # so that the cost is about one
-        found = linprog(
-            v / nearest, A_ub=-rows, b_ub=np.zeros(len(rows)), A_eq=dv[None], b_eq=[-1.0],
-            bounds=(None, None), options=TIGHT,
-        )  # fmt: skip
-        if found.status != 0:
+        u = _least(v / nearest, -rows, dv, -1.0, [(None, None)] * len(v))
+        if u is None:
             return NEVER
-        u = np.asarray(found.x)
-        off = rows @ u > FACET * np.linalg.norm(u)
-        u = u - np.linalg.pinv(rows[~off], rcond=DEPENDENT) @ (rows[~off] @ u)
-        t = max(float(u @ v) / -float(u @ dv), 0.0) * float(size / speed)
-        return Distance(t, self.held[off])
+        on = rows[rows @ u <= FACET * np.linalg.norm(u)]
+        u = u - np.linalg.pinv(on, rcond=DEPENDENT) @ (on @ u)
+        t = max(float(u @ v) / -float(u @ dv), 0.0)
+        return Distance(t * float(size / speed), self.held[_unused(rows, v + t * dv)])
+
+
+def _unused(rows: Array, force: Array) -> Mask:
+    """Which rows (k, n) bear nothing of a `force` (n,) on the rim of their cone, shape (k,).
+
+    They are off one of the facets that hold it; normals of all of these add up to that of a plane.
+    """
+    k, n = rows.shape
+    u = _least(
+        np.concatenate([np.zeros(n), -np.ones(k)]), np.hstack([-rows, np.eye(k)]),
+        np.concatenate([force, np.zeros(k)]), 0.0, [(None, None)] * n + [(0.0, 1.0)] * k,
+    )  # fmt: skip
+    return np.zeros(k, dtype=bool) if u is None else np.asarray(u[n:] > 0.5)
+
+
+def _least(
+    cost: Array, below: Array, along: Array, length: float, bounds: list[tuple[float | None, ...]]
+) -> Array | None:
+    """The u of least cost with below u <= 0 and along . u = length; None if there is none."""
+    for options in (TIGHT, {}):  # HiGHS may call a program unbounded that is not
+        found = linprog(cost, below, np.zeros(len(below)), along[None], [length], bounds,
+                        options=options)  # fmt: skip
+        if found.status == 0:
+            return np.asarray(found.x)
+        if found.status == 2:  # nothing is feasible
+            return None
+    return None

@@ -24,6 +24,9 @@ KINDS: Final = (
 ONE_SIDED: Final = (WEAK, NEARLY)
 """Those with a derivative on each side."""
 
+NO_KINK: Final = (*ONE_SIDED, ZERO_FRICTION)
+"""Those that leave the distance to the next kink as it is."""
+
 
 class Reason(NamedTuple):
     """One reason for which derivatives do not exist.

@@ -8,7 +8,7 @@ from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Violated
-from quasistatic_ref.optional.fast.guess.zeros import combined, zeros_hold
+from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, combined, zeros
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, RowLayout, StepData
@@ -105,18 +105,25 @@ class Prover:
         if code == NEGATIVE:
             return Violated(rows, guess, s["lam"][guess], s["delta_q"].copy())
         least_slack, least_multiplier = s["least"].tolist()
-        zeros = s["idle"][:rows].tolist(), s["still"][:coordinates].tolist()
-        if code != DECIDED and not (code == TO_BE_IMPLIED and zeros_hold(step, working, *zeros)):
+        if code not in (DECIDED, TO_BE_IMPLIED):
             return None
+        means: Degeneracy | None = Degeneracy(unique=not rows, smooth=True)
+        if code == TO_BE_IMPLIED:
+            means = zeros(
+                step, working, s["idle"][:rows].tolist(), s["still"][:coordinates].tolist()
+            )
+        if means is None:
+            return None
+        inactive = least_slack if least_slack < math.inf else None
         return ExactOptimum(
             delta_q=s["delta_q"].copy(),
             lam=s["lam"].copy(),
             net=s["net"].copy(),
             slack=s["slack"].copy(),
             working_set=tuple(working),
-            multipliers_unique=not rows,
-            differentiable=True,  # every row without slack is one of W, or spanned by W
-            smallest_inactive_slack=least_slack if least_slack < math.inf else None,
+            multipliers_unique=means.unique,
+            differentiable=means.smooth,
+            smallest_inactive_slack=inactive if means.smooth else 0.0,
             smallest_active_multiplier=least_multiplier if working else None,
             walks=0,
         )

@@ -100,7 +100,7 @@ static double length_unit(const Natural *s)
 /* Of the longer of the unconstrained step and the push out of penetration; 0 where that is open. */
 static double size_unit(const Natural *s, double length)
 {
-    double energy = 0.0, off = 0.0, least = 0.0, most = 0.0;
+    double energy = 0.0, off = 0.0, least = 0.0, most = 0.0, load = 0.0;
     for (int64_t i = 0; i < s->n; i++) {
         double sum = 0.0, size = 0.0;
         for (int64_t j = 0; j < s->n; j++) {
@@ -110,6 +110,7 @@ static double size_unit(const Natural *s, double length)
         }
         energy += s->g[i] * sum;
         off += fabs(s->g[i]) * size;
+        load += fabs(s->g[i]);
     }
     for (int64_t r = 0; r < s->m; r++) {
         if (!(fabs(s->b[r]) < LARGEST))
@@ -120,7 +121,7 @@ static double size_unit(const Natural *s, double length)
     off *= OFF;
     double push_out = most / length, low = energy > off ? sqrt(energy - off) : 0.0;
     double high = energy + off > 0.0 ? sqrt(energy + off) : 0.0;
-    if (!(off < LARGEST))
+    if (!(off < LARGEST) || (off == 0.0 && load > 0.0)) /* squares have left float64's range */
         return 0.0;
     low = push_out > low ? push_out : low;
     high = push_out > high ? push_out : high;

@@ -28,7 +28,7 @@ from quasistatic_ref.certify.rational import h_times_hessian, matrix
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Violated
-from quasistatic_ref.optional.fast.guess.zeros import zeros_hold
+from quasistatic_ref.optional.fast.guess.zeros import zeros
 from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.friction import row_gaps
@@ -143,7 +143,8 @@ class BallStep:
         delta_q[still] = 0.0
         if open_lam.any():
             return None
-        if not zeros_hold(step, working, idle, still):
+        means = zeros(step, working, idle, still)
+        if means is None:
             return None
         if open_impulse.any():
             at = [arb(0) if v in still else x[v, 0] for v in range(step.n_v)]
@@ -159,9 +160,9 @@ class BallStep:
             net=impulse,
             slack=slack,
             working_set=tuple(working),
-            multipliers_unique=not idle,
-            differentiable=True,  # zeros_hold: all rows without slack are strictly active
-            smallest_inactive_slack=min(slack[slack > 0].tolist(), default=None),
+            multipliers_unique=means.unique,
+            differentiable=means.smooth,
+            smallest_inactive_slack=_least(slack) if means.smooth else 0.0,
             smallest_active_multiplier=min(lam_w.tolist(), default=None),
             walks=0,
         )
@@ -236,3 +237,8 @@ def _column(values: Array) -> arb_mat:
 
 def _dot(direction: list[float], nu: list[arb]) -> arb:
     return nu[0] * direction[0] + nu[1] * direction[1] + nu[2] * direction[2]
+
+
+def _least(slack: Array) -> float | None:
+    """The smallest of the slacks that are not zero, (m,) [m]; None if there is none."""
+    return min(slack[slack > 0].tolist(), default=None)

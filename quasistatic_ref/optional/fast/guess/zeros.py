@@ -13,11 +13,13 @@ where both directions of a slip are closed, all of them are strictly active, and
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
+from typing import NamedTuple
 
 import numpy as np
 from flint import fmpz, fmpz_mat
 
-from quasistatic_ref.certify.dependence import follow
+from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
+from quasistatic_ref.certify.dependence import follow, idle_rows
 from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import Dyadic, dyadic, form_on, friction_rows, joined
 from quasistatic_ref.certify.rows import places
@@ -26,36 +28,58 @@ from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.friction import row_gaps
 
 
-def zeros_hold(
+class Degeneracy(NamedTuple):
+    """What the rows without slack mean for the derivatives and multipliers of an optimum.
+
+    Parameters
+    ----------
+    unique : bool
+        Whether the multipliers are.
+    smooth : bool
+        Whether delta_q is differentiable in g.
+    """
+
+    unique: bool
+    smooth: bool
+
+
+def zeros(
     step: StepData, working: Sequence[int], rows: Sequence[int], coordinates: Sequence[int]
-) -> bool:
-    """Whether some slacks and coordinates are all zero, and W spans the sum of these rows.
+) -> Degeneracy | None:
+    """What it means that some slacks and coordinates are all zero, if they are.
 
     Parameters
     ----------
     step : StepData
         In a polyhedral cone.
     working : sequence of int
-        W: independent rows.
+        W: independent rows with positive multipliers.
     rows, coordinates : sequence of int
+        `rows` are all other rows that may have no slack.
 
     Returns
     -------
-    bool
-        If it is true all rows without slack are strictly active, and the multipliers are unique
-        only where there are no `rows`. If it is false nothing is known.
+    Degeneracy or None
+        None if a number is not zero.
     """
+    all_active = Degeneracy(unique=not rows, smooth=True)
     if not coordinates and spanned_in_contacts(step, working, rows):
-        return True
+        return all_active
     every, k = (*working, *rows), len(working)
     if _implied(_Claim(_numbers(step, every), k, every, tuple(coordinates), step)):
-        return True
-    solution = rational_solution(form_on(step, *_some_rows(step, every)), tuple(range(k)))
+        return all_active
+    form, w = form_on(step, *_some_rows(step, every)), tuple(range(k))
+    solution = rational_solution(form, w)
     if any(solution.slack[k:]) or any(solution.x[v] for v in coordinates):
-        return False
-    exact = exact_rows(step, every)
-    total = [sum(column) for column in zip(*exact[k:], strict=True)]
-    return not rows or all(follow(exact[:k], [total]))
+        return None
+    total = [
+        sum(column, fmpz(0)) for column in zip(*map(form.equation, range(k, form.m)), strict=True)
+    ]
+    if not rows or all(follow([form.equation(i) for i in w], [total])):
+        return all_active
+    spanned, unspanned = idle_rows(form, w, solution.slack)
+    unique = multipliers_unique(form, w, spanned, unspanned)
+    return Degeneracy(unique, differentiable(form, w, unspanned))
 
 
 @dataclass(frozen=True)

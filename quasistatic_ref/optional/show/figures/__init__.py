@@ -1,4 +1,4 @@
-"""Figures with matplotlib, which is imported in this room only.
+"""Figures with matplotlib, which is imported in this part only.
 
 The names below are loaded on first use.
 """
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.optional.show.figures.style import figure_written as figure_written
     from quasistatic_ref.optional.show.figures.style import panels as panels
     from quasistatic_ref.optional.show.figures.style import style_file as style_file
+    from quasistatic_ref.optional.show.figures.viewer import view_written as view_written
 
 _HOMES = {
     "animation": "animate",
@@ -24,6 +25,7 @@ _HOMES = {
     "draw": "draw_scene",
     "moments": "moment",
     "style": "Figure figure_style figure_written panels style_file",
+    "viewer": "view_written",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

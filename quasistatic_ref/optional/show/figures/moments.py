@@ -6,9 +6,9 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.show.figures.surfaces import surface_points
-from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Array, Mask
 
@@ -17,6 +17,12 @@ BEARING = 1e-3
 
 ROUND = 48
 """Corners of a circle, as drawn."""
+
+SLIP = 1e-9
+"""A contact that bears load slides where it moves along its tangents by more in a step [m]."""
+
+MOVES = 1e-3
+"""A link is looked at where it moves by more in a run [m]; or all, where none does."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +43,9 @@ class DrawnContact:
         [N], [-], [m].
     rim : ndarray, shape (N, 3)
         Forces on the edge of the friction cone, without torque, at this normal force [N].
+    slip : float
+        How far beta moves along the tangents relative to alpha, or mu_omega times how far it turns
+        about n, if that is more [m]; 0 where a light record does not know it.
     """
 
     alpha: Array
@@ -48,6 +57,7 @@ class DrawnContact:
     mu_v: float
     mu_omega: float
     rim: Array
+    slip: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,13 +92,26 @@ class Moment:
         f_n = np.array([c.f_n for c in self.contacts])
         return np.asarray(f_n > BEARING * max(f_n.max(initial=0.0), 1e-12))
 
+    @property
+    def states(self) -> list[str]:
+        """Of each contact: ``"apart"``, or bearing load ``"sticking"`` or ``"sliding"``."""
+        slides = ["sliding" if c.slip > SLIP else "sticking" for c in self.contacts]
+        each = zip(slides, self.bearing, strict=True)
+        return [state if bears else "apart" for state, bears in each]
 
-def moment(scenario: Scenario, run: Trajectory, k: int) -> Moment:
+
+def still(scene: HasScene) -> Moment:
+    """The start of a scene: its bodies where they are, without contacts."""
+    kinematics = scene.system.kinematics(scene.system.q_start)
+    return Moment(0.0, drawn_shapes(scene), kinematics.R, kinematics.t, ())
+
+
+def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
     """Step k of a run: the poses and contacts that it starts from, and its forces.
 
     Parameters
     ----------
-    scenario : Scenario
+    scene : Scenario or Simulator
         Whose bodies and shapes these are.
     run : Trajectory
     k : int
@@ -102,22 +125,22 @@ def moment(scenario: Scenario, run: Trajectory, k: int) -> Moment:
     if not -run.steps <= k < run.steps:
         raise InputError(f"must be {-run.steps} to {run.steps - 1}", field="step", value=k)
     k = k % run.steps
-    kinematics = scenario.system.kinematics(run["q"][k])
+    kinematics = scene.system.kinematics(run["q"][k])
     return Moment(
-        t=float(run["t"][k]) - scenario.h,
-        shapes=drawn_shapes(scenario),
+        t=float(run["t"][k]) - run.header["h"],
+        shapes=drawn_shapes(scene),
         R=kinematics.R,
         t_links=kinematics.t,
         contacts=tuple(_contact(run, k, j) for j in range(run["phi"].shape[1])),
     )
 
 
-def frames(scenario: Scenario, run: Trajectory, fps: float) -> tuple[list[Moment], float]:
+def frames(scene: HasScene, run: Trajectory, fps: float) -> tuple[list[Moment], float]:
     """Moments of a film in real time, and how many of them a second.
 
     Parameters
     ----------
-    scenario : Scenario
+    scene : Scenario or Simulator
     run : Trajectory
     fps : float
         Frames a second that are wanted [1/s]; there are no more than steps.
@@ -129,18 +152,19 @@ def frames(scenario: Scenario, run: Trajectory, fps: float) -> tuple[list[Moment
     """
     if not run.steps:
         raise InputError("has no steps to show", field="trajectory")
-    every = max(round(1 / (fps * scenario.h)), 1)
-    return [moment(scenario, run, k) for k in range(0, run.steps, every)], 1 / (every * scenario.h)
+    h = run.header["h"]
+    every = max(round(1 / (fps * h)), 1)
+    return [moment(scene, run, k) for k in range(0, run.steps, every)], 1 / (every * h)
 
 
-def drawn_shapes(scenario: Scenario) -> tuple[PlacedShape, ...]:
-    """Every shape of a scenario once: those of URDFs, clouds, and what is fixed in the world.
+def drawn_shapes(scene: HasScene) -> tuple[PlacedShape, ...]:
+    """Every shape of a scene once: those of URDFs, clouds, and what is fixed in the world.
 
     A body with a cloud is drawn as that cloud.
     """
-    pairs = [shape for pair in scenario.pairs for shape in (pair.alpha, pair.beta)]
+    pairs = [shape for pair in scene.pairs for shape in (pair.alpha, pair.beta)]
     clouded = {shape.link for shape in pairs if isinstance(shape.shape, PointCloud)}
-    own = [shape for shape in scenario.system.shapes if shape.link not in clouded]
+    own = [shape for shape in scene.system.shapes if shape.link not in clouded]
     return tuple({id(shape): shape for shape in (*own, *pairs)}.values())
 
 
@@ -155,6 +179,31 @@ def extent(of: Moment) -> Array:
     return np.array([every.min(axis=0), every.max(axis=0)])
 
 
+def focus(moments: list[Moment]) -> Array:
+    """Least and greatest coordinates of what moves, and of contacts, shape (2, 3) [m].
+
+    Of links that move by a millimetre between the first moment, the middle and the last.
+
+    Parameters
+    ----------
+    moments : list of Moment
+    """
+    looked_at = [moments[0], moments[len(moments) // 2], moments[-1]]
+    places = np.array([m.t_links for m in looked_at])
+    turns = np.array([m.R for m in looked_at])
+    moved = (np.abs(places - places[0]).max(axis=(0, 2)) > MOVES) | (
+        np.abs(turns - turns[0]).max(axis=(0, 2, 3)) > MOVES
+    )
+    if not moved.any():
+        moved[1:] = True
+    points = [c.beta[None] for m in looked_at for c in m.contacts]
+    for m in looked_at:
+        own = [placed for placed in m.shapes if moved[placed.link]]
+        points += [m.world(placed, surface_points(placed)) for placed in own]
+    every = np.concatenate(points)
+    return np.array([every.min(axis=0), every.max(axis=0)])
+
+
 def _contact(run: Trajectory, k: int, j: int) -> DrawnContact:
     frame = np.stack([run["d1"][k, j], run["d2"][k, j], run["n"][k, j]])
     f_1, f_2, f_n, torque = run["wrench"][k, j]
@@ -163,7 +212,16 @@ def _contact(run: Trajectory, k: int, j: int) -> DrawnContact:
     return DrawnContact(
         run["alpha"][k, j], run["beta"][k, j], frame, np.array([f_1, f_2, f_n]) @ frame,
         float(torque), float(f_n), mu_v, float(run["mu_omega"][j]), rim @ frame,
+        _slip(run, k, j, frame),
     )  # fmt: skip
+
+
+def _slip(run: Trajectory, k: int, j: int, frame: Array) -> float:
+    if run.header["record"] != "full":
+        return 0.0
+    motion = run["J"][k, j] @ run["delta_q"][k]
+    along = float(np.abs(frame[:2] @ motion[:3]).max())
+    return max(along, float(run["mu_omega"][j] * abs(motion[3])))
 
 
 def _rim(name: str) -> Array:

@@ -7,6 +7,8 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.step.data import Array
 
+DISCRETE = 2300
+"""three.js's name of steps between keyframes."""
 DIGITS = 9
 """Decimals of lengths [m]: a nanometre is finer than float32, in which three.js keeps them."""
 
@@ -20,10 +22,26 @@ def material(colour: int, opacity: float) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def thing(points: Array, kind: str, look: dict[str, Any]) -> dict[str, Any]:
-    """An object of three.js: points, or triangles as triples of points [m]."""
-    position = {"itemSize": 3, "type": "Float32Array", "array": np.round(points, DIGITS).ravel()}
-    geometry = {"type": "BufferGeometry", "data": {"attributes": {"position": position}}}
+def thing(
+    points: Array, kind: str, look: dict[str, Any], colours: Array | None = None
+) -> dict[str, Any]:
+    """An object of three.js.
+
+    Parameters
+    ----------
+    points : ndarray, shape (N, 3)
+        Points, or the corners of triangles, three each [m].
+    kind : str
+        ``"Points"`` or ``"Mesh"``.
+    look : dict
+        Its material.
+    colours : ndarray, shape (N, 3), optional
+        Of each point, from 0 to 1 [-].
+    """
+    attributes = {"position": _attribute(points)}
+    if colours is not None:
+        attributes["color"] = _attribute(colours)
+    geometry = {"type": "BufferGeometry", "data": {"attributes": attributes}}
     return {
         "metadata": {"version": 4.5, "type": "Object"},
         "geometries": [geometry | {"uuid": "g"}],
@@ -32,9 +50,17 @@ def thing(points: Array, kind: str, look: dict[str, Any]) -> dict[str, Any]:
     }
 
 
+def _attribute(values: Array) -> dict[str, Any]:
+    return {"itemSize": 3, "type": "Float32Array", "array": np.round(values, DIGITS).ravel()}
+
+
 def object_set(path: str, what: dict[str, Any]) -> dict[str, Any]:
-    """The command that puts an object at a path."""
-    return {"type": "set_object", "path": path, "object": what}
+    """The command that puts an object at a path.
+
+    three.js keeps what it animates by the object's uuid: each has its path for one.
+    """
+    named = what | {"object": what["object"] | {"uuid": path}}
+    return {"type": "set_object", "path": path, "object": named}
 
 
 def transform_set(path: str, R: Array, t: Array) -> dict[str, Any]:
@@ -42,6 +68,21 @@ def transform_set(path: str, R: Array, t: Array) -> dict[str, Any]:
     matrix = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = R, t
     return {"type": "set_transform", "path": path, "matrix": matrix.T.ravel()}  # by columns
+
+
+def colour_clip(path: str, fps: float, colours: Array) -> dict[str, Any]:
+    """How the colour of what is at a path changes.
+
+    Parameters
+    ----------
+    path : str
+    fps : float
+        Frames a second [1/s].
+    colours : ndarray, shape (N, 3)
+        One a frame, from 0 to 1 [-]; each stays until the next.
+    """
+    track = _track(".material.color", "color", colours) | {"interpolation": DISCRETE}
+    return {"path": f"{path}/<object>", "clip": {"fps": fps, "name": "default", "tracks": [track]}}
 
 
 def clip(path: str, fps: float, t: Array, R: Array, scale: Array | None = None) -> dict[str, Any]:

@@ -1,9 +1,10 @@
-"""A trajectory as one HTML file with a 3-D scene that plays, by meshcat's viewer, without network.
+"""A scene or a run as one HTML file in 3-D that needs no network, by meshcat's viewer.
 
 meshcat is needed for one file of JavaScript only, its viewer; the commands for that file are made
 here, as plain JSON: objects and their places (:func:`scene_commands`), then an animation of them.
 """
 
+from collections.abc import Iterator, Sequence
 from html import escape
 from importlib.util import find_spec
 from pathlib import Path
@@ -15,49 +16,71 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, text_written
 from quasistatic_ref.optional.show.figures.draw import round_scale
-from quasistatic_ref.optional.show.figures.moments import Moment, extent, frames
+from quasistatic_ref.optional.show.figures.moments import (
+    DrawnContact,
+    Moment,
+    focus,
+    frames,
+    still,
+)
 from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points, triangles
 from quasistatic_ref.optional.show.figures.three import (
     clip,
+    colour_clip,
     material,
     object_set,
     thing,
     transform_set,
     z_along,
 )
+from quasistatic_ref.optional.show.figures.visuals import AROUND, FIXED, UP, colours, visuals
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.shapes.shape import ball
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.data import Array
 
 FRAMES_PER_SECOND = 30
 LONGEST = 0.5
-"""Length of the largest force over half the scene's size [-]."""
+"""Length of the largest force over half the size of what is looked at [-]."""
 
-THICK = 0.02
-"""Radius of a force, drawn as a slim cone, over half the scene's size [-]."""
+THICK, DOT = 0.02, 0.012
+"""Radii of a force, drawn as a slim cone, and of a contact over half that size [-]."""
 
 NOTHING = 1e-9
 """Length of a force that is zero [m]: an object that is scaled by zero has no inside."""
 
 REPETITIONS = 1000
-CLOUD, SOLID, FLOOR, FORCE = 0x0072B2, 0x9A9A9A, 0xE8E8E8, 0xD55E00
+FLOOR: Final = 0xE8E8E8
+STATES: Final = {"sticking": 0x000000, "sliding": 0xD55E00, "apart": 0x909090}
+"""Colours of a contact and of its force."""
+FARTHEST = 0.35
+"""Brightness of the farthest point of a cloud; that of the nearest is 1 [-]."""
 HIDDEN: Final = ("/Grid", "/Axes")
 SKY: Final = {"top_color": [1.0, 1.0, 1.0], "bottom_color": [0.85, 0.9, 0.95]}
+EYE: Final = np.array([0.85, -1.7, 0.75])
+"""The eye from the middle of what is looked at, over half its size [-]."""
 PAGE: Final = Path(__file__).parent / "viewer.html"
 
 
-def view_written(scenario: Scenario, run: Trajectory, path: str | Path) -> Path:
-    """Write a run as one HTML file that plays in a browser, without network.
+def view_written(
+    shown: HasScene | Trajectory, path: str | Path, run: Trajectory | None = None
+) -> Path:
+    """Write a scene, or a run of it, as one HTML file for a browser, without network.
 
-    Contact forces are slim orange cones from beta along the force on beta's body.
+    Bodies look as the visual elements of their URDFs say, or else as their collision shapes in one
+    colour for each body. Contact forces are slim cones from beta along the force on beta's body,
+    all on one scale; contacts are black where they stick, orange where they slide and grey where
+    they bear no load.
 
     Parameters
     ----------
-    scenario : Scenario
-        Whose bodies and shapes these are.
-    run : Trajectory
+    shown : Scenario, Simulator or Trajectory
+        A trajectory knows its scene where it was run in this process.
     path : str or Path
+    run : Trajectory, optional
+        That of the scenario or simulator; without one, the scene as it starts.
 
     Returns
     -------
@@ -66,24 +89,48 @@ def view_written(scenario: Scenario, run: Trajectory, path: str | Path) -> Path:
     Raises
     ------
     InputError
-        If the extra ``view`` is not installed, or the run has no steps.
+        If the extra ``view`` is not installed, the run has no steps, or its scene is not known.
     """
     viewer = viewer_script()
-    moments, fps = frames(scenario, run, FRAMES_PER_SECOND)
-    box = extent(moments[0])
+    scene, run = _scene(shown, run)
+    moments, fps = ([still(scene)], 1.0) if run is None else frames(scene, run, FRAMES_PER_SECOND)
+    box = focus(moments)
     centre, half = box.mean(axis=0), float(np.ptp(box, axis=0).max()) / 2
-    eye = centre + half * np.array([1.1, -2.2, 0.9])
     scale = metres_per_newton(moments, half)
-    name = scenario.path.stem
-    caption = f"{name}, h = {1e3 * scenario.h:g} ms, friction {scenario.cone}"
-    if scale:
-        caption += f"; forces in orange, 1 N is {1e3 * scale:.3g} mm"
+    title = scene.path.stem if isinstance(scene, Scenario) else "scene"
     page = Template(PAGE.read_text("utf-8")).substitute(
-        title=escape(name), caption=escape(caption), viewer=viewer,
-        commands=json_text(scene_commands(moments, fps, half, scale)).replace("</", "<\\/"),
-        eye=_y_up(eye), centre=_y_up(centre),
+        title=escape(title), caption=_caption(title, scene, run, scale), viewer=viewer,
+        commands=json_text(scene_commands(scene, moments, fps, half, scale)).replace("</", "<\\/"),
+        eye=_y_up(centre + half * EYE), centre=_y_up(centre),
     )  # fmt: skip
     return text_written(path, page)
+
+
+def _scene(
+    shown: HasScene | Trajectory, run: Trajectory | None
+) -> tuple[HasScene, Trajectory | None]:
+    if not isinstance(shown, Trajectory):
+        return shown, run
+    if shown.scene is None:
+        problem = "is from a file; give its scenario or simulator first, and the trajectory as run"
+        raise InputError(problem, field="trajectory")
+    return shown.scene, shown
+
+
+def _caption(title: str, scene: HasScene, run: Trajectory | None, scale: float) -> str:
+    """What is shown, in HTML: the bodies and the states of contacts in their colours."""
+    words = [escape(title)]
+    if run is not None:
+        words.append(f"h = {1e3 * run.header['h']:g} ms, friction {escape(run.header['cone'])}")
+    words += [_coloured(name, colour) for name, colour in colours(scene).items()]
+    if scale:
+        words.append(f"1 N is {1e3 * scale:.3g} mm")
+        words += [_coloured(state, colour) for state, colour in STATES.items()]
+    return "; ".join(words)
+
+
+def _coloured(word: str, colour: int) -> str:
+    return f'<b style="color: #{colour:06x}">&#9632;</b> {escape(word)}'
 
 
 def viewer_script() -> str:
@@ -110,27 +157,29 @@ def metres_per_newton(moments: list[Moment], half: float) -> float:
 
 
 def scene_commands(
-    moments: list[Moment], fps: float, half: float, scale: float
+    scene: HasScene, moments: list[Moment], fps: float, half: float, scale: float
 ) -> list[dict[str, Any]]:
     """Commands for the viewer: every object once, where it is at first, and how all move.
 
     Parameters
     ----------
+    scene : Scenario or Simulator
     moments : list of Moment
         One a frame.
     fps : float
         Frames a second [1/s].
     half : float
-        Half the scene's size [m].
+        Half the size of what is looked at [m].
     scale : float
         [m/N].
 
     Returns
     -------
     list of dict
-        meshcat's commands; links are at ``/links/K``, contact forces at ``/forces/J``.
+        meshcat's commands; links are at ``/links/K``, contacts at ``/contacts/J`` and their forces
+        at ``/forces/J``.
     """
-    first = moments[0]
+    contacts = range(len(moments[0].contacts))
     commands: list[dict[str, Any]] = [
         {"type": "set_property", "path": path, "property": "visible", "value": False}
         for path in HIDDEN
@@ -139,38 +188,90 @@ def scene_commands(
         {"type": "set_property", "path": "/Background", "property": name, "value": colour}
         for name, colour in SKY.items()
     ]
-    for k, placed in enumerate(first.shapes):
-        path = f"/links/{placed.link}/{k}"
-        commands.append(object_set(path, _shape(placed, first, half)))
-        if not isinstance(placed.shape, HalfSpace):
-            commands.append(transform_set(path, placed.R, placed.t))
-    for j in range(len(first.contacts)):
+    commands += _links(scene, moments[0], half)
+    for j in contacts:
+        commands.append(object_set(f"/contacts/{j}", _ball(DOT * half)))
         commands.append(object_set(f"/forces/{j}", _spike(THICK * half)))
+    moving = sorted({placed.link for placed in moments[0].shapes} - {0})
     clips = []
-    for link in sorted({placed.link for placed in first.shapes} - {0}):
-        t = np.array([m.t_links[link] for m in moments])
-        clips.append(clip(f"/links/{link}", fps, t, np.array([m.R[link] for m in moments])))
-    for j in range(len(first.contacts)):
-        beta = np.array([m.contacts[j].beta for m in moments])
-        force = scale * np.array([m.contacts[j].force for m in moments])
-        length = np.maximum(np.linalg.norm(force, axis=1), NOTHING)
-        stretch = np.stack([np.ones_like(length), np.ones_like(length), length], axis=1)
-        clips.append(clip(f"/forces/{j}", fps, beta, z_along(force), stretch))
+    for link in moving:
+        t, R = (
+            np.array(of)
+            for of in zip(*((m.t_links[link], m.R[link]) for m in moments), strict=True)
+        )
+        clips.append(clip(f"/links/{link}", fps, t, R))
+    states = list(zip(*(m.states for m in moments), strict=True))
+    for j in contacts:
+        clips += _contact_clips(j, [m.contacts[j] for m in moments], states[j], fps, scale)
     options = {"play": True, "repetitions": REPETITIONS}
     play = {"type": "set_animation", "path": "", "animations": clips, "options": options}
     return [*commands, play]
 
 
-def _shape(placed: PlacedShape, of: Moment, half: float) -> dict[str, Any]:
+def _contact_clips(
+    j: int, contacts: Sequence[DrawnContact], states: Sequence[str], fps: float, scale: float
+) -> Iterator[dict[str, Any]]:
+    """How a contact and its force move, and take the colours of its states."""
+    beta = np.array([c.beta for c in contacts])
+    force = scale * np.array([c.force for c in contacts])
+    length = np.maximum(np.linalg.norm(force, axis=1), NOTHING)
+    stretch = np.stack([np.ones_like(length), np.ones_like(length), length], axis=1)
+    colour = np.array([_parts(STATES[state]) for state in states])
+    upright = np.tile(np.eye(3), (len(beta), 1, 1))
+    yield clip(f"/contacts/{j}", fps, beta, upright)
+    yield clip(f"/forces/{j}", fps, beta, z_along(force), stretch)
+    yield colour_clip(f"/contacts/{j}", fps, colour)
+    yield colour_clip(f"/forces/{j}", fps, colour)
+
+
+def _links(scene: HasScene, first: Moment, half: float) -> Iterator[dict[str, Any]]:
+    """Objects of all links: what their URDFs show, or else what touches."""
+    colour = colours(scene)
+    seen = visuals(scene)
+    shown = {scene.system.link(visual.link) for visual in seen}
+    for k, visual in enumerate(seen):
+        own = colour[visual.link.partition("/")[0]] if visual.colour is None else visual.colour
+        link = scene.system.link(visual.link)
+        yield object_set(f"/links/{link}/visual{k}", _lit(visual.corners, own))
+    for k, placed in enumerate(first.shapes):
+        cloud = isinstance(placed.shape, PointCloud)
+        if placed.link in shown and not cloud:
+            continue
+        body = scene.system.links[placed.link].partition("/")[0]
+        path = f"/links/{placed.link}/{k}"
+        yield object_set(path, _shape(placed, first, half, colour.get(body, FIXED)))
+        if not isinstance(placed.shape, HalfSpace):
+            yield transform_set(path, placed.R, placed.t)
+
+
+def _shape(placed: PlacedShape, of: Moment, half: float, colour: int) -> dict[str, Any]:
     shape = placed.shape
     if isinstance(shape, PointCloud):
-        return thing(shape.points, "Points", {"type": "PointsMaterial", "color": CLOUD,
-                                                "size": 0.02 * half})  # fmt: skip
+        return _cloud(shape.points, of.world(placed, shape.points), half, colour)
     if isinstance(shape, HalfSpace):
-        corners = patch(shape, extent(of).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
+        corners = patch(shape, focus([of]).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
         return thing(corners, "Mesh", material(FLOOR, 0.8))
-    points = surface_points(placed, around=32, up=13)
-    return thing(points[triangles(points)].reshape(-1, 3), "Mesh", material(SOLID, 0.6))
+    points = surface_points(placed, AROUND, UP)
+    return _lit(points[triangles(points)].reshape(-1, 3), colour)
+
+
+def _cloud(points: Array, world: Array, half: float, colour: int) -> dict[str, Any]:
+    """Points that are the darker the farther they are from the eye at the start."""
+    nearness = world @ EYE
+    share = (nearness - nearness.min()) / max(float(np.ptp(nearness)), NOTHING)
+    brightness = FARTHEST + (1 - FARTHEST) * share
+    look = {"type": "PointsMaterial", "size": 0.02 * half, "vertexColors": True}
+    return thing(points, "Points", look, brightness[:, None] * _parts(colour))
+
+
+def _lit(corners: Array, colour: int) -> dict[str, Any]:
+    """A surface that is lit, so that contacts and forces within are seen through it."""
+    return thing(corners, "Mesh", material(colour, 0.75))
+
+
+def _ball(radius: float) -> dict[str, Any]:
+    points = radius * ball(12, 7)
+    return _over(points[triangles(points)].reshape(-1, 3))
 
 
 def _spike(radius: float) -> dict[str, Any]:
@@ -178,7 +279,20 @@ def _spike(radius: float) -> dict[str, Any]:
     angle = np.linspace(0, 2 * np.pi, 12, endpoint=False)
     base = radius * np.stack([np.cos(angle), np.sin(angle), np.zeros(12)], axis=1)
     points = np.vstack([base, [0.0, 0.0, 1.0]])
-    return thing(points[triangles(points)].reshape(-1, 3), "Mesh", material(FORCE, 1.0))
+    return _over(points[triangles(points)].reshape(-1, 3))
+
+
+def _over(corners: Array) -> dict[str, Any]:
+    """A surface that nothing hides."""
+    look = {"type": "MeshBasicMaterial", "color": FIXED, "depthTest": False, "transparent": True}
+    found = thing(corners, "Mesh", look)
+    found["object"]["renderOrder"] = 1
+    return found
+
+
+def _parts(colour: int) -> Array:
+    """Red, green and blue from 0 to 1, shape (3,) [-]."""
+    return np.frombuffer(colour.to_bytes(3, "big"), dtype=np.uint8) / 255
 
 
 def _y_up(point: Array) -> str:

@@ -1,12 +1,10 @@
-"""Derivatives of (+) and (-): small turns, units that are not of length one, half turns."""
+"""Derivatives of (+) and (-): small turns and half turns."""
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.optional.derivatives.model.tangent import (
-    entry_rates,
     half_turns,
     right_jacobian,
 )
@@ -31,34 +29,6 @@ def test_the_series_of_a_turn_is_summed_to_its_last_digits(angle: float) -> None
     turn = np.array([[along, across, 0], [-across, along, 0], [0, 0, 1]])
     found = right_jacobian(np.array([0, 0, 0, 0, 0, angle]))
     np.testing.assert_allclose(found, np.kron(np.eye(2), turn), rtol=0, atol=FOUR_ULP)
-
-
-@pytest.mark.parametrize("length", [0.5, 1.0, 3.0])
-def test_a_base_moves_along_its_own_axes_whatever_its_unit_s_length(length: float) -> None:
-    # The entries of its place change by R e, R being the rotation of the unit of length one.
-    turn = Rotation.from_euler("xyz", [0.3, -0.4, 0.5])
-    E = entry_rates([FLOATING], np.array([1, 2, 3, *(length * turn.as_quat())]))
-    np.testing.assert_allclose(E[:3, :3], turn.as_matrix(), rtol=0, atol=ROUNDING)
-    c, s = np.cos(0.7), np.sin(0.7)
-    E = entry_rates([PLANAR], np.array([1, 2, length * c, length * s]))
-    np.testing.assert_allclose(E[:2, :2], [[c, -s], [s, c]], rtol=0, atol=ROUNDING)
-
-
-def test_a_turn_changes_the_entries_as_the_product_of_the_units() -> None:
-    """By e about its own axes a unit moves by q (e / 2): of quaternions, or of complex numbers.
-
-    (x, w) (u, 0) has the vector w u + x x u and the scalar -x . u; c + i s times i is -s + i c.
-    """
-    x, w = np.array([0.2, -0.5, 0.7]), 0.4
-    turned = entry_rates([FLOATING], np.array([1, 2, 3, *x, w]))[3:, 3:]
-    for column, u in zip(turned.T, np.eye(3) / 2, strict=True):
-        product = [*(w * u + np.cross(x, u)), -x @ u]
-        np.testing.assert_allclose(column, product, rtol=0, atol=ROUNDING)
-    for found in (
-        entry_rates([PLANAR], np.array([1.0, 2.0, 0.6, 0.8]))[2:, 2],
-        entry_rates([CONTINUOUS], np.array([0.6, 0.8]))[:, 0],
-    ):
-        np.testing.assert_array_equal(found, [-0.8, 0.6])
 
 
 HALF = [

@@ -52,8 +52,8 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
     """A hand turns a ball: from the third step on a row is missing of nearly every guess."""
     monkeypatch.setattr(method, "exact_optimum", refused)
     if by == "balls":
-        monkeypatch.setattr("quasistatic_ref.optional.fast.solver.compiled", lambda name: None)
-    monkeypatch.setattr("quasistatic_ref.optional.fast.solver.warm_start", refused)
+        monkeypatch.setattr("quasistatic_ref.optional.fast.proofs.compiled", lambda name: None)
+    monkeypatch.setattr("quasistatic_ref.optional.fast.proofs.warm_rows", refused)
     scenario = load_scenario("allegro_turn", fast=True)
     simulator, q, wrong = scenario.simulator(), scenario.system.q_start, 0
     for k in range(12):

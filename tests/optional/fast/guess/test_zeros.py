@@ -7,7 +7,7 @@ from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
-from quasistatic_ref.optional.fast.guess.zeros import zeros_hold
+from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, zeros
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.units import natural_units
 from tests.certify.test_exact import resting_point
@@ -36,17 +36,21 @@ def test_what_loads_leave_at_rest_is_proved_with_the_same_bits(name):
 
 def test_what_is_not_pushed_stays_and_a_pair_of_slips_is_strictly_active():
     unloaded, pushed = resting_point(), resting_point(tau_x=0.1)
-    assert zeros_hold(unloaded, SPINS, SLIPS, [0, 1, 2, 3])
-    assert zeros_hold(unloaded, SPINS, [0, 2], [0])  # their sum is twice the gap
-    assert not zeros_hold(pushed, SPINS, SLIPS, [])  # it slides along x
-    assert not zeros_hold(pushed, SPINS, [], [0])
-    assert zeros_hold(pushed, SPINS, [1, 3], [1, 2, 3])
+    several, one = Degeneracy(unique=False, smooth=True), Degeneracy(unique=True, smooth=True)
+    assert zeros(unloaded, SPINS, SLIPS, [0, 1, 2, 3]) == several
+    assert zeros(unloaded, SPINS, [0, 2], [0]) == several  # their sum is twice the gap
+    assert zeros(pushed, SPINS, SLIPS, []) is None  # it slides along x
+    assert zeros(pushed, SPINS, [], [0]) is None
+    assert zeros(pushed, SPINS, [], [1, 2, 3]) == one
+    assert zeros(pushed, SPINS, [1, 3], [1, 2, 3]) == several
 
 
-def test_of_a_row_without_slack_that_nothing_presses_on_nothing_is_known():
+def test_a_row_without_slack_that_nothing_presses_on_is_a_kink():
     step = resting_point()
-    assert not zeros_hold(step, SPINS, [0], [])  # the optimum does not move, and has a kink there
+    assert zeros(step, SPINS, [0], []) == Degeneracy(unique=True, smooth=False)
     weightless = resting_point(weight=0.0)
-    assert not zeros_hold(weightless, [], [0, 1, 2, 3, 4, 5], [])
-    assert zeros_hold(weightless, [], [], [0, 1, 2, 3])
-    assert not exact_optimum(exact_form(weightless)).differentiable
+    every = Degeneracy(unique=True, smooth=False)  # the gap falls along no combination of rows
+    assert zeros(weightless, [], [0, 1, 2, 3, 4, 5], []) == every
+    assert zeros(weightless, [], [], [0, 1, 2, 3]) == Degeneracy(unique=True, smooth=True)
+    truth = exact_optimum(exact_form(weightless))
+    assert (truth.multipliers_unique, truth.differentiable) == every

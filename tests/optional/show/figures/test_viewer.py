@@ -1,24 +1,32 @@
 """The viewer's commands are the trajectory; validation/tools/check_viewer.py tries the page."""
 
 import json
+import pickle
 import re
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.show.figures import viewer
-from quasistatic_ref.optional.show.figures.moments import frames
+from quasistatic_ref.optional.show.figures.moments import SLIP, focus, frames
 from quasistatic_ref.optional.show.figures.three import z_along
 from quasistatic_ref.optional.show.figures.viewer import (
     FRAMES_PER_SECOND,
+    STATES,
     metres_per_newton,
     scene_commands,
     view_written,
 )
+from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import Box, PlacedShape
+from quasistatic_ref.simulate.wrenches import Scene
+from tests.model.urdf.urdf_texts import collision, link, robot
 from tests.tolerances import ROUNDING
 
 NANOMETRE = 1e-9  # what is written
@@ -33,11 +41,15 @@ def pushed():
 @pytest.fixture(scope="module")
 def commands(pushed):
     moments, fps = frames(*pushed, FRAMES_PER_SECOND)
-    return moments, scene_commands(moments, fps, 0.1, 0.01)
+    return moments, scene_commands(pushed[0], moments, fps, 0.1, 0.01)
+
+
+def animations(commands):
+    return commands[-1]["animations"]
 
 
 def tracks(commands, path):
-    (clip,) = [c["clip"] for c in commands[-1]["animations"] if c["path"] == path]
+    (clip,) = [c["clip"] for c in animations(commands) if c["path"] == path]
     return {t["name"]: np.array([key["value"] for key in t["keys"]]) for t in clip["tracks"]}
 
 
@@ -52,7 +64,10 @@ def test_every_shape_and_every_contact_has_an_object(commands, pushed):
     moments, sent = commands
     made = [c["path"] for c in sent if c["type"] == "set_object"]
     assert len([p for p in made if p.startswith("/links/")]) == len(moments[0].shapes) == 3
-    assert [p for p in made if p.startswith("/forces/")] == [f"/forces/{j}" for j in range(8)]
+    for kind in ("contacts", "forces"):
+        assert [p for p in made if p.startswith(f"/{kind}/")] == [f"/{kind}/{j}" for j in range(8)]
+    uuids = [c["object"]["object"]["uuid"] for c in sent if c["type"] == "set_object"]
+    assert len(set(uuids)) == len(uuids)  # three.js keeps what it animates by them
 
 
 def test_links_move_as_in_the_trajectory(commands, pushed):
@@ -91,14 +106,74 @@ def test_the_third_axis_goes_along_the_force(rng):
 
 def test_the_page_holds_the_viewer_and_the_commands_and_no_address(pushed, tmp_path, monkeypatch):
     monkeypatch.setattr(viewer, "viewer_script", lambda: "/* the viewer */")
-    page = view_written(*pushed, tmp_path / "run.html").read_text()
+    scenario, run = pushed
+    page = view_written(run, tmp_path / "run.html").read_text()
     assert "/* the viewer */" in page
     (sent,) = re.findall(r"const commands = (.*);", page)
     assert json.loads(sent)[-1]["type"] == "set_animation"
     assert "://" not in page
     assert "1 N is 10 mm" in page
-    again = view_written(*pushed, tmp_path / "again.html").read_text()
-    assert again == page
+    again = view_written(scenario, tmp_path / "again.html", run).read_text()
+    assert again.replace("block_push", "scene") == page
+
+
+def test_a_scene_made_in_python_and_one_without_a_run_have_pages(pushed, tmp_path, monkeypatch):
+    monkeypatch.setattr(viewer, "viewer_script", lambda: "")
+    scenario, run = pushed
+    page = view_written(scenario.simulator(), tmp_path / "scene.html").read_text()
+    assert "1 N is" not in page  # nothing is known of forces
+    (sent,) = re.findall(r"const commands = (.*);", page)
+    assert not [c for c in json.loads(sent) if c.get("path", "").startswith("/forces")]
+    from_file = pickle.loads(pickle.dumps(run))
+    with pytest.raises(InputError, match=r"is from a file; give its scenario or simulator first"):
+        view_written(from_file, tmp_path / "other.html")
+
+
+def test_contacts_have_the_colours_of_their_states(commands, pushed):
+    """A contact that bears no load is apart; one that slides moves along d1 or d2, J delta_q."""
+    moments, sent = commands
+    _, run = pushed
+    for j in range(8):
+        found = tracks(sent, f"/forces/{j}/<object>")[".material.color"]
+        for k, moment in enumerate(moments):
+            slip = run["J"][2 * k, j, :3] @ run["delta_q"][2 * k]
+            along = max(abs(run["d1"][2 * k, j] @ slip), abs(run["d2"][2 * k, j] @ slip))
+            state = "sliding" if along > SLIP else "sticking"
+            state = state if run["wrench"][2 * k, j, 2] > 1e-3 else "apart"
+            assert moment.states[j] == state
+            red, green, blue = (round(255 * x) for x in found[k])
+            assert (red << 16) + (green << 8) + blue == STATES[state]
+    assert {state for m in moments for state in m.states} == {"sliding", "sticking", "apart"}
+
+
+LOOKS = robot(
+    '<material name="red"><color rgba="1 0 0 1"/></material>',
+    link(
+        "box",
+        collision('<box size="0.1 0.1 0.1"/>')
+        + '<visual><origin xyz="0 0 0.5"/><geometry><box size="0.2 0.4 0.6"/></geometry>'
+        '<material name="red"/></visual>'
+        '<visual><geometry><mesh filename="missing.stl"/></geometry></visual>',
+    ),
+)
+
+
+def test_visual_elements_are_drawn_in_their_colours_and_missing_meshes_are_not():
+    system = System([Body("crate", LOOKS, base="floating")])
+    (found,) = visuals(Scene(system, ()))
+    assert (found.link, found.colour) == ("crate/box", 0xFF0000)
+    np.testing.assert_allclose(found.corners.min(axis=0), [-0.1, -0.2, 0.2], atol=ROUNDING)
+    np.testing.assert_allclose(found.corners.max(axis=0), [0.1, 0.2, 0.8], atol=ROUNDING)
+
+
+def test_the_camera_looks_at_what_moves(pushed):
+    """A wall of 10 m that stands still next to a pushed block changes nothing."""
+    scenario, run = pushed
+    moments, _ = frames(scenario, run, FRAMES_PER_SECOND)
+    wall = PlacedShape("wall", 0, np.eye(3), np.zeros(3), Box((5.0, 0.1, 5.0)))
+    with_wall = [replace(m, shapes=(*m.shapes, wall)) for m in moments]
+    np.testing.assert_array_equal(focus(with_wall), focus(moments))
+    assert np.ptp(focus(moments), axis=0).max() < 0.5
 
 
 def test_without_meshcat_a_sentence_says_what_to_install(tmp_path, monkeypatch, capsys):

@@ -1,6 +1,7 @@
-"""Runs that warn: too few contacts end to end, the command line, the scenarios that come along."""
+"""Findings of runs: too few contacts end to end, the command line, scenarios that come along."""
 
 import json
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import IN_METRES, SUNK
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
 
-GUIDE = Path(__file__).parents[3] / "docs" / "guides" / "write_a_scenario.md"
+GUIDE = Path(__file__).parents[3] / "docs" / "findings.md"
 PAD = '<box size="0.06 0.01 0.06"/>'
 GRIPPER = robot(
     link("post"),
@@ -99,8 +100,8 @@ def hostile(tmp_path_factory):
     return folder / "hostile.toml"
 
 
-def of_contacts(warnings):
-    return [sentence for sentence in warnings if "contacts." in sentence]
+def of_contacts(run):
+    return [str(found) for found in run.findings if found.name == "sunk contact"]
 
 
 def risen(run):
@@ -113,7 +114,7 @@ def test_a_scene_with_too_few_contacts_names_step_pair_point_depth_and_k(hostile
     assert (run["certificate"] == "exact").all()  # every answer was right, the scene was not
     assert run.steps == 200
     assert risen(run) < 0.005  # of 0.03 m
-    (said,) = of_contacts(run.warnings)
+    (said,) = of_contacts(run)
     own = {"left": slice(4, 7), "right": slice(7, 10)}  # after the floor's 4
     # The first step in which a point of a grip is more than 1 % of 0.04 m deep, and was not among
     # those of the step before.
@@ -139,42 +140,41 @@ def test_a_scene_with_too_few_contacts_names_step_pair_point_depth_and_k(hostile
     assert f"quasistatic-ref: {said}\n" in GUIDE.read_text()
 
 
-def test_with_all_points_of_the_faces_the_same_scene_warns_of_no_contact(hostile):
+def test_with_all_points_of_the_faces_the_same_scene_finds_no_contact(hostile):
     settings = ["contacts.grip.k=100", "solver.certify=off", "steps=120"]
     run = load_scenario(hostile, settings, fast=True).run(progress=False)
-    assert of_contacts(run.warnings) == []
+    assert of_contacts(run) == []
     assert risen(run) > 0.012  # of 0.014 m, at t = 1.2 s
 
 
-def test_warnings_are_printed_once_and_strict_makes_them_a_failure(hostile, tmp_path, capsys):
+def test_findings_are_printed_once_and_strict_fails_on_grave_ones(hostile, tmp_path, capsys):
     arguments = ["run", str(hostile), "--out", str(tmp_path), "--set", "steps=40"]
     assert main(arguments) == 0
     printed = capsys.readouterr().err.splitlines()
     run = trajectory_read(tmp_path / "hostile.npz")
-    assert printed == [f"quasistatic-ref: {sentence}" for sentence in run.warnings]
-    assert len(of_contacts(printed)) == 1
+    assert printed == [f"quasistatic-ref: {found}" for found in run.findings]
+    assert len(of_contacts(run)) == 1
     assert main([*arguments, "--strict", "--json"]) == 1
-    assert json.loads(capsys.readouterr().out)["warnings"] == list(run.warnings)
-    assert run.warnings[0][:40] in repr(run)
+    assert json.loads(capsys.readouterr().out)["findings"] == [asdict(f) for f in run.findings]
+    assert str(run.findings[0])[:40] in repr(run)
 
 
-def test_strict_is_content_with_a_run_that_warns_of_nothing(tmp_path, capsys):
-    arguments = ["run", "sphere_spin", "--set", "steps=20", "--out", str(tmp_path)]
+def test_strict_is_content_with_findings_that_are_not_grave(tmp_path, capsys):
+    arguments = ["run", "block_push", "--set", "steps=60", "--out", str(tmp_path)]
     assert main([*arguments, "--json", "--strict"]) == 0
-    printed = capsys.readouterr()
-    assert (json.loads(printed.out)["warnings"], printed.err) == ([], "")
+    (found,) = json.loads(capsys.readouterr().out)["findings"]
+    assert (found["name"], found["grave"]) == ("drag", False)
 
 
 DRAGS = {"block_push", "block_incline", "panda_push"}
-"""Their drag is not small, and they warn of it."""
+"""Their drag is not small."""
 
 
 @pytest.mark.parametrize("name", scenario_names())
-def test_a_scenario_that_comes_along_warns_of_its_drag_at_most(name):
+def test_of_a_scenario_that_comes_along_nothing_is_found_but_its_drag(name):
     settings = ["solver.certify=off", "record=light", "steps=60"]
     run = load_scenario(name, settings, fast=True).run(progress=False)
-    assert all(said.startswith("the spurious drag") for said in run.warnings)
-    assert len(run.warnings) == (name in DRAGS)
+    assert [found.name for found in run.findings] == ["drag"] * (name in DRAGS)
 
 
 @pytest.mark.parametrize(("size", "warned"), [(0.99 * IN_METRES, False), (40.0, True)])
@@ -182,10 +182,8 @@ def test_a_cloud_of_forty_metres_looks_like_one_of_forty_millimetres(hostile, si
     written(hostile.parent, f"0 0 0\n{size} 0 0\n0 1 0\n", "long.xyz")
     settings = {"bodies.cube.cloud": hostile.parent / "long.xyz", "steps": 1}
     run = load_scenario(hostile, settings, fast=True).run(progress=False)
-    said = [sentence for sentence in run.warnings if "check the unit" in sentence]
-    assert len(said) == warned
-    if warned:
-        assert said[0].startswith("check the unit of cube: lengths are in metres, and it is 40 m")
+    said = [found for found in run.findings if found.name == "unit of a shape"]
+    assert [found.numbers for found in said] == [{"length_m": size}] * warned
 
 
 def test_a_run_that_fails_at_once_still_says_that_a_unit_is_wrong(hostile, tmp_path, capsys):
@@ -196,9 +194,9 @@ def test_a_run_that_fails_at_once_still_says_that_a_unit_is_wrong(hostile, tmp_p
                  "--set", "contacts.floor.beta=cube"]) == 3  # fmt: skip
     printed = capsys.readouterr().err.splitlines()
     assert printed[-1].startswith("quasistatic-ref: step 0: contact ")
-    assert printed[-2] == (
+    assert printed[0] == (
         "quasistatic-ref: check the unit of cube: lengths are in metres, and it is 40 m long; "
         "scale it by 0.001 if that is meant in millimetres"
     )
     run = trajectory_read(tmp_path / "hostile.npz")
-    assert f"quasistatic-ref: {run.warnings[-1]}" == printed[-2]
+    assert [f"quasistatic-ref: {found}" for found in run.findings] == printed[:-1]

@@ -1,0 +1,85 @@
+"""Masses, inertias and sizes that contradict each other."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from quasistatic_ref.optional.doctor.start import Said, Start, body, sizes
+from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.step.data import Array
+
+DENSITIES = 10.0, 25_000.0
+"""From foam to tungsten and gold [kg/m^3]."""
+GYRATION = 1e-3, 10.0
+"""Largest moment of inertia over m r^2, where r is the farthest point from the centre of mass [-]:
+at most 1, but for what has no collision shape; of a homogeneous ball 0.4."""
+RATIO = 1000.0
+"""Of the largest and the smallest body or shape of a scene [-]."""
+
+
+def density(start: Start) -> Iterator[Said]:
+    """Free links that are lighter than foam or heavier than gold."""
+    for link, name, shapes in _free_links(start):
+        volume = sum(placed.shape.coal.computeVolume() for placed in shapes)
+        mass = float(start.system.masses[link])
+        if not DENSITIES[0] <= mass / volume <= DENSITIES[1]:
+            yield Said(
+                f"check mass and size of {name}",
+                f"{mass:.3g} kg in {1e6 * volume:.3g} cm^3 are {mass / volume:.3g} kg/m^3, and "
+                f"bodies have {DENSITIES[0]:g} to {DENSITIES[1]:,.0f}",
+                {"density_kg_per_m3": mass / volume},
+            )
+
+
+def inertia(start: Start) -> Iterator[Said]:
+    """Free links with an inertia that nothing of their mass and size has."""
+    for link, name, shapes in _free_links(start):
+        mass, moment = float(start.system.masses[link]), start.system.inertias[link]
+        points = np.concatenate([_points(placed) for placed in shapes])
+        radius = float(np.linalg.norm(points - start.system.centres[link], axis=1).max())
+        largest = float(np.linalg.eigvalsh(moment).max())
+        share = largest / (mass * radius**2) if radius > 0 else 1.0
+        if not GYRATION[0] <= share <= GYRATION[1]:
+            yield Said(
+                f"check the inertia of {name}",
+                f"a moment of {largest:.3g} kg m^2 is {share:.2g} times m r^2, with {mass:.3g} kg "
+                f"and at most r = {1e3 * radius:.3g} mm from the centre of mass; a ball has 0.4",
+                {"share": share},
+            )
+
+
+def sizes_apart(start: Start) -> Iterator[Said]:
+    """A body or shape that is a thousand times as long as another."""
+    found: dict[str, float] = {}
+    for placed in (side for pair in start.pairs for side in (pair.alpha, pair.beta)):
+        name = body(start.system, placed.link) if placed.link else placed.name
+        found[name] = max([found.get(name, 0.0), *sizes([placed])])
+    extents = {name: size for name, size in found.items() if size > 0}
+    if not extents:
+        return
+    small, large = min(extents, key=extents.__getitem__), max(extents, key=extents.__getitem__)
+    if extents[large] > RATIO * extents[small]:
+        yield Said(
+            f"check the units of {large} and {small}",
+            f"lengths are in metres, and {large} is {extents[large]:.3g} m long, {small} "
+            f"{extents[small]:.3g} m",
+            {"ratio": extents[large] / extents[small]},
+        )
+
+
+def _free_links(start: Start) -> Iterator[tuple[int, str, list[PlacedShape]]]:
+    """Links that a joint without actuator moves, with mass and shapes: number, name and shapes.
+
+    A cloud is no shape here: it may be a part of a surface.
+    """
+    system = start.system
+    free = np.flatnonzero(system.motion.owner >= system.n_a)
+    moved = np.any(system.motion.moves[:, 0][:, free], axis=1)
+    for link, name in enumerate(system.links):
+        shapes = [placed for placed in system.shapes if placed.link == link]
+        if moved[link] and shapes and system.masses[link] > 0:
+            yield link, name, shapes
+
+
+def _points(placed: PlacedShape) -> Array:
+    return placed.shape.surface(16, 8) @ placed.R.T + placed.t

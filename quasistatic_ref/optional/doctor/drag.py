@@ -1,0 +1,54 @@
+"""Drag that is not small against the friction that contacts bear."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from quasistatic_ref.optional.doctor.artifacts import Drag, drags
+from quasistatic_ref.optional.doctor.run import Run, wrenches
+from quasistatic_ref.optional.doctor.start import Said
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import SLOW
+
+SLOWER = 16.0
+"""By what M_u is divided, and with it the drag, to see what contacts bear without its doing."""
+
+
+def drag(run: Run) -> Iterator[Said]:
+    """The worst step, if its drag exceeds a tenth of the friction of the same step without drag.
+
+    Drag presses contacts, too, by which it hides: a pusher with friction mu presses with it. With
+    M_u / 16, and all loads as they were, the same step tells what they bear.
+    """
+    shares = run.noted("pushed")
+    if np.isnan(shares).all() or np.nanmax(shares) <= SLOW / 2:
+        return  # what drag adds to friction is a share of itself
+    k = int(np.nanargmax(shares))
+    found = _without_doing(run, k)
+    worst = max(found, key=lambda x: x.share or 0.0, default=None)
+    share = float(shares[k]) if worst is None else worst.share or 0.0
+    if share <= SLOW:
+        return
+    on, of, numbers = "a free body", "what its contacts can bear", {"share": share, "step": k}
+    if worst is not None:
+        on = f"{worst.body}, {worst.drag:.3g} N"
+        friction = "friction that its contacts can bear" if worst.rubs else "its weight"
+        of = f"the {worst.bears:.3g} N of {friction}"
+        numbers |= {"drag_N": worst.drag, "bears_N": worst.bears}
+    yield Said(
+        "move more slowly or take larger steps",
+        f"the spurious drag m v / h on {on}, is {share:.2g} times {of}, in step {k}",
+        numbers,
+    )
+
+
+def _without_doing(run: Run, k: int) -> list[Drag]:
+    """The drags of step k over what contacts bear without them; none where it is not solved."""
+    if not run.searched:
+        return []
+    step = run.step_data(k)
+    wrench: Array | None = wrenches(step.replace(M_u=step.M_u / SLOWER))
+    if wrench is None:
+        return []
+    g = float(np.linalg.norm(run.gravity))
+    return [x for x in drags(run.system, step, run["delta_q"][k], wrench, g) if x.touched]

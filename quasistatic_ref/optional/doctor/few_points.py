@@ -1,0 +1,81 @@
+"""Faces that rest on fewer points than hold them."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.jacobian import tangents
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.doctor.start import Said, Start, body, free_bases, table
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import REPEATED
+
+UPWARDS = 0.5
+"""Cosine of the steepest normal that counts as bearing weight [-]."""
+MOST = 1000
+"""Candidates of a pair that are looked at."""
+ROUNDING = 1e-6
+"""Angle [rad] by which a centre of mass is over an edge."""
+
+
+def few_points(start: Start) -> Iterator[Said]:
+    """Bodies whose centre is over the points of their faces, and not over the k that are kept."""
+    if not (start.small and np.linalg.norm(start.gravity) > 0.0):  # its square may vanish
+        return
+    for base in free_bases(start.system):
+        name = base.name.removesuffix("/base")
+        own = [
+            p
+            for p in start.pairs
+            if name in (body(start.system, x.link) for x in (p.alpha, p.beta))
+        ]
+        short = [pair for pair in own if pair.n_c < pair.candidates]
+        if not short:
+            continue
+        try:
+            kept, every = (_bearing(start, own, name, most) for most in (1, MOST))
+        except ContactError:
+            return  # the first step says it
+        centre = _centre(start, name)
+        if _around(every - centre, start) and not _around(kept - centre, start):
+            yield Said(
+                f"raise k of {table(short[0])} to {len(_bearing(start, short[:1], name, MOST))}",
+                f"{name} lies flat on {len(every)} points, of which {len(kept)} are kept, and its "
+                "centre of mass is not over these: it tips",
+                {"points": len(every), "kept": len(kept)},
+            )
+
+
+def _bearing(start: Start, pairs: Sequence[ContactPair], name: str, most: int) -> Array:
+    """The points of the k nearest, or of so many, that are level and bear a body, shape (N, 3)."""
+    up, found = -start.gravity / np.linalg.norm(start.gravity), [np.zeros((0, 3))]
+    for pair in pairs:
+        wider = replace(pair, k=max(pair.k, most))
+        points = closest_points([wider], start.kinematics)
+        above = 1 if body(start.system, pair.beta.link) == name else -1
+        level = points.phi <= points.phi.min() + REPEATED
+        if not pair.has_cloud and level.sum() > 1:
+            level &= points.point != pair.corners  # the closest pair lies between corners
+        found.append(points.beta[level & (above * (points.n @ up) > UPWARDS)])
+    return np.concatenate(found)
+
+
+def _centre(start: Start, name: str) -> Array:
+    """Centre of mass of a body [m]."""
+    system, at = start.system, start.kinematics
+    mass = np.where([link.startswith(f"{name}/") for link in system.links], system.masses, 0.0)
+    places = at.t + np.einsum("lij,lj->li", at.R, system.centres)
+    return np.asarray(mass @ places / mass.sum())
+
+
+def _around(points: Array, start: Start) -> bool:
+    """Whether points, seen along gravity, lie around the origin."""
+    d1, d2 = (axis[0] for axis in tangents(start.gravity[None] / np.linalg.norm(start.gravity)))
+    angles = np.sort(np.arctan2(points @ d2, points @ d1))
+    if len(angles) < 3:
+        return False
+    gaps = np.diff(angles, append=angles[0] + 2 * np.pi)
+    return bool(gaps.max() < np.pi - ROUNDING)

@@ -1,0 +1,157 @@
+"""Contacts that cannot rise: sliding, they would have to."""
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.optional.doctor.run import Run, wrenches
+from quasistatic_ref.optional.doctor.start import Said, Start, contacts_of
+from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import BEARS, CRAWL, LOCKED, REPEATED, SAME_NORMAL
+
+TINY = 1e-9
+"""Entries of J, relative to the contact's largest [-], that are rounding."""
+
+
+class Guide(NamedTuple):
+    """A contact, or two opposite ones, that let a body slide by little.
+
+    Parameters
+    ----------
+    contacts : tuple of int
+    moved : ndarray of bool, shape (n_v,)
+        The coordinates that slide it.
+    clearance : float
+        How far the contacts may rise, together [m].
+    mu : float
+        mu_v [-], or mu_omega [m] where it only turns; of both together.
+    turns : bool
+    """
+
+    contacts: tuple[int, ...]
+    moved: Array
+    clearance: float
+    mu: float
+    turns: bool
+
+
+def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
+    """Contacts whose gap no coordinate opens, and opposite contacts of a body with what stands."""
+    J_n = np.einsum("ci,civ->cv", contacts.n, contacts.J[:, :3])
+    J_t = np.linalg.norm(contacts.J[:, :3] - contacts.n[:, :, None] * J_n[:, None], axis=1)
+    J_w = np.abs(contacts.J[:, 3])
+    scale = np.maximum(J_t.max(axis=1, initial=0.0), np.abs(J_n).max(axis=1, initial=0.0))
+    slides = J_t > TINY * scale[:, None] + TINY
+    turns = J_w > TINY
+    clearance = np.where(contacts.phi > REPEATED, contacts.phi, 0.0)
+    fixed = (np.abs(J_n) <= TINY * scale[:, None] + TINY).all(axis=1)
+    fixed[start.raised] = False
+    mu_v, mu_omega = contacts.mu[:, 0], contacts.mu[:, 2]
+    for j in np.flatnonzero(fixed).tolist():
+        if mu_v[j] > 0 and slides[j].any():
+            yield Guide((j,), slides[j], float(clearance[j]), float(mu_v[j]), False)
+        elif mu_omega[j] > 0 and turns[j].any():
+            yield Guide((j,), turns[j], float(clearance[j]), float(mu_omega[j]), True)
+    # Of what stands nothing moves: all of J is the other body's.
+    layout, moves = start.simulator.layout, np.any(start.system.motion.moves, axis=(1, 2))
+    links = np.column_stack([layout.link_alpha, layout.link_beta])
+    standing = ~moves[links]
+    near = (standing.sum(axis=1) == 1) & (mu_v > 0) & (clearance < CRAWL * start.h * 2 * mu_v)
+    body = np.where(standing[:, 0], links[:, 1], links[:, 0])
+    n = np.where(standing[:, :1], contacts.n, -contacts.n)
+    for i, j in combinations(np.flatnonzero(near & ~fixed).tolist(), 2):
+        if body[i] == body[j] and np.abs(n[i] + n[j]).max() <= SAME_NORMAL:
+            both = float(clearance[i] + clearance[j]), float(mu_v[i] + mu_v[j])
+            yield Guide((i, j), slides[i] | slides[j], *both, False)
+
+
+def guided(start: Start) -> Iterator[Said]:
+    """Contacts at the start that let a body crawl at most, once for each table and joint."""
+    if start.points is None or not start.small:
+        return
+    contacts = contacts_of(start.system, start.pairs, start.points, start.kinematics)
+    said: set[tuple[str, ...]] = set()
+    for guide in guides(start, contacts):
+        fastest = guide.clearance / (guide.mu * start.h)
+        names = sorted({start.simulator.layout.names[j] for j in guide.contacts})
+        key = (*names, *_joints(start, guide))
+        if fastest >= CRAWL or key in said:
+            continue
+        said.add(key)
+        unit = "rad" if guide.turns else "m"
+        yield Said(
+            _remedy(start, guide),
+            f"{' and '.join(_joints(start, guide))} cannot open the gap of {' and '.join(names)}, "
+            f"{1e3 * guide.clearance:.3g} mm, and a contact that slides has to rise: it moves by "
+            f"at most {fastest:.3g} {unit}/s, whatever the force",
+            {"clearance_mm": 1e3 * guide.clearance, f"fastest_{unit}_per_s": fastest},
+        )
+
+
+def _joints(start: Start, guide: Guide) -> list[str]:
+    coordinates = start.system.coordinates
+    return list(dict.fromkeys(coordinates[i].joint for i in np.flatnonzero(guide.moved)))
+
+
+def _remedy(start: Start, guide: Guide) -> str:
+    names = [start.simulator.layout.names[j] for j in guide.contacts]
+    tables = " or ".join(sorted({f"contacts.{name.partition('(')[0]}" for name in names}))
+    joint = start.system.joint(_joints(start, guide)[0])
+    if joint.kind == "floating":
+        return f"give {tables} {'mu_omega' if guide.turns else 'mu_v'} = 0, or more clearance"
+    instead = "support" if joint.kind == "planar" else "joint_friction"
+    return f"leave out {tables}, and say {instead} in [bodies.{joint.name.partition('/')[0]}]"
+
+
+def locked(run: Run) -> Iterator[Said]:
+    """Free coordinates that guides hold against more than friction could, in the worst step.
+
+    That is the step with most friction. What contacts could bear is their friction coefficients
+    times the forces of the same step without friction: there, no guide presses because it is to
+    rise. A coordinate is locked if it moves by less than a tenth of what it then would.
+    """
+    rubbing = np.linalg.norm(run["wrench"][:, :, :2], axis=2).sum(axis=1)
+    if not run.searched or not rubbing.any():
+        return
+    k = int(rubbing.argmax())
+    contacts, wrench = run.contacts(k), run["wrench"][k]
+    bears = wrench[:, 2] > BEARS * wrench[:, 2].max()
+    found = [x for x in guides(run, contacts) if bears[list(x.contacts)].any()]
+    if not found:
+        return
+    step, nothing = run.step_data(k), np.zeros(contacts.n_c)
+    smooth = dict(vars(contacts)) | {"mu_v": nothing, "mu_omega": nothing}
+    smooth.pop("mu", None)
+    without = wrenches(step.replace(contacts=Contacts(**smooth)))
+    if without is None:
+        return
+    frame = np.stack([contacts.d1, contacts.d2, contacts.n], axis=1)
+    J = np.einsum("cix,cxv->civ", frame, contacts.J[:, :3])
+    J = np.concatenate([J, contacts.J[:, 3:]], axis=1)
+    press = np.einsum("cv,c->v", J[:, 2], wrench[:, 2])
+    force = np.concatenate([step.tau_a, step.tau_u]) + press  # all but friction
+    could = np.einsum("civ,ci->v", np.abs(J[:, [0, 1, 3]]), contacts.mu * without[:, 2:3])
+    inertia = np.concatenate([np.full(step.n_a, np.inf), np.diag(step.M_u)])
+    beyond = np.abs(force) - could
+    moves = np.abs(run["delta_q"][k]) >= LOCKED * run.h**2 * beyond / inertia
+    locked = (np.arange(step.n_v) >= step.n_a) & (np.abs(force) > 2 * could) & ~moves
+    said: set[str] = set()
+    for guide in found:
+        held = np.flatnonzero(guide.moved & locked)
+        if not held.size or (joint := run.system.coordinates[held[0]].joint) in said:
+            continue
+        said.add(joint)
+        i = int(held[beyond[held].argmax()])
+        j = max(guide.contacts, key=lambda j: float(wrench[j, 2]))
+        name, coordinate = run.simulator.layout.names[j], run.system.coordinates[i]
+        unit = "N" if coordinate.unit == "m" else "N m"
+        yield Said(
+            _remedy(run, guide),
+            f"{coordinate.name} does not move under {abs(force[i]):.3g} {unit} in step {k}, where "
+            f"its contacts could bear {could[i]:.3g} {unit}: {name} presses with "
+            f"{wrench[j, 2]:.3g} N, because a contact that slides has to rise and it cannot",
+            {"force": float(abs(force[i])), "could_bear": float(could[i]), "step": k},
+        )

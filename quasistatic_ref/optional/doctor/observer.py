@@ -1,0 +1,74 @@
+"""The observer of a run: it notes numbers of each step, and finds at the end."""
+
+import sys
+from dataclasses import asdict, replace
+
+import numpy as np
+
+from quasistatic_ref.optional.doctor.artifacts import (
+    boundary_layer,
+    drags,
+    gap_after,
+    largest_share,
+    quasi_dynamic_number,
+)
+from quasistatic_ref.optional.doctor.run import Run, largest
+from quasistatic_ref.optional.doctor.start import Start
+from quasistatic_ref.optional.doctor.table import after, before
+from quasistatic_ref.simulate.observer import Observer
+from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.step.data import Array
+
+
+class Doctor(Observer):
+    """The findings on a run, and the largest of its artifacts, in the header of its trajectory.
+
+    Parameters
+    ----------
+    printed : bool
+        Whether to print the findings on standard error, too.
+    """
+
+    notes = ("gap", "Pi", "drag", "pushed", "layer")
+
+    def __init__(self, printed: bool) -> None:
+        self.printed = printed
+
+    def after(self, recorder: Recorder, result: StepResult) -> dict[str, Array | float | None]:
+        """What is read at the end.
+
+        Gaps after the step, shape (n_c,) [m], Pi, share of drag, the same of bodies that something
+        touches [-], and boundary layer [m].
+        """
+        step, solution, system = result.step, result.solution, recorder.system
+        g = float(np.linalg.norm(recorder.simulator.gravity))
+        gap = gap_after(solution, system.n_v)
+        found = drags(system, step, solution.delta_q, solution.wrench, g)
+        return {
+            "gap": gap,
+            "Pi": quasi_dynamic_number(system, step, solution.delta_q, g),
+            "drag": largest_share(found),
+            "pushed": largest_share(x for x in found if x.touched),
+            "layer": boundary_layer(gap, solution),
+        }
+
+    def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:
+        """The trajectory with its findings."""
+        if trajectory.steps:
+            run = Run(recorder, trajectory.arrays)
+            found = before(run) + after(run)
+        else:
+            found = before(Start(recorder.simulator, recorder.start))
+        header = {
+            **trajectory.header,
+            "quasi_dynamic_number": largest(recorder.noted("Pi")),
+            "largest_drag_share": largest(recorder.noted("drag")),
+            "largest_boundary_layer": largest(recorder.noted("layer")) or 0.0,
+            "findings": [asdict(finding) for finding in found],
+        }
+        if self.printed:
+            for finding in found:
+                print(f"quasistatic-ref: {finding}", file=sys.stderr)
+        return replace(trajectory, header=header)

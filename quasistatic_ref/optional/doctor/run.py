@@ -1,0 +1,86 @@
+"""A run at its end: what findings after the run look at."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.contact.distance import ClosestPoints, closest_points
+from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.optional.doctor.start import Start, contacts_of
+from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.step.cones import PYRAMID, cone
+from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import contact_wrenches
+
+
+class Run(Start):
+    """A run of one step at least.
+
+    Parameters
+    ----------
+    recorder : Recorder
+    arrays : mapping of str to ndarray
+        Of its trajectory, of whatever shape [of the notation].
+    """
+
+    def __init__(self, recorder: Recorder, arrays: Mapping[str, NDArray[Any]]) -> None:
+        keys = ("phi", "alpha", "beta", "n", "point")
+        first = ClosestPoints(
+            **{key: arrays[key][0] for key in keys}, tie=np.zeros(0, dtype=np.int64)
+        )
+        super().__init__(recorder.simulator, recorder.start, first)
+        self.recorder, self.arrays = recorder, arrays
+        self.steps = len(arrays["t"])
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self.arrays[name]
+
+    def noted(self, name: str) -> NDArray[Any]:
+        """What the recorder keeps of each step and the trajectory does not, shape (steps, ...)."""
+        return self.recorder.noted(name)
+
+    @property
+    def searched(self) -> bool:
+        """Whether a step of it may be solved once more."""
+        return self.small and self.simulator.extension is None
+
+    def contacts(self, k: int) -> Contacts:
+        """The contacts of step k."""
+        kinematics = self.system.kinematics(self["q"][k])
+        points = closest_points(self.pairs, kinematics)
+        return contacts_of(self.system, self.pairs, points, kinematics)
+
+    def step_data(self, k: int) -> StepData:
+        """The problem of step k, up to rounding, with the paper's cone for a curved one."""
+        simulator, q = self.simulator, self["q"][k]
+        n_a, tau = self.system.n_a, self.noted("tau")[k]
+        polyhedral = cone(simulator.cone).polyhedral
+        return StepData(
+            h=self.h,
+            K_q=simulator.K_q,
+            M_u=self.system.M_u(q),
+            tau_a=tau[:n_a],
+            tau_u=tau[n_a:],
+            delta_q_bar_a=self.system.actuated_difference(q, self["q_bar_a"][k]),
+            contacts=self.contacts(k),
+            cone=simulator.cone if polyhedral else PYRAMID,
+        )
+
+
+def wrenches(step: StepData) -> Array | None:
+    """Contact wrenches of the exact optimum, (n_c, 4) [N, N m]; None where there is no optimum."""
+    try:
+        optimum = exact_step(step)
+    except StepNotSolved:
+        return None
+    return contact_wrenches(step.contacts, optimum.lam, step.h, step.cone)
+
+
+def largest(values: Array) -> float | None:
+    """The largest of some values, shape (steps,) [any unit], those that are not known left out."""
+    known = values[~np.isnan(values)]
+    return float(known.max()) if known.size else None

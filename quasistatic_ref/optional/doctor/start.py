@@ -1,0 +1,125 @@
+"""A scene where a run starts: what findings before the run look at."""
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import ClosestPoints, closest_points
+from quasistatic_ref.contact.jacobian import ContactGeometry
+from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.model.system import System
+from quasistatic_ref.shapes.placed_shape import PlacedShape
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.extension import NO_RISES
+
+SEARCHED = 200_000
+"""Most entries of a step's J, 4 n_c n_v, of a scene in which J is formed and a step is solved once
+more: the exact method starts cold, and takes a second there."""
+
+
+class Said(NamedTuple):
+    """What a finding says: its sentence is ``remedy: cause``.
+
+    Parameters
+    ----------
+    remedy, cause : str
+    numbers : dict of str to float
+        By names that end in their unit [any unit].
+    """
+
+    remedy: str
+    cause: str
+    numbers: dict[str, float]
+
+
+class Start:
+    """A scene where a run starts.
+
+    Parameters
+    ----------
+    simulator : Simulator
+    q : ndarray, shape (n_q,)
+    first : ClosestPoints, optional
+        Its contacts, where a step knows them.
+    """
+
+    def __init__(self, simulator: Simulator, q: Array, first: ClosestPoints | None = None) -> None:
+        self.simulator, self.q_start, self.first = simulator, q, first
+        self.system, self.pairs, self.h = simulator.system, simulator.pairs, simulator.h
+        self.gravity = np.array(simulator.gravity)
+
+    @cached_property
+    def kinematics(self) -> Kinematics:
+        """Where the links are."""
+        return self.system.kinematics(self.q_start)
+
+    @cached_property
+    def points(self) -> ClosestPoints | None:
+        """The contacts; None where a pair has no normal, which the first step then says."""
+        if self.first is not None:
+            return self.first
+        try:
+            return closest_points(self.pairs, self.kinematics)
+        except ContactError:
+            return None
+
+    @cached_property
+    def raised(self) -> Indices:
+        """Numbers of the contacts whose gap a private rise opens, shape (n,)."""
+        extension = self.simulator.extension
+        return NO_RISES.contacts if extension is None else extension(self.q_start).rises.contacts
+
+    @property
+    def small(self) -> bool:
+        """Whether all of J may be formed, and a step solved once more."""
+        in_blocks = getattr(self.simulator.geometry, "in_blocks", False)  # of many bodies
+        return not in_blocks and 4 * len(self.simulator.layout.rows) * self.system.n_v <= SEARCHED
+
+
+def contacts_of(
+    system: System, pairs: Iterable[ContactPair], points: ClosestPoints, kinematics: Kinematics
+) -> Contacts:
+    """Contacts with a dense J."""
+    geometry = ContactGeometry(contact_layout(tuple(pairs)), system.motion)
+    return geometry.contacts(points, kinematics)
+
+
+def slices(pairs: Iterable[ContactPair]) -> Iterator[tuple[ContactPair, slice]]:
+    """Each pair, and where its contacts are among all."""
+    end = 0
+    for pair in pairs:
+        start, end = end, end + pair.n_c
+        yield pair, slice(start, end)
+
+
+def table(pair: ContactPair) -> str:
+    """The table of a scenario that a pair is of, such as ``contacts.floor``."""
+    return f"contacts.{pair.name.partition('(')[0]}"
+
+
+def sizes(shapes: Iterable[PlacedShape]) -> list[float]:
+    """Extents [m] of those shapes that have one: neither half-spaces nor single points."""
+    extents = [placed.shape.extent for placed in shapes]
+    return [x for x in extents if 0 < x < np.inf]
+
+
+def least(pair: ContactPair) -> float:
+    """Size of a pair's smaller shape [m]; infinity where none has one."""
+    return min(sizes((pair.alpha, pair.beta)), default=np.inf)
+
+
+def body(system: System, link: int) -> str:
+    """The body of a link; ``"world"`` of link 0."""
+    return system.links[link].partition("/")[0]
+
+
+def free_bases(system: System) -> list[Joint]:
+    """The floating bases that nothing actuates."""
+    return [j for j in system.joints if j.kind == "floating" and not j.actuated]

@@ -1,0 +1,49 @@
+"""Contacts that a step finds deep and the step before did not predict."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.start import Said, least, slices, table
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import SUNK
+
+
+def sunk(run: Run) -> Iterator[Said]:
+    """Of each table of contacts the first that is found."""
+    first: dict[str, Said] = {}
+    gap = run.noted("gap")
+    for pair, own in slices(run.pairs):
+        said = _surprise(pair, run["phi"][:, own], run["point"][:, own], gap[:, own])
+        name = table(pair)
+        if said and (name not in first or said.numbers["step"] < first[name].numbers["step"]):
+            first[name] = said
+    yield from first.values()
+
+
+def _surprise(pair: ContactPair, phi: Array, point: NDArray[np.generic], gap: Array) -> Said | None:
+    deepest = SUNK * least(pair)
+    k, j = np.nonzero(phi[1:] < -deepest)  # contacts are in ascending distance
+    before, number = point[k], point[k + 1, j]
+    same = before == number[:, None]
+    # The closest pair of two solids has one number wherever it is: that names no point.
+    considered = same.any(axis=1) | (pair.n_c == 1 and not pair.has_cloud)
+    predicted = np.where(considered, gap[k, same.argmax(axis=1)], 0.0)
+    surprising = np.flatnonzero(np.minimum(predicted, 0.0) - phi[k + 1, j] > deepest)
+    if not surprising.size:
+        return None
+    i = surprising[0]
+    step, depth = int(k[i]) + 1, -1e3 * float(phi[k[i] + 1, j[i]])
+    deep, numbers = f"{depth:.3g} mm deep at step {step}", {"depth_mm": depth, "step": step}
+    what = "point" if pair.has_cloud or number[i] < pair.corners else "candidate"
+    raised = f"raise k of {table(pair)}"
+    if not considered[i]:
+        left_out = f"was not among its {pair.n_c} closest at step {step - 1}"
+        return Said(raised, f"{what} {number[i]} of {pair.name} {left_out} and is {deep}", numbers)
+    more = f", or {raised}" if pair.n_c < pair.candidates else ""
+    left = f"the step before, which is right to first order, left it at {1e3 * predicted[i]:.3g} mm"
+    cause = f"{what} {number[i]} of {pair.name} is {deep}; {left}"
+    return Said(f"take a smaller h or move slower{more}", cause, numbers)

@@ -1,0 +1,85 @@
+"""The table of findings, before a run and after it: causes come before what comes of them."""
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from quasistatic_ref.optional.doctor import (
+    contradictions,
+    drag,
+    few_points,
+    guides,
+    leaps,
+    left_out,
+    penetration,
+    sunk,
+    targets,
+    units,
+    unsupported,
+)
+from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.start import Said, Start
+from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.step.data import Array
+
+
+class Kind(NamedTuple):
+    """One line of the table.
+
+    Parameters
+    ----------
+    name : str
+    grave : bool
+        Whether such a run is not what was meant.
+    found : callable
+        A scene at its start, or a run at its end -> what there is to say of it.
+    """
+
+    name: str
+    grave: bool
+    found: Callable[..., Iterator[Said]]
+
+
+BEFORE = (
+    Kind("unit of a shape", True, units.long_shapes),
+    Kind("unit of mu_omega", True, units.large_mu_omega),
+    Kind("sizes apart", True, contradictions.sizes_apart),
+    Kind("density", True, contradictions.density),
+    Kind("inertia", True, contradictions.inertia),
+    Kind("unsupported body", True, unsupported.unsupported),
+    Kind("initial penetration", True, penetration.penetration),
+    Kind("guided friction", True, guides.guided),
+    Kind("too few points", True, few_points.few_points),
+)
+AFTER = (
+    Kind("locked guide", True, guides.locked),
+    Kind("sunk contact", True, sunk.sunk),
+    Kind("leap", True, leaps.leaps),
+    Kind("unit of a target", True, units.far_targets),
+    Kind("target beyond a limit", True, targets.beyond_limits),
+    Kind("half a turn behind", True, targets.half_turns),
+    Kind("free fall", True, unsupported.falling),
+    Kind("drag", False, drag.drag),
+    Kind("border of k", False, left_out.border),
+    Kind("exchanged points", False, left_out.exchanged),
+)
+
+
+def scene_findings(simulator: Simulator, q: Array) -> list[Finding]:
+    """The findings on the scene of a simulator that is to start at q, shape (n_q,)."""
+    return before(Start(simulator, q))
+
+
+def before(start: Start) -> list[Finding]:
+    """The findings on a scene where it starts."""
+    return [_finding(kind, said) for kind in BEFORE for said in kind.found(start)]
+
+
+def after(run: Run) -> list[Finding]:
+    """The findings on a run at its end."""
+    return [_finding(kind, said) for kind in AFTER for said in kind.found(run)]
+
+
+def _finding(kind: Kind, said: Said) -> Finding:
+    sentence = f"{said.remedy}: {said.cause}"
+    return Finding(kind.name, kind.grave, sentence, said.remedy, said.numbers)

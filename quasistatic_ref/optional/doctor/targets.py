@@ -1,0 +1,59 @@
+"""Targets beyond the limits of a URDF, and joints that lag theirs by half a turn."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.start import Said
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import BEYOND, IN_METRES
+
+
+def beyond_limits(run: Run) -> Iterator[Said]:
+    """Targets beyond a limit that the URDF names, of each joint the farthest."""
+    for joint in run.system.joints:
+        if not joint.actuated or joint.limits is None:
+            continue
+        target, unit = run["q_bar_a"][:, joint.q][:, 0], joint.coordinates[0].unit
+        lower, upper = joint.limits
+        k = int(np.maximum(lower - target, target - upper).argmax())
+        limit = lower if target[k] < lower else upper
+        far = unit == "m" and abs(target[k]) > IN_METRES  # its unit is doubted already
+        if max(lower - target[k], target[k] - upper) > BEYOND and not far:
+            yield Said(
+                f"change the target of {joint.name}, {target[k]:.3g} {unit} at step {k}, or the "
+                f"limit in its URDF, {limit:.3g} {unit}",
+                "the model ignores limits, the robot does not",
+                {f"target_{unit}": float(target[k]), f"limit_{unit}": limit, "step": k},
+            )
+
+
+def half_turns(run: Run) -> Iterator[Said]:
+    """Joints that come to lag their target by half a turn, from where springs turn them back."""
+    for joint in run.system.joints:
+        if not joint.actuated or joint.kind not in ("floating", "planar", "continuous"):
+            continue
+        lag = _lag(joint.kind, run["q"][:-1, joint.q], run["q_bar_a"][:, joint.q])
+        far = np.linalg.norm(lag, axis=1) > np.sqrt(2)  # 2 sin of an eighth of a turn
+        turned_over = far[1:] & far[:-1] & (np.vecdot(lag[1:], lag[:-1]) < 0)
+        if turned_over.any():
+            k = int(turned_over.argmax()) + 1
+            yield Said(
+                "take a larger K_q or a slower target",
+                f"{joint.name} lags its target by half a turn at step {k}, and a spring turns the "
+                "shorter way",
+                {"step": k},
+            )
+
+
+def _lag(kind: str, q: Array, q_bar: Array) -> Array:
+    """Axis of the shorter turn from q to q_bar times 2 sin of half its angle; (steps, 1 or 3)."""
+    if kind == "floating":
+        v, w, v_bar, w_bar = q[:, 3:6], q[:, 6:], q_bar[:, 3:6], q_bar[:, 6:]
+        both = w * v_bar - w_bar * v - np.cross(v, v_bar)
+        cosine = w * w_bar + np.vecdot(v, v_bar)[:, None]
+        return np.where(cosine < 0, -2.0, 2.0) * both
+    (c, s), (c_bar, s_bar) = q[:, -2:].T, q_bar[:, -2:].T
+    angle = np.arctan2(c * s_bar - s * c_bar, c * c_bar + s * s_bar)
+    return np.asarray(2 * np.sin(angle / 2))[:, None]

@@ -1,0 +1,58 @@
+"""Lengths that look like millimetres: of meshes and clouds, of mu_omega, and of targets."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.start import Said, Start, least, table
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import PointCloud
+from quasistatic_ref.tolerances import IN_METRES
+
+LENGTHS = {"floating": 3, "planar": 2, "prismatic": 1}
+"""How many of a joint's coordinates, the first ones, are lengths; the others are angles."""
+
+
+def long_shapes(start: Start) -> Iterator[Said]:
+    """Meshes and clouds longer than anything that a robot meets: the longest is named."""
+    sides = [side for pair in start.pairs for side in (pair.alpha, pair.beta)]
+    shapes = [*start.system.shapes, *sides]
+    modelled = {p.name: p.shape for p in shapes if isinstance(p.shape, PointCloud | ConvexMesh)}
+    long = {name: x for name, shape in modelled.items() if (x := shape.extent) > IN_METRES}
+    if long:
+        name = max(long, key=long.__getitem__)
+        others = f" ({len(long) - 1} more are as suspect)" if len(long) > 1 else ""
+        yield Said(
+            f"check the unit of {name}",
+            f"lengths are in metres, and it is {long[name]:.3g} m long; scale it by 0.001 if that "
+            f"is meant in millimetres{others}",
+            {"length_m": long[name]},
+        )
+
+
+def large_mu_omega(start: Start) -> Iterator[Said]:
+    """mu_omega longer than the smaller body, once for each table of contacts."""
+    rough = [pair for pair in start.pairs if pair.mu_omega > least(pair)]
+    for name, pair in {table(pair): pair for pair in rough}.items():
+        yield Said(
+            f"check the unit of mu_omega of {name}",
+            f"it is a length in metres, and {pair.mu_omega:.3g} m is more than the size of the "
+            f"smaller body, {least(pair):.3g} m",
+            {"mu_omega_m": pair.mu_omega, "size_m": least(pair)},
+        )
+
+
+def far_targets(run: Run) -> Iterator[Said]:
+    """Targets farther away than anything that a robot reaches."""
+    for joint in run.system.joints:
+        if joint.actuated:
+            value = run["q_bar_a"][:, joint.q]
+            length = np.abs(value[:, : LENGTHS.get(joint.kind, 0)]).max(axis=1, initial=0.0)
+            k = int(length.argmax())
+            if length[k] > IN_METRES:
+                yield Said(
+                    f"check the unit of the targets of {joint.name}",
+                    f"lengths are in metres, and that of step {k} is {length[k]:.3g} m",
+                    {"length_m": float(length[k]), "step": k},
+                )

@@ -1,0 +1,74 @@
+"""Bodies that nothing can bear, and bodies that fall."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from quasistatic_ref.optional.doctor.run import Run
+from quasistatic_ref.optional.doctor.start import Said, Start, body, free_bases
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import BEARS
+
+
+def alone(start: Start) -> set[str]:
+    """Free bodies that no chain of contact tables joins to what stands."""
+    free = {base.name.removesuffix("/base") for base in free_bases(start.system)}
+    borne = {"world", *(b.name for b in start.system.bodies)} - free
+    joined = _joined(start)
+    for _ in free:  # a chain is no longer
+        borne |= {name for pair in joined if pair & borne for name in pair}
+    return free - borne
+
+
+def _joined(start: Start) -> list[set[str]]:
+    return [{body(start.system, side.link) for side in (p.alpha, p.beta)} for p in start.pairs]
+
+
+def unsupported(start: Start) -> Iterator[Said]:
+    """Bodies that are joined to nothing, if they weigh anything."""
+    joined = _joined(start)
+    for name in sorted(alone(start)) if start.gravity.any() else ():
+        touching = [pair - {name} for pair in joined if name in pair]
+        others = " but to bodies that fall as well" if any(touching) else ""
+        weight = start.system.mass(name) * float(np.linalg.norm(start.gravity))
+        yield Said(
+            f"add a table [contacts.NAME] of {name} and what should bear it",
+            f"no table joins {name}, which weighs {weight:.3g} N, to anything{others}: it falls",
+            {"weight_N": weight},
+        )
+
+
+def falling(run: Run) -> Iterator[Said]:
+    """Free bodies that nothing touches in the last step, and that move down in it."""
+    g = float(np.linalg.norm(run.gravity))
+    if not g:
+        return
+    system, down, most = run.system, run.gravity / g, run.h**2 * g
+    each = zip(_joined(run), run.pairs, strict=True)
+    sides = [names for names, pair in each for _ in range(pair.n_c)]
+    said = alone(run)
+    for base in free_bases(system):
+        name = base.name.removesuffix("/base")
+        if name in said:
+            continue
+        own = np.array([name in names for names in sides], dtype=bool)
+        force = np.abs(run["wrench"][:, own, 2]).max(axis=1, initial=0.0)
+        drop = np.diff(run["q"][:, base.q][:, :3] @ down)
+        falls = (force <= BEARS * system.mass(name) * g) & (drop > most / 2)
+        if falls[-1]:
+            first = int(len(falls) - np.argmin(falls[::-1])) if not falls.all() else 0
+            fallen = float(drop[first:].sum())
+            yield Said(
+                _remedy(own, run, first),
+                f"nothing touches {name} from step {first} to the end, and it falls by "
+                f"{1e3 * fallen:.3g} mm, h^2 g = {1e3 * most:.3g} mm a step",
+                {"first_step": first, "fallen_mm": 1e3 * fallen},
+            )
+
+
+def _remedy(own: Array, run: Run, first: int) -> str:
+    if first:
+        return "hold it more firmly or longer, or put something below it"
+    k = int(np.abs(run["phi"][0, own]).argmin())
+    gap = 1e3 * float(run["phi"][0, own][k])
+    return f"start it on what should bear it, {gap:.4g} mm away at the start"

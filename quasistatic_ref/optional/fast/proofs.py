@@ -1,0 +1,211 @@
+"""Proofs of steps, group by group, with what is kept while groups and H stay."""
+
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined
+from quasistatic_ref.certify.norm import EnergyNorm, GroupNorm, Norm
+from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
+from quasistatic_ref.optional.fast.guess.exchange import proved_nearby
+from quasistatic_ref.optional.fast.kept_step import KeptStep
+from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep, constants
+from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
+from quasistatic_ref.solve.solver import NaturalAnswer
+from quasistatic_ref.solve.units import NaturalHessian
+from quasistatic_ref.step.data import Array, Indices, StepData
+from quasistatic_ref.step.groups import Group, groups, own_rows, split
+from quasistatic_ref.tolerances import ILL_POSED
+
+
+class Kept:
+    """What proofs of steps keep while H, and the rows of contacts, stay."""
+
+    def __init__(self) -> None:
+        self.hessian: BallHessian | None = None
+        self.metric: NaturalHessian | None = None
+        self.prover: Any = None
+
+    def hessian_of(self, step: StepData) -> BallHessian:
+        """H of a step in balls: the one that is kept, if it is the same.
+
+        Raises
+        ------
+        StepDataError
+            If H is not positive definite without rounding.
+        """
+        if self.hessian is None or not self.hessian.fits(step):
+            self.hessian = BallHessian(step)
+        return self.hessian
+
+    @property
+    def norm(self) -> EnergyNorm:
+        """The norm ||.||_H of the last step."""
+        assert self.hessian is not None
+        return self.hessian.norm
+
+    def proved(self, scaled: DenseStep, lam: Array, slack: Array) -> ExactOptimum | None:
+        """The optimum of a step, proved on the rows that an answer presses: in C, or in balls.
+
+        Parameters
+        ----------
+        scaled : DenseStep
+        lam, slack : ndarray, shape (m,)
+            Of the answer, both in natural units [-].
+
+        Returns
+        -------
+        ExactOptimum or None
+            None where neither decides everything.
+        """
+        step, hessian = scaled.step, self.hessian_of(scaled.step)
+        in_c = compiled("certificate")
+        if in_c is not None:
+            self.prover = in_c.prover(step, scaled.units.coordinate, self.prover)
+        nearby = partial(proved_nearby, form=scaled.form, inverse=scaled.metric.inverse)
+        guess, found = _guess(scaled, lam, slack), None
+        if self.prover is not None:
+            found = nearby(partial(self.prover.optimum, step, units=scaled.units), guess)
+        if found is None:
+            found = nearby(BallStep(step, hessian).confirmed, guess)
+        return found
+
+
+def _guess(scaled: DenseStep, lam: Array, slack: Array) -> Indices:
+    """The rows that an answer presses, ascending, made independent where it presses many."""
+    if np.count_nonzero(lam) > scaled.step.n_v:  # rows that depend on each other
+        return np.array(sorted(warm_rows(scaled.natural_form.A, lam, slack)), dtype=np.int64)
+    return np.flatnonzero(lam > np.maximum(slack, 0))  # as warm_rows has it
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A group of a step, and what its steps have in common.
+
+    Parameters
+    ----------
+    group : Group
+    constant : Constants or None
+        Of its steps; None where the group is the whole step.
+    kept : Kept
+        Shared by groups of equal constants.
+    """
+
+    group: Group
+    constant: Constants | None
+    kept: Kept
+
+    def scaled(self, whole: NaturalStep) -> DenseStep:
+        """The step of the group in its own natural units, from the `whole` step."""
+        if self.constant is None:
+            return whole if isinstance(whole, DenseStep) else KeptStep(whole.step, None)
+        scaled = KeptStep(self._step(whole.step, self.constant), self.kept.metric)
+        self.kept.metric = scaled.metric
+        return scaled
+
+    def _step(self, step: StepData, constant: Constants) -> PosedStep:
+        group, given = self.group, step.contacts
+        (a, u), j = split(step, group), group.contacts
+        if len(group.own):
+            constant = constant._replace(extra=own_rows(step, group))
+        contacts = PosedContacts(
+            name=tuple([given.name[i] for i in j.tolist()]),
+            phi=given.phi[j],
+            n=given.n[j],
+            d1=given.d1[j],
+            d2=given.d2[j],
+            J=given.columns(j, group.coordinates),
+            mu_v=given.mu_v[j],
+            mu_omega=given.mu_omega[j],
+            rows=given.rows[j],
+        )
+        loads = step.tau_a[a], step.tau_u[u], step.delta_q_bar_a[a]
+        return PosedStep(constant, *loads, contacts)
+
+
+class Proofs:
+    """The exact optimum of one step after the other, each group of a step proved by itself.
+
+    Attributes
+    ----------
+    parts : list of Part
+        The groups of the last step.
+    """
+
+    def __init__(self) -> None:
+        self.parts: list[Part] = []
+        self._coupling: list[NDArray[Any]] = []
+
+    def norm(self) -> Norm:
+        """The norm ||.||_H of the last step."""
+        norms = [(part.group.coordinates, part.kept.norm) for part in self.parts]
+        return norms[0][1] if len(norms) == 1 else GroupNorm(norms)
+
+    def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
+        """The exact optimum: proved on a guess of its working set, or found by the exact method.
+
+        Raises
+        ------
+        StepInfeasible, StepIllPosed
+        """
+        step, form = scaled.step, scaled.natural_form
+        slack = None if answer is None else form.A @ answer.delta_q - form.b
+        optima, long = [], False
+        for part in self.divided(step):
+            own, rows, warm = part.scaled(scaled), part.group.rows, list[int]()
+            found = None
+            if answer is not None and slack is not None:
+                pressed = answer.lam[rows], slack[rows]
+                found = part.kept.proved(own, *pressed)
+                warm = [] if found else warm_rows(own.natural_form.A, *pressed)
+            found = found or group_optimum(step, part.group, own.step, warm)
+            norm = part.kept.hessian_of(own.step).norm
+            # Of three loads' steps the longest is at least a third of what they cause together.
+            most = ILL_POSED / 4 * norm.impulse(own.form.g)
+            long = long or not norm.displacement(found.delta_q) <= most
+            optima.append(found)
+        optimum = joined(step, [part.group for part in self.parts], optima)
+        if long:
+            check_length(step, optimum.delta_q)
+        return optimum
+
+    def divided(self, step: StepData) -> list[Part]:
+        """The groups of a step: those of the last step, if the same couples its coordinates."""
+        inertia = vars(step)["M_u"]  # whole, or in blocks
+        coupling = [step.K_q, inertia, step.contacts.moves(), step.extra.A != 0, step.counts]
+        if not (self._coupling and all(map(_same, coupling, self._coupling))):
+            self.parts = _parts(step, self.parts)
+        self._coupling = coupling
+        return self.parts
+
+
+def _same(one: NDArray[Any], two: NDArray[Any]) -> bool:
+    return one is two or np.array_equal(one, two)
+
+
+def _parts(step: StepData, before: list[Part]) -> list[Part]:
+    """The groups of a step; those of equal constants share what is kept, also with the `before`."""
+    found = groups(step)
+    if len(found) == 1:
+        kept = before[0].kept if len(before) == 1 else Kept()
+        return [Part(found[0], None, kept)]
+    known = {_key(part.constant): part for part in before if part.constant is not None}
+    parts = []
+    for group in found:
+        a, u = split(step, group)
+        K_q, M_u = step.K_q[np.ix_(a, a)], step.inertia(u)
+        rows = step.contacts.rows[group.contacts]
+        constant = constants(step.h, K_q, len(a), M_u, rows, step.cone)
+        alike = known.setdefault(_key(constant), Part(group, constant, Kept()))
+        parts.append(Part(group, alike.constant, alike.kept))
+    return parts
+
+
+def _key(constant: Constants) -> tuple[Any, ...]:
+    numbers = constant.K_q.tobytes(), constant.M_u.tobytes(), constant.layout.counts.tobytes()
+    return constant.h, constant.cone, len(constant.K_q), numbers

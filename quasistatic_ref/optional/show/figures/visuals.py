@@ -1,0 +1,94 @@
+"""What bodies look like: the visual elements of their URDFs, and a colour for each body."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any, Final, NamedTuple
+from xml.etree.ElementTree import Element
+
+import numpy as np
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.readers.mesh_files import mesh_corners, mesh_path
+from quasistatic_ref.model.urdf.urdf_file import FileMesh, urdf_file, written_shape
+from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.optional.show.figures.surfaces import triangles
+from quasistatic_ref.simulate.wrenches import HasScene
+from quasistatic_ref.step.data import Array
+
+PALETTE: Final = (0x0072B2, 0xE69F00, 0x009E73, 0xCC79A7, 0x56B4E9, 0xF0E442)
+"""Colours of bodies in turn, which are told apart by every eye (Okabe and Ito 2008)."""
+FIXED: Final = 0xBDBDBD
+"""What belongs to no body."""
+AROUND, UP = 32, 13
+"""Corners of round shapes around their axis and along it."""
+
+
+class Visual(NamedTuple):
+    """One visual element.
+
+    Parameters
+    ----------
+    link : str
+        ``arm/tool``.
+    corners : ndarray, shape (3T, 3)
+        Triangles, in the link's frame [m].
+    colour : int or None
+        Red, green and blue of the URDF, a byte each.
+    """
+
+    link: str
+    corners: Array
+    colour: int | None
+
+
+def colours(scene: HasScene) -> dict[str, int]:
+    """A colour for each body, by its name."""
+    names = [body.name for body in scene.system.bodies]
+    return {name: PALETTE[i % len(PALETTE)] for i, name in enumerate(names)}
+
+
+def visuals(scene: HasScene) -> list[Visual]:
+    """Visual elements of all bodies; those that cannot be read are left out: they bear no load."""
+    return [visual for body in scene.system.bodies for visual in _of_body(body)]
+
+
+def _of_body(body: Body) -> Iterator[Visual]:
+    file = urdf_file(body.urdf)
+    robot = xml_root(file.text)
+    named = {material.get("name"): material for material in robot.findall("material")}
+    for link in robot.findall("link"):
+        for element in link.findall("visual"):
+            visual = Tag(element, f"link[{link.get('name')}].visual")
+            try:
+                shape = written_shape(visual)
+                R, t = visual.frame()
+                corners = _corners(shape, file.path.parent, body.package_dirs)
+            except ModelError:
+                continue
+            name = f"{body.name}/{link.get('name')}"
+            yield Visual(name, corners @ R.T + t, _colour(element.find("material"), named))
+
+
+def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
+    """Triangles as triples of points, shape (3T, 3) [m]."""
+    if not isinstance(shape, FileMesh):
+        points = shape.surface(AROUND, UP)
+        return np.asarray(points[triangles(points)].reshape(-1, 3))
+    return mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
+
+
+def _colour(material: Element | None, named: dict[str | None, Element]) -> int | None:
+    """The colour of a visual element, or of the robot's material of that name."""
+    if material is None:
+        return None
+    colour = material.find("color")
+    if colour is None and material.get("name") in named:
+        colour = named[material.get("name")].find("color")
+    if colour is None:
+        return None
+    try:
+        red, green, blue, _ = (float(x) for x in colour.get("rgba", "").split())
+    except ValueError:
+        return None
+    each = (round(255 * min(max(x, 0.0), 1.0)) for x in (red, green, blue))
+    return int.from_bytes(bytes(each), "big")

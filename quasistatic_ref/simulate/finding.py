@@ -1,0 +1,55 @@
+"""What is wrong with a scene, or doubtful in a run, in the words of physics."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.plain import Plain
+
+
+@dataclass(frozen=True, eq=False)
+class Finding(Plain):
+    """One finding; docs/findings.md has each, with its cause, its remedy and a scene.
+
+    Parameters
+    ----------
+    name : str
+        Of its kind, such as ``"free fall"``.
+    grave : bool
+        Whether the run is not what was meant; ``--strict`` fails on such a finding only.
+    sentence : str
+        The remedy, then the cause with bodies and contacts.
+    remedy : str
+    numbers : mapping of str to float
+        What was measured [any unit], by names that end in their unit: ``{"depth_mm": 10.0}``.
+    """
+
+    name: str
+    grave: bool
+    sentence: str
+    remedy: str
+    numbers: Mapping[str, float]
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+def finding_read(table: object, where: str) -> Finding:
+    """A finding as it stands in the header of a trajectory.
+
+    Raises
+    ------
+    InputError
+        If a field is missing, unknown or of another type.
+    """
+    fields = Fields(table, where)
+    numbers = fields.table("numbers")
+    found = Finding(
+        name=fields.text("name"),
+        grave=fields.boolean("grave"),
+        sentence=fields.text("sentence"),
+        remedy=fields.text("remedy"),
+        numbers={name: numbers.number(name) for name in numbers.names()},
+    )
+    fields.close()
+    return found

@@ -1,0 +1,136 @@
+"""Groups of coordinates that nothing couples: each is a step of its own.
+
+Two coordinates belong together if an entry of H off its diagonal couples them, or a contact, or a
+row of the user's own, moves with both. H is then block diagonal and A has rows of one group each:
+the optimum of the step consists of those of its groups. A group is mostly a body, or some bodies
+that touch each other.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.step.data import Extra, Indices, StepData
+
+
+class Group(NamedTuple):
+    """Part of a step, by where it stands in it; each array is ascending.
+
+    Parameters
+    ----------
+    coordinates : ndarray of int, shape (n,)
+    contacts : ndarray of int, shape (c,)
+    own : ndarray of int, shape (e,)
+        Rows of the user's own.
+    rows : ndarray of int, shape (m,)
+        Rows of A: those of its contacts, then its own.
+    """
+
+    coordinates: Indices
+    contacts: Indices
+    own: Indices
+    rows: Indices
+
+    def within(self, rows: Sequence[int]) -> list[int]:
+        """Those of some rows of the step that are in the group, counted in it, in their order."""
+        given = np.array(rows, dtype=np.int64)
+        own = given[np.isin(given, self.rows)]
+        return [int(i) for i in np.searchsorted(self.rows, own)]
+
+
+def groups(step: StepData) -> list[Group]:
+    """The groups of a step, in the order of their first coordinates.
+
+    Rows in which nothing moves belong to the first group.
+
+    Parameters
+    ----------
+    step : StepData
+
+    Returns
+    -------
+    list of Group
+        At least one.
+    """
+    n_c, n_extra = step.contacts.n_c, len(step.extra.names)
+    own, of_own = np.nonzero(step.extra.A)
+    contact, of_contact = step.contacts.moved()
+    one, other = step.coupled()
+    pairs = np.arange(len(one)) + n_c + n_extra
+    link = np.concatenate([contact, n_c + own, pairs, pairs])
+    coordinate = np.concatenate([of_contact, of_own, one, other])
+    label, of_link = _labels(step.n_v, n_c + n_extra + len(one), link, coordinate)
+    firsts = np.unique(label) if step.n_v else np.zeros(1, np.int64)
+    if len(firsts) == 1:
+        every = [np.arange(k) for k in (step.n_v, n_c, n_extra, step.m)]
+        return [Group(*every)]
+    owner = np.concatenate([np.repeat(of_link[:n_c], step.counts), of_link[n_c : n_c + n_extra]])
+    parts = (label, of_link[:n_c], of_link[n_c : n_c + n_extra], owner)
+    members = zip(*(_members(part, firsts) for part in parts), strict=True)
+    return [Group(*found) for found in members]
+
+
+def _labels(n: int, links: int, link: Indices, coordinate: Indices) -> tuple[Indices, Indices]:
+    """The first coordinate of the group of each coordinate, (n,), and of each link, (links,).
+
+    Each pair says that a link moves with a coordinate. Labels fall until none changes.
+    """
+    label = np.arange(n)
+    while True:
+        least = np.full(links, n)
+        np.minimum.at(least, link, label[coordinate])
+        lower = label.copy()
+        np.minimum.at(lower, coordinate, least[link])
+        lower = lower[lower]  # a label is a coordinate of the same group
+        if np.array_equal(lower, label):
+            return label, np.where(least < n, least, 0)
+        label = lower
+
+
+def _members(label: Indices, firsts: Indices) -> list[Indices]:
+    """Which entries have each label."""
+    order = np.argsort(label, kind="stable")
+    return np.split(order, np.searchsorted(label[order], firsts[1:]))
+
+
+def parts(step: StepData) -> list[tuple[Group, StepData]]:
+    """The groups of a step, each with its own step; the step itself if there is one group.
+
+    Parameters
+    ----------
+    step : StepData
+    """
+    found = groups(step)
+    if len(found) == 1:
+        return [(found[0], step)]
+    return [(group, _part(step, group)) for group in found]
+
+
+def _part(step: StepData, group: Group) -> StepData:
+    """The step of one group."""
+    a, u = split(step, group)
+    return StepData(
+        h=step.h,
+        K_q=step.K_q[np.ix_(a, a)],
+        M_u=step.inertia(u),
+        tau_a=step.tau_a[a],
+        tau_u=step.tau_u[u],
+        delta_q_bar_a=step.delta_q_bar_a[a],
+        contacts=step.contacts.some(group.contacts, group.coordinates),
+        cone=step.cone,
+        extra=own_rows(step, group),
+    )
+
+
+def split(step: StepData, group: Group) -> tuple[Indices, Indices]:
+    """Actuated and un-actuated coordinates of a group, each counted from the first of its kind."""
+    c = group.coordinates
+    return c[c < step.n_a], c[c >= step.n_a] - step.n_a
+
+
+def own_rows(step: StepData, group: Group) -> Extra:
+    """The user's own rows of a group."""
+    extra, own = step.extra, group.own
+    names = tuple(extra.names[i] for i in own)
+    return Extra(names, extra.A[np.ix_(own, group.coordinates)], extra.b[own])

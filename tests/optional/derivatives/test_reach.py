@@ -1,0 +1,112 @@
+"""How far derivatives hold: closed forms, verdicts next to kinks, a sample of the comparison."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref import load_scenario
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.derivatives.smoothed import smoothed
+from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
+from quasistatic_ref.solve.units import natural_units
+from quasistatic_ref.tolerances import BEARING, NEARLY
+from tests.optional.derivatives.free_bodies import (
+    BOX,
+    FLOOR,
+    NONE,
+    G,
+    H,
+    free,
+    sided,
+    verdict,
+)
+from tests.oracles.differences import after
+from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
+from validation.make.reach import ERROR, kink, state
+
+W = 0.3 * G
+X, _, Z = np.eye(6)[:3]
+
+
+def test_a_point_that_sticks_slides_where_its_load_leaves_the_pyramid():
+    # |f_1| + |f_2| <= f_n / 2 of f = (0.2, -0.1, -1) W, which it bears by -d1 and +d2 alone there.
+    simulator, q = free(PointCloud(np.zeros((1, 3))), (0, 0, 0), (FLOOR, (0, 0, 0)), mu=(0.5, 0.0))
+    found, _ = verdict(simulator, q, W * np.array([0.2, -0.1, 0, 0, 0, 0]))
+    for way, share in ((X, 0.2), (-X, 0.6), (Z, 0.4), (-Z, np.inf)):
+        np.testing.assert_allclose(found.reach_along(tau=way).distance, share * W, rtol=ROUNDING)
+    by_x, _, by_z = found.reaches["dq_dtau"][:3]
+    np.testing.assert_allclose([by_x.distance, by_z.distance], [0.2 * W, 0.4 * W], rtol=ROUNDING)
+    assert by_x.where == ", ".join(f"row {row} of c0/0" for row in ("+d1", "-d2", "+spin", "-spin"))
+    units = natural_units(found.result.step)
+    force = units.size / (H * units.coordinate[0])
+    assert found.reach <= 0.2 * W / force
+
+
+def test_a_block_on_four_corners_slides_only_when_all_of_its_load_does():
+    # Pushed at the height of the floor, it does not tilt.
+    simulator, q = free(BOX, (0, 0, 0.05), (FLOOR, (0, 0, 0)), k=4, mu=(0.4, 0.01))
+    found, _ = verdict(simulator, q, 0.1 * W * X)
+    at_the_floor = X + np.array([0, 0, 0, 0, -0.05, 0])
+    ahead = found.reach_along(tau=at_the_floor)
+    np.testing.assert_allclose(ahead.distance, 0.3 * W, rtol=1e-9)
+    assert ahead.where.count("row ") == 4 * 5
+    assert "-d1" not in ahead.where
+
+
+@pytest.mark.parametrize("gap", [3e-14, -3e-14])
+def test_a_ball_that_nearly_reaches_the_floor_has_derivatives_on_both_sides(gap):
+    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G + gap), (FLOOR, (0, 0, 0)))
+    found, kinds = verdict(simulator, q)
+    assert BEARING < abs(gap) / (H**2 * G) < NEARLY
+    assert kinds == {reason.NEARLY}
+    assert "settled: nearly a kink at row +d1 of c0/0" in {why.sentence for why in found.reasons}
+    assert np.isnan(found.dq_dq[:, 2]).all()
+    for way, slope in ((Z, 1.0), (-Z, 0.0)):
+        np.testing.assert_allclose(found.along(q=way)[2], slope * way[2], atol=ROUNDING)
+        one = derivatives(simulator, q, NONE, towards={"q": way})
+        np.testing.assert_allclose(one.dq_dq[2, 2], slope, atol=ROUNDING)
+    # Places are rounded to 7e-18 m.
+    ahead = found.reach_along(q=-np.sign(gap) * Z)
+    np.testing.assert_allclose(ahead.distance, abs(gap), rtol=1e-3)
+    assert ahead.where.count("row ") == 6
+    exact = derivatives(simulator, q, NONE, nearly=0.0)
+    assert exact.differentiable
+    np.testing.assert_allclose(exact.dq_dq[2, 2], float(gap > 0), atol=ROUNDING)
+    assert exact.reach == found.reach < NEARLY
+
+
+def test_a_grasp_that_has_settled_says_at_which_rows():
+    scene = load_scenario("bunny_grasp", steps=60, fast=True)
+    simulator, q = scene.simulator(), scene.run(progress=False).q[59]
+    target = scene.targets(60 * scene.h)
+    found = derivatives(simulator, q, target)
+    assert {why.kind for why in found.reasons} == {reason.NEARLY}
+    e = np.eye(simulator.system.n_v)[0]
+    slopes = []
+    for way in (e, -e):
+        there = sided(
+            lambda t, way=way: after(
+                simulator, found.result.q, simulator.system.integrate(q, t * way), target
+            )
+        )
+        slopes.append(found.along(q=way))
+        assert np.abs(slopes[-1] - there).max() <= 10 * DIFFERENCE_OF_STEPS
+    assert np.abs(slopes[0] + slopes[1]).max() > 1  # of a derivative it would be zero
+
+
+def test_at_a_kink_the_reach_is_zero_and_a_smoothed_step_has_none():
+    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    found, _ = verdict(simulator, q)
+    assert found.reach == found.reaches["dq_dq"][2].distance == 0
+    assert found.reaches["dq_dq"][0].distance == np.inf
+    soft = smoothed(simulator, q, NONE, 1e-6)
+    assert soft.reach == soft.reach_along(q=Z).distance == np.inf
+    tied, at = free(PointCloud(np.array([X[:3], -X[:3]])), (0, 0, 0), (FLOOR, (0, 0, 0)))
+    named = verdict(tied, at)[0].reaches["dq_dq"][0]
+    assert named == (0.0, "tie of points: c0/0, c0/1")
+
+
+def test_a_few_of_the_states_and_kinks_of_the_long_comparison():
+    assert state("state door 20")["error"] <= ERROR
+    for what in ("block", "pushed"):
+        assert kink(f"kink {what} 3")["named"]

@@ -1,0 +1,48 @@
+"""The scenes of docs/findings.md: each is named with its cause, healthy ones have nothing grave."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from quasistatic_ref.optional.doctor.table import AFTER, BEFORE
+
+PAGE = (Path(__file__).parents[3] / "docs" / "findings.md").read_text("utf-8")
+WORDS, *SCENES = re.findall(r"^```python\n(.*?)^```", PAGE, re.M | re.S)
+GRAVE = {kind.name: kind.grave for kind in (*BEFORE, *AFTER)}
+
+
+@pytest.fixture(scope="module")
+def words():
+    """What the scenes are built with."""
+    names = {}
+    exec(WORDS, names)
+    return names
+
+
+@pytest.mark.parametrize("scene", SCENES, ids=[scene.splitlines()[0][2:] for scene in SCENES])
+def test_a_scene_of_the_page_is_named_with_its_cause(words, scene):
+    name = scene[2:].partition(":")[0]
+    names = dict(words)
+    exec(scene, names)
+    found = names["found"]
+    if name == "nothing":
+        assert [str(one) for one in found if one.grave] == []
+        return
+    assert name in [one.name for one in found]
+    for one in found:
+        assert one.sentence.startswith(one.remedy)
+        assert one.grave is GRAVE[one.name]
+
+
+def test_the_page_has_every_kind_with_its_weight_and_scenes_enough():
+    sections = dict(re.findall(r"^## (.*)\n\n(\*.*?\.\*)", PAGE, re.M))
+    assert set(sections) == set(GRAVE)
+    for kind in (*BEFORE, *AFTER):
+        when = "Before" if kind in BEFORE else "After"
+        assert sections[kind.name] == f"*{when} a run{', grave' * kind.grave}.*"
+    wanted = [scene.partition(":")[0][2:] for scene in SCENES]
+    troubled = [name for name in wanted if name != "nothing"]
+    assert set(troubled) == set(GRAVE)
+    assert len(troubled) >= 40
+    assert len(SCENES) - len(troubled) >= 30

@@ -1,0 +1,105 @@
+"""Groups: what of a step is coupled, and the same optimum from its parts."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.errors import StepIllPosed, StepInfeasible
+from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.lab.scenes.contacts import X, contacts_of
+from quasistatic_ref.lab.scenes.piles import SIDE, pile
+from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.groups import groups, parts
+from quasistatic_ref.tolerances import ILL_POSED
+from tests.helpers import always_in_blocks, changed
+from validation.make.grouped_proofs import faults, random_case
+
+
+def two_bodies(normals, phi, force):
+    """Two bodies of three coordinates and 1 kg: a wall at each side of the second, mu = 0."""
+    J = np.zeros((len(normals), 4, 6))
+    J[:, :3, 3:] = np.eye(3)
+    n = np.array(normals)
+    d1 = np.array([-n[:, 1], n[:, 0], n[:, 2]]).T
+    frames = np.stack([d1, np.cross(n, d1), n], axis=1)
+    M = np.kron(np.eye(2), np.eye(3) + 0.1)  # all three coordinates of a body are coupled
+    return free_step(M, force, contacts_of(phi, frames, J, 0.0), 0.01)
+
+
+def test_random_steps_without_some_couplings_have_the_optimum_of_their_groups():
+    several = 0
+    for seed in range(25):
+        step = random_case(seed)
+        assert faults(step) == [], seed
+        several += len(groups(step)) > 1
+    assert several > 12
+
+
+@pytest.mark.parametrize("name", ["stack", "two_finger_pinch"])
+def test_scenarios_have_the_optimum_of_their_groups(name):
+    run = load_scenario(name, ["steps=2"], fast=True).run(progress=False)
+    assert faults(run.step_data(1)) == []
+
+
+def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
+    J = np.zeros((2, 4, 5))
+    J[0, 3, 4] = J[0, 0, 1] = 1.0  # the first contact moves with 1 and 4; the second with nothing
+    frames = np.tile(np.eye(3), (2, 1, 1))
+    M = np.diag([1.0, 1.0, 1.0, 1.0, 1.0])
+    M[0, 3] = M[3, 0] = 0.5
+    step = free_step(M, np.ones(5), contacts_of(0.0, frames, J, 0.5), 0.01)
+    assert [g.coordinates.tolist() for g in groups(step)] == [[0, 3], [1, 4], [2]]
+    assert [g.contacts.tolist() for g in groups(step)] == [[1], [0], []]
+    assert [g.rows.tolist() for g in groups(step)] == [[4, 5, 6, 7], [0, 1, 2, 3], []]
+    own = Extra(("a", "b"), np.array([[0, 0, 0, 0, 0.0], [0, 0, 1, 1, 0]]), np.array([-1.0, -1.0]))
+    tied = groups(step.replace(extra=own))
+    assert [g.coordinates.tolist() for g in tied] == [[0, 2, 3], [1, 4]]
+    assert [g.own.tolist() for g in tied] == [[0, 1], []]
+    assert tied[0].rows.tolist() == [4, 5, 6, 7, 8, 9]
+    assert parts(step.replace(extra=own))[0][1].extra.A.tolist() == [[0, 0, 0], [0, 1, 1]]
+
+
+def test_a_group_without_solution_is_named_by_its_contacts():
+    step = two_bodies([X, -X], [-1e-3, -1e-3], np.ones(6))
+    with pytest.raises(StepInfeasible) as failure:
+        exact_step(step)
+    farkas = failure.value.farkas
+    assert set(farkas.owners) == {"c0", "c1"}
+    assert farkas_refutation(step, farkas.exact) is None
+    assert failure.value.step is step
+
+
+def test_a_wedged_light_body_is_ill_posed_also_next_to_a_heavy_one_that_falls():
+    """Walls at 1 mm whose normals are opposite but for 2^-20: the way out is 2^20 times as long.
+
+    The first body falls by h^2 f = 1e8 * 1e-4 m meanwhile, 1e4 m, a tenth of which is more.
+    """
+    n = np.array([1.0, 2.0**-20, 0.0])
+    m = np.array([-1.0, 2.0**-20, 0.0])
+    unit = np.linalg.norm(n)
+    step = two_bodies([n / unit, m / unit], -1e-3, [0, 0, -1e8, 0, 0, 0])
+    with pytest.raises(StepIllPosed) as failure:
+        exact_step(step)
+    assert failure.value.length > ILL_POSED
+    assert abs(failure.value.delta_q[4]) > 1e-3 * 2**19
+    assert np.abs(failure.value.delta_q[:3]).max() > 1e3
+
+
+def test_groups_in_blocks_are_proved_and_verified(monkeypatch):
+    always_in_blocks(monkeypatch)
+    some = pile((3, 1, 2), gap=SIDE, yaw=1.0, backend="clarabel", certify="full")
+    result = some.simulator.step(some.q, np.zeros(0), some.force)
+    step, answer = result.step, result.solution
+    assert len(groups(step)) == 3
+    assert isinstance(step.contacts, SparseContacts)
+    assert verify(step, answer.delta_q, answer.certificate.active, answer.lam, answer.certificate)
+    dense = step.replace(contacts=changed(step.contacts))
+    assert [bits(g) for g in groups(dense)] == [bits(g) for g in groups(step)]
+    assert answer.delta_q.tobytes() == exact_step(dense).delta_q.tobytes()
+    moved = np.nextafter(answer.delta_q, np.inf)
+    assert not verify(step, moved, answer.certificate.active)

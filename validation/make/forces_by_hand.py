@@ -1,0 +1,234 @@
+"""Bodies that lie flat on each other, by hand: ``python -m validation.make.forces_by_hand``.
+
+Columns of cubes and coins, walls, a box in a corner and every pair of shapes base on base. Each
+base is smaller than what it lies on by an inset, and d deep in it. A body goes out of all that it
+is in, and no farther: up by d more than the one below, which is what is compared where faces have
+four contacts or more. With one contact bodies tip; what closes no gap too many, opens none under a
+force, and obeys Newton's law is the one step of least action. Newton's law, which gives the sum of
+the forces on each body and of their torques, is asked of all, and so are the normals written here.
+Prints validation/results/forces_by_hand.md; exit status 1 if anything is wrong.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from itertools import combinations, product
+from typing import NamedTuple
+
+import numpy as np
+from tqdm import tqdm
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.shapes.placed_shape import Box, Cylinder, PlacedShape, Shape
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.tolerances import CLOSED_FORM
+from validation.make.aligned_poses import (
+    EDGE,
+    FLAT,
+    HALF,
+    LENGTHS,
+    MASS,
+    OVER,
+    SQUARE,
+    TIPPED,
+    UP,
+    Array,
+    G,
+    H,
+)
+
+WEIGHT = np.array([0.0, 0.0, -MASS * G])
+INERTIA = MASS * EDGE**2 / 6
+"""Of a cube about each axis, whatever the shape [kg m^2]."""
+MOTION = 1e-15
+"""Of motions [m, rad], which are differences of places of a metre."""
+CONTACTS = ((1, 0.0), (4, 0.0), (8, 0.0), (12, 0.0), (4, 0.5))
+"""Contacts of a pair, and mu_v."""
+INTRODUCTION = """# Forces by hand
+
+Bodies that lie on each other with k = 1, 4, 8 and 12 contacts without friction and with four of
+friction 0.5, with insets and depths of 0, 1e-9, 1e-6 and 1e-3 m
+(`python -m validation.make.forces_by_hand`, whose first lines say what is asked). Left out are
+clouds that are as deep as their inset, whose points have faces of their own, and walls with
+friction whose cubes push aside those that they slide past.
+"""
+
+
+class Scene(NamedTuple):
+    """Bodies of which the first N are free.
+
+    Parameters
+    ----------
+    bodies : list of (Shape, R, t)
+    normals : dict of (alpha, beta) to ndarray, shape (3,)
+        Of what touches, by numbers of bodies.
+    motion : ndarray, shape (N, 3)
+        What is known to happen with faces on each other [m].
+    load : ndarray, shape (3,)
+        On each body [N].
+    """
+
+    bodies: list[tuple[Shape, Array, Array]]
+    normals: dict[tuple[int, int], Array]
+    motion: Array
+    load: Array = WEIGHT
+
+
+def slab(half: float = 1.0) -> tuple[Shape, Array, Array]:
+    """What the lowest bodies stand on."""
+    return Box(np.array([half, HALF, HALF])), np.eye(3), -HALF * UP
+
+
+def column(kind: str, count: int, tall: float, inset: float, depth: float) -> Scene:
+    """Bodies on each other: number i goes up by i + 1 depths."""
+    bodies = []
+    for i in range(count):
+        half, middle = HALF - i * inset, (i + 0.5) * tall - (i + 1) * depth
+        shape = (
+            Cylinder(half, tall / 2) if kind == "coin" else Box(np.array([half, half, tall / 2]))
+        )
+        bodies.append((shape, np.eye(3), middle * UP))
+    normals = {(i - 1 if i else count, i): UP for i in range(count)}
+    return Scene([*bodies, slab()], normals, np.outer(depth * np.arange(1, count + 1), UP))
+
+
+def wall(rows: Sequence[Sequence[float]], inset: float, depth: float) -> Scene:
+    """Cubes in rows, whose middles are at these multiples of their edge: row r goes up by r + 1."""
+    at = [(x, r) for r, row in enumerate(rows) for x in row]
+    half, count = HALF - inset, len(at)
+    places = [np.array([x * EDGE, 0.0, (r + 0.5) * EDGE - (r + 1) * depth]) for x, r in at]
+    brick = Box(np.array([half, HALF, HALF]))
+    normals = {(count, j): UP for j, (_, r) in enumerate(at) if r == 0}
+    for (i, (x, r)), (j, (y, s)) in combinations(enumerate(at), 2):
+        along, up = abs(y - x), s - r
+        if along <= 1 and up <= 1:
+            edges = along == up == 1 and inset == depth == 0.0  # no gap is larger: the bisector
+            way = np.array([np.sign(y - x) * (along == 1), 0.0, float(along < 1 or edges)])
+            normals[i, j] = way / np.linalg.norm(way)
+    bodies = [(brick, np.eye(3), place) for place in places]
+    motion = np.array([(r + 1) * depth * UP for _, r in at])
+    return Scene([*bodies, slab()], normals, motion)
+
+
+def corner(mu_v: float, inset: float, depth: float) -> Scene:
+    """A box pressed into a floor and two walls, of which it goes out along all three.
+
+    With friction it slides on each as it leaves the others: to x = y = z with x - mu_v y = depth.
+    """
+    sides = [(inset, inset, 0.0)[i] + depth - EDGE for i in range(3)]
+    fixed = [
+        (FLAT["box"](HALF), np.eye(3), at * way) for at, way in zip(sides, np.eye(3), strict=True)
+    ]
+    box = Box(np.array([HALF - inset, HALF - inset, HALF]))
+    normals = {(i + 1, 0): np.eye(3)[i] for i in range(3)}
+    motion = np.full((1, 3), depth / (1 - mu_v))
+    return Scene([(box, np.eye(3), np.zeros(3)), *fixed], normals, motion, [-1.5, -2.5, WEIGHT[2]])
+
+
+def base_on_base(low: str, top: str, inset: float, depth: float) -> Scene:
+    """A base on a base; the corners of a square one are on the rim of a circular one."""
+    on_rim = top in SQUARE and low not in SQUARE
+    half = HALF / np.sqrt(2) - 1e-12 if on_rim else HALF
+    bodies = [
+        (FLAT[top](half - inset), np.eye(3), (EDGE - depth) * UP),
+        (FLAT[low](HALF), OVER if low in TIPPED else np.eye(3), np.zeros(3)),
+    ]
+    return Scene(bodies, {(1, 0): UP}, depth * UP[None])
+
+
+BOND = [(0, 1, 2), (0.5, 1.5), (1,)]
+FLUSH = [(0, 1), (0, 1)]
+FAMILIES: dict[str, Callable[[float, float], Scene]] = {
+    "two cubes": partial(column, "cube", 2, EDGE),
+    "ten cubes": partial(column, "cube", 10, EDGE),
+    "two coins": partial(column, "coin", 2, EDGE / 10),
+    "ten coins": partial(column, "coin", 10, EDGE / 10),
+    "a brick bond": partial(wall, BOND),
+    "a flush wall": partial(wall, FLUSH),
+    "a box in a corner": partial(corner, 0.0),
+    **{
+        f"{top} on {low}": partial(base_on_base, low, top)
+        for low, top in product(FLAT, repeat=2) if low != "cloud"
+    },
+}  # fmt: skip
+
+
+def wrong(scene: Scene, k: int, mu_v: float) -> str:
+    """What differs from what is known; nothing if it is empty."""
+    count, cube = len(scene.motion), FLAT["box"](HALF)
+    places = np.array([t for _, _, t in scene.bodies])
+    system = System(
+        [Body.of_shape(f"b{i}", cube, MASS, xyz=t) for i, t in enumerate(places[:count])]
+    )
+    placed = [
+        PlacedShape(f"s{i}", system.link(f"b{i}/solid"), R, np.zeros(3), shape)
+        if i < count else PlacedShape(f"s{i}", 0, R, t, shape)
+        for i, (shape, R, t) in enumerate(scene.bodies)
+    ]  # fmt: skip
+    pairs = [
+        ContactPair(f"{a}-{b}", placed[a], placed[b], mu_v, 0.0, 4, k) for a, b in scene.normals
+    ]
+    gravity = np.asarray(scene.load) / MASS
+    simulator = Simulator(
+        system, pairs, h=H, K_q=np.zeros((0, 0)), gravity=gravity.tolist(), backend="none"
+    )
+    try:
+        result = simulator.step(system.q_start, np.zeros(0))
+    except QuasistaticError as error:
+        return f"{type(error).__name__}: {error}"
+    c, points, wrench = result.step.contacts, result.points, result.solution.wrench
+    bodies = np.array([[int(i) for i in name.split("/")[0].split("-")] for name in c.name])
+    n = np.array([scene.normals[a, b] for a, b in bodies])
+    bears = wrench[:, 2] != 0.0
+    if np.abs(c.n - n)[bears].max(initial=0.0) > CLOSED_FORM:
+        return "a normal"
+    moved = np.zeros((len(places), 6))  # translations, then rotations
+    moved[:count] = result.solution.delta_q.reshape(count, 6)
+    force = (wrench[:, :3, None] * np.stack([c.d1, c.d2, n], axis=1)).sum(axis=1)
+    net, closes = np.zeros_like(moved), points.phi.copy()
+    for body, r, sign in ((bodies[:, 0], points.alpha, -1.0), (bodies[:, 1], points.beta, 1.0)):
+        lever = r - places[body]
+        np.add.at(net, body, sign * np.hstack([force, np.cross(lever, force)]))
+        velocity = moved[body, :3] + np.cross(moved[body, 3:], lever)
+        closes += sign * (n * velocity).sum(axis=1)
+    asked = moved[:count] * np.repeat([MASS, INERTIA], 3) / H**2
+    asked[:, :3] -= scene.load
+    if np.abs(net[:count] - asked).max() > CLOSED_FORM * np.abs(wrench).sum():
+        return "Newton's law"
+    if k > 1:
+        known = np.hstack([scene.motion, np.zeros_like(scene.motion)])
+        return "motion" if np.abs(moved[:count] - known).max() > MOTION else ""
+    impossible = (closes < -MOTION) | (bears & (closes > MOTION)) | (wrench[:, 2] < 0)
+    return "action" if impossible.any() else ""
+
+
+def attempts(name: str) -> Iterator[tuple[Scene, int, float]]:
+    """The scenes of a family, with contacts of a pair and mu_v."""
+    for inset, depth, (k, mu_v) in product(LENGTHS, LENGTHS, CONTACTS):
+        if name.startswith("cloud") and 0.0 < depth >= inset:
+            continue  # its points have faces of their own
+        if name == "a flush wall" and mu_v * depth > 2 * inset:
+            continue  # cubes slide past those above their neighbours, and push them aside
+        of_friction = {"a box in a corner": partial(corner, mu_v)}
+        yield of_friction.get(name, FAMILIES[name])(inset, depth), k, mu_v
+
+
+def main() -> int:
+    """Print the page; exit status 1 if anything is wrong."""
+    rows, found = [], list[str]()
+    for name in tqdm(FAMILIES):
+        said = [wrong(*attempt) for attempt in attempts(name)]
+        found += [f"- {name}: {problem}" for problem in said if problem]
+        rows.append((name, len(said), sum(map(bool, said))))
+    table = markdown_table(("bodies", "scenes", "wrong"), rows, left=1)
+    print(INTRODUCTION, *table, *found, sep="\n")
+    return int(bool(found))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
