@@ -15,6 +15,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import COMPLIANCE
 from tests.helpers import changed
+from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
 
 H, M, G, MU_V = 0.01, 1.0, 9.81, 0.5
@@ -195,3 +196,11 @@ def test_net_impulse_has_its_bits_from_every_backend():
     expected = exact_step(step).net
     assert {answer.net_impulse.tobytes() for answer in answers} == {expected.tobytes()}
     assert solve_step(step, certify="off").net_impulse is None
+
+
+def test_an_independent_method_in_60_digits_agrees_to_the_last_bit():
+    """A sample of validation/make/forces.py."""
+    for seed in (3, 10, 11):
+        step = mixed_step(seed)
+        expected = independent_forces(step, COMPLIANCE)
+        assert contact_forces(step).wrench.tobytes() == expected.tobytes()
