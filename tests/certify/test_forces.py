@@ -17,6 +17,7 @@ from quasistatic_ref.tolerances import COMPLIANCE
 from tests.helpers import changed
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
+from validation.make import forces as checks
 
 H, M, G, MU_V = 0.01, 1.0, 9.81, 0.5
 CORNERS = [[x, y, -0.03] for x in (0.05, -0.05) for y in (0.05, -0.05)]
@@ -198,9 +199,17 @@ def test_net_impulse_has_its_bits_from_every_backend():
     assert solve_step(step, certify="off").net_impulse is None
 
 
-def test_an_independent_method_in_60_digits_agrees_to_the_last_bit():
-    """A sample of validation/make/forces.py."""
-    for seed in (3, 10, 11):
+def test_whatever_should_not_matter_does_not(monkeypatch):
+    """A sample of validation/make/forces.py, with its method in 60 digits; and a planted fault."""
+    monkeypatch.setattr(checks, "BACKENDS", ("daqp", "none"))
+    found = checks.differences(mixed_step(3), oracle=True)
+    assert {"backends", "fast", "permuted", "definition", "independent"} <= set(found)
+    assert not any(found.values())
+    for seed in (4, 8):
         step = mixed_step(seed)
         expected = independent_forces(step, COMPLIANCE)
         assert contact_forces(step).wrench.tobytes() == expected.tobytes()
+        monkeypatch.setattr(
+            checks, "independent_forces", lambda *_, wrong=expected: np.nextafter(wrong, 1.0)
+        )
+        assert checks.differences(step, oracle=True)["independent"] == 1

@@ -8,7 +8,7 @@ polyhedral cone after the other) and on steps of all scenarios:
 - every backend and none, plain and fast, cold, and contacts in another order give equal bits;
 - so does the definition, in which what each contact gives way by is solved for, too;
 - so do 60 digits by a method that shares no code (tests/oracles/compliant_forces.py; the pyramid);
-- noise of 1e-17 in phi and J changes forces by less than 1e-6 of the load.
+- noise of 1e-17 in phi and J changes forces by less than 1e-6 of the load (of steps under 1 m).
 
 Exit status 1 if anything of this fails.
 """
@@ -46,6 +46,9 @@ CHECKS = ("backends", "fast", "cold", "permuted", "definition", "independent", "
 NOISE = 1e-17
 CHANGE = 1e-6
 """Largest change by the noise, of the sum of the normal forces and of what the step weighs."""
+FAR = 1.0
+"""Displacement [m, rad] from which no noise is added. Noise in J counts in proportion to it: where
+masses are 1e9 apart, steps of 1e5 m are drawn, and 1e-17 of them over the compliance is 1e-3 N."""
 Record = dict[str, Any]
 
 
@@ -63,8 +66,9 @@ def differences(step: StepData, oracle: bool) -> Record:
         "cold": contact_forces(step).wrench.tobytes() == bits,
         "permuted": moved.tobytes() == forces[order].tobytes(),
         "definition": defined_optimum(step, COMPLIANCE)[0][:, WRENCH].tobytes() == bits,
-        "noise": noise_of_rounding(step, forces) < CHANGE,
     }
+    if np.abs(first.delta_q).max(initial=0.0) < FAR:
+        held["noise"] = noise_of_rounding(step, forces) < CHANGE
     if oracle and step.cone == PYRAMID and not step.extra.names:
         held["independent"] = independent_forces(step, COMPLIANCE).tobytes() == bits
     return {name: int(not holds) for name, holds in held.items()}
