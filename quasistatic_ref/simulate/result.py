@@ -45,9 +45,9 @@ class StepResult(Plain, Shown):
     q_start: Array | None = field(default=None, compare=False)
     scene: Scene | None = field(default=None, compare=False)
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        fields = self.q, self.step, self.solution, self.points, self.seconds, self.q_start
-        return StepResult, fields  # without the scene
+    def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
+        values, locked = super().__getstate__()
+        return values | {"scene": None}, locked
 
     @property
     def forces(self) -> Array:

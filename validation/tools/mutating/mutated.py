@@ -57,6 +57,9 @@ step/standard_form.py
     PAGE
 certify/optimality.py
     JUDGE enclosure
+certify/forces.py certify/faces.py certify/eliminated.py certify/face_guess.py
+optional/ellipsoid/forces.py
+    forces
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
