@@ -38,9 +38,10 @@ _HOMES = {
     "step.problem": "StepProblem",
     "step.standard_form": "standard_form",
     "step.extension": "Extension",
-    "step.solution": "StepSolution Certificate",
+    "certify.solution": "StepSolution Certificate",
     "solve.solve": "solve_step",
     "certify.certificate": "verify",
+    "certify.forces": "contact_forces",
     "optional.derivatives.step.sensitivity": "sensitivity",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "

@@ -57,13 +57,13 @@ def levers():
 def pressed():
     """With how much each finger presses at step 137 [N]: their mean."""
     _, run = grasp("with torsion")
-    return run["wrench"][LIFTING][run["rows"] == 6, 2].sum() / 2
+    return run.step_forces(LIFTING)[run["rows"] == 6, 2].sum() / 2
 
 
 def weight_alone():
     """mu_omega [mm] that (R9) asks for where step 137's load is that of the weight alone."""
     _, run = grasp("with torsion")
-    f_1, f_2, f_n, tau_n = np.abs(run["wrench"][LIFTING][run["rows"] == 6]).sum(axis=0)
+    f_1, f_2, f_n, tau_n = np.abs(run.step_forces(LIFTING)[run["rows"] == 6]).sum(axis=0)
     share = 0.2 * G / f_2
     return 1e3 * share * tau_n / (f_n - share * (f_1 + f_2) / 0.6)
 

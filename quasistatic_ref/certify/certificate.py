@@ -19,12 +19,12 @@ from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.point import RationalSolution, rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
+from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.groups import Group, parts
-from quasistatic_ref.step.solution import Certificate
 
 
 def exact_certificate(

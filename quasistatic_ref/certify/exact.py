@@ -118,14 +118,16 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
 
     coordinates = range(form.n)
     lam, slack = np.zeros(form.m), np.zeros(form.m)
-    lam_w = _nearest(point, lambda s: s.lam, form.lam_unit, range(len(working)))
+    lam_w = nearest_numbers(point, lambda s: s.lam, form.lam_unit, range(len(working)))
     lam[list(working)] = lam_w
-    slack[inside] = _nearest(point, lambda s: s.slack, form.slack_unit, inside)
+    slack[inside] = nearest_numbers(point, lambda s: s.slack, form.slack_unit, inside)
     least = float(slack[inside].min()) if inside.size else None
     return ExactOptimum(
-        delta_q=_nearest(point, lambda s: s.x, form.x_unit, coordinates, point.zero_coordinates),
+        delta_q=nearest_numbers(
+            point, lambda s: s.x, form.x_unit, coordinates, point.zero_coordinates
+        ),
         lam=lam,
-        net=_nearest(point, lambda s: s.net, form.net_unit, coordinates),
+        net=nearest_numbers(point, lambda s: s.net, form.net_unit, coordinates),
         slack=slack,
         working_set=tuple(sorted(working)),
         multipliers_unique=multipliers_unique(form, working, spanned, unspanned),
@@ -136,17 +138,17 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     )
 
 
-def _nearest(
+def nearest_numbers(
     point: Point,
     values: Callable[[BallSolution | RationalSolution], Sequence[Any]],
     unit: fmpq,
     entries: Sequence[int] | NDArray[np.int64],
     zeros: Callable[[Sequence[int]], Sequence[int]] = lambda _: (),
 ) -> Array:
-    """Return unit * values[entries] in float64.
+    """The numbers unit * values of a point in float64, rounded correctly, shape (entries,).
 
-    Each is rounded from its ball; where the ball leaves that open, it is zero if `zeros` proves
-    so, and otherwise rounded from the rational solution.
+    Each of the `entries`, shape (entries,), is rounded from its ball; where the ball leaves that
+    open, it is zero if `zeros` proves so, and otherwise rounded from the rational solution.
     """
     rounded: dict[int, float | None] = {int(i): None for i in entries}
     if point.balls is not None:

@@ -194,12 +194,15 @@ def form_on(step: StepData, A: Dyadic, b: Dyadic) -> ExactForm:
         If nothing can be proved in this thread.
     """
     check_arithmetic()
+    # M_u / h is not dyadic, h H and h g are: Eq. (13) times h has the same minimiser.
+    return in_integers(h_times_hessian(step), h_times_load(step), A, b, fraction(step.h))
+
+
+def h_times_load(step: StepData) -> Dyadic:
+    """The vector h g of Eq. :eq:`eq-13` without rounding, shape (n_v,)."""
     h = dyadic(step.h)
     tau_k = dyadic(step.K_q) @ dyadic(step.delta_q_bar_a)  # Eq. (1)
-    # M_u / h is not dyadic, h H and h g are: Eq. (13) times h has the same minimiser.
-    H = h_times_hessian(step)
-    g = h * h * joined([tau_k + dyadic(step.tau_a), dyadic(step.tau_u)])  # Eq. (13)
-    return _in_integers(H, g, A, b, fraction(step.h))
+    return h * h * joined([tau_k + dyadic(step.tau_a), dyadic(step.tau_u)])  # Eq. (13)
 
 
 def h_times_hessian(step: StepData) -> Dyadic:
@@ -212,7 +215,7 @@ def h_times_hessian(step: StepData) -> Dyadic:
     """
     positive_definite("M_u", step.M_u)
     h = dyadic(step.h)
-    return _block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
+    return block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
 
 
 def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
@@ -243,7 +246,7 @@ def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
             raise StepDataError("must contain finite numbers only", field=name, value=array)
     if not np.array_equal(H, H.T):
         raise StepDataError("must be symmetric to the last bit", field="H", value=H.tolist())
-    return _in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))
+    return in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))
 
 
 def contact_motion(contacts: Contacts, of: Which = ALL) -> Dyadic:
@@ -264,15 +267,16 @@ def friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
     return joined(rows, axis=1)
 
 
-def _block_diagonal(K: Dyadic, M: Dyadic) -> Dyadic:
+def block_diagonal(K: Dyadic, M: Dyadic) -> Dyadic:
+    """Two square blocks, of any units, on the diagonal of a matrix of zeros."""
     (n_a, _), (n_u, _) = K.m.shape, M.m.shape
     right, left = np.full((n_a, n_u), 0, object), np.full((n_u, n_a), 0, object)
     above, below = joined([K, Dyadic(right, 0)], axis=1), joined([Dyadic(left, 0), M], axis=1)
     return joined([above, below])
 
 
-def _in_integers(H: Dyadic, g: Dyadic, A: Dyadic, b: Dyadic, h: fmpq) -> ExactForm:
-    """Return the problem min 1/2 x'Hx - g'x s.t. Ax >= b, its objective times h, in integers."""
+def in_integers(H: Dyadic, g: Dyadic, A: Dyadic, b: Dyadic, h: fmpq) -> ExactForm:
+    """The problem min 1/2 x'Hx - g'x s.t. Ax >= b in integers, from an objective times `h` [s]."""
     # Exponent of x: small enough that both g and b are integers in it.
     needed = [v.e - M.e for v, M in ((g, H), (b, A)) if v.m.any()]
     e_x = min(needed, default=0)

@@ -12,6 +12,7 @@ from typing import Any, get_type_hints
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import Certificate, StepSolution
 from quasistatic_ref.errors import StepDataError, about_file
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import json_read, json_text
@@ -19,7 +20,6 @@ from quasistatic_ref.step.cones import CLAIMS, PYRAMID, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import rounded_wrenches
-from quasistatic_ref.step.solution import Certificate, StepSolution
 
 SOLUTION_FORMAT = "quasistatic-ref/solution"
 VERSION = 2

@@ -7,6 +7,7 @@ from pathlib import Path
 from quasistatic_ref.certify.certificate import in_words
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.rows import flat_rows
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.decimals import decimal_strings
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
@@ -17,7 +18,6 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.solution import StepSolution
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

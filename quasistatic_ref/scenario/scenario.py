@@ -39,7 +39,6 @@ from quasistatic_ref.scenario.scenario_table import (
     value,
 )
 from quasistatic_ref.simulate.finding import Finding
-from quasistatic_ref.simulate.goals import Checked
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.simulator import Simulator
@@ -157,7 +156,7 @@ class Scenario(Plain, Shown):
         )
 
     @property
-    def force(self) -> Checked | None:
+    def force(self) -> Callable[[float, Array], Array] | None:
         """External generalised force (t, q) -> (n_v,), or None where there is none."""
         if not self.wrenches:
             return None

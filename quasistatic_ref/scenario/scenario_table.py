@@ -54,7 +54,9 @@ TABLES = Tables({
             default=False,
         ),
         "record": Field(
-            "text", "what a trajectory holds; light leaves the quadratic programs out",
+            "text",
+            "what a trajectory holds; light leaves the quadratic programs out, forces has the "
+            "forces of single contacts in their place",
             default=RECORDS[0], choices=RECORDS,
         ),
         "solver": Field("table", "the backend, and what is proved", default={}, of=SOLVER),

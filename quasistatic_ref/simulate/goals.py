@@ -1,8 +1,11 @@
-"""Targets and forces in any form that a user may give them, as checked functions of (t, q)."""
+"""Targets and forces in any form that a user may give them, as checked functions.
+
+They are functions of the time, of where the step starts, and of the result of the step before.
+"""
 
 from collections.abc import Callable
 from inspect import Parameter, signature
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,18 +14,22 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
 
+if TYPE_CHECKING:
+    from quasistatic_ref.simulate.result import StepResult
+
 OfTime = Callable[[float], ArrayLike]
 OfTimeAndQ = Callable[[float, Array], ArrayLike]
-Checked = Callable[[float, Array], Array]
-"""A function of (t, q) whose results have the right shape."""
-Target = OfTime | OfTimeAndQ | ArrayLike
-Force = OfTime | OfTimeAndQ
+OfAll = Callable[[float, Array, "StepResult | None"], ArrayLike]
+Checked = Callable[[float, Array, "StepResult | None"], Array]
+"""A function of (t, q, last) whose results have the right shape."""
+Target = OfTime | OfTimeAndQ | OfAll | ArrayLike
+Force = OfTime | OfTimeAndQ | OfAll
 NAMED = (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
 ANY_NUMBER = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
 
 def target_function(system: System, h: float, target: Target, steps: int) -> Checked:
-    """Targets in any accepted form as a function of (t, q); every value is checked like a q.
+    """Targets in any accepted form as a function of (t, q, last); every value is checked like a q.
 
     Parameters
     ----------
@@ -30,7 +37,8 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
     h : float
         Time step [s].
     target : callable, or ndarray of shape (n_q_a,) or (steps, n_q_a)
-        q_bar_a [m, rad, -] as a function of t [s] or of (t, q), constant, or step by step.
+        q_bar_a [m, rad, -] as a function of t [s], of (t, q) or of (t, q, last), constant, or step
+        by step.
     steps : int
 
     Raises
@@ -44,21 +52,21 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
         return system.checked(system.with_actuated(system.q_start, q_a))[:n]
 
     if callable(target):
-        goal = _returning(of_time_and_q(target, "target"), (n,), "target")
-        return lambda t, q: checked(goal(t, q))
+        goal = _returning(of_all(target, "target"), (n,), "target")
+        return lambda t, q, last: checked(goal(t, q, last))
     values = np.asarray(target, dtype=np.float64)
     if values.shape not in {(n,), (steps, n)} or not np.isfinite(values).all():
         problem = f"must contain finite numbers of shape ({n},) or ({steps}, {n})"
         raise InputError(problem, field="target", value=values.shape)
     if values.ndim == 1:
         constant = checked(values)
-        return lambda t, q: constant
+        return lambda t, q, last: constant
     table = [checked(row) for row in values]
-    return lambda t, q: table[round(t / h) - 1]
+    return lambda t, q, last: table[round(t / h) - 1]
 
 
 def force_function(system: System, force: Force | None) -> Checked:
-    """An external force as a function of (t, q), shape (n_v,) [N, N m]; zero where it is None.
+    """An external force as a function of (t, q, last), shape (n_v,) [N, N m]; zero where None.
 
     Raises
     ------
@@ -67,14 +75,14 @@ def force_function(system: System, force: Force | None) -> Checked:
     """
     if force is None:
         nothing = np.zeros(system.n_v)
-        return lambda t, q: nothing
-    return _returning(of_time_and_q(force, "force"), (system.n_v,), "force")
+        return lambda t, q, last: nothing
+    return _returning(of_all(force, "force"), (system.n_v,), "force")
 
 
-def of_time_and_q(function: Callable[..., Any], name: str) -> OfTimeAndQ:
-    """A function of t or of (t, q), as one of (t, q); its result keeps its shape.
+def of_all(function: Callable[..., Any], name: str) -> OfAll:
+    """A function of t, of (t, q) or of (t, q, last), as one of all; its result keeps its shape.
 
-    The arguments without defaults decide which of both it is; the others keep their defaults.
+    The arguments without defaults decide which of these it is; the others keep their defaults.
 
     Parameters
     ----------
@@ -87,26 +95,34 @@ def of_time_and_q(function: Callable[..., Any], name: str) -> OfTimeAndQ:
     InputError
         If it takes other arguments.
     """
+    needed = needed_arguments(function, name)
+    if needed == 3:
+        return function
+    if needed == 2:
+        return lambda t, q, last: function(t, q)
+    return lambda t, q, last: function(t)
+
+
+def needed_arguments(function: Callable[..., Any], name: str) -> int:
+    """How many of (t, q, last) a function takes, 1 to 3 [-]; InputError as of `of_all`."""
     try:
         parameters = list(signature(function).parameters.values())
     except (TypeError, ValueError):  # compiled, and without a signature
-        return lambda t, q: function(t)
+        return 1
     needed = [p for p in parameters if p.default is p.empty and p.kind not in ANY_NUMBER]
     names = [p.name for p in parameters if p.kind in NAMED]
-    if names and names[0] != "q" and all(p.kind in NAMED for p in needed):
-        if len(needed) == 2:
-            return function
-        if len(needed) < 2:
-            return lambda t, q: function(t)
+    if names and names[0] != "q" and all(p.kind in NAMED for p in needed) and len(needed) <= 3:
+        return max(1, len(needed))
     written = str(signature(function)).partition(" ->")[0]
-    raise InputError("must be a function of t, or of (t, q)", field=name, value=written)
+    problem = "must be a function of t, of (t, q), or of (t, q, last)"
+    raise InputError(problem, field=name, value=written)
 
 
-def _returning(function: OfTimeAndQ, shape: tuple[int, ...], name: str) -> Checked:
+def _returning(function: OfAll, shape: tuple[int, ...], name: str) -> Checked:
     """The same function, its results as arrays of one shape."""
 
-    def value(t: float, q: Array) -> Array:
-        returned = function(t, q)
+    def value(t: float, q: Array, last: "StepResult | None") -> Array:
+        returned = function(t, q, last)
         try:
             array = np.asarray(returned, dtype=np.float64)
         except (TypeError, ValueError):

@@ -12,7 +12,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.simulate.finding import finding_read
 from quasistatic_ref.step.cones import cone
 
-RECORDS = ("full", "light")
+RECORDS = ("full", "light", "forces")
 CONSTANT = ("mu_v", "mu_omega", "rows")
 """Arrays without a step axis."""
 PER_STEP = (
@@ -23,6 +23,8 @@ PROGRAM = ("H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar
 """What a full record adds, step by step."""
 NOT_KNOWN = ("worst_residual", "digits")
 """Arrays that hold NaN where nothing was certified; all others are finite."""
+FORCES = ("forces",)
+"""What a record of forces adds to a light one."""
 EXTRA = ("lam_extra", "extra_A", "extra_b")
 """What the rows of an extension add: the multipliers, and to a full record the rows."""
 
@@ -43,7 +45,8 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     """
     _check_present(arrays, ("t", "q", "delta_q", *CONSTANT))
     steps = top.integer("steps", least=0)
-    full = top.text("record", choices=RECORDS) == "full"
+    record = top.text("record", choices=RECORDS)
+    full = record == "full"
     top.number("h", above=0.0)
     _unless_null(top, "failed", top.text)
     _unless_null(top, "quasi_dynamic_number", top.number)
@@ -63,9 +66,10 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     needed: tuple[str, ...] = ("t", "delta_q")
     if steps:
         needed = (*PER_STEP, *PROGRAM, *(EXTRA if extra else ())) if full else PER_STEP
+        needed = (*needed, *(FORCES if record == "forces" else ()))
         _check_present(arrays, needed)
-    of_programs = PROGRAM if full else ()
-    _check_known(arrays, ("q", *CONSTANT, *PER_STEP, *of_programs, *(EXTRA if extra else ())))
+    of_record = {"full": PROGRAM, "forces": FORCES}.get(record, ())
+    _check_known(arrays, ("q", *CONSTANT, *PER_STEP, *of_record, *(EXTRA if extra else ())))
     for name, array in arrays.items():
         if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):
             raise InputError("must contain numbers", field=name, value=str(array.dtype))
@@ -84,6 +88,7 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     top.words("warnings", [])  # of files from before there were findings
     for i, table in enumerate(top.sequence("findings", [])):
         finding_read(table, f"findings[{i}]")
+    top.boolean("alone", True)
     top.close()
 
 

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.simulate.observer import Observer, doctors
-from quasistatic_ref.simulate.record import CONSTANT, EXTRA, PER_STEP, PROGRAM, RECORDS
+from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
-from quasistatic_ref.simulate.wrenches import Scene
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
@@ -40,7 +39,8 @@ class Recorder(Shown):
     q : ndarray, shape (n_q,)
         Where the run starts; quaternions are normalised.
     record : str
-        ``"full"``, or ``"light"`` to leave out the quadratic programs.
+        ``"full"``; ``"light"`` to leave out the quadratic programs; ``"forces"`` to have the forces
+        of single contacts in their place.
     observers : sequence of Observer, optional
         What watches the run; by default the doctor, if it is there.
 
@@ -80,13 +80,14 @@ class Recorder(Shown):
         if record not in RECORDS:
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         self.simulator = simulator
-        self.scene = Scene(simulator.system, simulator.pairs)
+        self.scene = simulator.scene
         self.system, self.h, self.backend = simulator.system, simulator.h, simulator.backend
         self.cone, self.layout, self.record = simulator.cone, simulator.layout, record
         self.observers = list(doctors() if observers is None else observers)
         self.start = self.system.checked(q)
         self.q, self.steps = self.start, 0
         self.extra: tuple[str, ...] = ()
+        self.alone = True
         self.parts: list[Part] = []
         self._rows: list[dict[str, Any]] = []
 
@@ -130,6 +131,9 @@ class Recorder(Shown):
         row |= {SECONDS + part: seconds for part, seconds in result.seconds.items()}
         if self.record == "full":
             row |= program(step)
+        if self.record == "forces":
+            row["forces"] = solution.forces
+        self.alone &= solution.alone
         if step.extra.names:
             row["lam_extra"] = solution.lam_extra
         self.extra = step.extra.names
@@ -184,7 +188,7 @@ class Recorder(Shown):
         """
         parts = self.packed()
         kept = parts[0] if parts else {}
-        names = [name for name in (*PER_STEP, *PROGRAM, *EXTRA) if name in kept]
+        names = [name for name in (*PER_STEP, *PROGRAM, *FORCES, *EXTRA) if name in kept]
         arrays = {name: _joined(parts, name) for name in names} or {
             name: np.zeros(0) for name in ("t", "delta_q", "worst_residual")
         }
@@ -210,7 +214,7 @@ class Recorder(Shown):
             "largest_boundary_layer": None,
             "contacts": [self.layout.contact_names(p) for p in arrays["point"]] if full else [],
             "findings": [],
-        }
+        } | ({} if self.alone else {"alone": False})
         constant = {k: getattr(self.layout, k) if self.steps else np.zeros(0) for k in CONSTANT}
         q = np.concatenate([self.start[None], *(part["q"] for part in parts)])
         arrays = {"q": q + 0.0, **arrays, **constant}

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
+import numpy as np
+
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.separations import OWN, SAYS
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.simulate import wrenches
+from quasistatic_ref.simulate.wrenches import ContactsOverSteps, Scene
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.solution import StepSolution
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -27,6 +33,10 @@ class StepResult(Plain, Shown):
         Where the contacts were, before the step.
     seconds : dict of str to float
         Wall time of the parts: distances, rows, solve, proof, integrate [s]; not compared.
+    q_start : ndarray, shape (n_q,), optional
+        Configuration before the step [m, rad, -].
+    scene : Scene, optional
+        The system and the pairs; not compared, copied or pickled.
 
     Examples
     --------
@@ -42,6 +52,61 @@ class StepResult(Plain, Shown):
     solution: StepSolution
     points: ClosestPoints
     seconds: dict[str, float] = field(compare=False)
+    q_start: Array | None = field(default=None, compare=False)
+    scene: Scene | None = field(default=None, compare=False)
+
+    def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
+        values, locked = super().__getstate__()
+        return values | {"scene": None}, locked
+
+    @property
+    def forces(self) -> Array:
+        """Forces of single contacts, shape (n_c, 4) [N, N m]: those of the solution."""
+        return self.solution.forces
+
+    def pair_forces(self) -> dict[str, Array]:
+        """Force of each pair on its beta's body, shape (3,) [N], world frame, by the pair's name.
+
+        Raises
+        ------
+        InputError
+            If the result is from a pickle, which has no scene; or as of
+            :attr:`~quasistatic_ref.certify.solution.StepSolution.forces`.
+        """
+        contacts, scene = self._contacts()
+        return {name: f[0] for name, f in wrenches.pair_forces(contacts, scene).items()}
+
+    def forces_on(self, name: str) -> Array:
+        """Sum of the forces on a body or a link, shape (6,) [N, N m].
+
+        Parameters
+        ----------
+        name : str
+            A body, for all of its links; or one link, such as ``gripper/left_finger``.
+
+        Returns
+        -------
+        ndarray, shape (6,)
+            Force and torque along the world's axes; the torque about the origin of the link (of a
+            body: of its root link) where the step started.
+
+        Raises
+        ------
+        ModelError
+            If there is no such body or link.
+        InputError
+            As :meth:`pair_forces`.
+        """
+        contacts, scene = self._contacts()
+        return np.asarray(wrenches.wrench_on(contacts, scene, name)[0])
+
+    def _contacts(self) -> tuple[ContactsOverSteps, Scene]:
+        if self.scene is None or self.q_start is None:
+            raise InputError("is not known: this result is a copy", field="scene")
+        k, points = self.step.contacts, self.points
+        frame = np.stack([k.d1, k.d2, k.n], axis=1)
+        arrays = self.q_start, points.alpha, points.beta, frame, self.forces
+        return ContactsOverSteps(*(array[None] for array in arrays)), self.scene
 
     @property
     def tied(self) -> dict[str, str]:

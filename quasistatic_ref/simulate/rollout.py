@@ -11,7 +11,13 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.parts import needed_part
-from quasistatic_ref.simulate.goals import Force, Target, force_function, target_function
+from quasistatic_ref.simulate.goals import (
+    Force,
+    Target,
+    force_function,
+    needed_arguments,
+    target_function,
+)
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.pace import Pace
@@ -21,6 +27,7 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
+    from quasistatic_ref.simulate.result import StepResult
     from quasistatic_ref.simulate.simulator import Simulator
 
 STRETCH = 1000
@@ -46,7 +53,8 @@ def rollout(
     """Step after step, recorded.
 
     The step from t to t + h uses the target and the external force at t + h; where they are
-    functions of (t, q), that is t + h as well, and q is where the step starts.
+    functions of (t, q), that is t + h as well, and q is where the step starts. As functions of
+    (t, q, last) they also get the result of the step before: None at the first step.
 
     Parameters
     ----------
@@ -54,12 +62,13 @@ def rollout(
     q : ndarray, shape (n_q,)
         Where to start; quaternions are normalised.
     target : callable, or ndarray of shape (n_q_a,) or (steps, n_q_a)
-        q_bar_a as a function of t [s] or of (t, q), constant, or step by step.
+        q_bar_a as a function of t [s], of (t, q) or of (t, q, last), constant, or step by step.
     steps : int
     force : callable, optional
-        External generalised force, shape (n_v,) [N, N m], as a function of t or of (t, q).
+        External generalised force, shape (n_v,) [N, N m], as a function of the same.
     record : str
-        ``"full"``, or ``"light"`` to leave out the quadratic programs.
+        ``"full"``; ``"light"`` to leave out the quadratic programs; ``"forces"`` to have the forces
+        of single contacts in their place.
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal, and to print
         there that `fast` would save ten seconds or more, and, at the end of a run, that most of its
@@ -73,7 +82,8 @@ def rollout(
         Time between two saves [s]; by default a minute.
     resume : bool
         Whether to go on from the steps that are saved there, if there are any. The result has the
-        bits of a run that was never interrupted, if target and force are functions of (t, q) alone.
+        bits of a run that was never interrupted, if target and force are functions of (t, q) alone;
+        functions of (t, q, last) are refused.
     observers : sequence of Observer
         What else watches the run: before each step, after it, and at the end.
 
@@ -113,6 +123,10 @@ def rollout(
         saved = runs.saved_run(save, save_every, simulator, recorder)
         recorder.observers.append(saved)
         if first:
+            for name, function in (("target", target), ("force", force)):
+                if callable(function) and needed_arguments(function, name) == 3:
+                    problem = "cannot be asked again: the results of saved steps are not kept"
+                    raise InputError(problem, field=name)
             runs.resumed(saved, recorder, simulator, q_bar_a, pushed, STRETCH)
     left = range(recorder.steps, steps)
     pace = Pace(simulator.fast or not progress, len(left))
@@ -120,6 +134,7 @@ def rollout(
     entries = 4 * len(simulator.layout.rows) * simulator.system.n_v
     if (opening := pace.opening(entries)) is not None:
         bar.write(f"quasistatic-ref: {opening}", file=sys.stderr)
+    last: StepResult | None = None
     with Interrupt() as interrupt:
         for k in bar:
             t, q = recorder.t, recorder.q
@@ -129,8 +144,8 @@ def rollout(
                 interrupt.check()
                 for observer in recorder.observers:
                     observer.before(recorder)
-                goal = q_bar_a(t, q)
-                result = simulator.step(q, goal, pushed(t, q))
+                goal = q_bar_a(t, q, last)
+                last = simulator.step(q, goal, pushed(t, q, last))
             except (QuasistaticError, KeyboardInterrupt) as failure:
                 interrupted = isinstance(failure, KeyboardInterrupt)
                 reason = f"step {k}: {'interrupted' if interrupted else failure}"
@@ -138,8 +153,8 @@ def rollout(
                 trajectory = recorder.trajectory(reason, interrupted)
                 file = None if saved is None else saved.written
                 raise RunFailed(reason, trajectory, step, file) from failure
-            recorder.add(goal, result)
-            if (advice := pace.advice(result.seconds)) is not None:
+            recorder.add(goal, last)
+            if (advice := pace.advice(last.seconds)) is not None:
                 bar.write(f"quasistatic-ref: {advice}", file=sys.stderr)
     certified = progress and simulator.certify == "full"
     if certified and (closing := pace.closing()) is not None:

@@ -10,6 +10,7 @@ from typing import Any, ClassVar, TypeVar, cast
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
@@ -19,6 +20,7 @@ from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.wrenches import Scene
 from quasistatic_ref.solve.backends import DEFAULT, check_backend
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
@@ -26,7 +28,6 @@ from quasistatic_ref.step.arrays import definite
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import ACCURACY
 
 GRAVITY = (0.0, 0.0, -9.81)
@@ -164,6 +165,7 @@ class Simulator(Shown):
     ) -> None:
         self.system = system
         self.pairs = tuple(pairs)
+        self.scene = Scene(system, self.pairs)
         self.layout = contact_layout(pairs)
         self.h = seconds(h)
         self.K_q = definite("K_q", K_q, system.n_a)
@@ -247,7 +249,7 @@ class Simulator(Shown):
         q_next = self.system.integrate(q, solution.delta_q[: self.system.n_v])  # q (+) delta_q
         self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
-        return StepResult(q_next, step, solution, points, lap.seconds)
+        return StepResult(q_next, step, solution, points, lap.seconds, q, self.scene)
 
     def closest_points(self, kinematics: Kinematics) -> ClosestPoints:
         """The contacts of all pairs, in order, each pair's in ascending distance.

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.certify.forces import contact_forces
+from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import written_whole
@@ -45,7 +48,8 @@ class Trajectory(Plain, Shown):
         name, contacts (names by step), steps; ``quasi_dynamic_number`` (the largest Pi of a
         step, or None), ``largest_drag_share`` (drag over what contacts can bear, or None) and
         ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.optional.doctor.artifacts`,
-        without which all three are None;
+        without which all three are None; ``alone``, false where the steps are not all that was
+        solved, see :class:`~quasistatic_ref.certify.solution.StepSolution`;
         ``findings``, see :attr:`findings`; and ``failed``: the reason, or None for a complete run.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
@@ -56,7 +60,8 @@ class Trajectory(Plain, Shown):
         known); ``q`` has one entry more, the start. A full record adds ``H``, ``g``, ``A``, ``b``
         and what they are made of: ``K_q``, ``M_u``, ``tau_a``, ``tau_u``, ``delta_q_bar_a``,
         ``J``. An extension's rows add ``lam_extra``, and to a full record ``extra_A`` and
-        ``extra_b``. ``mu_v``, ``mu_omega`` and ``rows`` are constant.
+        ``extra_b``. A record of forces has ``forces``, (n_c, 4) a step. ``mu_v``, ``mu_omega`` and
+        ``rows`` are constant.
     seconds : mapping of str to ndarray
         Wall time of the parts of each step [s], shape (steps,); kept in memory only, so that equal
         runs make equal files.
@@ -139,8 +144,8 @@ class Trajectory(Plain, Shown):
         if not 0 <= k < self.steps:
             raise InputError(f"must be 0 to {self.steps - 1}", field="step", value=k)
         if self.header["record"] != "full":
-            problem = "a light record has no quadratic programs; run again with record = 'full'"
-            raise InputError(problem)
+            problem = f"a {self.header['record']} record has no quadratic programs"
+            raise InputError(f"{problem}; run again with record = 'full'")
         a = self.arrays
         keys = ("phi", "n", "d1", "d2", "J")
         contacts = Contacts(
@@ -159,8 +164,43 @@ class Trajectory(Plain, Shown):
             extra=extra,
         )
 
+    @cached_property
+    def forces(self) -> Array:
+        """Forces of single contacts in each step, shape (steps, n_c, 4) [N, N m].
+
+        They are those of :attr:`~quasistatic_ref.certify.solution.StepSolution.forces`; of a full
+        record they are formed when they are first read, some milliseconds a step.
+
+        Raises
+        ------
+        InputError
+            If the record is light, or the steps are not all that was solved.
+        """
+        if "forces" in self.arrays:
+            return self.arrays["forces"]
+        return np.array([self.step_forces(k) for k in range(self.steps)]).reshape(self.steps, -1, 4)
+
+    def step_forces(self, k: int) -> Array:
+        """Forces of single contacts in step k (from 0), shape (n_c, 4) [N, N m].
+
+        Raises
+        ------
+        InputError
+            As of :attr:`forces`, or if there is no such step.
+        """
+        if "forces" in self.arrays and 0 <= k < self.steps:
+            return np.asarray(self.arrays["forces"][k])
+        if self.header["record"] == "light":
+            problem = "a light record holds no forces; run again with record = 'forces' or 'full'"
+            raise InputError(problem)
+        if not self.header.get("alone", True):
+            raise InputError(UNKNOWN, field="forces")
+        step, delta_q = self.step_data(k), self["delta_q"][k]
+        near = (delta_q, self["wrench"][k]) if step.n_v == len(delta_q) else None
+        return contact_forces(step, near=near).wrench
+
     def wrench_on(self, name: str, scene: HasScene | None = None) -> Array:
-        """Sum of the contact wrenches on a body or a link, in each step.
+        """Sum of the contact wrenches on a body or a link, in each step, as lam has them.
 
         Parameters
         ----------
@@ -181,7 +221,24 @@ class Trajectory(Plain, Shown):
         InputError
             If there is no such body or link, or the scene is missing or another one.
         """
-        return wrenches.wrench_on(self, self._scene(scene), name)
+        scene = self._scene(scene)
+        return wrenches.wrench_on(wrenches.of_trajectory(self, self["wrench"]), scene, name)
+
+    def forces_on(self, name: str, scene: HasScene | None = None) -> Array:
+        """The same sum of :attr:`forces`: force [N] and torque [N m], shape (steps, 6).
+
+        Parameters
+        ----------
+        name, scene
+            As for :meth:`wrench_on`.
+
+        Raises
+        ------
+        InputError
+            As :meth:`wrench_on`, or as of :attr:`forces`.
+        """
+        scene = self._scene(scene)
+        return wrenches.wrench_on(wrenches.of_trajectory(self, self.forces), scene, name)
 
     def pair_forces(self, scene: HasScene | None = None) -> dict[str, Array]:
         """Force of each pair on its beta's body, by the pair's name.
@@ -194,14 +251,15 @@ class Trajectory(Plain, Shown):
         Returns
         -------
         dict of str to ndarray, shape (steps, 3)
-            Sums over the pair's contacts [N], world frame.
+            Sums of :attr:`forces` over the pair's contacts [N], world frame.
 
         Raises
         ------
         InputError
-            If the scene is missing or another one.
+            If the scene is missing or another one, or as of :attr:`forces`.
         """
-        return wrenches.pair_forces(self, self._scene(scene))
+        scene = self._scene(scene)
+        return wrenches.pair_forces(wrenches.of_trajectory(self, self.forces), scene)
 
     def _scene(self, given: HasScene | None) -> HasScene:
         scene = self.scene if given is None else given

@@ -1,4 +1,4 @@
-"""Contact forces of a trajectory, summed over bodies and over pairs, in the world frame."""
+"""Contact forces, summed over bodies and over pairs, in the world frame."""
 
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
@@ -38,7 +38,48 @@ class HasScene(Protocol):
         """What may touch."""
 
 
-def wrench_on(trajectory: "Trajectory", scene: HasScene, name: str) -> Array:
+class ContactsOverSteps(NamedTuple):
+    """Where and how contacts push in some steps.
+
+    Parameters
+    ----------
+    q : ndarray, shape (steps, n_q)
+        Where each step starts.
+    alpha, beta : ndarray, shape (steps, n_c, 3)
+        Closest points there [m], world frame.
+    frame : ndarray, shape (steps, n_c, 3, 3)
+        Rows d1, d2 and n [-].
+    wrench : ndarray, shape (steps, n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m].
+    """
+
+    q: Array
+    alpha: Array
+    beta: Array
+    frame: Array
+    wrench: Array
+
+    @property
+    def force(self) -> Array:
+        """Force of each contact on beta's body, shape (steps, n_c, 3) [N], world frame."""
+        return np.asarray(np.einsum("kci,kcix->kcx", self.wrench[:, :, :3], self.frame))
+
+    def check(self, scene: HasScene) -> None:
+        """Refuse another scene than theirs: InputError."""
+        n_c = len(contact_layout(scene.pairs).names)
+        if self.wrench.shape[1] != n_c or self.q.shape[1] != scene.system.n_q:
+            problem = "is another one than that of the steps: numbers of contacts or of q differ"
+            raise InputError(problem, field="scene")
+
+
+def of_trajectory(trajectory: "Trajectory", wrench: Array) -> ContactsOverSteps:
+    """The contacts of a trajectory with these wrenches, shape (steps, n_c, 4) [N, N m]."""
+    axes = [trajectory[key] for key in ("d1", "d2", "n")]
+    points = trajectory["alpha"], trajectory["beta"]
+    return ContactsOverSteps(trajectory["q"][:-1], *points, np.stack(axes, axis=2), wrench)
+
+
+def wrench_on(contacts: ContactsOverSteps, scene: HasScene, name: str) -> Array:
     """Sum of the contact wrenches on a body or a link, in each step.
 
     A contact pushes beta's body with the force f = f_d1 d1 + f_d2 d2 + f_n n at the point beta
@@ -46,9 +87,9 @@ def wrench_on(trajectory: "Trajectory", scene: HasScene, name: str) -> Array:
 
     Parameters
     ----------
-    trajectory : Trajectory
+    contacts : ContactsOverSteps
     scene : HasScene
-        That of the trajectory.
+        Theirs.
     name : str
         A body, for all of its links; or one link, such as ``gripper/left_finger``.
 
@@ -65,34 +106,33 @@ def wrench_on(trajectory: "Trajectory", scene: HasScene, name: str) -> Array:
     InputError
         If the contacts are not those of the scene.
     """
+    contacts.check(scene)
     system, layout = scene.system, contact_layout(scene.pairs)
     link = system.link(name)
     own = [link]
     if any(body.name == name for body in system.bodies):
         own = [i for i, other in enumerate(system.links) if other.startswith(f"{name}/")]
-    forces = _forces(trajectory, scene)
-    tau_n = trajectory["wrench"][:, :, 3, None] * trajectory["n"] if len(forces) else forces
-    origins = [system.kinematics(q).t[link] for q in trajectory["q"][: len(forces)]]
-    origin = np.reshape(origins, (len(forces), 1, 3))
-    total = np.zeros((len(forces), 6))
-    for sign, links, key in ((1, layout.link_beta, "beta"), (-1, layout.link_alpha, "alpha")):
+    tau_n = contacts.wrench[:, :, 3, None] * contacts.frame[:, :, 2]
+    origins = [system.kinematics(q).t[link] for q in contacts.q]
+    origin = np.reshape(origins, (-1, 1, 3))
+    total = np.zeros((len(contacts.q), 6))
+    sides = (1, layout.link_beta, contacts.beta), (-1, layout.link_alpha, contacts.alpha)
+    for sign, links, point in sides:
         on = np.isin(links, own)
-        if not (len(forces) and on.any()):
-            continue
-        f, arm = forces[:, on], trajectory[key][:, on] - origin
+        f, arm = contacts.force[:, on], point[:, on] - origin
         torque = np.cross(arm, f) + tau_n[:, on]
         total += sign * np.concatenate([f, torque], axis=2).sum(axis=1)
     return total
 
 
-def pair_forces(trajectory: "Trajectory", scene: HasScene) -> dict[str, Array]:
+def pair_forces(contacts: ContactsOverSteps, scene: HasScene) -> dict[str, Array]:
     """Force of each pair on its beta's body, by the pair's name.
 
     Parameters
     ----------
-    trajectory : Trajectory
+    contacts : ContactsOverSteps
     scene : HasScene
-        That of the trajectory.
+        Theirs.
 
     Returns
     -------
@@ -105,18 +145,6 @@ def pair_forces(trajectory: "Trajectory", scene: HasScene) -> dict[str, Array]:
     InputError
         If the contacts are not those of the scene.
     """
-    forces, names = _forces(trajectory, scene), np.array(contact_layout(scene.pairs).names)
-    return {pair.name: forces[:, names == pair.name].sum(axis=1) for pair in scene.pairs}
-
-
-def _forces(trajectory: "Trajectory", scene: HasScene) -> Array:
-    """Force of each contact on beta's body, shape (steps, n_c, 3) [N], world frame."""
-    n_c = len(contact_layout(scene.pairs).names)
-    if not len(trajectory):
-        return np.zeros((0, n_c, 3))
-    wrench = trajectory["wrench"]
-    if wrench.shape[1] != n_c or trajectory["q"].shape[1] != scene.system.n_q:
-        problem = "is another one than that of the trajectory: numbers of contacts or of q differ"
-        raise InputError(problem, field="scene")
-    frame = np.stack([trajectory[key] for key in ("d1", "d2", "n")], axis=2)
-    return np.asarray(np.einsum("kci,kcix->kcx", wrench[:, :, :3], frame))
+    contacts.check(scene)
+    force, names = contacts.force, np.array(contact_layout(scene.pairs).names)
+    return {pair.name: force[:, names == pair.name].sum(axis=1) for pair in scene.pairs}

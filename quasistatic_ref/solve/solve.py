@@ -12,6 +12,12 @@ from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.certify.certificate import exact_certificate
 from quasistatic_ref.certify.digits import relative_digits
 from quasistatic_ref.certify.exact import check_length
+from quasistatic_ref.certify.solution import (
+    Certificate,
+    SolverStatistics,
+    StepSolution,
+    step_solution,
+)
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import NONE, check_certify
@@ -22,12 +28,6 @@ from quasistatic_ref.step.arrays import QUIET, Array, finite
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
-from quasistatic_ref.step.solution import (
-    Certificate,
-    SolverStatistics,
-    StepSolution,
-    step_solution,
-)
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT, WORTHLESS
 
 LARGE = 2.0**200
@@ -189,7 +189,8 @@ def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolu
         statistics = statistics._replace(digits=digits)
     residuals = vars(scaled.residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(proof_time=time.perf_counter() - begin)
-    return step_solution(step, delta_q, lam, certificate(step, optimum, residuals), statistics)
+    claims = certificate(step, optimum, residuals)
+    return step_solution(step, delta_q, lam, claims, statistics, optimum.net)
 
 
 def _attempt(

@@ -16,6 +16,7 @@ import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum, exact_step
 from quasistatic_ref.certify.norm import Norm, energy_norm
+from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.parts import needed_part
@@ -34,7 +35,6 @@ from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.solution import SolverStatistics
 from quasistatic_ref.tolerances import ALIKE
 
 RELAXED = (1.0, 1e2, 1e4)

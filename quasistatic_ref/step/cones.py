@@ -35,10 +35,11 @@ from quasistatic_ref.parts import needed_part
 from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 
 if TYPE_CHECKING:
+    from quasistatic_ref.certify.forces import ContactForces
+    from quasistatic_ref.certify.solution import Certificate
     from quasistatic_ref.certify.verdict import Verdict
     from quasistatic_ref.solve.solver import Solver
     from quasistatic_ref.step.data import StepData
-    from quasistatic_ref.step.solution import Certificate
 
 Rows: TypeAlias = "tuple[Any, ...]"
 ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
@@ -166,6 +167,21 @@ class CurvedCone(Cone, ABC):
     @abstractmethod
     def in_words(self, certificate: Certificate) -> str:
         """What a certificate of kind ``"exact"`` claims, in a sentence."""
+
+    @abstractmethod
+    def forces(
+        self, step: StepData, compliance: float, near: tuple[Array, Array] | None
+    ) -> ContactForces:
+        """As :func:`~quasistatic_ref.certify.forces.contact_forces`.
+
+        Parameters
+        ----------
+        step : StepData
+        compliance : float
+            [m/N].
+        near : (ndarray, ndarray), optional
+            Shapes (n_v,) [m, rad] and (n_c, 4) [N, N m].
+        """
 
     @abstractmethod
     def verdict(

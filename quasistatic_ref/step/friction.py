@@ -32,6 +32,11 @@ def frame_jacobian(contacts: Contacts, J: Array) -> tuple[Array, Array, Array, A
     return J_n, J_1, J_2, J[:, 3]
 
 
+def scaled_by(contacts: Contacts) -> Array:
+    """(1, mu_v, mu_v, mu_omega), by which cones multiply gap, slips and spin, (n_c, 4) [-, m]."""
+    return np.concatenate([np.ones((contacts.n_c, 1)), contacts.mu], axis=1)
+
+
 def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
     """The rows [J'(n~ + d~_i)]' of Eq. :eq:`eq-4`, for each contact all that the cone has.
 

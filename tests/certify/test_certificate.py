@@ -10,11 +10,11 @@ import pytest
 from quasistatic_ref.certify.certificate import exact_certificate, in_words, verify
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
+from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.solution import Certificate
 from tests.certify.test_exact import resting_point
 from tests.helpers import point_on_floor
 

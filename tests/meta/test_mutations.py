@@ -46,7 +46,7 @@ SAMPLE = (
     f"{RATIONAL} friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
     f"{RATIONAL} contact_motion: [contacts.n[of], contacts.d1[of], contacts.d2[of]] -> "
     "[contacts.n[of], contacts.d2[of], contacts.d1[of]]",
-    f"{RATIONAL} _in_integers: two_to(H.e + e_x) / h -> two_to(H.e + e_x) * h",
+    f"{RATIONAL} in_integers: two_to(H.e + e_x) / h -> two_to(H.e + e_x) * h",
     f"{POINT} rational_solution: -form.A[i, j] -> form.A[i, j]",
     f"{DEPENDENCE} combination: solution[j, 0] -> solution[0, j]",
     f"{POINT} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
-from quasistatic_ref.step.solution import Certificate
 from quasistatic_ref.tolerances import ENCLOSED
 from tests.helpers import pinch, point_on_floor
 from tests.oracles import forgeries

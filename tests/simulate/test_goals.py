@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.goals import of_time_and_q
+from quasistatic_ref.simulate.goals import of_all
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.rollout import rollout
 from tests.scenes import written_scenario
@@ -70,7 +70,7 @@ def test_what_has_no_signature_is_a_function_of_time():
         def __call__(self, *given):
             return given
 
-    assert of_time_and_q(NoSignature(), "target")(0.5, None) == (0.5,)
+    assert of_all(NoSignature(), "target")(0.5, None, None) == (0.5,)
 
 
 def test_a_target_of_t_and_q_is_asked_where_the_step_starts(scenario, run):
@@ -113,7 +113,7 @@ OTHER = {
 @pytest.mark.parametrize("name", ["target", "force"])
 def test_other_arguments_are_refused_before_the_first_step(run, name, function):
     given = {"target": goal} | {name: function}
-    with pytest.raises(InputError, match=rf"^{name}: must be a function of t, or of \(t, q\)"):
+    with pytest.raises(InputError, match=rf"^{name}: must be a function of t, of \(t, q\), or of"):
         run(**given)
 
 
@@ -151,3 +151,30 @@ def test_a_loop_by_hand_ends_in_the_trajectory_of_rollout(scenario):
     for name, array in expected.arrays.items():
         np.testing.assert_array_equal(found[name], array)
     assert found.seconds.keys() == expected.seconds.keys()
+
+
+def test_a_target_may_ask_for_the_result_of_the_step_before(scenario, run):
+    seen = []
+
+    def target(t, q, last):
+        seen.append(last)
+        return goal(t)
+
+    done = run(target)
+    assert seen[0] is None
+    for k, last in enumerate(seen[1:]):
+        np.testing.assert_array_equal(last.q, done["q"][k + 1])
+        assert last.forces.shape == (len(done["mu_v"]), 4)
+
+
+def test_a_run_whose_target_asks_for_results_is_not_resumed(run, tmp_path):
+    def ended(t, q, last):
+        if t > 0.025:
+            raise SystemExit  # as if the process had ended here
+        return goal(t)
+
+    path = tmp_path / "run.npz"
+    with pytest.raises(SystemExit):
+        run(ended, save=path, save_every=0)
+    with pytest.raises(InputError, match="target: cannot be asked again"):
+        run(ended, save=path, resume=True)

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from quasistatic_ref.certify.solution import step_solution
 from quasistatic_ref.errors import StepDataError, StepNotSolved
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
@@ -12,7 +13,6 @@ from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.solution import step_solution
 from tests.helpers import pinch, point_on_floor
 from tests.tolerances import OPTIMUM, ROUNDING
 

@@ -29,6 +29,7 @@ from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rows import flat_rows
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.grasp import CASES
@@ -36,7 +37,6 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.solution import StepSolution
 from tests.oracles.random_steps import mixed_step
 
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", NONE)

@@ -4,7 +4,7 @@ The block may move by delta_q, its twist in one time step. Eq. (13) weighs that 
 work of gravity and of the pull, and Eq. (4) forbids each lower corner to enter the table. Friction
 is in the same rows: to slide by x, a corner has to rise by mu_v x. Lifting costs the weight, so
 that nothing moves until the pull is mu_v m g. At rest, many forces inside the cones would do; the
-ones that are drawn are those of one optimum.
+ones that are drawn are those with a small compliance at each contact, which are unique.
 """
 
 from typing import Any

@@ -18,6 +18,7 @@ EXAMPLES: Final = (
     "mass_of_a_free_body",
     "a_screw",
     "block_on_an_incline",
+    "slip_margins",
     "pushed_block",
     "coulomb_against_convex_slip",
     "planar_pushing",

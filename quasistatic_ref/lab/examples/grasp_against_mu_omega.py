@@ -65,7 +65,7 @@ def needed(run: Trajectory) -> float:
     Summed over the contacts of the fingers, (|f_1| + |f_2|) / mu_v + |tau_n| / mu_omega <= f_n.
     """
     fingers = run["rows"] == 6
-    f_1, f_2, f_n, tau_n = np.abs(run["wrench"][LIFTING, fingers]).sum(axis=0)
+    f_1, f_2, f_n, tau_n = np.abs(run.step_forces(LIFTING)[fingers]).sum(axis=0)
     return float(tau_n / (f_n - (f_1 + f_2) / run["mu_v"][fingers].max()))
 
 

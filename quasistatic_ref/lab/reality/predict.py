@@ -6,11 +6,11 @@ from itertools import pairwise
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.lab.reality.push import Pushed
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.solution import StepSolution
 
 
 @dataclass(frozen=True, eq=False)

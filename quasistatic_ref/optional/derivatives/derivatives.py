@@ -9,6 +9,7 @@ there are none.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -129,4 +130,4 @@ def _certified(simulator: Simulator, q: Array, q_bar_a: Array, force: Array | fl
         return result
     solution = solve_step(result.step.replace(), "none")
     q_next = simulator.system.integrate(q, solution.delta_q)
-    return StepResult(q_next, solution.step, solution, result.points, result.seconds)
+    return replace(result, q=q_next, step=solution.step, solution=solution)

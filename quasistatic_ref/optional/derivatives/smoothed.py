@@ -6,6 +6,7 @@ from functools import partial
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import Certificate, SolverStatistics, step_solution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.derivatives.derivatives import check_derivable
 from quasistatic_ref.optional.derivatives.gradient import Derivatives
@@ -17,7 +18,6 @@ from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.solution import Certificate, SolverStatistics, step_solution
 
 
 def smoothed(
@@ -68,7 +68,7 @@ def smoothed(
     step = simulator.step_data(q, q_bar_a, force, points, kinematics)
     found = barrier_step(step, kappa)
     statistics = SolverStatistics("barrier", "solved", None, None, kappa, engine="none")
-    solution = step_solution(step, found.x, found.lam, Certificate("none"), statistics)
+    solution = step_solution(step, found.x, found.lam, Certificate("none"), statistics, alone=False)
     q_next = simulator.system.integrate(q, found.x)
     result = StepResult(q_next, step, solution, points, {})
     rates = StepRates(simulator, q, result)

@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.doctor.start import free_bases
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import BEARS
 
 

@@ -11,11 +11,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from flint import ctx, fmpq
 
+from quasistatic_ref.certify.forces import ContactForces
 from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
 from quasistatic_ref.certify.point import rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows
+from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     BITS,
@@ -25,11 +28,12 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
     enclosure,
     point,
 )
+from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.step.arrays import Array, Mask, largest
 from quasistatic_ref.step.cones import ELLIPSOID, CurvedCone, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.solution import Certificate
+from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
 
 if TYPE_CHECKING:
@@ -118,6 +122,33 @@ class EllipsoidCone(CurvedCone):
     def in_words(self, certificate: Certificate) -> str:
         """What ``"exact"`` means here."""
         return "exact: the optimum of the step, correctly rounded; every loaded contact sticks"
+
+    def forces(
+        self, step: StepData, compliance: float, near: tuple[Array, Array] | None
+    ) -> ContactForces:
+        """See :mod:`~quasistatic_ref.optional.ellipsoid.forces`; arguments as of the base.
+
+        Parameters
+        ----------
+        step : StepData
+        compliance : float
+            [m/N].
+        near : (ndarray, ndarray), optional
+            Shapes (n_v,) [m, rad] and (n_c, 4) [N, N m].
+
+        Raises
+        ------
+        StepNotSolved
+            If no enclosure is found.
+        """
+        if near is None:
+            rigid = enclosure(step, None)
+            if rigid is None:
+                status = "no answer strictly inside of all cones was found"
+                raise StepNotSolved("none", status, step, 0.0)
+            lam = rigid.lam[: step.offsets[-1]]
+            near = rigid.delta_q, contact_wrenches(step.contacts, lam, step.h, self.name)
+        return compliant_forces(step, compliance, near)
 
     def verdict(
         self,

@@ -14,6 +14,12 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
+from quasistatic_ref.certify.solution import (
+    Certificate,
+    SolverStatistics,
+    StepSolution,
+    step_solution,
+)
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
 from quasistatic_ref.optional.extensions.rises import with_rises
@@ -27,12 +33,6 @@ from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Array, Extra, StepData, no_rows
 from quasistatic_ref.step.extension import Extension, Own, Symbols, none
-from quasistatic_ref.step.solution import (
-    Certificate,
-    SolverStatistics,
-    StepSolution,
-    step_solution,
-)
 from quasistatic_ref.tolerances import RESIDUAL_LIMIT
 
 
@@ -186,7 +186,7 @@ def extended_solution(
                 continue
             delta_q, lam = from_natural(problem.primal(), problem.dual(), units)
             claimed = Certificate("none") if certify == "off" else certificate
-            return step_solution(step, delta_q, lam, claimed, statistics)
+            return step_solution(step, delta_q, lam, claimed, statistics, alone=False)
     assert failure is not None  # a backend has at least one set of options
     raise failure
 

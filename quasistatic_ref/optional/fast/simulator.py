@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.model.system import Kinematics
@@ -14,7 +15,6 @@ from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, by_one_thread
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.solution import StepSolution
 
 
 class FastSimulator(Simulator):

@@ -1,11 +1,11 @@
 """What solves a step on which the default backend of a run fails: Clarabel."""
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.solve.backends import DEFAULT
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.solution import StepSolution
 
 
 class Spare:

@@ -64,7 +64,7 @@ def resumed(
         At the start of the run.
     simulator : Simulator
     target, force : callable
-        Of (t, q), shapes (n_q_a,) and (n_v,) of their results.
+        Of (t, q, last), of which `last` is not used; shapes (n_q_a,) and (n_v,) of their results.
     stretch : int
         Steps after which the solver starts cold.
 
@@ -97,13 +97,14 @@ class _Again:
         for i, q in enumerate([recorder.q, *part["q"][:-1]]):
             k = recorder.steps + i
             t = (k + 1) * recorder.h
-            goal, pushed = self.target(t, q), self.force(t, q)
+            goal, pushed = self.target(t, q, None), self.force(t, q, None)
             _check("target", k, part["q_bar_a"][i], goal)
             tau = self.simulator.generalised_force(q, pushed)
             _check("force", k, part["tau"][i], tau)
             if self.record == "full" or k >= self.cold:
                 step, linear = self._step(q, goal, pushed)
                 _check("scene", k, part["phi"][i], step.contacts.phi)
+                recorder.alone &= linear
                 rows.append(program(step) if self.record == "full" else {})
                 if k >= self.cold:
                     self._ask(step, linear)

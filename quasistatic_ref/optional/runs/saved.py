@@ -27,7 +27,7 @@ from quasistatic_ref.formats.npz import json_array, npz_header, npz_record
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.simulate import trajectory as whole_run
 from quasistatic_ref.simulate.observer import Observer
-from quasistatic_ref.simulate.record import EXTRA, PER_STEP, PROGRAM
+from quasistatic_ref.simulate.record import EXTRA, FORCES, PER_STEP, PROGRAM
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import QPSOLVERS
 from quasistatic_ref.step.data import Array
@@ -156,7 +156,8 @@ class SavedRun(Observer):
         fits = top.integer("version") == VERSION and top.integer("first") == expected
         self._check_settings(top.take("settings"))
         steps = top.integer("steps", least=1)
-        missing = not {*PER_STEP, "q", "tau", *self.kept} <= set(part)
+        forces = FORCES if self.settings["record"] == "forces" else ()
+        missing = not {*PER_STEP, *forces, "q", "tau", *self.kept} <= set(part)
         if not fits or missing or any(a.ndim == 0 or len(a) != steps for a in part.values()):
             raise InputError(f"is not what follows step {expected}; remove it and later files")
         return tuple(top.words("extra"))

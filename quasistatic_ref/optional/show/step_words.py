@@ -12,10 +12,10 @@ from quasistatic_ref.step.cones import cone
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from quasistatic_ref.certify.solution import Certificate, StepSolution
     from quasistatic_ref.step.contacts import Contacts
     from quasistatic_ref.step.data import Array, Extra, StepData
     from quasistatic_ref.step.problem import StepProblem
-    from quasistatic_ref.step.solution import Certificate, StepSolution
     from quasistatic_ref.step.standard_form import StandardForm
 
 CONTACT = ("contact", "gap [m]", "normal", "mu_v", "mu_omega [m]", "rows")

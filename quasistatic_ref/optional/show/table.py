@@ -92,7 +92,7 @@ def contact_frame(trajectory: "Trajectory") -> "DataFrame":
     if trajectory.steps:
         columns["point"] = trajectory["point"].ravel()
         for name, labels in CONTACT.items():
-            numbers = trajectory[name].reshape(-1, len(labels))
+            numbers = _contacts(trajectory, name).reshape(-1, len(labels))
             columns |= dict(zip(labels, numbers.T, strict=True))
     return pandas.DataFrame(columns)
 
@@ -142,7 +142,7 @@ def _wide(trajectory: "Trajectory") -> Iterator[tuple[str, Array]]:
     for i, (slot, end) in enumerate(zip(_slots(trajectory), ends, strict=True)):
         yield f"{slot}.point", trajectory["point"][:, i]
         for name, labels in CONTACT.items():
-            numbers = trajectory[name][:, i].reshape(trajectory.steps, -1).T
+            numbers = _contacts(trajectory, name)[:, i].reshape(trajectory.steps, -1).T
             yield from zip((f"{slot}.{label}" for label in labels), numbers, strict=True)
         for row, lam in enumerate(trajectory["lam"][:, ([0, *ends])[i] : end].T):
             yield f"{slot}.lam_{row} [N s]", lam
@@ -151,6 +151,12 @@ def _wide(trajectory: "Trajectory") -> Iterator[tuple[str, Array]]:
         yield f"lam of {name}", lam
     for name, label in STEP.items():
         yield label, trajectory[name]
+
+
+def _contacts(trajectory: "Trajectory", name: str) -> Array:
+    """An array of contacts; for wrenches, the forces where the record holds them."""
+    forces = trajectory.arrays.get("forces") if name == "wrench" else None
+    return np.asarray(trajectory[name] if forces is None else forces)
 
 
 def _positions(trajectory: "Trajectory") -> list[str]:

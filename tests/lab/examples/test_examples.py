@@ -31,7 +31,7 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import FITTED
 from tests.legible import faults
-from tests.tolerances import DIFFERENCE_OF_STEPS, FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
+from tests.tolerances import DIFFERENCE_OF_STEPS, EXACT, FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
 
 G = 9.81
 ROOT = Path(__file__).parents[3]
@@ -115,7 +115,7 @@ def test_measured_and_expected_stand_side_by_side_and_agree(name, rtol, atol):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 36
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 37
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -293,3 +293,11 @@ def test_an_example_is_a_script(tmp_path):
     assert done.returncode == 0, done.stderr
     assert "volume of the pyramid [-]: 1.33333" in done.stdout
     assert sorted(p.name for p in tmp_path.iterdir()) == ["cone_surfaces.pdf", "cone_surfaces.png"]
+
+
+def test_friction_used_rises_with_a_push_without_a_jump():
+    """The rear corners slip first, at the limit of friction that they bear, (R42) to (R44)."""
+    jump, of_multipliers, front, rear = numbers("slip_margins").values()
+    assert jump < 2.0 < 10.0 < of_multipliers
+    assert front < 1.0
+    np.testing.assert_allclose(rear, 1.0, rtol=EXACT)

@@ -8,7 +8,8 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.shapes.placed_shape import Box, (
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
     Cylinder,
     HalfSpace,
     PlacedShape,

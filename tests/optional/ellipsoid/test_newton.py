@@ -8,13 +8,13 @@ import pytest
 from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.point import ball_form
 from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.lab.scenes.slider import push, push_step
 from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked_pair, enclosure
 from quasistatic_ref.optional.ellipsoid.newton import OPEN, SLIDES, STICKS, contact_states
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.solution import Certificate
 from tests.helpers import changed, pinch, point_on_floor
 from tests.tolerances import ROUNDING
 

@@ -57,6 +57,9 @@ step/standard_form.py
     PAGE
 certify/optimality.py
     JUDGE enclosure
+certify/forces.py certify/faces.py certify/eliminated.py certify/face_guess.py
+optional/ellipsoid/forces.py
+    forces
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
@@ -193,7 +196,7 @@ step/files.py
     step_files solution_files bad_steps
 optional/show/show.py optional/show/step_words.py
     words DATA
-step/solution.py
+certify/solution.py
     kept_and_shown certificate newton
 cli/solution_files.py
     kept_and_shown solution_files solutions_of_version_1 FORGED

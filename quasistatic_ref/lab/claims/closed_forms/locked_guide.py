@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.measures import exact, grid
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
-from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 M, INERTIA, MU_V, MU_OMEGA, H = 0.5, 2e-4, 0.5, 0.01, 0.01

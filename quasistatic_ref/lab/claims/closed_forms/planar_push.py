@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.measures import exact, grid, slope
 from quasistatic_ref.lab.scenes.slider import (
@@ -19,7 +20,6 @@ from quasistatic_ref.lab.scenes.slider import (
     turns,
 )
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.tolerances import CLOSED_FORM, FITTED
 
 ENCLOSED = 1e-15

@@ -16,6 +16,7 @@ from quasistatic_ref.certify.active_set import Farkas, least_index
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form_of
+from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.contacts import contacts_of
@@ -27,7 +28,6 @@ from quasistatic_ref.lab.vectors.exact.precision import rounded, short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
-from quasistatic_ref.step.solution import Certificate
 
 UNIQUE = 1e-6
 """Largest tolerance of lam, relative to its largest entry, at which its entries are compared."""

@@ -31,12 +31,12 @@ from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import flat_rows, row_owners
+from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.optional.derivatives.step.parameters import Change, parameter_changes
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.solution import Certificate
 
 FIELDS = ("delta_q_bar_a", "tau_a", "K_q", "tau_u", "phi", "mu_v", "mu_omega", "h")
 

@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import linprog
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import load
 from quasistatic_ref.tolerances import BEARING, DEPENDENT, FILLED, TOUCHING
 

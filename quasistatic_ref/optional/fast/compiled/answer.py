@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.solve import NOTHING_CLAIMED
 from quasistatic_ref.solve.units import Units, from_natural
 from quasistatic_ref.step.arrays import QUIET, finite
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.solution import SolverStatistics, StepSolution
 
 NONE_OF_OWN = np.zeros(0)
 """Multipliers of rows of a user's own."""

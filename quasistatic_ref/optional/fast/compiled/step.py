@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.plain import bits
@@ -29,7 +30,6 @@ from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.arrays import QUIET
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.solution import StepSolution
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 if TYPE_CHECKING:
@@ -165,7 +165,7 @@ class CompiledStep:
         if not self.reach(self.scene.address) <= SURELY * limits.reach**2:
             limits.check_reach(step, system.links, system.kinematics(q_next).t)
         lap("integrate")
-        return StepResult(q_next, step, solution, points, lap.seconds)
+        return StepResult(q_next, step, solution, points, lap.seconds, q, simulator.scene)
 
     def find_points(self, simulator: FastSimulator, q: Array) -> None:
         """Write the closest points at q: from the short lists; NumPy's where these prove none."""

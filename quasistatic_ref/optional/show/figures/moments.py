@@ -131,7 +131,7 @@ def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
         shapes=drawn_shapes(scene),
         R=kinematics.R,
         t_links=kinematics.t,
-        contacts=tuple(_contact(run, k, j) for j in range(run["phi"].shape[1])),
+        contacts=tuple(_contact(run, k, j, wrench) for j, wrench in enumerate(reported(run, k))),
     )
 
 
@@ -204,9 +204,18 @@ def focus(moments: list[Moment]) -> Array:
     return np.array([every.min(axis=0), every.max(axis=0)])
 
 
-def _contact(run: Trajectory, k: int, j: int) -> DrawnContact:
+def reported(run: Trajectory, k: int) -> Array:
+    """(f_d1, f_d2, f_n, tau_n) of each contact in a step, shape (n_c, 4) [N, N m].
+
+    The forces of single contacts; what the multipliers combine to, where these are not known.
+    """
+    known = run.header["record"] != "light" and run.header.get("alone", True)
+    return np.asarray(run.step_forces(k) if known else run["wrench"][k])
+
+
+def _contact(run: Trajectory, k: int, j: int, wrench: Array) -> DrawnContact:
     frame = np.stack([run["d1"][k, j], run["d2"][k, j], run["n"][k, j]])
-    f_1, f_2, f_n, torque = run["wrench"][k, j]
+    f_1, f_2, f_n, torque = wrench
     mu_v = float(run["mu_v"][j])
     rim = _rim(str(run.header["cone"])) * [mu_v * f_n, mu_v * f_n, f_n]
     return DrawnContact(

@@ -7,12 +7,18 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
+from quasistatic_ref.certify.forces import ContactForces, contact_forces
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.arrays import QUIET, read_only
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import contact_wrenches
+from quasistatic_ref.step.standard_form import load
+
+UNKNOWN = "are not known: a step holds no costs, nonlinear constraints or smoothing"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -129,6 +135,12 @@ class StepSolution(Plain, Shown):
     certificate : Certificate
     statistics : SolverStatistics
         Not compared by ``==``, because it holds wall times.
+    net_impulse : ndarray, shape (n_v,), or None
+        A'lam [N s, N m s] of a certified optimum, correctly rounded, in the ellipsoid to within the
+        enclosure; None where nothing is proved.
+    alone : bool
+        Whether the step is all that was solved: no costs or nonlinear constraints of an extension,
+        and no smoothing.
 
     Notes
     -----
@@ -149,14 +161,53 @@ class StepSolution(Plain, Shown):
     backend: str
     certificate: Certificate
     statistics: SolverStatistics = field(compare=False)
+    net_impulse: Array | None = None
+    alone: bool = True
 
     def __post_init__(self) -> None:
-        for array in (self.delta_q, self.lam, self.lam_extra):
-            array.setflags(write=False)
+        for array in (self.delta_q, self.lam, self.lam_extra, self.net_impulse):
+            if array is not None:
+                array.setflags(write=False)
+
+    @cached_property
+    def forces(self) -> Array:
+        """Each contact's (f_d1, f_d2, f_n, tau_n) on beta's body, shape (n_c, 4) [N, N m].
+
+        They are those of the step in which each contact gives way a little, and therefore unique;
+        see :mod:`~quasistatic_ref.certify.forces`. They are formed from the step when they are
+        read, however it was solved.
+
+        Raises
+        ------
+        InputError
+            If the step is not all that was solved.
+        """
+        return self.compliant.wrench
+
+    @property
+    def imbalance(self) -> float:
+        """How far the forces are from balance (9) at delta_q, relative to the loads [-].
+
+        That is ||delta_q - x||_H / ||H^-1 g||_H, the one definition of error, where x is the
+        displacement with compliance; it is proportional to the compliance.
+        """
+        norm = energy_norm(self.step.H)
+        off = norm.displacement(self.delta_q - self.compliant.delta_q)
+        return off / norm.impulse(load(self.step)) if off else 0.0
+
+    @cached_property
+    def compliant(self) -> ContactForces:
+        """The forces, and delta_q of the step with compliance; InputError as of `forces`."""
+        if not self.alone:
+            raise InputError(UNKNOWN, field="forces")
+        return contact_forces(self.step, near=(self.delta_q, self.wrench))
 
     @cached_property
     def wrench(self) -> Array:
-        """Each contact's (f_d1, f_d2, f_n, tau_n) on beta's body, shape (n_c, 4) [N, N m]."""
+        """What lam combines to, as (f_d1, f_d2, f_n, tau_n) [N, N m], shape (n_c, 4).
+
+        It is the proof's: one of several where multipliers are not unique.
+        """
         step = self.step
         of_step = step.contacts, self.lam, step.h, step.cone
         return read_only(QUIET.copy().run(contact_wrenches, *of_step))
@@ -178,8 +229,14 @@ def step_solution(
     lam: Array,
     certificate: Certificate,
     statistics: SolverStatistics,
+    net_impulse: Array | None = None,
+    alone: bool = True,
 ) -> StepSolution:
-    """The solution of a step from delta_q (n_v,) and lam (m,), in which own rows come last."""
+    """The solution of a step from delta_q (n_v,) and lam (m,), in which own rows come last.
+
+    `net_impulse`, shape (n_v,) [N s, N m s], is A'lam where it is proved.
+    """
     m = int(step.offsets[-1])
     backend = statistics.backend
-    return StepSolution(delta_q, lam[:m], lam[m:], step, backend, certificate, statistics)
+    of_step = step, backend, certificate, statistics, net_impulse, alone
+    return StepSolution(delta_q, lam[:m], lam[m:], *of_step)

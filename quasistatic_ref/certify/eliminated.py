@@ -1,0 +1,197 @@
+"""The step with compliance in delta_q alone, without rounding: contact forces, proved.
+
+See :mod:`~quasistatic_ref.certify.forces`.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import lcm
+from typing import Final
+
+import numpy as np
+from flint import fmpq
+
+from quasistatic_ref.certify.active_set import Farkas, dual_active_set
+from quasistatic_ref.certify.exact import nearest_numbers
+from quasistatic_ref.certify.faces import (
+    Rows,
+    exact_multipliers,
+    exact_numbers,
+    face,
+    nearest_face,
+)
+from quasistatic_ref.certify.farkas import farkas_vector
+from quasistatic_ref.certify.point import Point, ball_form
+from quasistatic_ref.certify.rational import (
+    Dyadic,
+    ExactForm,
+    contact_motion,
+    dyadic,
+    fraction,
+    h_times_hessian,
+    h_times_load,
+    in_integers,
+    joined,
+    two_to,
+)
+from quasistatic_ref.errors import StepInfeasible
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.friction import scaled_by
+
+PROOFS: Final = 30
+"""Newton iterations in exact numbers, at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """The optimum with compliance if the force of each contact lay on a given face.
+
+    Parameters
+    ----------
+    point : Point
+        The minimiser of a program in delta_q. Its rows are the conditions of the faces, contact by
+        contact, then s times the coefficients of friction, then the user's own rows.
+    own : int
+        Where the user's own rows start.
+    s_unit : fmpq
+        s times the coefficients = s_unit * slack of its rows [m, m^2].
+    """
+
+    point: Point
+    own: int
+    s_unit: fmpq
+
+
+class EliminatedStep:
+    """The step with compliance in delta_q alone, without rounding.
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone.
+    compliance : float
+        [m/N].
+    """
+
+    def __init__(self, step: StepData, compliance: float) -> None:
+        contacts, c = step.contacts, dyadic(compliance)
+        self.step, self.h, self.compliance = step, dyadic(step.h), fraction(compliance)
+        self.H, self.g = c * h_times_hessian(step), c * h_times_load(step)  # times h c
+        self.mu = dyadic(scaled_by(contacts).reshape(-1, 1))
+        mu = Dyadic(self.mu.m.reshape(-1, 4, 1), self.mu.e)
+        gap = np.zeros((contacts.n_c, 4, 1))
+        gap[:, 0, 0] = contacts.phi
+        self.z = joined([mu * contact_motion(contacts), dyadic(gap)], axis=2)  # times [x; 1]
+        self.own = joined([dyadic(step.extra.A), dyadic(-step.extra.b[:, None])], axis=1)
+
+    def candidate(self, faces: Sequence[Rows], held: Sequence[int]) -> Candidate:
+        """The optimum on the face of each contact; `held` are user's rows to start from.
+
+        Raises
+        ------
+        StepInfeasible
+            If no displacement satisfies the user's own rows.
+        StepDataError
+            If H, formed without rounding, is not positive definite.
+        """
+        step, n, z = self.step, self.step.n_v, self.z
+        counts = step.counts.tolist()
+        on = [face(step.cone, count, rows) for count, rows in zip(counts, faces, strict=True)]
+        scale = lcm(*(f.denominator for f in on))
+        linear = [(scale // f.denominator) * f.integers for f in on]
+        of_z = [M @ z_j for M, z_j in zip(linear, z.m, strict=True)]
+        conditions = Dyadic(np.concatenate([z.m[:0, 0], *(rows[:-4] for rows in of_z)]), z.e)
+        s = Dyadic(np.concatenate([z.m[:0, 0], *(rows[-4:] for rows in of_z)]), z.e)
+        B = Dyadic(z.m.reshape(-1, n + 1)[:, :n], z.e)
+        # H x - g = h B'p with p = s / c, times h c and the scale
+        push = self.h * self.h * (Dyadic(B.m.T, B.e) @ s)
+        H = Dyadic(scale * self.H.m, self.H.e) - push[:, :n]
+        g = Dyadic(scale * self.g.m, self.g.e) + push[:, n]
+        rows = joined([conditions, self.mu * s, self.own])
+        form = in_integers(H, g, rows[:, :n], -rows[:, n], fmpq(1))
+        first_own = len(conditions.m) + len(s.m)
+        working: tuple[int, ...] = ()
+        if first_own < form.m:
+            under = in_integers(H, g, self.own[:, :n], -self.own[:, n], fmpq(1))
+            working = tuple(first_own + i for i in self._active(under, held))
+        return Candidate(Point(form, ball_form(form), working), first_own, form.slack_unit / scale)
+
+    def _active(self, under: ExactForm, held: Sequence[int]) -> tuple[int, ...]:
+        """The working set of the user's own rows, which are those of a form."""
+        end = dual_active_set(under, held)
+        if not isinstance(end, Farkas):
+            return end.point.working
+        own = np.arange(self.step.offsets[-1], self.step.m)
+        raise StepInfeasible(self.step, farkas_vector(self.step, under, end, own))
+
+    def wrong_faces(self, found: Candidate) -> list[int]:
+        """The contacts that break a condition of their face."""
+        signs = np.array(found.point.decided_slack_signs[: self.step.offsets[-1]])
+        broken = np.flatnonzero(signs < 0)
+        return sorted({*(np.searchsorted(self.step.offsets, broken, side="right") - 1).tolist()})
+
+    def motion(self, found: Candidate, j: int) -> list[fmpq]:
+        """The z of a contact j [m], exact but for the 1e-90 of the balls in which it is."""
+        unit = found.point.form.x_unit
+        x = [unit * v for v in _coordinates(found.point)]
+        terms = [*x, fmpq(1)]
+        size = two_to(self.z.e)
+        return [sum((size * b * v for b, v in zip(row, terms, strict=True)), fmpq(0))
+                for row in self.z.m[j].tolist()]  # fmt: skip
+
+    def numbers(self, found: Candidate) -> tuple[Array, Array]:
+        """The p, scaled to forces, shape (n_c, 4) [N, N m], and delta_q of a candidate, rounded."""
+        point, n_c = found.point, self.step.contacts.n_c
+        entries = range(found.own - 4 * n_c, found.own)
+        p = nearest_numbers(point, lambda at: at.slack, found.s_unit / self.compliance, entries)
+        x = nearest_numbers(point, lambda at: at.x, point.form.x_unit, range(self.step.n_v))
+        return p.reshape(-1, 4), x
+
+
+def eliminated_optimum(
+    step: StepData, compliance: float, faces: list[Rows], held: Sequence[int]
+) -> tuple[Array, Array] | None:
+    """The optimum with compliance, by Newton's method in exact numbers.
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone.
+    compliance : float
+        [m/N].
+    faces : list of tuple of int, length n_c
+        Where to start: nearly always the right ones.
+    held : sequence of int
+        The user's rows that seem to be active.
+
+    Returns
+    -------
+    (ndarray, ndarray) or None
+        (f_n, f_d1, f_d2, tau_n) of each contact, shape (n_c, 4) [N, N m], and delta_q, shape
+        (n_v,), each number rounded correctly; None if the method does not end soon.
+
+    Raises
+    ------
+    StepDataError, StepInfeasible
+        As :meth:`EliminatedStep.candidate`.
+    """
+    program, C = EliminatedStep(step, compliance), exact_numbers(cone(step.cone).matrix)
+    for _ in range(PROOFS):
+        found = program.candidate(faces, held)
+        wrong = program.wrong_faces(found)
+        if not wrong:
+            return program.numbers(found)
+        for j in wrong:
+            z = np.array(program.motion(found, j))
+            faces[j] = nearest_face(C[: step.counts[j]], z, exact_multipliers)
+    return None
+
+
+def _coordinates(point: Point) -> list[fmpq]:
+    """The x of a point in its form's units: the midpoints of its balls, where there are any."""
+    if point.balls is None:
+        return [fmpq(v) / point.rational.denominator for v in point.rational.x]
+    dyadics = [ball.mid().man_exp() for ball in point.balls.x]
+    return [fmpq(m) * two_to(int(e)) for m, e in dyadics]

@@ -1,0 +1,195 @@
+r"""Contact forces with one answer: those of the same step in which each contact gives way a little.
+
+Optimal multipliers are not unique: four feet of a rigid block share its weight in many ways. With a
+compliance c [m/N] at each contact there is one way. A contact's gap, slips and spin after the step
+are four lengths z = B delta_q + (phi, 0, 0, 0), which its friction cone confines to a cone K. In
+the step with compliance a private displacement s of four lengths is added to z, and \|s\|^2 / (2c)
+to the energy:
+
+.. math:: z + s \in K, \qquad p = s / c = (f_n, f_1/\mu_v, f_2/\mu_v, \tau_n/\mu_\omega) \in F.
+
+F is the cone of the forces: what multipliers >= 0 of the rows of K combine to. This is a step again
+(:func:`compliant_form`), in which s is un-actuated and has the inertia h^2 / c. Without s, it is a
+step without contact rows, in which each contact pushes with the point of F nearest to -z:
+
+.. math:: c\,p_j = \Pi_F(-z_j), \qquad H \delta q - g = h \sum_j B_j^T p_j.
+
+On a face of F the nearest point is linear in z. Once the face of each contact is known, delta_q
+solves a linear system. Newton's method guesses the faces in float64; that they are right is decided
+by exact signs; and the forces of the exact solution are rounded correctly.
+"""
+
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from flint import fmpq
+
+from quasistatic_ref.certify.active_set import Optimum, dual_active_set
+from quasistatic_ref.certify.eliminated import eliminated_optimum
+from quasistatic_ref.certify.exact import exact_step, nearest_numbers
+from quasistatic_ref.certify.face_guess import guessed_faces
+from quasistatic_ref.certify.gap import fractions
+from quasistatic_ref.certify.rational import (
+    ExactForm,
+    block_diagonal,
+    dyadic,
+    fraction,
+    friction_rows,
+    h_times_hessian,
+    h_times_load,
+    in_integers,
+    joined,
+)
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.step.arrays import QUIET, read_only
+from quasistatic_ref.step.cones import CurvedCone, cone
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import contact_wrenches, row_gaps, scaled_by
+from quasistatic_ref.step.groups import parts
+from quasistatic_ref.tolerances import COMPLIANCE
+
+WRENCH: Final = [1, 2, 0, 3]
+"""Where (f_d1, f_d2, f_n, tau_n) stand in p."""
+
+
+@dataclass(frozen=True, eq=False)
+class ContactForces:
+    """The forces of a step's contacts.
+
+    Parameters
+    ----------
+    wrench : ndarray, shape (n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m].
+    delta_q : ndarray, shape (n_v,)
+        Where the step with compliance ends [m, rad].
+    """
+
+    wrench: Array
+    delta_q: Array
+
+    def __post_init__(self) -> None:
+        read_only(self.wrench)
+        read_only(self.delta_q)
+
+
+def contact_forces(
+    step: StepData,
+    compliance: float = COMPLIANCE,
+    near: tuple[Array, Array] | None = None,
+) -> ContactForces:
+    """The forces of a step's contacts, each number rounded correctly.
+
+    In the ellipsoid, whose forces are in general not rational, they are rounded from an enclosure.
+
+    Parameters
+    ----------
+    step : StepData
+    compliance : float
+        Of each contact [m/N], > 0.
+    near : (ndarray, ndarray), optional
+        delta_q, shape (n_v,) [m, rad], and wrenches, shape (n_c, 4) [N, N m], of the step without
+        compliance: where the forces are sought. Without them, that step is solved first. The
+        result does not depend on them.
+
+    Returns
+    -------
+    ContactForces
+
+    Raises
+    ------
+    InputError
+        If the compliance is no positive number, or nothing can be proved in this thread.
+    StepDataError
+        If H, formed without rounding, is not positive definite.
+    StepInfeasible, StepIllPosed
+        If the step has no solution, and `near` does not say otherwise.
+    StepNotSolved
+        If in the ellipsoid no enclosure is found.
+    """
+    if not 0 < compliance < np.inf:
+        problem = "must be a positive number of metres per newton"
+        raise InputError(problem, field="compliance", value=compliance)
+    wrench, delta_q = np.zeros((step.contacts.n_c, 4)), np.zeros(step.n_v)
+    for group, part in parts(step):
+        x, f = group.coordinates, group.contacts
+        found = _of_group(part, compliance, None if near is None else (near[0][x], near[1][f]))
+        delta_q[x], wrench[f] = found.delta_q, found.wrench
+    return ContactForces(wrench, delta_q)
+
+
+def _of_group(step: StepData, compliance: float, near: tuple[Array, Array] | None) -> ContactForces:
+    """The forces of a step by itself, or of a group of bodies of one."""
+    kind = cone(step.cone)
+    if isinstance(kind, CurvedCone):
+        return kind.forces(step, compliance, near)
+    if near is None:
+        rigid = exact_step(step)
+        lam = rigid.lam[: step.offsets[-1]]
+        near = rigid.delta_q, contact_wrenches(step.contacts, lam, step.h, step.cone)
+    faces, held = QUIET.copy().run(guessed_faces, step, compliance, near)
+    optimum = eliminated_optimum(step, compliance, faces, held)
+    p, delta_q = defined_optimum(step, compliance) if optimum is None else optimum
+    return ContactForces(p[:, WRENCH], delta_q)
+
+
+def compliant_form(step: StepData, compliance: float) -> ExactForm:
+    """The step with compliance: its coordinates are [delta_q; s], s of four lengths a contact [m].
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone.
+    compliance : float
+        [m/N].
+
+    Returns
+    -------
+    ExactForm
+        Rows as of :func:`~quasistatic_ref.certify.rational.exact_form`.
+    """
+    h, c, n_c = dyadic(step.h), dyadic(compliance), step.contacts.n_c
+    # Eq. (13) with the energy |s|^2 / (2c), times h c
+    H = block_diagonal(c * h_times_hessian(step), h * h * dyadic(np.eye(4 * n_c)))
+    g = joined([c * h_times_load(step), dyadic(np.zeros(4 * n_c))])
+    gives = np.zeros((n_c, *cone(step.cone).matrix.shape, n_c))
+    gives[range(n_c), :, :, range(n_c)] = cone(step.cone).matrix
+    gives = gives.transpose(0, 1, 3, 2)[step.mask].reshape(int(step.offsets[-1]), 4 * n_c)
+    of_contacts = friction_rows(step.contacts, step.cone)[step.mask]
+    own = joined([dyadic(step.extra.A), dyadic(np.zeros((len(step.extra.b), 4 * n_c)))], axis=1)
+    A = joined([joined([of_contacts, dyadic(gives)], axis=1), own])
+    gaps = row_gaps(step.contacts, step.cone)[step.mask]
+    b = joined([dyadic(-gaps), dyadic(step.extra.b)])
+    return in_integers(H, g, A, b, fraction(step.h) * fraction(compliance))
+
+
+def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
+    """The same as :func:`~quasistatic_ref.certify.eliminated.eliminated_optimum`, as it is defined.
+
+    Every s is solved for, which takes 30 times longer, and always ends.
+
+    Parameters
+    ----------
+    step : StepData
+        In a polyhedral cone; the user's own rows do not contradict each other.
+    compliance : float
+        [m/N].
+
+    Returns
+    -------
+    ndarray, shape (n_c, 4)
+        (f_n, f_d1, f_d2, tau_n) of each contact [N, N m].
+    ndarray, shape (n_v,)
+        delta_q.
+    """
+    form = compliant_form(step, compliance)
+    end = dual_active_set(form)
+    assert isinstance(end, Optimum)
+    of_s = fractions(scaled_by(step.contacts).ravel(), fraction(compliance))
+    units = [form.x_unit * unit for unit in [fmpq(1)] * step.n_v + of_s]
+
+    def coordinates(found: Any) -> list[Any]:
+        return [unit * x for unit, x in zip(units, found.x, strict=True)]
+
+    numbers = nearest_numbers(end.point, coordinates, fmpq(1), range(form.n))
+    return numbers[step.n_v :].reshape(-1, 4), numbers[: step.n_v]

@@ -1,0 +1,215 @@
+"""Contact forces by compliance: unique, continuous, the same from every start and order."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify import forces
+from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.face_guess import guessed_faces
+from quasistatic_ref.certify.forces import WRENCH, contact_forces, defined_optimum
+from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
+from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.tolerances import COMPLIANCE
+from tests.helpers import changed
+from tests.oracles.compliant_forces import forces as independent_forces
+from tests.oracles.random_steps import mixed_step
+from validation.make import forces as checks
+
+H, M, G, MU_V = 0.01, 1.0, 9.81, 0.5
+CORNERS = [[x, y, -0.03] for x in (0.05, -0.05) for y in (0.05, -0.05)]
+CONES = ("pyramid", "product", "facets-6", "frictionless", "ellipsoid")
+POLYHEDRAL = CONES[:-1]
+
+
+def block(rows: int = 6, push: float = 0.0, mu_omega: float = 0.01, cone: str = "pyramid"):
+    """A block of 0.1 x 0.1 x 0.06 m on four corners, pushed at its bottom."""
+    wrench = [push, 0, -M * G, 0, 0.03 * -push, 0]
+    frames = [np.eye(3)] * 4
+    args = {"mu_v": MU_V, "mu_omega": mu_omega, "rows": rows, "h": H}
+    return rigid_step(M, (0.002, 0.002, 0.003), wrench, CORNERS, frames, **args).replace(cone=cone)
+
+
+def noisy(step: StepData, size: float) -> StepData:
+    """The same with noise in phi [m] and in J."""
+    rng = np.random.default_rng(1)
+    k = step.contacts
+    noise = {name: size * rng.standard_normal(getattr(k, name).shape) for name in ("phi", "J")}
+    fields = {name: getattr(k, name) + noise[name] for name in noise}
+    return step.replace(contacts=changed(k, **fields))
+
+
+def degenerate_steps(count: int):
+    """The first random steps that have a solution, each in one cone."""
+    seed = found = 0
+    while found < count:
+        step = mixed_step(seed).replace(cone=POLYHEDRAL[seed % len(POLYHEDRAL)])
+        seed += 1
+        try:
+            exact_step(step)
+        except QuasistaticError:
+            continue
+        found += 1
+        yield step
+
+
+@pytest.mark.parametrize("cone", CONES)
+def test_a_symmetric_block_bears_equal_forces_without_friction(cone):
+    solution = solve_step(block(cone=cone))
+    # (M / h) x + h M G = 4 h p, x = -c p
+    f_n = M * G / (4 + M * COMPLIANCE / H**2)
+    assert len(np.unique(solution.forces, axis=0)) == 1
+    np.testing.assert_array_equal(solution.forces[0, [0, 1, 3]], 0.0)
+    np.testing.assert_allclose(solution.forces[0, 2], f_n, rtol=4e-16)
+    # Sum over the loads: 4 f_n = M G less M x / h^2.
+    off = COMPLIANCE * f_n  # the rigid block stays where it is
+    unconstrained = H**2 * G
+    np.testing.assert_allclose(solution.imbalance, off / unconstrained, rtol=1e-9)
+
+
+def test_forces_converge_in_proportion_to_the_compliance():
+    """Their mean, M G / (4 + M c / h^2), (R43)."""
+    step = block(push=2.0)
+    limit = M * G / 4
+    for c in (1e-6, 1e-9, 1e-12):
+        off = np.abs(contact_forces(step, c).wrench[:, 2].mean() - limit)
+        np.testing.assert_allclose(off, limit * M * c / H**2 / 4, rtol=3e-3)
+
+
+@pytest.mark.parametrize("rows", [4, 6])
+def test_four_and_six_rows_are_alike_without_mu_omega(rows):
+    alike = contact_forces(block(4, push=1.0, mu_omega=0.0)).wrench
+    other = contact_forces(block(rows, push=1.0, mu_omega=0.0)).wrench
+    assert other.tobytes() == alike.tobytes()
+
+
+@pytest.mark.parametrize("cone", CONES)
+def test_noise_of_rounding_size_does_not_change_them(cone):
+    step = block(push=1.0, cone=cone)
+    clean = contact_forces(step).wrench
+    off = contact_forces(noisy(step, 1e-17)).wrench - clean
+    assert np.abs(off).max() < 1e-6 * M * G
+
+
+def test_permuted_contacts_have_permuted_forces():
+    for step in degenerate_steps(6):
+        order = np.random.default_rng(0).permutation(step.contacts.n_c)
+        moved = step.replace(contacts=repeated(step.contacts, order))
+        there = contact_forces(moved)
+        here = contact_forces(step)
+        assert there.wrench.tobytes() == here.wrench[order].tobytes()
+        assert there.delta_q.tobytes() == here.delta_q.tobytes()
+
+
+def test_the_eliminated_step_has_the_bits_of_its_definition():
+    for step in degenerate_steps(8):
+        p, delta_q = defined_optimum(step, COMPLIANCE)
+        found = contact_forces(step)
+        assert found.wrench.tobytes() == p[:, WRENCH].tobytes()
+        assert found.delta_q.tobytes() == delta_q.tobytes()
+
+
+def test_where_newtons_method_does_not_end_the_definition_decides(monkeypatch):
+    step = block(push=1.0)
+    quick = contact_forces(step).wrench
+    monkeypatch.setattr(forces, "eliminated_optimum", lambda *_: None)
+    assert contact_forces(step).wrench.tobytes() == quick.tobytes()
+
+
+def test_wrong_guesses_are_mended_in_exact_numbers(monkeypatch):
+    """Faces on which no contact bears a load."""
+
+    def nothing(step, compliance, near):
+        guessed_faces(step, compliance, near)
+        return [()] * step.contacts.n_c, []
+
+    for step in degenerate_steps(2):
+        quick = contact_forces(step).wrench
+        with monkeypatch.context() as patch:
+            patch.setattr(forces, "guessed_faces", nothing)
+            assert contact_forces(step).wrench.tobytes() == quick.tobytes()
+
+
+def test_every_backend_and_speed_has_the_same_bits():
+    run = load_scenario("bunny_grasp", ["steps=40"], fast=True).run(progress=False)
+    step = run.step_data(39)
+    answers = [solve_step(step, name) for name in ("clarabel", "osqp", "piqp", "daqp", "none")]
+    answers += [solve_step(step, "daqp", fast=True), solve_step(step, certify="off")]
+    assert len({answer.forces.tobytes() for answer in answers}) == 1
+    assert answers[0].forces[:, 2].max() > 1.0
+
+
+def test_a_row_of_a_user_stays_hard():
+    step = block(push=9.0)
+    names = ("wall",)
+    row = np.eye(6)[:1]
+    walled = step.replace(extra=Extra(names, -row, np.zeros(1)))  # x <= 0
+    solution = solve_step(walled)
+    assert solution.compliant.delta_q[0] == 0.0
+    assert solution.compliant.delta_q[2] < 0.0
+
+
+def test_rows_that_contradict_each_other_are_proved_to():
+    step = block()
+    A = np.array([np.eye(6)[0], -np.eye(6)[0]])
+    near = np.zeros(6), np.zeros((4, 4))
+    with pytest.raises(StepInfeasible, match="cannot be satisfied by any displacement"):
+        contact_forces(step.replace(extra=Extra(("a", "b"), A, np.ones(2))), near=near)
+
+
+def test_a_generic_slope_keeps_its_shares_for_40_steps():
+    """The rough block of block_incline, which holds; gravity pulls across the slope, too."""
+    scenario = load_scenario("block_incline", ["gravity=[0.3, 0.5, -9.79]"], fast=True)
+    simulator, q = scenario.simulator(), scenario.system.q_start
+    shares = []
+    for _ in range(40):
+        result = simulator.step(q, np.zeros(0))
+        q = result.q
+        shares.append(result.solution.forces[:4])
+    load = shares[0][:, 2].sum()
+    assert len(np.unique(shares[0], axis=0)) == 4
+    assert np.abs(np.array(shares) - shares[0]).max() < 1e-6 * load
+
+
+def test_a_doubled_contact_shares_its_load():
+    """Two springs are stiffer than one, (R44)."""
+    step = block()
+    doubled = step.replace(contacts=repeated(step.contacts, [0, 0, 1, 2, 3]))
+    f_n = contact_forces(doubled).wrench[:, 2]
+    # f = a + b x + c y with sums N, 0 and 0 over f, f x and f y: the corner twice, its neighbours,
+    # the opposite one.
+    expected = M * G * np.array([1 / 7, 1 / 7, 3 / 14, 3 / 14, 2 / 7])
+    np.testing.assert_allclose(f_n, expected, rtol=1e-5)
+
+
+@pytest.mark.parametrize("compliance", [0.0, -1e-9, np.inf, np.nan])
+def test_a_compliance_that_is_none_is_refused(compliance):
+    with pytest.raises(InputError, match="compliance: must be a positive number"):
+        contact_forces(block(), compliance)
+
+
+def test_net_impulse_has_its_bits_from_every_backend():
+    step = block(push=1.0)
+    answers = [solve_step(step, name) for name in ("clarabel", "osqp", "daqp", "none")]
+    expected = exact_step(step).net
+    assert {answer.net_impulse.tobytes() for answer in answers} == {expected.tobytes()}
+    assert solve_step(step, certify="off").net_impulse is None
+
+
+def test_whatever_should_not_matter_does_not(monkeypatch):
+    """A sample of validation/make/forces.py, with its method in 60 digits; and a planted fault."""
+    monkeypatch.setattr(checks, "BACKENDS", ("daqp", "none"))
+    found = checks.differences(mixed_step(3), oracle=True)
+    assert {"backends", "fast", "permuted", "definition", "independent"} <= set(found)
+    assert not any(found.values())
+    for seed in (4, 8):
+        step = mixed_step(seed)
+        expected = independent_forces(step, COMPLIANCE)
+        assert contact_forces(step).wrench.tobytes() == expected.tobytes()
+        monkeypatch.setattr(
+            checks, "independent_forces", lambda *_, wrong=expected: np.nextafter(wrong, 1.0)
+        )
+        assert checks.differences(step, oracle=True)["independent"] == 1
