@@ -18,10 +18,10 @@ from quasistatic_ref.step.data import Array
 
 TIME_STEPS = tuple(np.geomspace(0.5e-3, 0.1, 6).tolist())
 """h [s]."""
-K_Q = 1e6
+K_Q = 1e7
 """So stiff that the lag is steady after few steps: it approaches by 1 / (1 + h^2 K_q / m) [N/m]."""
 SETTINGS = (
-    "steps=50",
+    "steps=15",
     f"bodies.pusher.K_q.slide={K_Q}",
     "bodies.pusher.pose.xyz=[-0.06, 0, 0.05]",  # the plate touches the block
     f"bodies.pusher.targets=[{{t=0.0, slide=0.0}}, {{t=8.0, slide={8.0 * V}}}]",

@@ -98,7 +98,7 @@ PAIRS = {
         ROUNDING,
     ),
     "a twist leads along an arc": ("a_screw", ROUNDING, 0.0),
-    # Lag and lift approach their limits as in the_step_loop, by 1 / 1.5 a step, 50 steps: 2e-9.
+    # Lag and lift approach their limits as in the_step_loop, by 1 / 6 a step, 15 steps: 2e-12.
     "drag and boundary layer are v over mu_v g h and mu_v h v": ("drag_against_h", SCENARIO, 0.0),
     "a square patch holds mu a times the cosine of its tangents angle": (
         "flat_patch",
