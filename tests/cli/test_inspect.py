@@ -10,7 +10,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.cli.options import WIDTH
 from quasistatic_ref.formats.resources import scenario_names
 from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, robot, written
-from tests.scenes import RAIL
+from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import ROUNDING
 
 
@@ -137,3 +137,46 @@ def test_findings_are_listed_before_a_run(capsys):
     assert main([*arguments, "--json"]) == 0
     (found,) = json.loads(capsys.readouterr().out)["findings"]
     assert (found["name"], found["grave"]) == ("too few points", True)
+
+
+def inspected(capsys, *arguments):
+    assert main(["inspect", *arguments, "--json"]) == 0
+    record = json.loads(capsys.readouterr().out)["time_step"]
+    assert main(["inspect", *arguments]) == 0
+    return record, " ".join(capsys.readouterr().out.split())
+
+
+def test_inspect_says_from_which_time_step_on_drag_is_small(scene, capsys):
+    """(R13): m v / h < mu_v m g / 10 where h > 10 v / (mu_v g)."""
+    record, text = inspected(capsys, scene)
+    v, mu_v, g = 0.02 / 0.1, 0.3, 9.81  # the plate's way and time, and the smaller mu_v
+    assert record["target_speed"] == pytest.approx(v, rel=ROUNDING)
+    assert record["small_drag_from"] == pytest.approx(10 * v / (mu_v * g), rel=ROUNDING)
+    assert record["target_turn"] == 0.0  # the wheel turns, and touches nothing
+    assert record["between_waypoints"] == 0.1
+    assert "move by up to 0.2 m/s; drag is below a tenth of friction" in text
+    assert "on a body's weight from h = 0.68 s on; waypoints are at least 0.1 s apart" in text
+    weightless, text = inspected(capsys, scene, "--set", "gravity=[0, 0, 0]")
+    assert weightless == record | {"small_drag_from": None}
+    assert "drag" not in text
+
+
+def test_inspect_says_how_far_a_target_turns_in_a_step(tmp_path, capsys):
+    """270 degrees in 10 ms and h = 2 ms: 54 degrees a step, a chord of 2 r sin(27 deg)."""
+    club = str(written_scenario(tmp_path, SWING))
+    record, text = inspected(capsys, club, "--set", "h=0.002", "--set", "steps=30")
+    turn, r = 1.5 * np.pi / 5, 0.2
+    assert record["target_turn"] == pytest.approx(turn, rel=ROUNDING)
+    assert record["target_speed"] == pytest.approx(2 * r * np.sin(turn / 2) / 0.002, rel=ROUNDING)
+    assert "targets turn by up to 0.9425 rad a step; waypoints are at least 0.01 s apart" in text
+
+
+def test_inspect_is_silent_on_time_steps_where_no_target_moves(capsys):
+    record, text = inspected(capsys, "sphere_spin")
+    assert record == {
+        "target_speed": 0.0,
+        "small_drag_from": None,
+        "target_turn": 0.0,
+        "between_waypoints": None,
+    }
+    assert "targets" not in text.partition("the fields of its file")[0]

@@ -20,6 +20,7 @@ EXAMPLES: Final = (
     "block_on_an_incline",
     "slip_margins",
     "pushed_block",
+    "drag_against_h",
     "coulomb_against_convex_slip",
     "planar_pushing",
     "flat_patch",

@@ -98,6 +98,8 @@ PAIRS = {
         ROUNDING,
     ),
     "a twist leads along an arc": ("a_screw", ROUNDING, 0.0),
+    # Lag and lift approach their limits as in the_step_loop, by 1 / 6 a step, 15 steps: 2e-12.
+    "drag and boundary layer are v over mu_v g h and mu_v h v": ("drag_against_h", SCENARIO, 0.0),
     "a square patch holds mu a times the cosine of its tangents angle": (
         "flat_patch",
         0.0,
@@ -115,7 +117,7 @@ def test_measured_and_expected_stand_side_by_side_and_agree(name, rtol, atol):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 37
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 38
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
