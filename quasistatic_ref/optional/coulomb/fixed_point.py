@@ -41,8 +41,8 @@ class CoulombSolution:
     s : ndarray, shape (n_c,)
         By how much phi was raised [m].
     residual : float
-        Largest difference of s from that of the solution's own slip [m]. All other conditions of
-        the complementarity problem hold exactly.
+        Largest difference of s from that of the solution's own slip [m]. The certificate
+        proves all other conditions of the complementarity problem, for phi + s in float64.
     iterations : int
         Number of convex steps that were solved.
     """
