@@ -40,6 +40,7 @@ _HOMES = {
     "step.extension": "Extension",
     "certify.solution": "StepSolution Certificate",
     "solve.solve": "solve_step",
+    "optional.coulomb.fixed_point": "coulomb_step",
     "certify.certificate": "verify",
     "certify.forces": "contact_forces",
     "optional.derivatives.step.sensitivity": "sensitivity",

@@ -179,6 +179,10 @@ CLOSED_FORM: Final = 1e-12
 
 The optimum is exact and rounded once; formula and data are a few dozen operations in float64."""
 
+COULOMB: Final = 1e-12
+"""Largest difference of s from that of the next iterate, relative to the longest motion of a
+contact [-], at which s is its own: each iterate is exact, and s a sum of rounded products."""
+
 BEARS: Final = 1e-9
 """Least normal force of a contact that bears load, over the largest normal force of its step [-]:
 solvers leave 1e-12 of the largest on contacts that do not touch."""

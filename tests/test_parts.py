@@ -43,10 +43,13 @@ def test_a_part_is_a_module_or_none_and_a_mistaken_name_is_no_missing_part(witho
     assert parts.part("doctor.table") is not None
 
 
-def test_a_name_of_the_front_door_needs_its_part(without):
-    without("derivatives")
-    with pytest.raises(InputError, match=r"^smoothed needs quasistatic_ref/optional/derivatives$"):
-        _ = quasistatic_ref.smoothed
+@pytest.mark.parametrize(
+    ("name", "folder"), [("smoothed", "derivatives"), ("coulomb_step", "coulomb")]
+)
+def test_a_name_of_the_front_door_needs_its_part(without, name, folder):
+    without(folder)
+    with pytest.raises(InputError, match=f"^{name} needs quasistatic_ref/optional/{folder}$"):
+        getattr(quasistatic_ref, name)
 
 
 def test_a_run_without_doctor_and_runs_is_recorded_and_written(without, tmp_path):

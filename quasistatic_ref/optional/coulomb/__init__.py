@@ -1,0 +1,1 @@
+"""The step under Coulomb's law, without the rise of sliding contacts."""

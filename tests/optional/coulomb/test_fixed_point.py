@@ -1,0 +1,119 @@
+"""The step under Coulomb's law: closed forms of the iteration, and the law itself at its end.
+
+A contact that slides by x from rest, with X = h^2 (F - mu m g) / m Coulomb's slip, is in the convex
+model with phi + s
+
+    z = mu x - s,   x + mu z = X,   hence   mu x = (1 - r) mu X + r s,   r = mu^2 / (1 + mu^2):
+
+iterate k, from s = 0, is x_k = (1 - r^k) X, with the residual mu (x_k - x_{k-1}). Of a sphere that
+spins, x is the angle, mu_omega stands for mu_v, and the rise has m where the spin has I:
+r = m mu_omega^2 / (I + m mu_omega^2).
+"""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
+from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step, slip_norms
+from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.tolerances import CLOSED_FORM
+from tests.helpers import point_on_floor, random_step, sphere_on_floor
+
+M, H = 0.3, 0.01
+WEIGHT = M * GRAVITY
+
+
+def point(mu):
+    """A point under twice the force that Coulomb's friction bears; x, its X and r."""
+    step = point_on_floor(m=M, mu_v=mu, force=(2 * mu * WEIGHT, 0.0, -WEIGHT), h=H)
+    return step, 0, H**2 * mu * GRAVITY, mu**2 / (1 + mu**2)
+
+
+def sphere(mu):
+    """A sphere under twice the torque that Coulomb's friction bears; its angle, X and r."""
+    inertia = 2e-4
+    load = (0.0, 0.0, -WEIGHT, 0.0, 0.0, 2 * mu * WEIGHT)
+    step = sphere_on_floor(m=M, inertia=inertia, mu_omega=mu, wrench=load, h=H)
+    return step, 5, H**2 * mu * WEIGHT / inertia, M * mu**2 / (inertia + M * mu**2)
+
+
+def guide(push, mu=0.5):
+    """A point between two walls without clearance, pushed along them."""
+    x, z = np.eye(3)[[0, 2]]
+    y = np.eye(3)[1]
+    frames = np.array([[x, -z, y], [x, z, -y]])
+    contacts = contacts_of([0.0, 0.0], frames, [np.eye(4, 3)] * 2, mu)
+    return free_step(M * np.eye(3), (push, 0.0, 0.0), contacts, H)
+
+
+@pytest.mark.parametrize(
+    ("scene", "mu"), [(point, 0.5), (point, 1.0), (sphere, 0.01), (sphere, 0.02)]
+)
+def test_point_and_sphere_converge_at_their_rates_to_coulombs_slip(scene, mu):
+    step, sliding, X, r = scene(mu)
+    for k in (1, 2, 5):
+        iterate = coulomb_step(step, fast=True, most=k)
+        assert not iterate.found
+        assert iterate.iterations == k
+        assert iterate.delta_q[sliding] == pytest.approx((1 - r**k) * X, rel=CLOSED_FORM)
+        assert iterate.residual == pytest.approx(mu * X * r ** (k - 1) * (1 - r), rel=1e-10)
+    at_end = coulomb_step(step, fast=True)
+    assert at_end.found
+    assert at_end.delta_q[sliding] == pytest.approx(X, rel=1e-11)
+    # At iterate k the residual over mu X is r^(k - 1) (1 - r), and 1e-12 ends it.
+    expected = 1 + np.log(1e-12 / (1 - r)) / np.log(r)
+    assert abs(at_end.iterations - expected) < 2
+    assert at_end.delta_q[2] == pytest.approx(0.0, abs=1e-11 * mu * X)
+
+
+@pytest.mark.parametrize("cone", ["pyramid", "ellipsoid", "product", "facets-8", "frictionless"])
+def test_a_solution_has_coulombs_law_and_nothing_that_bears_lifts_off(cone):
+    """0 <= gap _|_ f_n >= 0, and friction does all the work that its cone allows against slip."""
+    rng = np.random.default_rng(3)
+    bearing = 0
+    for _ in range(1 if cone == "ellipsoid" else 4):
+        step = random_step(rng).replace(cone=cone)
+        at_end = coulomb_step(step, fast=cone != "ellipsoid")
+        assert at_end.found
+        last = at_end.solution
+        assert verify(last.step, last.delta_q, last.certificate.active, last.lam, last.certificate)
+        J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
+        gap = step.contacts.phi + J_n @ at_end.delta_q
+        slips = np.stack([J @ at_end.delta_q for J in (J_1, J_2, J_w)], axis=1)
+        f_1, f_2, f_n, tau_n = last.wrench.T
+        forces = np.stack([f_1, f_2, tau_n], axis=1)
+        longest = np.abs(at_end.delta_q).max()
+        s = slip_norms(step, at_end.delta_q)
+        assert gap.min() >= -1e-10 * longest
+        assert np.abs(f_n * gap).max() <= 1e-10 * longest * f_n.max()
+        work = (forces * slips).sum(axis=1)
+        assert np.abs(work + f_n * s).max() <= 1e-10 * longest * f_n.max()
+        bearing += int(((f_n > 0) & (s > 1e-3 * longest)).sum())
+    assert bearing or cone == "frictionless"  # some contact slides under load
+
+
+@pytest.mark.parametrize("s", [0.0, 1e-5, 1e-4, 1.0])
+def test_a_guide_slides_as_far_as_the_start_says(s):
+    """With s >= mu |x| at both walls x is min(s / mu, h^2 F / m), and is found from itself."""
+    F, mu = 6.0, 0.5
+    step = guide(F, mu)
+    at_end = coulomb_step(step, fast=True, start=[s, s])
+    x = min(s / mu, H**2 * F / M)
+    assert at_end.found
+    assert at_end.delta_q == pytest.approx([x, 0.0, 0.0], rel=CLOSED_FORM, abs=1e-18)
+    along, _, normal, _ = at_end.solution.wrench.T
+    friction = F - M * x / H**2
+    assert -along.sum() == pytest.approx(friction, abs=1e-10 * F)
+    assert mu * normal.sum() >= (1 - 1e-10) * friction
+
+
+def test_what_is_not_usable_is_refused_in_a_sentence():
+    step = point(0.5)[0]
+    for start in ([-1.0], [np.nan], [0.0, 0.0]):
+        with pytest.raises(InputError, match=r"^start: must have one length >= 0 for each contact"):
+            coulomb_step(step, start=start)
+    with pytest.raises(InputError, match=r"^most: must be at least 1 \(got 0\)$"):
+        coulomb_step(step, most=0)
