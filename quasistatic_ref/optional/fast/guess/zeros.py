@@ -98,13 +98,14 @@ class _Claim:
 
 
 def _numbers(step: StepData, rows: Sequence[int]) -> bytes:
-    """All numbers of which some rows are made, and the cone's name."""
+    """All numbers of which some rows are made, the cone's name, and the shapes of what follows."""
     used, contacts = np.unique(places(step, rows)[0]), step.contacts
     used = used[used < contacts.n_c]
     own = contacts.J, contacts.phi, contacts.n, contacts.d1, contacts.d2, contacts.mu
     shared = (step.offsets, step.extra.A, step.extra.b)
     parts = [array.tobytes() for array in (*(a[used] for a in own), *shared)]
-    return b"".join([step.cone.encode(), *parts])
+    kind = f"{step.cone} {contacts.n_c} {step.extra.A.shape} "
+    return b"".join([kind.encode(), *parts])
 
 
 def _implied(claim: _Claim) -> bool:
