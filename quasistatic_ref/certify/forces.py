@@ -118,6 +118,10 @@ def contact_forces(
     if not 0 < compliance < np.inf:
         problem = "must be a positive number of metres per newton"
         raise InputError(problem, field="compliance", value=compliance)
+    if near is None and cone(step.cone).polyhedral:
+        rigid = exact_step(step)
+        lam = rigid.lam[: step.offsets[-1]]
+        near = rigid.delta_q, contact_wrenches(step.contacts, lam, step.h, step.cone)
     wrench, delta_q = np.zeros((step.contacts.n_c, 4)), np.zeros(step.n_v)
     for group, part in parts(step):
         x, f = group.coordinates, group.contacts
@@ -131,10 +135,7 @@ def _of_group(step: StepData, compliance: float, near: tuple[Array, Array] | Non
     kind = cone(step.cone)
     if isinstance(kind, CurvedCone):
         return kind.forces(step, compliance, near)
-    if near is None:
-        rigid = exact_step(step)
-        lam = rigid.lam[: step.offsets[-1]]
-        near = rigid.delta_q, contact_wrenches(step.contacts, lam, step.h, step.cone)
+    assert near is not None
     faces, held = QUIET.copy().run(guessed_faces, step, compliance, near)
     optimum = eliminated_optimum(step, compliance, faces, held)
     p, delta_q = defined_optimum(step, compliance) if optimum is None else optimum

@@ -13,7 +13,6 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
-    Mask,
     columns,
     freeze,
     names,
@@ -102,13 +101,8 @@ class Contacts(Plain, Shown):
 
     def entries(self) -> tuple[Indices, Indices, Array]:
         """The columns of J that are not zero: their contacts and coordinates, and they, (k, 4)."""
-        contact, coordinate = np.nonzero(self.moves())
+        contact, coordinate = np.nonzero((self.J != 0).any(axis=1))
         return contact, coordinate, self.J[contact, :, coordinate]
-
-    def moves(self) -> Mask:
-        """Whether each contact moves with each column that is kept of its J: (n_c, columns)."""
-        moves: Mask = (self.J != 0).any(axis=1)
-        return moves
 
     def some(self, contacts: Indices, coordinates: Indices) -> Contacts:
         """Some of the contacts, (k,), with the columns of some coordinates, (n,), of J."""

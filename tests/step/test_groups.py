@@ -6,6 +6,7 @@ import pytest
 from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.forces import contact_forces
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.contacts import X, contacts_of
@@ -66,12 +67,13 @@ def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
 
 def test_a_group_without_solution_is_named_by_its_contacts():
     step = two_bodies([X, -X], [-1e-3, -1e-3], np.ones(6))
-    with pytest.raises(StepInfeasible) as failure:
-        exact_step(step)
-    farkas = failure.value.farkas
-    assert set(farkas.owners) == {"c0", "c1"}
-    assert farkas_refutation(step, farkas.exact) is None
-    assert failure.value.step is step
+    for solved in (exact_step, contact_forces):
+        with pytest.raises(StepInfeasible) as failure:
+            solved(step)
+        farkas = failure.value.farkas
+        assert set(farkas.owners) == {"c0", "c1"}
+        assert farkas_refutation(step, farkas.exact) is None
+        assert failure.value.step is step
 
 
 def test_a_wedged_light_body_is_ill_posed_also_next_to_a_heavy_one_that_falls():

@@ -228,7 +228,8 @@ class Proofs:
 def _coupling(step: StepData) -> list[NDArray[Any]]:
     """What couples the coordinates of a step, and how."""
     h, M_u = np.array(step.h), vars(step)["M_u"]  # whole, or in blocks
-    return [h, step.K_q, M_u, step.contacts.moves(), step.extra.A != 0, step.counts]
+    contact, coordinate, _ = step.contacts.entries()
+    return [h, step.K_q, M_u, contact, coordinate, step.extra.A != 0, step.counts]
 
 
 def _same(one: list[NDArray[Any]], two: list[NDArray[Any]]) -> bool:

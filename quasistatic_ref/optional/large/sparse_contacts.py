@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
+from quasistatic_ref.step.arrays import Array, Indices, read_only
 from quasistatic_ref.step.contacts import Contacts
 
 
@@ -59,13 +59,8 @@ class SparseContacts(Contacts):
 
     def entries(self) -> tuple[Indices, Indices, Array]:
         """The columns of J that are not zero: their contacts and coordinates, and they, (k, 4)."""
-        contact, place = np.nonzero(self.moves())
+        contact, place = np.nonzero((self.blocks.J != 0).any(axis=1))
         return contact, self.blocks.column[contact, place], self.blocks.J[contact, :, place]
-
-    def moves(self) -> Mask:
-        """Whether each contact moves with each of its columns, shape (n_c, w)."""
-        moves: Mask = (self.blocks.J != 0).any(axis=1)
-        return moves
 
     def columns(self, contacts: Indices, coordinates: Indices) -> Array:
         """J of some contacts, those columns of it, shape (k, 4, n)."""

@@ -5,14 +5,19 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact import exact_optimum
+from quasistatic_ref.certify.exact import exact_optimum, exact_step
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
+from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.piles import SIDE, pile
+from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import proofs
+from quasistatic_ref.optional.large.blocks import Blocks
+from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.tolerances import ACCURACY
+from tests.helpers import changed
 from tests.oracles.random_steps import mixed_step
 from validation.make.grouped_proofs import unlike
 
@@ -65,3 +70,21 @@ def test_groups_are_kept_while_h_and_what_couples_them_stay():
         before = solver.proofs.parts
         solve_step(other, solver)
         assert solver.proofs.parts is before
+
+
+def test_one_solver_is_given_contacts_in_blocks_of_other_bodies():
+    """The second contact pushes the third body, with the same entries of J in other columns."""
+    body = np.eye(3)
+    J = np.zeros((1, 4, 6))
+    J[0, :3] = np.hstack([-body, body])
+    steps = []
+    for other in (3, 6):
+        columns = np.array([[0, 1, 2, other, other + 1, other + 2]])
+        like = contacts_of(-1e-3, body[None], np.zeros((1, 4, 9)), 0.5)
+        own = like.name, like.phi, like.n, like.d1, like.d2, Blocks(columns, J, 9)
+        contacts = SparseContacts(*own, like.mu_v, like.mu_omega, like.rows)
+        steps.append(free_step(np.eye(9), np.ones(9), contacts, 0.01))
+    solver = solver_for(steps[0].replace(contacts=changed(steps[0].contacts)), "daqp", fast=True)
+    for step in steps:
+        answer = solve_step(step, solver)
+        assert answer.delta_q.tobytes() == exact_step(step).delta_q.tobytes()

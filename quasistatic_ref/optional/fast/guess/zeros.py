@@ -92,13 +92,14 @@ class _Claim(NamedTuple):
 
 
 def _numbers(step: StepData, rows: Sequence[int]) -> bytes:
-    """A hash of all numbers of which some rows are made, and of the cone's name."""
+    """A hash of all numbers of which some rows are made, of their shapes and the cone's name."""
     used, contacts = np.unique(places(step, rows)[0]), step.contacts
     used = used[used < contacts.n_c]
     own = contacts.J, contacts.phi, contacts.n, contacts.d1, contacts.d2, contacts.mu
     shared = (step.offsets, step.extra.A, step.extra.b)
     parts = [array.tobytes() for array in (*(a[used] for a in own), *shared)]
-    return sha256(b"".join([step.cone.encode(), *parts])).digest()
+    kind = f"{step.cone} {contacts.n_c} {step.extra.A.shape} "
+    return sha256(b"".join([kind.encode(), *parts])).digest()
 
 
 KEPT = 1024

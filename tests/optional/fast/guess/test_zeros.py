@@ -5,11 +5,14 @@ import pytest
 
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, zeros
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.units import natural_units
+from quasistatic_ref.step.data import Extra
 from tests.certify.test_exact import resting_point
 from validation.make.confirmed_bits import differing
 
@@ -54,3 +57,22 @@ def test_a_row_without_slack_that_nothing_presses_on_is_a_kink():
     assert zeros(weightless, [], [], [0, 1, 2, 3]) == Degeneracy(unique=True, smooth=True)
     truth = exact_optimum(exact_form(weightless))
     assert (truth.multipliers_unique, truth.differentiable) == every
+
+
+def test_the_same_numbers_in_another_shape_are_another_claim():
+    """In x >= 1, x >= 1 the first row implies the second; in x + y >= 1, 5 x + y >= 3 it does not.
+
+    Both optima have no slack there, the second, (1/2, 1/2), because of its loads.
+    """
+    implied = own_rows_alone([[1], [1], [5]], [1, 1, 3])
+    loaded = own_rows_alone([[1, 1], [5, 1]], [1, 3])
+    assert zeros(implied, [0], [1], []) == Degeneracy(unique=False, smooth=True)
+    assert zeros(loaded, [0], [1], []) == Degeneracy(unique=True, smooth=False)
+
+
+def own_rows_alone(A, b):
+    """A step without contacts or loads."""
+    n = len(A[0])
+    none = contacts_of(np.zeros(0), np.zeros((0, 3, 3)), np.zeros((0, 4, n)), 0.0)
+    own = Extra(tuple(f"row {i}" for i in range(len(b))), np.array(A), np.array(b))
+    return free_step(np.eye(n), np.zeros(n), none, 0.01).replace(extra=own)
