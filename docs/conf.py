@@ -109,7 +109,9 @@ from quasistatic_ref.step.cones import direction
 
 PACKAGE = ROOT / "quasistatic_ref"
 LAB = PACKAGE / "lab"
-CLOSED_FORMS = ("derivations", "cones", "sensitivity", "derivatives", "distances")
+CLOSED_FORMS = (
+    "derivations", "cones", "sensitivity", "derivatives", "distances", "extensions", "exactness",
+)  # fmt: skip
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
 RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")
 KEPT = re.compile(

@@ -19,6 +19,8 @@ solves a linear system. Newton's method guesses the faces in float64; that they 
 by exact signs; and the forces of the exact solution are rounded correctly.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -106,6 +108,12 @@ def contact_forces(
         If the step has no solution, and `near` does not say otherwise.
     StepNotSolved
         If in the ellipsoid no enclosure is found.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.contact_forces(step).wrench.round(3)[0, 2]  # the weight [N]
+    np.float64(2.943)
     """
     if not 0 < compliance < np.inf:
         problem = "must be a positive number of metres per newton"

@@ -47,7 +47,7 @@ EXCEPTIONS = {
     ),
     "measured of an answer or of a run; the next step does not read it": (
         "model/system.py:System.mass",
-        "simulate/wrenches.py:_forces",
+        "simulate/wrenches.py:ContactsOverSteps.force",
         "simulate/wrenches.py:pair_forces",
         "simulate/wrenches.py:wrench_on",
         "step/contacts.py:Contacts.motion",

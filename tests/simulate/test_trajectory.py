@@ -129,7 +129,7 @@ def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
     assert set(light.arrays) == LIGHT
     back = trajectory_read(light.save(tmp_path / "run.npz"))
     np.testing.assert_allclose(back["q"], run["q"], rtol=EXACT, atol=EXACT)
-    with pytest.raises(InputError, match="a light record holds no problems"):
+    with pytest.raises(InputError, match="a light record has no quadratic programs"):
         back.step_data(0)
 
 

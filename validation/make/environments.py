@@ -105,7 +105,10 @@ def mode(name: str) -> Iterator[None]:
 
 
 Call = Callable[[], Any]
-REFUSED = ("nothing can be proved in this thread", "simulator: another thread is taking a step")
+REFUSED = (
+    "nothing can be proved in this thread",
+    "simulator: another thread is using the same system",
+)
 
 
 def outcome(call: Call) -> Any:

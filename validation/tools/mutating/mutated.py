@@ -109,6 +109,8 @@ contact/distance.py
     PAIRS
 contact/patch.py
     flat_on_flat PAIRS
+contact/crossings.py
+    own
 contact/shape_in_world.py contact/solids/polytope.py contact/solids/polytope_pair.py
 contact/solids/ways_out.py shapes/hull.py shapes/round.py
     SOLIDS

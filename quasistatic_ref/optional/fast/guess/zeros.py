@@ -11,8 +11,8 @@ where both directions of a slip are closed, all of them are strictly active, and
 """
 
 from collections.abc import Hashable, Sequence
-from dataclasses import dataclass, field
-from functools import cache, lru_cache
+from functools import cache
+from hashlib import sha256
 from typing import NamedTuple
 
 import numpy as np
@@ -66,8 +66,7 @@ def zeros(
     if not coordinates and spanned_in_contacts(step, working, rows):
         return all_active
     every, k = (*working, *rows), len(working)
-    implied = _implied_of_few if step.n_v <= FEW else _implied_of_many
-    if implied(_Claim(_numbers(step, every), k, every, tuple(coordinates), step)):
+    if _implied(step, _Claim(_numbers(step, every), k, every, tuple(coordinates))):
         return all_active
     form, w = form_on(step, *_some_rows(step, every)), tuple(range(k))
     solution = rational_solution(form, w)
@@ -83,44 +82,43 @@ def zeros(
     return Degeneracy(unique, differentiable(form, w, unspanned))
 
 
-@dataclass(frozen=True)
-class _Claim:
-    """Rows and coordinates that are to be zero, and W, the first `k` of the rows.
-
-    Equal if all numbers of them are, so that answers can be kept.
-    """
+class _Claim(NamedTuple):
+    """Rows and coordinates that are to be zero, and W, the first `k` of the rows."""
 
     numbers: bytes
     k: int
     rows: tuple[int, ...]
     coordinates: tuple[int, ...]
-    step: StepData = field(compare=False)
 
 
 def _numbers(step: StepData, rows: Sequence[int]) -> bytes:
-    """All numbers of which some rows are made, and the cone's name."""
+    """A hash of all numbers of which some rows are made, and of the cone's name."""
     used, contacts = np.unique(places(step, rows)[0]), step.contacts
     used = used[used < contacts.n_c]
     own = contacts.J, contacts.phi, contacts.n, contacts.d1, contacts.d2, contacts.mu
     shared = (step.offsets, step.extra.A, step.extra.b)
     parts = [array.tobytes() for array in (*(a[used] for a in own), *shared)]
-    return b"".join([step.cone.encode(), *parts])
+    return sha256(b"".join([step.cone.encode(), *parts])).digest()
 
 
-def _implied(claim: _Claim) -> bool:
+KEPT = 1024
+"""Answers that are kept: a body at rest has the same claim in every step, and a step may have many
+bodies."""
+_known: dict[_Claim, bool] = {}
+
+
+def _implied(step: StepData, claim: _Claim) -> bool:
     """Whether W implies all zeros."""
-    n, k = claim.step.n_v, claim.k
-    exact = exact_rows(claim.step, claim.rows)
-    zeros = [[fmpz(int(i == v)) for i in range(n + 1)] for v in claim.coordinates]
-    return all(follow(exact[:k], [*exact[k:], *zeros]))
-
-
-FEW = 24
-"""Coordinates up to which a step is small enough for a thousand of them to be kept."""
-
-_implied_of_few = lru_cache(maxsize=1024)(_implied)
-"""Kept, since a body at rest has the same claim in every step, and a step may have many bodies."""
-_implied_of_many = lru_cache(maxsize=8)(_implied)
+    known = _known.get(claim)
+    if known is None:
+        n, k = step.n_v, claim.k
+        exact = exact_rows(step, claim.rows)
+        zeros = [[fmpz(int(i == v)) for i in range(n + 1)] for v in claim.coordinates]
+        known = all(follow(exact[:k], [*exact[k:], *zeros]))
+        while len(_known) >= KEPT:
+            _known.pop(next(iter(_known)), None)  # the oldest
+        _known[claim] = known
+    return known
 
 
 def exact_rows(step: StepData, rows: Sequence[int]) -> list[list[int]]:

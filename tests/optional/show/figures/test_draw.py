@@ -49,7 +49,7 @@ def test_a_moment_holds_the_numbers_of_its_step(incline):
     np.testing.assert_allclose(of.t, 12 * scenario.h, rtol=ROUNDING)
     assert len(of.contacts) == 8
     for j, contact in enumerate(of.contacts):
-        f_1, f_2, f_n, _ = run["wrench"][12, j]
+        f_1, f_2, f_n, _ = run.forces[12, j]
         d1, d2, n = (run[name][12, j] for name in ("d1", "d2", "n"))
         np.testing.assert_allclose(contact.force, f_1 * d1 + f_2 * d2 + f_n * n, atol=ROUNDING)
         np.testing.assert_allclose(contact.beta, run["beta"][12, j], rtol=EXACT)

@@ -24,6 +24,9 @@ from tests.tolerances import EXACT, ROUNDING
 LEGIBLE = 7.0  # points
 UNIT = re.compile(r"\[[^\]]+\]$")
 INSTANTS = (0.3, 1.4, 2.9)
+COLUMNS = len(INSTANTS) + 1
+SPREAD = np.geomspace(0.05, 60.0, 20)
+"""Rotations of other clouds [deg]."""
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +43,7 @@ def grasp():
 @pytest.fixture(scope="module")
 def figures(grasp, runs):
     made = {
-        "strip": grasp_strip(grasp, runs, INSTANTS),
+        "strip": grasp_strip(grasp, runs, INSTANTS, dict.fromkeys(runs, SPREAD)),
         "rotation": rotation_plot(grasp, runs, "bunny", 0.7),
         "boundary layer": boundary_layer.figure(),
     }
@@ -79,13 +82,22 @@ def test_every_figure_says_its_time_step_and_cone(figures, name):
 
 def test_the_strip_has_a_run_in_each_row_and_an_instant_in_each_column(figures):
     axes = figures["strip"].axes
-    assert len(axes) == 2 * len(INSTANTS)
+    assert len(axes) == 2 * COLUMNS
     assert [a.get_title() for a in axes[:3]] == [f"{t:g} s" for t in INSTANTS]
-    assert [axes[0].get_ylabel(), axes[3].get_ylabel()] == ["with_torsion", "without_torsion"]
+    assert [axes[0].get_ylabel(), axes[COLUMNS].get_ylabel()] == ["with_torsion", "without_torsion"]
+
+
+def test_the_last_column_has_the_rotations_of_other_clouds(figures):
+    axes = figures["strip"].axes
+    assert axes[3].get_title() == "20 clouds"
+    for own in (axes[3], axes[7]):
+        np.testing.assert_array_equal(own.lines[0].get_xdata(), SPREAD)
+    assert axes[7].get_xlabel() == "rotation [deg]"
 
 
 def test_the_strip_draws_every_point_of_the_cloud_and_every_contact(figures, runs):
-    for axes in figures["strip"].axes:
+    drawn = [axes for i, axes in enumerate(figures["strip"].axes) if i % COLUMNS < len(INSTANTS)]
+    for axes in drawn:
         (cloud,) = axes.collections
         assert len(cloud.get_offsets()) == 992
         assert sum(line.get_marker() == "o" for line in axes.lines) == 15
@@ -94,8 +106,8 @@ def test_the_strip_draws_every_point_of_the_cloud_and_every_contact(figures, run
 def test_filled_dots_are_the_contacts_that_bear_load_at_that_instant(figures, runs):
     for row, run in enumerate(runs.values()):
         for column, t in enumerate(INSTANTS):
-            axes, k = figures["strip"].axes[row * len(INSTANTS) + column], round(t / 0.01) - 1
-            force = run["wrench"][k][:, 2]
+            axes, k = figures["strip"].axes[row * COLUMNS + column], round(t / 0.01) - 1
+            force = run.step_forces(k)[:, 2]
             expected = 1e3 * CAMERA.seen(run["beta"][k][force > 1e-3 * force.max()])[:, :2]
             dots = [line for line in axes.lines if line.get_marker() == "o"]
             filled = [dot for dot in dots if dot.get_markerfacecolor() != "white"]

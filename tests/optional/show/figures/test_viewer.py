@@ -87,7 +87,7 @@ def test_forces_start_at_beta_and_are_as_long_as_they_are_strong(commands, pushe
     for j in range(8):
         found = tracks(sent, f"/forces/{j}")
         np.testing.assert_allclose(found[".position"], run["beta"][::2, j], atol=NANOMETRE)
-        force = np.linalg.norm(run["wrench"][::2, j, :3], axis=1)
+        force = np.linalg.norm(run.forces[::2, j, :3], axis=1)
         length = np.maximum(0.01 * force, NANOMETRE)
         np.testing.assert_allclose(found[".scale"][:, 2], length, atol=NANOMETRE)
     assert metres_per_newton(moments, 0.1) * max(
@@ -139,7 +139,7 @@ def test_contacts_have_the_colours_of_their_states(commands, pushed):
             slip = run["J"][2 * k, j, :3] @ run["delta_q"][2 * k]
             along = max(abs(run["d1"][2 * k, j] @ slip), abs(run["d2"][2 * k, j] @ slip))
             state = "sliding" if along > SLIP else "sticking"
-            state = state if run["wrench"][2 * k, j, 2] > 1e-3 else "apart"
+            state = state if run.forces[2 * k, j, 2] > 1e-3 else "apart"
             assert moment.states[j] == state
             red, green, blue = (round(255 * x) for x in found[k])
             assert (red << 16) + (green << 8) + blue == STATES[state]
