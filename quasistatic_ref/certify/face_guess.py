@@ -112,8 +112,9 @@ class FloatStep:
         NaN where the sum of H and contacts this stiff is singular in float64.
         """
         k, E, b = self.stiffness, self.step.extra.A[at.held], self.step.extra.b[at.held]
-        push = np.einsum("cav,cab->vcb", self.B, at.S).reshape(len(self.g), -1)
-        H = self.H - k * (push @ self.B.reshape(-1, len(self.g)) - STIFF * E.T @ E)
+        n, lengths = len(self.g), self.gap.size
+        push = np.einsum("cav,cab->vcb", self.B, at.S).reshape(n, lengths)
+        H = self.H - k * (push @ self.B.reshape(lengths, n) - STIFF * E.T @ E)
         g = self.g + k * (push @ self.gap.ravel() + STIFF * E.T @ b)
         try:
             return np.asarray(np.linalg.solve(H, g), dtype=np.float64)

@@ -82,7 +82,7 @@ def crossings(a: ShapeInWorld, b: ShapeInWorld, alpha: Array, beta: Array, n: Ar
         _edges(on_a, on_b, n),
         _edge_and_rim(on_a, on_b, n),
         _edge_and_rim(on_b, on_a, n, swapped=True),
-        _rims(on_a, on_b, n),
+        _rims(on_a, on_b, n, float(dot(beta - alpha, n))),
     ]
     return Crossings(*map(np.concatenate, zip(*found, strict=True)))
 
@@ -201,8 +201,12 @@ def _edge_and_rim(on_a: Curves, on_b: Curves, n: Array, swapped: bool = False) -
     return Crossings(*map(np.concatenate, zip(*found, strict=True)))
 
 
-def _rims(on_a: Curves, on_b: Curves, n: Array) -> Crossings:
-    """Crossings of rims, as circles in a plane across n; the points are in the planes of both."""
+def _rims(on_a: Curves, on_b: Curves, n: Array, least: float) -> Crossings:
+    """Crossings of rims, as circles in a plane across n; the points are in the planes of both.
+
+    A rim that is not across n is narrower than its circle. Gaps below the pair's, `least` [m], are
+    of points outside of the bodies.
+    """
     i, j = _every(len(on_a.centre), len(on_b.centre))
     r, s, away = on_a.radius[i], on_b.radius[j], on_b.centre[j] - on_a.centre[i]
     away = away - dot(away, n)[:, None] * n
@@ -223,7 +227,8 @@ def _rims(on_a: Curves, on_b: Curves, n: Array) -> Crossings:
             x + (dot(on.axis[k], on.centre[k] - x) / dot(on.axis[k], n))[:, None] * n
             for on, k in ((on_a, i), (on_b, j))
         ]
-        found.append(Crossings(ends[0][crossing], ends[1][crossing], number[crossing] + which))
+        good = crossing & (dot(ends[1] - ends[0], n) >= least - OVER_FACE * (r + s))
+        found.append(Crossings(ends[0][good], ends[1][good], number[good] + which))
     return Crossings(*map(np.concatenate, zip(*found, strict=True)))
 
 

@@ -129,8 +129,8 @@ def _within(given: Any, where: str) -> float | None:
         return None
     table = Fields(given, where, ScenarioError)
     check_names(table, WITHIN)
-    text = value(table, WITHIN, "within")
-    found = re.fullmatch(r"(\d[\d.eE-]*) *([a-z]+)", text.strip())
+    text = table.take("within")
+    found = re.fullmatch(r" *(\d[\d.eE-]*) *([a-z]+) *", text if isinstance(text, str) else "")
     if found is None or found[2] not in METRES:
         raise table.fail("within", f"must be a length in {', '.join(METRES)}, as '5 mm'", text)
     with about_field(table.name("within")):

@@ -185,6 +185,15 @@ def test_a_doubled_contact_shares_its_load():
     np.testing.assert_allclose(f_n, expected, rtol=1e-5)
 
 
+@pytest.mark.parametrize("cone", CONES)
+def test_contacts_of_bodies_that_stand_bear_nothing(cone):
+    """A step without coordinates: nothing presses on contacts with a gap."""
+    contacts = changed(block().contacts, J=np.zeros((4, 4, 0)), phi=np.full(4, 1e-3))
+    none = {"K_q": np.zeros((0, 0)), "tau_a": [], "delta_q_bar_a": []}
+    step = StepData(h=H, M_u=np.zeros((0, 0)), tau_u=[], contacts=contacts, cone=cone, **none)
+    assert not solve_step(step).forces.any()
+
+
 @pytest.mark.parametrize("compliance", [0.0, -1e-9, np.inf, np.nan])
 def test_a_compliance_that_is_none_is_refused(compliance):
     with pytest.raises(InputError, match="compliance: must be a positive number"):

@@ -90,3 +90,21 @@ def test_edges_that_are_parallel_or_no_part_of_what_touches_do_not_cross():
     )
     assert found(PUCK, PUCK, STRAIGHT, (1e-9, 0.0, 0.02), (0.0, 0.0)) == []
     assert found(TABLE, Box(np.full(3, 0.01)), STRAIGHT, (0.0, 0.0, 0.02), (0.0, 0.0)) == []
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_rims_of_tilted_discs_do_not_cross_outside_of_them(swapped):
+    """A disc on its rim's lowest point, at the rim of another: both touch there and nowhere else.
+
+    Seen along the normal its rim is an ellipse, by radius (1 - cos tilt) narrower than its circle.
+    """
+    radius, half, tilt = 0.1, 0.02, 0.2
+    R = Rotation.from_rotvec([0.0, tilt, 0.0]).as_matrix()
+    lowest = R @ [radius, 0.0, -half]
+    over = 0.1 * radius * (1 - np.cos(tilt))  # how far the lowest point is inside of the other rim
+    touches = np.array([over - 0.05, 0.0, half])
+    low = ShapeInWorld(Cylinder(0.05, half), STRAIGHT, ORIGIN)
+    top = ShapeInWorld(Cylinder(radius, half), R, touches - lowest)
+    a, b, n = (top, low, -UP) if swapped else (low, top, UP)
+    found = crossings(a, b, touches, touches, n)
+    assert (np.sum((found.beta - found.alpha) * n, axis=1) >= -ROUNDING).all()

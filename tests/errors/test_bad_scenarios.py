@@ -144,6 +144,9 @@ CAUSES = {
     "a distance without a unit": (
         ("contacts/push/k", {"within": "5"}), "contacts.push.k.within", "in m, cm, mm, um, as",
     ),
+    "a bare distance": (
+        ("contacts/push/k", {"within": 0.005}), "contacts.push.k.within", "in m, cm, mm, um, as",
+    ),
     "a distance of no number": (
         ("contacts/push/k", {"within": "5e mm"}), "contacts.push.k.within", "finite decimal number",
     ),

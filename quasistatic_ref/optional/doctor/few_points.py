@@ -1,6 +1,6 @@
 """Faces that rest on fewer points than hold them."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -9,9 +9,9 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.doctor.start import Said, Start, body, free_bases, table
+from quasistatic_ref.optional.doctor.start import Said, Start, body, free_bases, least, table
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import REPEATED
+from quasistatic_ref.tolerances import REPEATED, SUNK
 
 UPWARDS = 0.5
 """Cosine of the steepest normal that counts as bearing weight [-]."""
@@ -32,35 +32,37 @@ def few_points(start: Start) -> Iterator[Said]:
             for p in start.pairs
             if name in (body(start.system, x.link) for x in (p.alpha, p.beta))
         ]
-        short = [pair for pair in own if pair.n_c < pair.candidates]
-        if not short:
+        if all(pair.n_c == pair.candidates for pair in own):
             continue
         try:
-            kept, every = (_bearing(start, own, name, most) for most in (1, MOST))
+            kept, every = ([_bearing(start, p, name, most) for p in own] for most in (1, MOST))
         except ContactError:
             return  # the first step says it
         centre = _centre(start, name)
-        if _around(every - centre, start) and not _around(kept - centre, start):
+        of_kept, of_all = np.concatenate(kept), np.concatenate(every)
+        if _around(of_all - centre, start) and not _around(of_kept - centre, start):
+            more = [len(some) - len(few) for few, some in zip(kept, every, strict=True)]
+            lacks = int(np.argmax(more))
             yield Said(
-                f"raise k of {table(short[0])} to {len(_bearing(start, short[:1], name, MOST))}",
-                f"{name} lies flat on {len(every)} points, of which {len(kept)} are kept, and its "
-                "centre of mass is not over these: it tips",
-                {"points": len(every), "kept": len(kept)},
+                f"raise k of {table(own[lacks])} to {len(every[lacks])}",
+                f"{name} lies flat on {len(of_all)} points, of which {len(of_kept)} are kept, and "
+                "its centre of mass is not over these: it tips",
+                {"points": len(of_all), "kept": len(of_kept)},
             )
 
 
-def _bearing(start: Start, pairs: Sequence[ContactPair], name: str, most: int) -> Array:
-    """The points of the k nearest, or of so many, that are level and bear a body, shape (N, 3)."""
-    up, found = -start.gravity / np.linalg.norm(start.gravity), [np.zeros((0, 3))]
-    for pair in pairs:
-        wider = replace(pair, k=max(pair.k, most))
-        points = closest_points([wider], start.kinematics)
-        above = 1 if body(start.system, pair.beta.link) == name else -1
-        level = points.phi <= points.phi.min() + REPEATED
-        if not pair.has_cloud and level.sum() > 1:
-            level &= points.point != pair.corners  # the closest pair lies between corners
-        found.append(points.beta[level & (above * (points.n @ up) > UPWARDS)])
-    return np.concatenate(found)
+def _bearing(start: Start, pair: ContactPair, name: str, most: int) -> Array:
+    """The points of the k nearest, or of so many, that are level and bear a body, shape (N, 3).
+
+    None of a pair that is apart, as a body in a gripper is from the floor.
+    """
+    up = -start.gravity / np.linalg.norm(start.gravity)
+    points = closest_points([replace(pair, k=max(pair.k, most))], start.kinematics)
+    above = 1 if body(start.system, pair.beta.link) == name else -1
+    level = points.phi <= min(points.phi.min() + REPEATED, SUNK * least(pair))
+    if not pair.has_cloud and level.sum() > 1:
+        level &= points.point != pair.corners  # the closest pair lies between corners
+    return points.beta[level & (above * (points.n @ up) > UPWARDS)]
 
 
 def _centre(start: Start, name: str) -> Array:

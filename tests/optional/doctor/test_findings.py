@@ -46,3 +46,16 @@ def test_the_page_has_every_kind_with_its_weight_and_scenes_enough():
     assert set(troubled) == set(GRAVE)
     assert len(troubled) >= 40
     assert len(SCENES) - len(troubled) >= 30
+
+
+def test_the_table_is_named_on_whose_points_a_body_lies(words):
+    """Not that of a wall next to it, which comes first."""
+    wall = ("wall", words["Box"](size=(0.1, 0.1, 0.1)), (0.15, 0, 0.05))
+    tables = [("wall", "box", 0.5, 1), ("floor", "box", 0.5, 3)]
+    (found,) = words["findings"]([words["box"]()], tables, stands=[wall])
+    assert (found.name, found.remedy) == ("too few points", "raise k of contacts.floor_box to 4")
+
+
+def test_a_body_far_above_a_floor_does_not_lie_on_it(words):
+    (found,) = words["findings"]([words["box"](xyz=(0, 0, 1))], [("floor", "box", 0.5, 1)])
+    assert found.name == "free fall"
