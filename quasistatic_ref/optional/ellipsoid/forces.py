@@ -275,4 +275,5 @@ def in_balls(numbers: Dyadic) -> arb_mat:
     """The same numbers, of any unit, in balls without radius: a matrix, or a column."""
     table = np.atleast_2d(numbers.m.T).T
     unit = arb(two_to(numbers.e))
-    return arb_mat(*table.shape, [arb(int(m)) * unit for m in table.ravel()])
+    rows, columns = table.shape
+    return arb_mat(rows, columns, [arb(int(m)) * unit for m in table.ravel()])

@@ -10,6 +10,7 @@ W spans (:mod:`~quasistatic_ref.certify.degeneracy`). If W spans the sum of thes
 where both directions of a slip are closed, all of them are strictly active, and lam is not unique.
 """
 
+from collections import OrderedDict
 from collections.abc import Hashable, Sequence
 from functools import cache
 from hashlib import sha256
@@ -105,7 +106,7 @@ def _numbers(step: StepData, rows: Sequence[int]) -> bytes:
 KEPT = 1024
 """Answers that are kept: a body at rest has the same claim in every step, and a step may have many
 bodies."""
-_known: dict[_Claim, bool] = {}
+_known: OrderedDict[_Claim, bool] = OrderedDict()
 
 
 def _implied(step: StepData, claim: _Claim) -> bool:
@@ -117,7 +118,7 @@ def _implied(step: StepData, claim: _Claim) -> bool:
         zeros = [[fmpz(int(i == v)) for i in range(n + 1)] for v in claim.coordinates]
         known = all(follow(exact[:k], [*exact[k:], *zeros]))
         while len(_known) >= KEPT:
-            _known.pop(next(iter(_known)), None)  # the oldest
+            _known.popitem(last=False)  # the oldest, in one call: other threads solve as well
         _known[claim] = known
     return known
 
