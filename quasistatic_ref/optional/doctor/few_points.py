@@ -62,7 +62,7 @@ def _bearing(start: Start, pair: ContactPair, name: str, most: int) -> Array:
     level = points.phi <= min(points.phi.min() + REPEATED, SUNK * least(pair))
     if not pair.has_cloud and level.sum() > 1:
         level &= points.point != pair.corners  # the closest pair lies between corners
-    return points.beta[level & (above * (points.n @ up) > UPWARDS)]
+    return np.asarray(points.beta[level & (above * (points.n @ up) > UPWARDS)])
 
 
 def _centre(start: Start, name: str) -> Array:

@@ -273,6 +273,6 @@ def rounded(ball: arb) -> float:
 
 def in_balls(numbers: Dyadic) -> arb_mat:
     """The same numbers, of any unit, in balls without radius: a matrix, or a column."""
-    table = np.atleast_2d(numbers.m.T).T
+    columns = numbers.m.shape[1] if numbers.m.ndim == 2 else 1
     unit = arb(two_to(numbers.e))
-    return arb_mat(*table.shape, [arb(int(m)) * unit for m in table.ravel()])
+    return arb_mat(len(numbers.m), columns, [arb(int(m)) * unit for m in numbers.m.ravel()])
