@@ -75,11 +75,11 @@ def _spread_plot(axes: Any, rotations: Array, last: bool) -> None:
     axes.plot(np.maximum(rotations, LEAST), aside, ".", color="black", alpha=0.5,
               markersize=scaled(2.5))  # fmt: skip
     axes.set(xscale="log", xlim=(LEAST / 1.5, 150), ylim=(-2, 2), yticks=[])
-    axes.set_xticks([0.1, 1, 10, 100], ["0.1", "1", "10", "100"] if last else [])
+    axes.set_xticks([0.1, 10], ["0.1", "10"] if last else [])
     axes.minorticks_off()
     axes.spines["left"].set_visible(False)
     if last:
-        axes.set_xlabel("rotation [deg]")
+        axes.set_xlabel("turn [deg]")
 
 
 def rotation_plot(

@@ -92,7 +92,7 @@ def test_the_last_column_has_the_rotations_of_other_clouds(figures):
     assert axes[3].get_title() == "20 clouds"
     for own in (axes[3], axes[7]):
         np.testing.assert_array_equal(own.lines[0].get_xdata(), SPREAD)
-    assert axes[7].get_xlabel() == "rotation [deg]"
+    assert axes[7].get_xlabel() == "turn [deg]"
 
 
 def test_the_strip_draws_every_point_of_the_cloud_and_every_contact(figures, runs):
