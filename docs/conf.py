@@ -111,6 +111,7 @@ PACKAGE = ROOT / "quasistatic_ref"
 LAB = PACKAGE / "lab"
 CLOSED_FORMS = (
     "derivations", "cones", "sensitivity", "derivatives", "distances", "extensions", "exactness",
+    "time_step",
 )  # fmt: skip
 """The pages in which results (R1), (R2), ... are derived, each in bold where it begins."""
 RESULT = re.compile(r"\*\*\((R\d+)\)([^*]*)\*\*")
