@@ -42,7 +42,7 @@ _HOMES = {
     "solve.solve": "solve_step",
     "optional.coulomb.fixed_point": "coulomb_step",
     "certify.certificate": "verify",
-    "certify.forces": "contact_forces",
+    "certify.compliance.forces": "contact_forces",
     "optional.derivatives.step.sensitivity": "sensitivity",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
-from quasistatic_ref.certify.forces import ContactForces, contact_forces
+from quasistatic_ref.certify.compliance.forces import ContactForces, contact_forces
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
@@ -174,8 +174,8 @@ class StepSolution(Plain, Shown):
         """Each contact's (f_d1, f_d2, f_n, tau_n) on beta's body, shape (n_c, 4) [N, N m].
 
         They are those of the step in which each contact gives way a little, and therefore unique;
-        see :mod:`~quasistatic_ref.certify.forces`. They are formed from the step when they are
-        read, however it was solved.
+        see :mod:`~quasistatic_ref.certify.compliance.forces`. They are formed from the step when
+        they are read, however it was solved.
 
         Raises
         ------

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.certify.forces import contact_forces
+from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.fields import Fields

@@ -35,7 +35,7 @@ from quasistatic_ref.parts import needed_part
 from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 
 if TYPE_CHECKING:
-    from quasistatic_ref.certify.forces import ContactForces
+    from quasistatic_ref.certify.compliance.forces import ContactForces
     from quasistatic_ref.certify.solution import Certificate
     from quasistatic_ref.certify.verdict import Verdict
     from quasistatic_ref.solve.solver import Solver
@@ -172,7 +172,7 @@ class CurvedCone(Cone, ABC):
     def forces(
         self, step: StepData, compliance: float, near: tuple[Array, Array] | None
     ) -> ContactForces:
-        """As :func:`~quasistatic_ref.certify.forces.contact_forces`.
+        """As :func:`~quasistatic_ref.certify.compliance.forces.contact_forces`.
 
         Parameters
         ----------

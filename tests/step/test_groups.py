@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.forces import contact_forces
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.contacts import X, contacts_of

@@ -23,8 +23,8 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.certify.compliance.forces import WRENCH, contact_forces, defined_optimum
 from quasistatic_ref.certify.exact import exact_step
-from quasistatic_ref.certify.forces import WRENCH, contact_forces, defined_optimum
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.formats.files import text_written

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from flint import ctx, fmpq
 
-from quasistatic_ref.certify.forces import ContactForces
+from quasistatic_ref.certify.compliance.forces import ContactForces
 from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
 from quasistatic_ref.certify.point import rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form

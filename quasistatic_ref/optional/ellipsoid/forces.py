@@ -1,6 +1,6 @@
 r"""Contact forces by compliance in the ellipsoid, enclosed in balls.
 
-With the compliance eliminated (:mod:`~quasistatic_ref.certify.forces`) the energy is
+With the compliance eliminated (:mod:`~quasistatic_ref.certify.compliance.forces`) the energy is
 1/2 x'Hx - g'x + h/(2c) sum_j ||s_j||^2, where s_j is the point of the cone F = {s : s_0 >= ||s_t||}
 nearest to -z_j. Let G be its gradient. It is strongly convex: for any x that satisfies the user's
 own rows E x >= e, and any y >= 0,
@@ -18,8 +18,8 @@ from typing import Final
 import numpy as np
 from flint import arb, arb_mat, ctx
 
-from quasistatic_ref.certify.face_guess import P_OF_WRENCH
-from quasistatic_ref.certify.forces import WRENCH, ContactForces
+from quasistatic_ref.certify.compliance.face_guess import P_OF_WRENCH
+from quasistatic_ref.certify.compliance.forces import WRENCH, ContactForces
 from quasistatic_ref.certify.point import square_root
 from quasistatic_ref.certify.rational import (
     Dyadic,

@@ -57,7 +57,8 @@ step/standard_form.py
     PAGE
 certify/optimality.py
     JUDGE enclosure
-certify/forces.py certify/faces.py certify/eliminated.py certify/face_guess.py
+certify/compliance/forces.py certify/compliance/faces.py
+certify/compliance/eliminated.py certify/compliance/face_guess.py
 optional/ellipsoid/forces.py
     forces
 certify/arithmetic.py

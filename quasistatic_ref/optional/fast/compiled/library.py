@@ -28,6 +28,7 @@ from quasistatic_ref.formats.quoting import clipped, one_line
 
 VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
+SOURCE = Path(__file__).parent / "source"
 SOURCES = (
     "closest.c", "rows.c", "screws.c", "natural.c", "certificate.c", "kkt.c", "contraction.c",
     "span.c", "rounding.c", "arithmetic.c",
@@ -122,8 +123,9 @@ def compiler() -> list[str]:
 
 def _made(command: list[str]) -> Path:
     """The library's file, made if it is not there."""
-    here = Path(__file__).parent
-    text = b"".join((here / name).read_bytes() for name in (*SOURCES, *HEADERS, SELFTEST))
+    selftest = SOURCE.parent / SELFTEST
+    files = (*(SOURCE / name for name in (*SOURCES, *HEADERS)), selftest)
+    text = b"".join(file.read_bytes() for file in files)
     key = hashlib.sha256(
         text + repr((command, FLAGS, sys.platform, platform.machine())).encode()
     ).hexdigest()
@@ -136,9 +138,9 @@ def _made(command: list[str]) -> Path:
         print("quasistatic_ref: compiling, once ...", file=sys.stderr, flush=True)
         with tempfile.TemporaryDirectory(dir=folder) as made:
             out = Path(made) / file.name
-            sources = [str(here / name) for name in SOURCES]
+            sources = [str(SOURCE / name) for name in SOURCES]
             compiling = [*command, *FLAGS, "-o", str(out), *sources, "-lm"]
-            testing = [sys.executable, "-I", str(here / SELFTEST), str(out)]
+            testing = [sys.executable, "-I", str(selftest), str(out)]
             for work, failed in ((compiling, "could not compile it"), (testing, "is not used")):
                 if complaint := _complaint(work):
                     raise CompileError(f"{command[0]} {failed}: {complaint}")

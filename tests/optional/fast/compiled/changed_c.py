@@ -1,13 +1,11 @@
 """The sources of the compiled library, copied with one text of one file replaced."""
 
-from pathlib import Path
-
 from quasistatic_ref.optional.fast.compiled import compiled
 
 
 def changed_sources(folder, name, text, other):
     """Copy all C files to a folder; where `text` is not empty, `name` has `other` in its place."""
-    sources = Path(compiled("library").__file__).parent
+    sources = compiled("library").SOURCE
     for file in (*sources.glob("*.c"), *sources.glob("*.h")):
         code = file.read_text()
         if file.name == name and text:

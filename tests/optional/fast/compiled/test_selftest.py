@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -25,10 +24,17 @@ CHANGED = {
 def refusal(folder, flags):
     """What the test says of a library of the tested operations alone, compiled with more flags."""
     made = compiled("library")
-    here, out = Path(made.__file__).parent, str(folder / "made.so")
-    command = [*made.compiler(), *made.FLAGS, *flags.split(), "-o", out, str(here / "arithmetic.c")]
+    out = str(folder / "made.so")
+    command = [
+        *made.compiler(),
+        *made.FLAGS,
+        *flags.split(),
+        "-o",
+        out,
+        str(made.SOURCE / "arithmetic.c"),
+    ]
     subprocess.run([*command, "-lm"], check=True, capture_output=True)
-    testing = [sys.executable, "-I", str(here / made.SELFTEST), out]
+    testing = [sys.executable, "-I", str(made.SOURCE.parent / made.SELFTEST), out]
     return subprocess.run(testing, capture_output=True, text=True, check=False).stderr
 
 

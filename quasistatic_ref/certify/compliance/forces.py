@@ -28,9 +28,9 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
-from quasistatic_ref.certify.eliminated import eliminated_optimum
+from quasistatic_ref.certify.compliance.eliminated import eliminated_optimum
+from quasistatic_ref.certify.compliance.face_guess import guessed_faces
 from quasistatic_ref.certify.exact import exact_step, nearest_numbers
-from quasistatic_ref.certify.face_guess import guessed_faces
 from quasistatic_ref.certify.gap import fractions
 from quasistatic_ref.certify.rational import (
     ExactForm,
@@ -173,8 +173,9 @@ def compliant_form(step: StepData, compliance: float) -> ExactForm:
 
 
 def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
-    """The same as :func:`~quasistatic_ref.certify.eliminated.eliminated_optimum`, as it is defined.
+    """The optimum with compliance as it is defined.
 
+    It equals that of :func:`~quasistatic_ref.certify.compliance.eliminated.eliminated_optimum`.
     Every s is solved for, which takes 30 times longer, and always ends.
 
     Parameters

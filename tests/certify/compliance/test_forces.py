@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify import forces
+from quasistatic_ref.certify.compliance import forces
+from quasistatic_ref.certify.compliance.face_guess import guessed_faces
+from quasistatic_ref.certify.compliance.forces import WRENCH, contact_forces, defined_optimum
 from quasistatic_ref.certify.exact import exact_step
-from quasistatic_ref.certify.face_guess import guessed_faces
-from quasistatic_ref.certify.forces import WRENCH, contact_forces, defined_optimum
 from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.lab.scenes.rigid import rigid_step

@@ -1,14 +1,14 @@
 """The step with compliance in delta_q alone, in float64: a guess of the faces that forces lie on.
 
-See :mod:`~quasistatic_ref.certify.forces`. Newton's method with backtracking: the energy is convex,
-and quadratic as long as the faces stay.
+See :mod:`~quasistatic_ref.certify.compliance.forces`. Newton's method with backtracking: the energy
+is convex, and quadratic as long as the faces stay.
 """
 
 from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.faces import Rows, face, float_multipliers, nearest_face
+from quasistatic_ref.certify.compliance.faces import Rows, face, float_multipliers, nearest_face
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData

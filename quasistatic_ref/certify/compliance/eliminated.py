@@ -1,6 +1,6 @@
 """The step with compliance in delta_q alone, without rounding: contact forces, proved.
 
-See :mod:`~quasistatic_ref.certify.forces`.
+See :mod:`~quasistatic_ref.certify.compliance.forces`.
 """
 
 from collections.abc import Sequence
@@ -12,14 +12,14 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
-from quasistatic_ref.certify.exact import nearest_numbers
-from quasistatic_ref.certify.faces import (
+from quasistatic_ref.certify.compliance.faces import (
     Rows,
     exact_multipliers,
     exact_numbers,
     face,
     nearest_face,
 )
+from quasistatic_ref.certify.exact import nearest_numbers
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.point import Point, ball_form
 from quasistatic_ref.certify.rational import (
