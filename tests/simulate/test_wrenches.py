@@ -50,20 +50,6 @@ def test_a_wrench_does_to_the_coordinates_what_the_rows_did(scenario, run):
         np.testing.assert_allclose(both, generalised(run, k), rtol=ROUNDING, atol=ROUNDING)
 
 
-def test_so_does_the_sum_over_the_links_of_a_body(pinch):
-    scenario, run = pinch
-    system = scenario.system
-    links = ["near/palm", "near/left", "near/right", "held"]
-    wrenches = {link: run.wrench_on(link) for link in links}
-    own = [i for i, c in enumerate(system.coordinates) if c.name.startswith(("near/", "held/"))]
-    for k in range(run.steps):
-        J = system.kinematics(run["q"][k]).J
-        total = sum(J[system.link(link)].T @ wrenches[link][k] for link in links)
-        expected = generalised(run, k)[own]
-        np.testing.assert_allclose(total[own], expected, rtol=ROUNDING, atol=ROUNDING)
-    assert np.abs(wrenches["held"]).max() > 1  # N
-
-
 def test_both_sides_together_are_the_couple_of_the_gaps(scenario, run):
     """About one point, the wrenches on all bodies sum to phi n x f; their forces to nothing."""
     total, couple = np.zeros((run.steps, 6)), np.zeros((run.steps, 3))

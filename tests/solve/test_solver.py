@@ -3,7 +3,6 @@
 import copy
 import inspect
 import pickle
-import re
 from pathlib import Path
 
 import cvxpy as cp
@@ -243,15 +242,6 @@ def test_a_backend_that_raises_is_set_up_again_for_the_next_step(step, monkeypat
     monkeypatch.setattr(Clarabel, "reply", honest)
     answer = solve_step(step, solver, certify="off").delta_q
     assert error(step, answer, solve_step(step, "none").delta_q) <= OPTIMUM
-
-
-def test_a_backend_is_one_line_of_the_table_and_an_adapter_one_file():
-    # A second line of the same name would be lost in the dictionary.
-    assert len(re.findall(r"\bBackend\(\n?\s*\"", inspect.getsource(backends))) == len(BACKENDS)
-    files = {path.stem for path in ADAPTERS.glob("*.py")} - {"__init__", "program"}
-    assert files == {name for name, entry in BACKENDS.items() if entry.adapter}
-    for name in files:
-        assert f"class {BACKENDS[name].adapter}(Adapter):" in (ADAPTERS / f"{name}.py").read_text()
 
 
 @pytest.mark.parametrize("name", BACKENDS)

@@ -127,11 +127,6 @@ def test_counts_are_those_of_the_arrays():
     assert STEP.mask.tolist() == [[True] * 6, [True] * 4 + [False] * 2]
 
 
-def test_empty_blocks_and_no_contacts_are_steps_too(rng):
-    assert random_step(rng, n_a=0, n_u=2, rows=()).n_v == 2
-    assert random_step(rng, n_a=2, n_u=0, rows=()).n_v == 2
-
-
 def test_equality_sees_every_bit():
     assert STEP.replace() == STEP
     tau_u = STEP.tau_u.copy()

@@ -6,7 +6,7 @@ import pytest
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.step.cones import pyramid
 from quasistatic_ref.step.friction import contact_wrenches, friction_rows, row_gaps
-from tests.helpers import changed, random_step
+from tests.helpers import random_step
 from tests.tolerances import EXACT, ROUNDING
 
 
@@ -31,13 +31,6 @@ def test_the_directions_of_a_contact_add_up_to_nothing(rng):
     slips = rng.normal(size=(3, 5))
     total = sum(pyramid(np.zeros(5), *slips))
     np.testing.assert_allclose(total, 0.0, rtol=0.0, atol=ROUNDING)
-
-
-def test_without_friction_all_six_rows_are_the_normal_row(rng):
-    contacts = changed(random_step(rng, rows=(6,)).contacts, mu_v=[0.0], mu_omega=[0.0])
-    normal = contacts.n[0] @ contacts.J[0, :3]
-    expected = [[normal] * 6]
-    np.testing.assert_allclose(friction_rows(contacts), expected, rtol=ROUNDING, atol=ROUNDING)
 
 
 def test_no_contacts_make_no_rows_and_no_wrenches():

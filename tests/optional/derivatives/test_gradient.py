@@ -9,7 +9,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
+from quasistatic_ref.shapes.placed_shape import Sphere
 from tests.optional.derivatives.free_bodies import (
     FLOOR,
     NONE,
@@ -49,16 +49,6 @@ def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
     assert np.allclose(pressed.dq_dq[2, 2], 0, atol=1e-12)
     along = derivatives(simulator, q, NONE, towards={"q": np.eye(6)[0]})
     assert {why.kind for why in along.reasons} == {reason.WEAK}
-
-
-def test_just_beyond_the_limit_of_friction_the_point_slides():
-    simulator, q = free(PointCloud(np.zeros((1, 3))), (0, 0, 0), (FLOOR, (0, 0, 0)), mu=(0.5, 0.0))
-    force = np.array([0.5 * 0.3 * G, 0, 0, 0, 0, 0])
-    sticks = derivatives(simulator, q, NONE, force, {"tau": -np.eye(6)[0]})
-    slides = derivatives(simulator, q, NONE, force, {"tau": np.eye(6)[0]})
-    assert sticks.dq_dtau[0, 0] == pytest.approx(0.0, abs=1e-12)
-    # It rises by mu_v x: h^2 F = m (1 + mu_v^2) x.
-    assert slides.dq_dtau[0, 0] == pytest.approx(H**2 / (0.3 * (1 + 0.5**2)), rel=1e-9)
 
 
 def test_a_copy_has_the_same_one_sided_derivatives():

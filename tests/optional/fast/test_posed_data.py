@@ -10,7 +10,6 @@ from quasistatic_ref.errors import (
 )
 from quasistatic_ref.optional.fast.posed import PosedStep
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
@@ -49,17 +48,6 @@ def test_whatever_is_made_of_a_posed_step_is_checked(things, name, like):
         step.replace(M_u=-step.M_u)
     with pytest.raises(StepDataError, match="d1, d2, n must be"):
         step.replace(contacts=like(step.contacts, n=2 * step.contacts.n))
-
-
-def test_steps_of_one_simulator_share_what_does_not_change():
-    scenario = load_scenario("bunny_grasp", ["solver.certify=off"], fast=True)  # its bunny is rigid
-    simulator, q, results = scenario.simulator(), scenario.system.q_start, []
-    for k in range(2):
-        results.append(simulator.step(q, scenario.targets(0.01 * (k + 1))))
-        q = results[-1].q
-    one, two = (result.step for result in results)
-    assert one.H is two.H
-    assert one.counts is two.counts
 
 
 def test_the_mass_matrix_of_a_mechanism_is_that_of_its_configuration(tmp_path):

@@ -7,8 +7,7 @@ import pytest
 
 from quasistatic_ref.certify.solution import Certificate, SolverStatistics, step_solution
 from quasistatic_ref.cli.solution_files import solution_text
-from quasistatic_ref.optional.fast.posed import Constants, PosedContacts
-from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.optional.fast.posed import PosedContacts
 from quasistatic_ref.step.friction import rounded_wrenches
 from tests.helpers import point_on_floor, random_step
 from tests.tolerances import EXACT
@@ -31,20 +30,6 @@ def test_posed_contacts_have_the_friction_that_they_are_given_or_make_it():
     (v, w), omega = c.mu_v, c.mu_omega[0]
     expected = [[v, v, omega], [w, w, 0.0]]
     np.testing.assert_allclose(posed(None).mu, expected, rtol=EXACT, atol=EXACT)
-
-
-def test_a_step_checks_posed_contacts_and_keeps_those_that_were_checked():
-    assert type(STEP.replace(contacts=posed(None)).contacts) is Contacts
-    assert STEP.replace(contacts=STEP.contacts).contacts is STEP.contacts
-
-
-def test_constants_of_another_mass_have_its_h_and_of_the_same_are_kept():
-    """H is h K_q and, on the unactuated coordinates, M_u / h."""
-    own = Constants(STEP.h, STEP.cone, STEP.K_q, STEP.M_u, STEP.extra, STEP.H, STEP.layout)
-    assert own.at(STEP.M_u) is own
-    expected = STEP.H.copy()
-    expected[3:, 3:] *= 2
-    np.testing.assert_allclose(own.at(2 * STEP.M_u).H, expected, rtol=EXACT, atol=EXACT)
 
 
 def test_a_wrench_that_is_rounded_to_zero_has_no_sign():

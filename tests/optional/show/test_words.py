@@ -33,7 +33,6 @@ from tests.helpers import (
     changed,
     point_on_floor,
     random_step,
-    sphere_on_floor,
 )
 from tests.scenes import SWING, written_scenario
 
@@ -119,14 +118,6 @@ def test_every_object_of_every_scenario_is_short(scenario):
     check(standard_form(result.step), StepProblem(result.step), Recorder(simulator, q))
     assert scenario.path.stem in repr(scenario)
     assert f"{scenario.system.n_v} coordinates ({scenario.system.n_a} actuated)" in repr(simulator)
-
-
-@pytest.mark.parametrize("cone", ["ellipsoid", "facets-16"])
-def test_steps_in_other_cones_are_short_too(cone):
-    step = sphere_on_floor(wrench=(0.2, 0, -3, 0, 0, 0.01)).replace(cone=cone)
-    solution = solve_step(step)
-    check(step, solution, solution.certificate)
-    assert cone in repr(step)
 
 
 def test_empty_things_are_short_too(tmp_path):

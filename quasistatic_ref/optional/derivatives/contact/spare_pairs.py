@@ -7,8 +7,6 @@ than corners, or where its feature ends, a motion makes another point of it: the
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.solids.faces import face
 from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, merged_features

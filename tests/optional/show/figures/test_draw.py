@@ -10,16 +10,15 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.show.figures import animate, draw_scene, moment, panels
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.draw import LONGEST, force_scale, round_scale
-from quasistatic_ref.optional.show.figures.moments import DrawnContact, Moment, extent
-from quasistatic_ref.optional.show.figures.surfaces import faces, patch, surface_points, triangles
+from quasistatic_ref.optional.show.figures.moments import DrawnContact, Moment
+from quasistatic_ref.optional.show.figures.surfaces import faces, surface_points, triangles
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import (
     Box,
-    HalfSpace,
     PlacedShape,
 )
 from tests.legible import faults
-from tests.tolerances import EXACT, FILE_FLOAT32, ROUNDING
+from tests.tolerances import EXACT, ROUNDING
 
 SLOPE = np.radians(25)
 
@@ -69,14 +68,6 @@ def test_the_last_moment_is_counted_from_the_end_and_others_are_refused(incline)
     for k in (run.steps, -run.steps - 1):
         with pytest.raises(InputError, match="must be -30 to 29"):
             moment(scenario, run, k)
-
-
-def test_the_ellipsoid_s_rim_is_a_circle(spun):
-    scenario = load_scenario("sphere_spin", ["steps=2", "cone=ellipsoid"], fast=True)
-    (contact,) = moment(scenario, scenario.run(progress=False), -1).contacts
-    across = contact.rim - contact.f_n * contact.frame[2]
-    lengths = np.linalg.norm(across, axis=1)
-    np.testing.assert_allclose(lengths, contact.mu_v * contact.f_n, rtol=ROUNDING)
 
 
 def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
@@ -151,26 +142,11 @@ def test_faces_and_triangles_of_a_cube_and_their_direction():
     assert (np.einsum("ti,ti->t", normal, corners.mean(axis=1)) > 0).all()
 
 
-def test_the_patch_of_a_floor_lies_in_it_below_the_scene():
-    floor = HalfSpace(np.array([1.0, 2.0, 2.0]), 0.6)
-    corners = patch(floor, np.array([0.3, 0.1, 0.5]), 0.2)
-    np.testing.assert_allclose(corners @ floor.normal, floor.offset, rtol=ROUNDING)
-    foot = corners.mean(axis=0) - [0.3, 0.1, 0.5]
-    np.testing.assert_allclose(np.cross(foot, floor.normal), 0, atol=ROUNDING)
-    np.testing.assert_allclose(np.linalg.norm(corners[1] - corners[0]), 0.4, rtol=ROUNDING)
-
-
 @pytest.mark.parametrize(
     ("scale", "rounded"), [(0.0123, 0.01), (0.9, 0.5), (1.0, 1.0), (4.9, 2.0), (50.0, 50.0)]
 )
 def test_scales_are_rounded_down_to_one_two_or_five(scale, rounded):
     np.testing.assert_allclose(round_scale(scale), rounded, rtol=ROUNDING)
-
-
-def test_the_extent_of_a_scene_leaves_out_what_has_none(spun):
-    box = extent(moment(*spun, 0))
-    np.testing.assert_allclose(box[:, 2], [0.0, 0.1], atol=FILE_FLOAT32)
-    np.testing.assert_allclose(np.ptp(box[:, :2], axis=0), 0.1, rtol=3e-3)
 
 
 def test_a_film_has_a_frame_for_every_twentieth_of_a_second(incline, tmp_path):
