@@ -76,17 +76,6 @@ def test_every_interface_agrees_with_an_active_set_solver_at_1e_12(interface, sh
     assert out + err == ""  # and no interface warns, for warnings are errors here
 
 
-def test_other_backends_agree_or_say_that_they_did_not_solve():
-    step, delta_q, _ = planted_step(np.random.default_rng(0), *SHAPES[0])
-    for name in set(installed_backends()) - set(INTERFACES):
-        try:
-            answer = solve_step(step, name)
-        except StepNotSolved:
-            continue
-        gap = error(step, answer.delta_q, delta_q)
-        np.testing.assert_allclose(gap, 0.0, rtol=0.0, atol=OPTIMUM, err_msg=name)
-
-
 @every_interface
 def test_a_step_gives_the_same_bits_whatever_was_solved_before(interface):
     steps = [planted_step(np.random.default_rng(seed))[0] for seed in (1, 2)]

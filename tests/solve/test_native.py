@@ -10,7 +10,6 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import DenseStep
@@ -19,7 +18,7 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import SHAPES, changed, error, pinch, planted_step, random_step
+from tests.helpers import changed, error, pinch, planted_step, random_step
 from tests.tolerances import EXACT, OPTIMUM
 
 every_backend = pytest.mark.parametrize("backend", installed("native"))
@@ -41,19 +40,6 @@ def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backen
     for found, value in ((program.H, expected.H), (program.f, -expected.g),
                          (program.A, expected.A), (program.b, expected.b)):  # fmt: skip
         np.testing.assert_allclose(found, value, rtol=EXACT, atol=EXACT)
-
-
-@every_backend
-@pytest.mark.parametrize("shape", SHAPES, ids=str)
-def test_each_backend_follows_steps_that_change_in_everything(backend, shape):
-    solver = None
-    for seed in range(2):
-        rng = np.random.default_rng(seed)
-        for step in (random_step(rng, *shape), planted_step(rng, *shape)[0]):
-            solver = NativeSolver(step, backend) if solver is None else solver
-            truth = solve_step(step, "none").delta_q
-            answer = solve_step(step, solver, certify="off")
-            assert error(step, answer.delta_q, truth) <= OPTIMUM
 
 
 @every_backend
@@ -115,16 +101,6 @@ def test_an_engine_is_refused_in_a_sentence_that_names_fast(capsys):
     with pytest.raises(SystemExit):
         main(["run", "sphere_spin", "--engine", "native"])
     assert "--engine is no option any more; --fast" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("fast", [False, True])
-def test_a_simulator_passes_curved_extensions_to_cvxpy(fast):
-    scenario = load_scenario("sphere_spin", ["solver.certify=residual"])
-    curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
-    settings = {"h": scenario.h, "K_q": scenario.K_q, "certify": "residual", "fast": fast}
-    q, goal = scenario.system.q_start, scenario.targets(scenario.h)
-    simulator = Simulator(scenario.system, scenario.pairs, extension=lambda q: curved, **settings)
-    assert simulator.step(q, goal).solution.certificate.kind == "residual"
 
 
 NATIVE_RUN = """

@@ -13,7 +13,7 @@ from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from tests.helpers import changed, changed_blocks
+from tests.helpers import changed_blocks
 from tests.scenes import chain_scene
 from tests.step.public_data import public_data
 
@@ -64,19 +64,6 @@ def test_the_mass_matrix_of_a_mechanism_is_that_of_its_configuration(tmp_path):
         np.testing.assert_array_equal(step.H, expected)
         matrices.append(step.M_u)
     assert (matrices[0] != matrices[1]).any()  # its un-actuated joints bend the arm
-
-
-def test_sparse_contacts_are_read_like_contacts_and_keep_no_dense_jacobian(things):
-    sparse = things["SparseContacts"]
-    public = {name for name in dir(Contacts) if not name.startswith("_")}
-    assert {*public, "J", "phi", "n", "d1", "d2", "name", "rows"} <= set(dir(sparse)) | set(
-        vars(sparse)
-    )
-    assert sparse.J.shape == (sparse.n_c, 4, sparse.n_v)
-    assert "J" not in vars(sparse)
-    delta_q = np.sin(np.arange(sparse.n_v))
-    dense = changed(sparse)
-    np.testing.assert_allclose(dense.motion(delta_q), sparse.motion(delta_q), atol=1e-15)
 
 
 REFUSED = {

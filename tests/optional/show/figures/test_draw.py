@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
-from matplotlib.patches import Polygon
 from PIL import Image
 
 from quasistatic_ref.errors import InputError
@@ -89,19 +88,6 @@ def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
     ]
     unit = normals[0] / np.linalg.norm(normals[0])
     np.testing.assert_allclose(unit, [np.sin(SLOPE), np.cos(SLOPE)], atol=ROUNDING)
-
-
-def test_a_body_s_outline_is_where_the_body_is(incline, page):
-    scenario, run = incline
-    of = moment(scenario, run, -1)
-    draw_scene(page, of, parts=())
-    drawn = [p.get_xy()[:-1] for p in page.patches if isinstance(p, Polygon)]
-    (rough, smooth) = [s for s in of.shapes if isinstance(s.shape, Box)]
-    drawn.sort(key=lambda outline: outline[:, 0].max())
-    for outline, placed in zip(drawn, (rough, smooth), strict=True):
-        corners = 1e3 * of.world(placed, surface_points(placed))[:, [0, 2]]
-        np.testing.assert_allclose(outline.max(axis=0), corners.max(axis=0), rtol=ROUNDING)
-        np.testing.assert_allclose(outline.min(axis=0), corners.min(axis=0), rtol=ROUNDING)
 
 
 def test_the_circle_of_torsion_has_radius_mu_omega():

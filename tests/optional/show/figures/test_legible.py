@@ -5,7 +5,6 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.examples import pinch_threshold
 from quasistatic_ref.optional.show.figures import figure_style, panels, style_file
 from quasistatic_ref.optional.show.figures.style import PAGE, STYLES, scaled, sized
 from tests.legible import faults
@@ -73,23 +72,6 @@ def test_a_planted_fault_is_found(page, plant, says):
     found = faults(figure)
     assert found
     assert all(says in fault for fault in found), found
-
-
-@pytest.mark.parametrize("size", [(3.4, 2.4), (6.3, 3.4)])
-def test_text_that_is_cut_is_read_at_any_size(size):
-    label = "distance d of the centre of mass from the fingers' axis, as it was measured [mm]"
-    with figure_style("paper"):
-        figure, axes = plt.subplots(figsize=size, layout="constrained")
-        axes.set(xlabel=label, ylabel="squeeze N [N]", xlim=(0, 60))
-        extent = axes.xaxis.label.get_window_extent()
-        out = extent.width > 100 * size[0]
-        assert any("reaches from" in fault for fault in faults(figure)) == out
-    plt.close(figure)
-    with figure_style("paper"):
-        figure, axes = plt.subplots(figsize=size, layout="constrained")
-        pinch_threshold.figure(axes, levers=2)
-    assert faults(figure) == []
-    plt.close(figure)
 
 
 @pytest.mark.parametrize("style", ["slides", "poster"])
