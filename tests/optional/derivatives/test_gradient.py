@@ -13,9 +13,9 @@ from quasistatic_ref.shapes.placed_shape import Sphere
 from tests.optional.derivatives.free_bodies import (
     FLOOR,
     NONE,
-    G,
     H,
     free,
+    reaching,
     sided,
     verdict,
 )
@@ -25,7 +25,7 @@ from tests.tolerances import DIFFERENCE_OF_STEPS
 
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (0, 0, -1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
 def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
-    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    simulator, q = reaching()
     found, _ = verdict(simulator, q)
     e, move = np.array(way), simulator.system.integrate
     there = sided(lambda t: after(simulator, found.result.q, move(q, t * e), np.zeros(0)))
@@ -36,7 +36,7 @@ def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
 
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
 def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
-    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    simulator, q = reaching()
     e, down = np.array(way), np.array([0.0, 0, -1, 0, 0, 0])
     found = derivatives(simulator, q, NONE, towards={"q": e})
     assert found.differentiable
@@ -52,7 +52,7 @@ def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
 
 
 def test_a_copy_has_the_same_one_sided_derivatives():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    simulator, q = reaching()
     for found in (derivatives(simulator, q, NONE), smoothed(simulator, q, NONE, 1e-6)):
         again = pickle.loads(pickle.dumps(found))
         assert (again.along(q=np.eye(6)[2]) == found.along(q=np.eye(6)[2])).all()

@@ -110,7 +110,7 @@ def test_size_decides_whether_a_step_is_sparse(monkeypatch):
 def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always_sparse):
     step = step_after(pile(BOXES), 1).step
     with pytest.raises(BackendError, match=r"takes no sparse matrices; .* clarabel, osqp, piqp"):
-        SparseSolver(step, "daqp")
+        SparseSolver(step, "daqp", None)
 
 
 def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():

@@ -31,7 +31,7 @@ RIGHT_OR_WRONG = {"least": -17, "balanced": 0.3, "factors": (1.0, 1.0, 0.5, 2.0,
 def bound_of(step, delta_q, lam):
     """The bound of an answer in SI units by the sparse path; infinite where none is known."""
     sparse = in_blocks(step)
-    solver = SparseSolver(sparse, "clarabel")
+    solver = SparseSolver(sparse, "clarabel", None)
     return solver.error_bound(solver.scaled(sparse), delta_q, lam)
 
 

@@ -85,7 +85,7 @@ class PairInWorld:
     @cached_property
     def closest(self) -> "Couple":
         """The closest pair of two solids as a couple."""
-        return _couple(self, self.nearest._replace(point=np.array([self.pair.corners])))
+        return _couple(self, self.nearest._replace(point=np.array([self.pair.corners])), 0)
 
 
 class Couple(NamedTuple):
@@ -131,15 +131,14 @@ def couples(
     found, at = list[Couple](), 0
     for pair in pairs:
         of = PairInWorld(pair, (in_world(pair.alpha, R, t), in_world(pair.beta, R, t)))
-        for j in range(at, at + pair.n_c):
-            found.append(_couple(of, points.chosen(np.array([j]))))
+        found += [_couple(of, points, j) for j in range(at, at + pair.n_c)]
         at += pair.n_c
     return found
 
 
-def _couple(of: PairInWorld, one: ClosestPoints) -> Couple:
-    phi, n, index = float(one.phi[0]), one.n[0], int(one.point[0])
-    ends, pair = (one.alpha[0], one.beta[0]), of.pair
+def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
+    phi, n, index = float(points.phi[j]), points.n[j], int(points.point[j])
+    ends, pair = (points.alpha[j], points.beta[j]), of.pair
     corner = _corner(of, index)
     features, centre, rim = [], None, None
     for side, (body, end, outward) in enumerate(zip(of.bodies, ends, (n, -n), strict=True)):

@@ -30,6 +30,7 @@ from quasistatic_ref.shapes.placed_shape import (
     Sphere,
 )
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
 NONE = np.zeros((0, 3))
@@ -206,4 +207,4 @@ def across(n: Array) -> Array:
     first = np.eye(3)[np.abs(n).argmin()]
     first = first - (first @ n) * n
     first = first / np.sqrt(first @ first)
-    return np.stack([first, np.cross(n, first)])
+    return np.concatenate([first[None], crossed(n[None], first[None])])

@@ -16,7 +16,7 @@ from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.data import Array
 
 PALETTE: Final = (0x0072B2, 0xE69F00, 0x009E73, 0xCC79A7, 0x56B4E9, 0xF0E442)
-"""Colours of bodies in turn, which are told apart by every eye (Okabe and Ito 2008)."""
+"""Colours of bodies in turn, which colour-blind readers can distinguish (Okabe and Ito 2008)."""
 FIXED: Final = 0xBDBDBD
 """What belongs to no body."""
 AROUND, UP = 32, 13
