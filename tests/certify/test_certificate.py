@@ -69,13 +69,6 @@ def test_rows_have_a_contact_and_a_number_in_it(step):
     assert flat_rows(step, pairs) == tuple(rows)
 
 
-@pytest.mark.parametrize("pair", [(0, 6), (14, 4), (15, 2), (16, 0), (-1, 0), (0, -1)])
-def test_rows_that_do_not_exist_are_refused(step, optimum, pair):
-    verdict = verify(step, optimum.delta_q, [pair])
-    assert not verdict
-    assert "no row" in verdict.reason
-
-
 @pytest.mark.parametrize(
     ("field", "value"),
     [

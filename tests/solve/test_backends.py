@@ -112,16 +112,6 @@ def test_certify_is_one_of_the_known_kinds():
         solve_step(point_on_floor(), certify="yes")
 
 
-@every_interface
-def test_an_infeasible_step_is_raised_with_the_step_in_si_units(interface):
-    step = opposing_walls()
-    with pytest.raises(StepNotSolved) as caught:
-        solve_step(step, interface)
-    assert caught.value.step is step
-    assert caught.value.backend == interface
-    assert caught.value.accuracy == max(1e-12, backend(interface).floor)
-
-
 @pytest.mark.parametrize(
     ("name", "limit"),
     [("clarabel", "max_iter"), ("osqp", "max_iter"), ("piqp", "max_iter"), ("daqp", "iter_limit")],
