@@ -57,6 +57,7 @@ def runs() -> list[Run]:
         for engine, settings in STUDY["engines"].items()
         for setting in settings
         for h in STUDY["steps"]
+        if h >= settings[setting].get("least_h", 0.0)
     ]
 
 
