@@ -16,6 +16,7 @@ from typing import Any
 
 from tqdm import tqdm
 
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.parallel import Log
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from validation.programs.engines.judge import ENGINES, HERE, python_of
@@ -30,8 +31,8 @@ from validation.programs.engines.second_order import (
     runs,
     scene_of,
 )
+from validation.programs.engines.second_order_page import RESULTS, rows, tables
 
-RESULTS = Path(__file__).parents[1] / "results" / "second_order.jsonl"
 TIMEOUT = 1200.0
 """For one run [s]."""
 
@@ -116,6 +117,8 @@ def main() -> None:
                     print(log.found[run])
         finally:
             engines.close()
+    if not given.count:
+        text_written(RESULTS.with_suffix(".md"), tables(rows()))
 
 
 if __name__ == "__main__":

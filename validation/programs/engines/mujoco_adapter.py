@@ -65,6 +65,9 @@ def mjcf(scene: Any, setting: Any) -> str:
     )
 
 
+mujoco.set_mju_user_warning(lambda _: None)  # else a file MUJOCO_LOG.TXT is written
+
+
 def phenomena(case: Any) -> Any:
     """A scene by mj_step."""
     scene, setting = case["scene"], case["setting"]

@@ -81,8 +81,9 @@ def phenomena(case: Any) -> Any:
         for b in (placed[second][k] for k in (shapes[0] if shapes else range(len(placed[second]))))
     ]
     servos = [name for name, body in bodies.items() if body["joint"] == "servo"]
+    K_q = np.diag([bodies[name]["K"] for name in servos for _ in "xyz"])
     simulator = Simulator(
-        system, pairs, h=setting["h"], K_q=np.diag([bodies[name]["K"] for name in servos for _ in "xyz"]),
+        system, pairs, h=setting["h"], K_q=K_q,
         gravity=np.array(scene["gravity"]), **setting.get("simulator", {}),
     )  # fmt: skip
     state = {"q": system.q_start, "target": np.zeros(system.n_a)}
