@@ -160,6 +160,12 @@ def test_the_paper_s_rows_are_not_taken_for_those_of_another_cone(name, rng):
         StepProblem(random_step(rng).replace(cone=name))
 
 
+def test_rows_of_a_user_s_own_are_not_dropped(rng):
+    step = random_step(rng).replace(extra=Extra(("a",), np.ones((1, 7)), [0.0]))
+    with pytest.raises(StepDataError, match="extra: has a user's own rows; solve/cvxpy_problem"):
+        StepProblem(step)
+
+
 def test_further_constraints_come_after_all_rows_of_the_step(rng):
     step = random_step(rng, rows=(4, 4)).replace(extra=Extra(("a",), np.ones((1, 7)), [0.0]))
     problem = CvxpyProblem(step, constraints=lambda own: [own.delta_q <= 1.0])

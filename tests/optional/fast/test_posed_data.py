@@ -5,17 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import (
-    StepDataError,
-)
-from quasistatic_ref.optional.fast.posed import PosedStep
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.optional.fast.posed import PosedContacts, PosedStep
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from tests.helpers import changed_blocks
+from tests.helpers import changed_blocks, random_step
 from tests.scenes import chain_scene
 from tests.step.public_data import public_data
+from tests.tolerances import EXACT
 
 NAN = np.nan
 
@@ -88,3 +87,18 @@ def test_a_force_of_another_shape_is_refused(things, shape):
     simulator, q, goal = scenario.simulator(), scenario.system.q_start, scenario.targets(0.01)
     with pytest.raises(StepDataError, match=r"force: must have shape \(8,\)"):
         simulator.step(q, goal, np.ones(shape))
+
+
+def posed(c, mu):
+    """Contacts as a simulator poses them."""
+    arrays = (array.copy() for array in (c.phi, c.n, c.d1, c.d2, c.J))
+    return PosedContacts(c.name, *arrays, c.mu_v, c.mu_omega, c.rows, mu)
+
+
+def test_posed_contacts_have_the_friction_that_they_are_given_or_make_it(rng):
+    """(mu_v, mu_v, mu_omega) of each contact; the second has four rows, and no mu_omega."""
+    c = random_step(rng, rows=(6, 4)).contacts
+    assert posed(c, c.mu).mu is c.mu
+    (v, w), omega = c.mu_v, c.mu_omega[0]
+    expected = [[v, v, omega], [w, w, 0.0]]
+    np.testing.assert_allclose(posed(c, None).mu, expected, rtol=EXACT, atol=EXACT)
