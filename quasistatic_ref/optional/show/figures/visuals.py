@@ -4,8 +4,6 @@ from collections.abc import Iterator, Sequence
 from typing import Any, Final, NamedTuple
 from xml.etree.ElementTree import Element
 
-import numpy as np
-
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.mesh_files import mesh_corners, mesh_path
@@ -73,7 +71,7 @@ def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
     if not isinstance(shape, FileMesh):
         points = shape.surface(AROUND, UP)
-        return np.asarray(points[triangles(points)].reshape(-1, 3))
+        return triangles(points)
     return mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
 
 

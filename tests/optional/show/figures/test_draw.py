@@ -122,7 +122,7 @@ def test_a_scene_is_legible_in_every_view(incline, view):
 def test_faces_and_triangles_of_a_cube_and_their_direction():
     cube = surface_points(PlacedShape("s", 0, np.eye(3), np.zeros(3), Box(np.ones(3))))
     assert sorted(len(face) for face in faces(cube)) == [4] * 6
-    corners = cube[triangles(cube)]
+    corners = triangles(cube).reshape(-1, 3, 3)
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     assert len(corners) == 12
     assert (np.einsum("ti,ti->t", normal, corners.mean(axis=1)) > 0).all()
