@@ -110,8 +110,8 @@ def scenario_written(simulator: Simulator, path: str | Path, steps: int) -> Path
         tables |= {f"bodies.{name}": table for name, table in scene.bodies(simulator).items()}
         tables |= {f"shapes.{name}": table for name, table in scene.standing.items()}
         tables |= {f"contacts.{json_text(name)}": table for name, table in contacts.items()}
-        written = text_written(Path(folder) / path.name, toml_text(tables))
-        check_same(simulator, written)
+        written = text_written(Path(folder) / path.name, _toml_text(tables))
+        _check_same(simulator, written)
         target = writable_folder(path.parent)
         for file in sorted(Path(folder).iterdir(), key=lambda file: file.suffix == ".toml"):
             bytes_written(target / file.name, file.read_bytes())
@@ -151,8 +151,8 @@ class _SceneFiles:
         if any(placed is own for own in self.system.shapes):
             return placed.name
         if placed.link == WORLD:
-            kind, sizes = solid_table(placed)
-            pose = {"xyz": placed.t.tolist(), "rpy": roll_pitch_yaw(placed)}
+            kind, sizes = _solid_table(placed)
+            pose = {"xyz": placed.t.tolist(), "rpy": _roll_pitch_yaw(placed)}
             self.standing[placed.name] = {kind: sizes, "pose": pose}
             return placed.name
         body, _, link = self.system.links[placed.link].partition("/")
@@ -173,7 +173,7 @@ class _SceneFiles:
 
     def added(self, placed: PlacedShape, body: str, link: str) -> str:
         """A solid as a collision shape of its link."""
-        kind, sizes = solid_table(placed)
+        kind, sizes = _solid_table(placed)
         if kind not in IN_URDF:
             problem = (
                 f"is a {kind} on a link; a URDF has {', '.join(IN_URDF)}, and clouds stand in files"
@@ -184,9 +184,9 @@ class _SceneFiles:
         name = placed.name.replace("/", "_").replace("#", "_")
         if all(one.get("name") != name for one in parent.findall("collision")):
             collision = SubElement(parent, "collision", name=name)
-            rpy = roll_pitch_yaw(placed)
-            SubElement(collision, "origin", xyz=numbers(placed.t.tolist()), rpy=numbers(rpy))
-            words = {key: numbers(np.ravel(value).tolist()) for key, value in sizes.items()}
+            rpy = _roll_pitch_yaw(placed)
+            SubElement(collision, "origin", xyz=_numbers(placed.t.tolist()), rpy=_numbers(rpy))
+            words = {key: _numbers(np.ravel(value).tolist()) for key, value in sizes.items()}
             SubElement(SubElement(collision, "geometry"), kind, words)
             self.robots[number].set("version", "1.1")  # from which on there are capsules
         return f"{body}/{name}"
@@ -250,7 +250,7 @@ class _SceneFiles:
                     mesh.set("filename", name)
 
 
-def solid_table(placed: PlacedShape) -> tuple[str, dict[str, Any]]:
+def _solid_table(placed: PlacedShape) -> tuple[str, dict[str, Any]]:
     """Kind and sizes of a solid, as ``[shapes.NAME]`` has them.
 
     Raises
@@ -274,7 +274,7 @@ def solid_table(placed: PlacedShape) -> tuple[str, dict[str, Any]]:
     raise InputError(problem, field=placed.name)
 
 
-def roll_pitch_yaw(placed: PlacedShape) -> list[float]:
+def _roll_pitch_yaw(placed: PlacedShape) -> list[float]:
     """Roll, pitch and yaw [rad] that give a shape's R to the last bit.
 
     Those of R are rounded, so their neighbours are tried as well.
@@ -296,7 +296,7 @@ def roll_pitch_yaw(placed: PlacedShape) -> list[float]:
     raise InputError(problem, field=f"{placed.name}.R", value=R.tolist())
 
 
-def check_same(simulator: Simulator, path: Path) -> None:
+def _check_same(simulator: Simulator, path: Path) -> None:
     """Check that a scenario's first step is the simulator's, to the last bit.
 
     Raises
@@ -314,12 +314,12 @@ def check_same(simulator: Simulator, path: Path) -> None:
                 raise InputError(problem, field=f"{shape.name}.R", value=shape.R.tolist())
     if np.any(other.system.q_start != q):
         raise InputError("would start elsewhere when it is loaded", file=path.name)
-    both = zip(first_step(simulator), first_step(other), strict=True)
+    both = zip(_first_step(simulator), _first_step(other), strict=True)
     if simulator.cone != other.cone or not all(np.array_equal(a, b) for a, b in both):
         raise InputError("would have another first step when it is loaded", file=path.name)
 
 
-def first_step(simulator: Simulator) -> list[Array]:
+def _first_step(simulator: Simulator) -> list[Array]:
     """All numbers of the step from where the system starts, with the targets there."""
     system, q = simulator.system, simulator.system.q_start
     kinematics = system.kinematics(q)
@@ -332,25 +332,25 @@ def first_step(simulator: Simulator) -> list[Array]:
     return [np.asarray(one, dtype=np.float64) for one in numbers]
 
 
-def toml_text(tables: Mapping[str, Mapping[str, Any]]) -> str:
+def _toml_text(tables: Mapping[str, Mapping[str, Any]]) -> str:
     """Tables by their headings, the first one at the top of the file, in TOML."""
     parts = []
     for heading, table in tables.items():
         lines = [f"[{heading}]"] if heading else []
-        lines += [f"{name} = {toml_value(value)}" for name, value in table.items()]
+        lines += [f"{name} = {_toml_value(value)}" for name, value in table.items()]
         parts.append("\n".join(lines) + "\n")
     return "\n".join(parts)
 
 
-def toml_value(value: Any) -> str:
+def _toml_value(value: Any) -> str:
     """A value in TOML, tables in one line."""
     if isinstance(value, Mapping):
-        return f"{{ {', '.join(f'{json_text(k)} = {toml_value(v)}' for k, v in value.items())} }}"
+        return f"{{ {', '.join(f'{json_text(k)} = {_toml_value(v)}' for k, v in value.items())} }}"
     if isinstance(value, list | tuple):
-        return f"[{', '.join(map(toml_value, value))}]"
+        return f"[{', '.join(map(_toml_value, value))}]"
     return repr(value) if isinstance(value, float) else json_text(value)
 
 
-def numbers(values: Any) -> str:
+def _numbers(values: Any) -> str:
     """Numbers in shortest decimal, spaces between them."""
     return " ".join(map(repr, values))
