@@ -112,12 +112,6 @@ RESULTS = (
             "docs/figures/contact_qp.png",
         ),
     ),
-    printed(
-        "sequences",
-        "sequences.txt",
-        f"{CLI} study sequences daqp osqp clarabel piqp quadprog qpsolvers:daqp "
-        "--repetitions 1 --quiet",
-    ),
     printed("pair_distances", "pair_distances.md"),
     printed("step_profile", "step_profile.md"),
     printed("random_mechanisms", "random_mechanisms.md"),
@@ -160,14 +154,13 @@ RESULTS = (
     ),
     to_file("installs", "installs.md", "validation.tools.check_installs"),
     script("exit_codes", "md"),
-    script("option_search", "jsonl", "md"),
     *(
         Result(
             f"study_{name}",
             f"validation.make.study_reports {name}",
             (f"validation/studies/{name}",),
         )
-        for name in ("default", "bunny_torsion")
+        for name in ("default", "sequences", "bunny_torsion")
     ),
 )
 

@@ -105,7 +105,7 @@ def same_problems(rows: Rows) -> str:
 
 def headline(found: Sequence[Soonest], comparison: Comparison) -> Table:
     """Who solves what share to 6 digits, in what time, with how many false claims."""
-    heads = solver_headings(found[0].rows)
+    heads = solver_headings(comparison.rows)
     lines = []
     for one in found:
         own, solved = one.rows, one.rows.at(solved=True)
@@ -129,7 +129,7 @@ def headline(found: Sequence[Soonest], comparison: Comparison) -> Table:
 def interface_table(comparison: Comparison) -> Table:
     """Every interface to a solver at its setting, with its options, and all that is known of it."""
     found = comparison.soonest
-    names = (*solver_headings(found[0].rows), "setting", "its own options", "looks as if it")
+    names = (*solver_headings(comparison.rows), "setting", "its own options", "looks as if it")
     lines = []
     for one in found:
         own, families = one.rows, one.rows["family"]
@@ -434,7 +434,7 @@ def place_tables(study: Mapping[str, Any]) -> list[Table]:
 
 
 def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
-    """Every solver's options at every setting, what they promise, and its author's word."""
+    """Every solver's options at every setting, what they promise, and its author's note."""
     rows = tuple(
         (s["name"], s["interface"], setting, f"`{options_words(options)}`",
          option_file(str(s["target"])).get("source", "-"),
@@ -443,5 +443,5 @@ def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
         for setting, options in s["options"].items()
     )  # fmt: skip
     names = ("solver", "interface", "setting", "its own options", "documented at",
-             "its author's word", "digits promised")  # fmt: skip
+             "its author's note", "digits promised")  # fmt: skip
     return Table("Options.", "the store, options", names, rows, left=6)
