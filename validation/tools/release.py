@@ -100,7 +100,6 @@ RESULTS = (
         "validation.make.digits_of_backends",
         ("validation/results/digits_of_backends.csv", "docs/figures/digits_of_backends.png"),
     ),
-    printed("options_of_backends", "options_of_backends.csv"),
     printed("large_steps", "large_steps.md"),
     printed("grouped_proofs", "grouped_proofs.md"),
     Result(
