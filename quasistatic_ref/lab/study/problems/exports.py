@@ -3,7 +3,6 @@
 Each export carries a README with the layout of its files, the licences, and how to cite.
 """
 
-import tomllib
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import IO, Any
@@ -74,7 +73,8 @@ def has_place(one: Problem, to: str) -> bool:
 def _carried(name: str, count: int, to: str, folder: Path) -> list[Path]:
     """The README, the licences and the citation."""
     here = Path(__file__).parent
-    layout = tomllib.loads((here / "layouts.toml").read_text(encoding="utf-8"))[to]
+    layouts = (here / "layouts.txt").read_text(encoding="utf-8")
+    layout = layouts.partition(f"# {to}\n")[2].partition("\n# ")[0]
     words = layout.format(name=name, stem=name.replace("-", "_")).strip()
     text = (
         (here / "export.txt")
