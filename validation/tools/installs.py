@@ -59,10 +59,10 @@ STUDY: Final = (
     "quasistatic-ref study run default --quick --out study",
     "quasistatic-ref study report study --out report",
     "quasistatic-ref study pack study",
-    "quasistatic-ref study export study --every 20 --out qpbenchmark",
+    "quasistatic-ref study problems export study/problems --to parquet --out qpbenchmark",
     "quasistatic-ref study problems check",
     "quasistatic-ref study problems export --to npz --families wedge --every 20 --out problems",
-    "quasistatic-ref study sequences daqp --scenario sphere_spin --repetitions 1 --out sequences",
+    "quasistatic-ref study run sequences --quick --out sequences",
 )
 
 COMMANDS: Final[dict[str, tuple[str, ...]]] = {

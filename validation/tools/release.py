@@ -100,7 +100,6 @@ RESULTS = (
         "validation.make.digits_of_backends",
         ("validation/results/digits_of_backends.csv", "docs/figures/digits_of_backends.png"),
     ),
-    printed("options_of_backends", "options_of_backends.csv"),
     printed("large_steps", "large_steps.md"),
     printed("grouped_proofs", "grouped_proofs.md"),
     Result(
@@ -111,12 +110,6 @@ RESULTS = (
             "validation/results/contact_qp.md",
             "docs/figures/contact_qp.png",
         ),
-    ),
-    printed(
-        "sequences",
-        "sequences.txt",
-        f"{CLI} study sequences daqp osqp clarabel piqp quadprog qpsolvers:daqp "
-        "--repetitions 1 --quiet",
     ),
     printed("pair_distances", "pair_distances.md"),
     printed("step_profile", "step_profile.md"),
@@ -161,14 +154,13 @@ RESULTS = (
     ),
     to_file("installs", "installs.md", "validation.tools.check_installs"),
     script("exit_codes", "md"),
-    script("option_search", "jsonl", "md"),
     *(
         Result(
             f"study_{name}",
             f"validation.make.study_reports {name}",
             (f"validation/studies/{name}",),
         )
-        for name in ("default", "bunny_torsion")
+        for name in ("default", "sequences", "bunny_torsion")
     ),
 )
 
