@@ -104,8 +104,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
     "jax": JAX,
     "study": STUDY,
     "notebooks": (
-        "checkout:python -m validation.tools.notebooks --only door robot_push "
-        "--out {out}/notebooks",
+        "checkout:python -m validation.tools.notebooks door robot_push --out {out}/notebooks",
     ),
     "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
     "fuzz": ("checkout:python -m validation.tools.fuzz --inputs 600 --out {out}/fuzz",),

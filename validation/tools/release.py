@@ -80,7 +80,6 @@ def fuzzed(name: str, options: str = "") -> Result:
 RESULTS = (
     Result("vectors", f"{CLI} vectors generate --out validation/vectors", ("validation/vectors",)),
     to_file("planted_bugs", "planted_bugs.md"),
-    script("partial_ports", "md"),
     to_file("challenges", "challenges.md"),
     Result("engines", "validation.make.engines", ("validation/results/engines",)),
     Result(
