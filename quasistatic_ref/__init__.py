@@ -46,8 +46,8 @@ _HOMES = {
     "optional.derivatives.step.sensitivity": "sensitivity",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
-    "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NotDifferentiable "
-    "RunFailed",
+    "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NoFixedPoint "
+    "NotDifferentiable RunFailed",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

@@ -27,6 +27,10 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
         "metavar": "NAME",
         "help": f"friction cone in place of the file's: {', '.join(CONES)}",
     },
+    "--law": {
+        "metavar": "NAME",
+        "help": "law of friction: convex (default), or coulomb, under which nothing lifts off",
+    },
     "--certify": {"metavar": "KIND", "help": "full (default), residual or off"},
     "--set": {
         "action": "append",
@@ -47,6 +51,8 @@ COMPLETED = "completed"
 """The attribute of an argument by which ``completion`` knows what it may be."""
 CERTIFY = ("full", "residual", "off")
 """As in ``solve``, which takes a second to import; a test holds them equal."""
+LAWS = ("convex", "coulomb")
+"""As in ``simulate``, likewise."""
 
 
 def _backends() -> Sequence[str]:
@@ -59,6 +65,7 @@ WORDS: Final[dict[str, Callable[[], Iterable[str]]]] = {
     "--backend": _backends,
     "--cone": lambda: [name.replace("-K", "-8") for name in CONES],
     "--certify": lambda: CERTIFY,
+    "--law": lambda: LAWS,
 }
 """What a shell completes an option by."""
 
@@ -124,6 +131,8 @@ def scenario_settings(options: argparse.Namespace) -> list[str]:
         settings.append("fast=true")
     if getattr(options, "cone", None) is not None:
         settings.append(f"cone={json_text(options.cone)}")
+    if getattr(options, "law", None) is not None:
+        settings.append(f"law={json_text(options.law)}")
     return settings
 
 

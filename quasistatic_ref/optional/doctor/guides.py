@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import Said, Start, contacts_of
+from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEARS, CRAWL, LOCKED, REPEATED, SAME_NORMAL
@@ -79,15 +80,25 @@ def guided(start: Start) -> Iterator[Said]:
         fastest = guide.clearance / (guide.mu * start.h)
         names = sorted({start.simulator.layout.names[j] for j in guide.contacts})
         key = (*names, *_joints(start, guide))
-        if fastest >= CRAWL or key in said:
+        under_coulomb = start.simulator.law == COULOMB
+        if fastest >= CRAWL or key in said or (under_coulomb and guide.clearance):
             continue
         said.add(key)
         unit = "rad" if guide.turns else "m"
+        cause = (
+            f"{' and '.join(_joints(start, guide))} cannot open the gap of {' and '.join(names)}, "
+            f"{1e3 * guide.clearance:.3g} mm, "
+        )
+        if under_coulomb:
+            cause += "where Coulomb's law has many solutions, and a run takes the locked one"
+        else:
+            cause += (
+                f"and a contact that slides has to rise: it moves by at most {fastest:.3g} "
+                f"{unit}/s, whatever the force"
+            )
         yield Said(
             _remedy(start, guide),
-            f"{' and '.join(_joints(start, guide))} cannot open the gap of {' and '.join(names)}, "
-            f"{1e3 * guide.clearance:.3g} mm, and a contact that slides has to rise: it moves by "
-            f"at most {fastest:.3g} {unit}/s, whatever the force",
+            cause,
             {"clearance_mm": 1e3 * guide.clearance, f"fastest_{unit}_per_s": fastest},
         )
 

@@ -44,7 +44,7 @@ class Doctor(Observer):
         """
         step, solution, system = result.step, result.solution, recorder.system
         g = float(np.linalg.norm(recorder.simulator.gravity))
-        gap = gap_after(solution, system.n_v)
+        gap = gap_after(result.points.phi, solution, system.n_v)
         found = drags(system, step, solution.delta_q, solution.wrench, g)
         return {
             "gap": gap,
