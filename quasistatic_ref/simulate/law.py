@@ -14,7 +14,13 @@ by how much that is not its own [m]; and how many convex steps were solved."""
 
 
 def coulomb() -> ModuleType:
-    """What takes steps under Coulomb's law; InputError where that part is missing."""
+    """What takes steps under Coulomb's law.
+
+    Raises
+    ------
+    InputError
+        If ``optional/coulomb`` is missing.
+    """
     return needed_part("coulomb.fixed_point", f'law = "{COULOMB}"')
 
 
@@ -24,7 +30,7 @@ def check_law(law: str, certify: str) -> None:
     Raises
     ------
     InputError
-        Also if ``optional/coulomb`` is missing.
+        Also if :func:`coulomb` does.
     """
     if law not in LAWS:
         raise InputError(f"is not a choice{suggestion(law, LAWS)}", field="law", value=law)

@@ -22,6 +22,7 @@ EXAMPLES: Final = (
     "pushed_block",
     "drag_against_h",
     "coulomb_against_convex_slip",
+    "both_laws",
     "planar_pushing",
     "flat_patch",
     "which_cone_is_real",

@@ -129,7 +129,13 @@ def extended_step(
 
 
 def simulated_solution(simulator: Simulator, step: StepData, extension: Extension) -> StepSolution:
-    """The solution of a step of a simulator, whose solver serves all steps with linear rows."""
+    """The solution of a step of a simulator, whose solver serves all steps with linear rows.
+
+    Raises
+    ------
+    InputError
+        Under Coulomb's law, if the extension holds more than linear constraints.
+    """
     step, whole = posed(step, extension)
     if whole:
         return simulator.solution(step)
