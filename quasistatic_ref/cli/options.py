@@ -12,6 +12,7 @@ from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.parts import part
+from quasistatic_ref.simulate.law import LAWS
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_written
@@ -51,8 +52,6 @@ COMPLETED = "completed"
 """The attribute of an argument by which ``completion`` knows what it may be."""
 CERTIFY = ("full", "residual", "off")
 """As in ``solve``, which takes a second to import; a test holds them equal."""
-LAWS = ("convex", "coulomb")
-"""As in ``simulate``, likewise."""
 
 
 def _backends() -> Sequence[str]:

@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -126,7 +127,7 @@ def run(options: argparse.Namespace) -> int:
             for body, motion in free_body_motions(scenario.system, trajectory).items()
         },
         "milliseconds_per_step": milliseconds,
-        "findings": list(trajectory.header["findings"]),
+        "findings": [asdict(finding) for finding in trajectory.findings],
     }
     if scenario.law == COULOMB:
         summary["s_iterations"] = trajectory["s_iterations"].tolist()

@@ -20,7 +20,7 @@ from quasistatic_ref.formats.npz import json_array, npz_record
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding, finding_read
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
@@ -131,10 +131,13 @@ class Trajectory(Plain, Shown):
     def findings(self) -> tuple[Finding, ...]:
         """What is wrong with its scene or doubtful in it: causes first, then what comes of them.
 
-        There are none without ``optional/doctor``, nor in files from before there were findings.
+        There are none without ``optional/doctor``, nor in files from before there were findings;
+        what is found of :attr:`seconds` is kept in memory only, as they are.
         """
         listed = enumerate(self.header.get("findings", ()))
-        return tuple(finding_read(table, f"findings[{i}]") for i, table in listed)
+        found = [finding_read(table, f"findings[{i}]") for i, table in listed]
+        doctor = part("doctor.table") if self.seconds else None
+        return tuple(found if doctor is None else [*found, *doctor.of_time(self)])
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k (from 0), bit for bit as it was solved.

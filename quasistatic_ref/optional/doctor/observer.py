@@ -68,7 +68,8 @@ class Doctor(Observer):
             "largest_boundary_layer": largest(recorder.noted("layer")) or 0.0,
             "findings": [asdict(finding) for finding in found],
         }
+        trajectory = replace(trajectory, header=header)
         if self.printed:
-            for finding in found:
+            for finding in trajectory.findings:
                 print(f"quasistatic-ref: {finding}", file=sys.stderr)
-        return replace(trajectory, header=header)
+        return trajectory
