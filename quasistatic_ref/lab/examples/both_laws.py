@@ -75,8 +75,8 @@ def push(law: str) -> tuple[Pair, Array]:
     (pair,) = pairs_read(folder, [PAIR])
     pushes = pushes_read(folder, [pair])[PAIR]
     (k,) = np.flatnonzero(pushes.number == NUMBER)
-    scene = Settings(advance=ADVANCE).pushed(pair, RATIO)
-    found = predicted(scene, pushes.before[k], pushes.path[k], law=law).pose
+    scene = Settings(advance=ADVANCE, law=law).pushed(pair, RATIO)
+    found = predicted(scene, pushes.before[k], pushes.path[k]).pose
     return pair, np.array([pushes.before[k], pushes.after[k], found])
 
 

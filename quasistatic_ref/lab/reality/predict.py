@@ -9,7 +9,7 @@ import numpy as np
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.lab.reality.push import Pushed
 from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
-from quasistatic_ref.simulate.law import CONVEX, COULOMB
+from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.data import Array, StepData
@@ -39,9 +39,7 @@ class Prediction:
     slides: int
 
 
-def predicted(
-    of: Pushed, pose: Array, path: Array, certify: str = "full", law: str = CONVEX
-) -> Prediction:
+def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Prediction:
     """A push from a pose, with the finger along a path of straight pieces.
 
     Until the finger touches the body lies still: the steps begin where the path first touches. A
@@ -56,9 +54,7 @@ def predicted(
     path : ndarray, shape (n, 2)
         Of the finger's centre, world [m].
     certify : str
-        As of :func:`~quasistatic_ref.solve.solve.solve_step`.
-    law : str
-        ``"coulomb"`` for steps without a rise, which are certified in full.
+        As of :func:`~quasistatic_ref.solve.solve.solve_step`; Coulomb's law is certified in full.
     """
     R = rotation(pose[2])
     body = np.zeros(of.n_u)
@@ -71,7 +67,7 @@ def predicted(
     for target in targets:
         step = of.step(finger, body, target)
         solver = fitting(step, solver)
-        if law == COULOMB:
+        if of.law == COULOMB:
             found: StepSolution = simulated_solution(step, solver, ACCURACY)
         else:
             found = solve_step(step, solver, certify=certify)
