@@ -29,6 +29,7 @@ PARTS: dict[str, tuple[list[str], str]] = {
     "extensions": ([], ""),
     "fast": (["--fast"], "fast"),
     "large": (["--certify", "residual"], 'certify = "residual"'),
+    "mjcf": ([], ""),
     "runs": (["--resume"], "resume"),
     "show": (["--view"], "view"),
 }

@@ -130,6 +130,7 @@ RESULTS = (
     to_file("derivatives", "derivatives.md"),
     script("clouds", "jsonl"),
     to_file("reach", "reach.md"),
+    script("mjcf", "md"),
     to_file("environments", "environments.md"),
     fuzzed("fuzzing"),
     fuzzed("hostile_steps", "--readers validation.make.hostile_steps --inputs 105000"),

@@ -42,8 +42,10 @@ class Settings:
         Of the finger in a step [m].
     nudge : tuple of float
         As of :class:`~quasistatic_ref.lab.reality.push.Pushed` [-].
-    rise, law
+    law : str
         As there.
+    rise : float
+        As there [-].
     m, gyration, mu_v, h, stiffness : float
         As there [kg], [m], [-], [s], [N/m]. They cancel in the quasi-static limit.
     """
