@@ -11,14 +11,13 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli.measures import link_motion
-from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.which_cone_is_real import measured
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.grasp import CLOSED
 from quasistatic_ref.lab.reality.errors import pose_errors
-from quasistatic_ref.lab.reality.pairs import Pair, pairs_read
-from quasistatic_ref.lab.reality.predict import predicted, rotation
-from quasistatic_ref.lab.reality.pushes import pushes_read
+from quasistatic_ref.lab.reality.pairs import Pair
+from quasistatic_ref.lab.reality.predict import predicted
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
@@ -33,8 +32,8 @@ M, INERTIA, RADIUS, MU_V, MU_OMEGA, H = 0.3, 2e-4, 0.04, 0.5, 0.02, 0.01
 WEIGHT = M * GRAVITY
 LOADS = np.linspace(0.0, 3.0, 13)
 """Over what friction bears [-]."""
-PAIR, RATIO, NUMBER = "abs/rect1", 0.0338, 104
-"""Surface and object, their mu_omega / mu_v as identified from measured loads [m], and a push."""
+PUSH = 4
+"""Of the pushes of ``which_cone_is_real``."""
 ADVANCE, STEPS = 2e-3, 300
 """Of the finger in a step [m]; of the grasp."""
 MARKS = {CONVEX: "o", COULOMB: "^"}
@@ -71,33 +70,24 @@ def push(law: str) -> tuple[Pair, Array]:
 
     x, y [m] and angle [rad] of its frame.
     """
-    folder = reality_folder()
-    (pair,) = pairs_read(folder, [PAIR])
-    pushes = pushes_read(folder, [pair])[PAIR]
-    (k,) = np.flatnonzero(pushes.number == NUMBER)
-    scene = Settings(advance=ADVANCE, law=law).pushed(pair, RATIO)
-    found = predicted(scene, pushes.before[k], pushes.path[k]).pose
-    return pair, np.array([pushes.before[k], pushes.after[k], found])
+    pair, ratio, pushes = measured()
+    scene = Settings(advance=ADVANCE, law=law).pushed(pair, ratio)
+    found = predicted(scene, pushes.before[PUSH], pushes.path[PUSH]).pose
+    return pair, np.array([pushes.before[PUSH], pushes.after[PUSH], found])
 
 
 def main() -> Numbers:
-    """What each scene comes to under each law."""
+    """What each scene comes to under each law, block and sphere under twice their friction."""
     found: Numbers = {}
     for law in LAWS:
         time, angle = rotation_of_the_bunny(law)
         _, after, end = push(law)[1]
         off, turned = pose_errors(end[None], after[None])[0]
-        found |= {
-            f"{law}: slip of the block under twice its friction [mm]": 1e3
-            * motion(block(2), law)[0],
-            f"{law}: turn of the sphere under twice its friction [mrad]": 1e3
-            * motion(sphere(2), law)[5],
-            f"{law}: largest turn of the bunny since the grip closed [deg]": angle[
-                time > CLOSED
-            ].max(),
-            f"{law}: error of the push [mm]": 1e3 * off,
-            f"{law}: error of its turn [deg]": np.degrees(turned),
-        }
+        found[f"{law}: slip of the block [mm]"] = 1e3 * motion(block(2), law)[0]
+        found[f"{law}: turn of the sphere [mrad]"] = 1e3 * motion(sphere(2), law)[5]
+        found[f"{law}: largest turn of the bunny [deg]"] = angle[time > CLOSED].max()
+        found[f"{law}: error of the push [mm]"] = 1e3 * off
+        found[f"{law}: error of its turn [deg]"] = np.degrees(turned)
     return found
 
 
@@ -130,7 +120,7 @@ def figure(ax: Any = None, *, h: float = H) -> Figure:
     labelled(axes[2], "t [s]", "turn of the bunny in the grip [deg]")
     for law, style in LINES.items():
         pair, poses = push(law)
-        before, after, end = (_placed(pair, pose, poses[0]) for pose in poses)
+        before, after, end = (pair.outline.drawn(pose, poses[0]) for pose in poses)
         if law == CONVEX:
             axes[3].plot(*before, color="0.6", linestyle=":", label="before")
             axes[3].fill(*after, color="0.85", label="measured")
@@ -139,13 +129,6 @@ def figure(ax: Any = None, *, h: float = H) -> Figure:
     apart = 1e3 * np.linalg.norm((push(CONVEX)[1] - push(COULOMB)[1])[2, :2])
     labelled(axes[3], "x [mm]", "y [mm]", f"ends {apart:.2f} mm apart")
     return page
-
-
-def _placed(pair: Pair, pose: Array, origin: Array) -> Array:
-    """The outline of an object at a pose from an origin, closed, shape (2, n) [mm]."""
-    points = 1e3 * (pair.outline.vertices @ rotation(pose[2]).T + pose[:2] - origin[:2])
-    closed: Array = np.vstack([points, points[:1]]).T
-    return closed
 
 
 if __name__ == "__main__":
