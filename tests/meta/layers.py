@@ -25,6 +25,7 @@ OPTIONAL = (
     "optional/extensions",
     "optional/fast",
     "optional/large",
+    "optional/mjcf",
     "optional/runs",
     "optional/show",
 )

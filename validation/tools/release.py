@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[2]
 CLI = "quasistatic_ref.cli.main"
 FIGURES = (
     "grasp cone_surfaces pinch_threshold gradient_of_a_push where_no_gradient_is "
-    "what_smoothing_does plan_a_push"
+    "what_smoothing_does plan_a_push both_laws"
 )
 """Of README and docs, by ``quasistatic-ref figures``."""
 REALITY = ("pushes", "identified", "loads", "errors", "ablations", "tripods")
@@ -123,6 +123,7 @@ RESULTS = (
     script("clouds", "jsonl"),
     script("second_order", "jsonl", "md"),
     to_file("reach", "reach.md"),
+    script("mjcf", "md"),
     to_file("environments", "environments.md"),
     fuzzed("fuzzing"),
     fuzzed("hostile_steps", "--readers validation.make.hostile_steps --inputs 105000"),
