@@ -32,7 +32,7 @@ SETS = {
     "PAIRS": "patch contact/distance pairs jacobian",
     "SPARSE": "mass_in_blocks sparse solver",
     "CLOUDS": "clouds cloud_headers mesh_files",
-    "URDF": "urdf urdf_refusals urdf_file mesh_files bad_urdfs",
+    "URDF": "urdf urdf_refusals urdf_file mesh_files",
     "DATA": "arrays posed_data data plain_data step_files",
     "SYSTEM": "system system_forces system_refusals",
     "SCENES": "scenario simulator words",
@@ -123,7 +123,7 @@ optional/large/sparse_jacobian.py optional/large/blocks.py optional/large/sparse
 optional/large/sparse_form.py
     SPARSE
 model/body.py
-    solid planar SCENES
+    solid SCENES
 model/readers/clouds.py model/readers/pcd.py model/readers/ply.py model/readers/point_table.py
     CLOUDS
 model/configuration.py
@@ -166,7 +166,7 @@ optional/show/model_words.py
 model/workspace.py
     world SYSTEM mass_in_blocks memory
 model/world.py
-    planar SYSTEM sparse
+    SYSTEM sparse
 solve/adapters/clarabel.py solve/adapters/daqp.py solve/adapters/osqp.py solve/adapters/piqp.py
 solve/adapters/program.py solve/adapters/quadprog.py solve/backends.py
 optional/extensions/extended.py solve/scaled.py solve/units.py

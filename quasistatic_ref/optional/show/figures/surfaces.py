@@ -33,7 +33,7 @@ def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:
 
 
 def triangles(points: Array) -> Array:
-    """Corners of the triangles of the convex hull, (3T, 3), counter-clockwise from outside."""
+    """Corners of the convex hull's triangles, shape (3T, 3), counter-clockwise from outside."""
     hull = ConvexHull(points)
     corners = points[hull.simplices]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
