@@ -28,7 +28,7 @@ from quasistatic_ref.certify.point import PRECISION, inverse
 from quasistatic_ref.certify.rational import h_times_hessian, matrix
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.certify.rows import places
-from quasistatic_ref.optional.fast.guess.exchange import Proof, Violated
+from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
 from quasistatic_ref.optional.fast.guess.zeros import zeros
 from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
@@ -126,9 +126,8 @@ class BallStep:
 
         Returns
         -------
-        ExactOptimum, Violated or None
-            Violated if a slack is proved negative; None where something stays open. Rows
-            whose multipliers are not surely positive are dropped; nothing else is mended here.
+        ExactOptimum, Refuted or None
+            None where something stays open.
         """
         step, hessian = self.step, self.hessian
         working = sorted({int(i) for i in guess})
@@ -137,18 +136,14 @@ class BallStep:
             if found is None:
                 return None
             A, y, x = found
-            pressed = [i for i, y_i in zip(working, y.entries(), strict=True) if y_i > 0]
-            if pressed != working:
-                return self.confirmed(pressed)
             lam, motion = y * (1 / hessian.h), (self.J * x).entries()
             slacks = contact_slacks(step, range(step.contacts.n_c), motion)
             if step.extra.names:
                 A_own = arb_mat(len(step.extra.names), step.n_v, step.extra.A.ravel().tolist())
                 slacks += (A_own * x - _column(step.extra.b)).entries()
-            violated = [i for i, slack in enumerate(slacks) if slack < 0]
-            if violated:
-                point = [np.array([float(v) for v in part.entries()]) for part in (lam, x)]
-                return Violated(violated[0], np.array(working, dtype=np.int64), *point)
+            if any(slack < 0 for slack in slacks) or not all(v > 0 for v in lam.entries()):
+                point = _nonzero(lam.entries()), _nonzero(slacks)
+                return Refuted(np.array(working, dtype=np.int64), *point)
             net = A.transpose() * lam
             numbers, shown = all_nearest((*lam.entries(), *net.entries(), *x.entries(), *slacks))
         ends = np.cumsum([len(working), step.n_v, step.n_v])
@@ -206,6 +201,11 @@ def all_nearest(balls: Sequence[arb]) -> tuple[Array, NDArray[np.bool_]]:
         value = nearest_in(balls[i])
         x[i], shown[i] = (x[i], False) if value is None else (value, True)
     return x, shown
+
+
+def _nonzero(balls: Sequence[arb]) -> Array:
+    """The numbers in some balls, shape (balls,) [of their unit]; 0 where a ball holds zero."""
+    return np.array([0.0 if ball.contains(0) else float(ball) for ball in balls])
 
 
 def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:
