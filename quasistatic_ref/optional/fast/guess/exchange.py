@@ -140,10 +140,13 @@ class Walk:
     """
 
     def __init__(self, form: StandardForm, inverse: Array, found: Refuted) -> None:
-        self.A, self.inverse = form.A, inverse
+        self.A = form.A
+        self.inverse = inverse
         self.sizes = np.abs(form.A), np.abs(inverse)
-        self.working, self.lam = found.working, found.lam
-        self.slack, self.noise = found.slack.copy(), np.zeros(len(found.slack))
+        self.working = found.working
+        self.lam = found.lam
+        self.slack = found.slack.copy()
+        self.noise = np.zeros(len(found.slack))
         A_W = form.A[found.working]
         self._reached = A_W.dot(inverse).dot(A_W.T)
 
@@ -169,7 +172,8 @@ class Walk:
 
     def add(self, p: int) -> bool:
         """Walk until row p is satisfied; whether that is possible."""
-        row, pressed = self.A[p], 0.0
+        row = self.A[p]
+        pressed = 0.0
         along = self.inverse.dot(row)
         square = float(row.dot(along))
         while True:
@@ -200,7 +204,8 @@ class Walk:
 
     def _drop(self, j: int) -> None:
         rest = np.arange(len(self.working)) != j
-        self.working, self.lam = self.working[rest], self.lam[rest]
+        self.working = self.working[rest]
+        self.lam = self.lam[rest]
         self._reached = self._reached[rest][:, rest]
 
     def _move(self, of_working: Array, rows: Indices, of_rows: float) -> None:

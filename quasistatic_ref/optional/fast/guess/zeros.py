@@ -64,10 +64,12 @@ def zeros(
         None if a number is not zero.
     """
     all_active = Degeneracy(unique=not rows, smooth=True)
-    every, k = (*working, *rows), len(working)
+    every = (*working, *rows)
+    k = len(working)
     if _implied(step, _Claim(_numbers(step, every), k, every, tuple(coordinates))):
         return all_active
-    form, w = form_on(step, *_some_rows(step, every)), tuple(range(k))
+    form = form_on(step, *_some_rows(step, every))
+    w = tuple(range(k))
     solution = rational_solution(form, w)
     if any(solution.slack[k:]) or any(solution.x[v] for v in coordinates):
         return None
@@ -92,7 +94,8 @@ class _Claim(NamedTuple):
 
 def _numbers(step: StepData, rows: Sequence[int]) -> bytes:
     """A hash of all numbers of which some rows are made, of their shapes and the cone's name."""
-    used, contacts = np.unique(places(step, rows)[0]), step.contacts
+    used = np.unique(places(step, rows)[0])
+    contacts = step.contacts
     used = used[used < contacts.n_c]
     own = contacts.J, contacts.phi, contacts.n, contacts.d1, contacts.d2, contacts.mu
     shared = (step.offsets, step.extra.A, step.extra.b)
@@ -111,7 +114,8 @@ def _implied(step: StepData, claim: _Claim) -> bool:
     """Whether W implies all zeros."""
     known = _known.get(claim)
     if known is None:
-        n, k = step.n_v, claim.k
+        n = step.n_v
+        k = claim.k
         exact = exact_rows(step, claim.rows)
         equations = _across_pairs(step, claim, exact)
         equations += [[int(i == v) for i in range(n + 1)] for v in claim.coordinates]

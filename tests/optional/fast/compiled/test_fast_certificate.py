@@ -58,7 +58,7 @@ def holds(library):
     for K, R, r, exact in matrices():
         n = len(K)
         G, e = np.zeros((n, n)), np.zeros(n)
-        library.defect(pointer(R), pointer(K), ctypes.c_int64(n), pointer(G))
+        library.defect(pointer(R), pointer(K), ctypes.c_int64(n), pointer(G), pointer(e))
         if any(Fraction(G[i, j]) < exact[i][j] for i in range(n) for j in range(n)):
             return False
         for bound in (G, np.full((n, n), 0.55 / n)):  # the second shows no contraction by a half

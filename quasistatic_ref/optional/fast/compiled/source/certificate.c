@@ -216,7 +216,7 @@ static int proved(Proof *s, Room *m)
         return LOST;
     if (!inverse(m->copy, m->R, N))
         return SINGULAR;
-    defect(m->R, m->K, N, m->G);
+    defect(m->R, m->K, N, m->G, m->copy);
     for (int bits = REFINED; code != DECIDED && bits <= FINEST; bits += FINEST - REFINED) {
         s->counts[0] = s->counts[1] = 0;
         s->least[0] = s->least[1] = INFINITY;

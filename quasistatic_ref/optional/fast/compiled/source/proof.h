@@ -68,7 +68,7 @@ void load(const Proof *s, Number *g, int *lost);
 void system_of(const Proof *s, Room *m, int *lost);
 void corrected(const Proof *s, Room *m, int *lost);
 int inverse(double *a, double *R, int64_t n);
-void defect(const double *R, const double *K, int64_t n, double *G);
+void defect(const double *R, const double *K, int64_t n, double *G, double *sizes);
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
 int nearest(const Number *x, double e, double h, double unit, double *out, int *lost);
 int spanned(const Proof *s, int64_t *table, int64_t *pivot);
