@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import math
 import multiprocessing
+import os
 import resource
 import sys
 import time
@@ -276,13 +277,15 @@ def main() -> int:
     parser.add_argument("--random", type=int, default=1000, metavar="STEPS")
     parser.add_argument("--every", type=int, default=30, metavar="N", help="of a scenario's steps")
     options = parser.parse_args()
+    # Of the processes that measure: a thread of BLAS that waits for another counts as time.
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
     m = machine()
     print("# Proofs by group, and of connected scenes")
     print(
         f"\nWritten by `python -m validation.make.grouped_proofs` on {m['processor']}, "
         f"{m['cores']} cores, Python {m['python']}: processor time of a step with `fast`, the "
-        f"median of {STEPS} after the first, and the peak memory of its process. Four contacts a "
-        "pair, six rows a contact."
+        f"median of {STEPS} after the first, and the peak memory of its process, in which BLAS has "
+        "one thread. Four contacts a pair, six rows a contact."
     )
     print("\n## Boxes that do not touch each other\n")
     found = table([*SEPARATE, *COPIED])

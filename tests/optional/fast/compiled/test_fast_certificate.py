@@ -79,8 +79,8 @@ def test_the_bounds_of_a_proof_are_bounds(tmp_path):
 
 
 MUTANTS = {
-    "no rounding of the sums": ("((double)n * 0x1p-52 + 0x1p-47) * (size + one)", "0.0"),
-    "no rounding of K and of the difference": ("+ 0x1p-47) * (size + one)", ") * 0.0"),
+    "no rounding of the sums": ("((double)n * 0x1p-52 + 0x1p-47) * (sizes[j] + one)", "0.0"),
+    "no rounding of K and of the difference": ("+ 0x1p-47) * (sizes[j] + one)", ") * 0.0"),
     "a contraction by twice": ("e[i] / 2", "e[i] * 2"),
     "the bound itself": ("e[i] = 2 * e[i]", "e[i] = 0.5 * e[i]"),
     "one residual less": (
