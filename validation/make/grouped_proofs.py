@@ -3,12 +3,12 @@
 Processor time and memory of certified steps of boxes that do not touch each other, each a group of
 its own, and of boxes that do; next to that with ``certify = "residual"``. Each scene is measured in
 a process of its own. Random steps and the steps of scenarios have the same bits whether they are
-proved whole or by group. Takes some minutes. Exit status 1 if a promise does not hold.
+proved whole or by group (``--random`` of the first, ``--every`` so manyth of the others). Takes
+some minutes. Exit status 1 if a promise does not hold.
 """
 
 from __future__ import annotations
 
-import argparse
 import math
 import multiprocessing
 import os
@@ -42,6 +42,7 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.groups import groups
 from tests.oracles.random_steps import mixed_step
 from validation.make.large_steps import print_table
+from validation.tools.scripts import asked
 
 SAME = (
     "delta_q",
@@ -273,10 +274,7 @@ def compared(random: int, every: int) -> list[str]:
 
 def main() -> int:
     """Measure, compare, and print the page."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--random", type=int, default=1000, metavar="STEPS")
-    parser.add_argument("--every", type=int, default=30, metavar="N", help="of a scenario's steps")
-    options = parser.parse_args()
+    options = asked(__doc__, random=1000, every=30)
     # Of the processes that measure: a thread of BLAS that waits for another counts as time.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     m = machine()
