@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.certify.compliance import forces
 from quasistatic_ref.certify.compliance.face_guess import guessed_faces
-from quasistatic_ref.certify.compliance.forces import WRENCH, contact_forces, defined_optimum
+from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import X, repeated
@@ -15,7 +15,6 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import COMPLIANCE
 from tests.helpers import changed
-from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
 from tests.step.test_groups import two_bodies
 from validation.make import forces as checks
@@ -67,24 +66,6 @@ def test_four_and_six_rows_are_alike_without_mu_omega(rows):
 def test_noise_of_rounding_size_does_not_change_them(cone):
     step = block(push=1.0, cone=cone)
     assert checks.noise_of_rounding(step, solve_step(step)) < checks.CHANGE
-
-
-def test_permuted_contacts_have_permuted_forces():
-    for _, step in checks.random_steps(6):
-        order = np.random.default_rng(0).permutation(step.contacts.n_c)
-        moved = step.replace(contacts=repeated(step.contacts, order))
-        there = contact_forces(moved)
-        here = contact_forces(step)
-        assert there.wrench.tobytes() == here.wrench[order].tobytes()
-        assert there.delta_q.tobytes() == here.delta_q.tobytes()
-
-
-def test_the_eliminated_step_has_the_bits_of_its_definition():
-    for _, step in checks.random_steps(8):
-        p, delta_q = defined_optimum(step, COMPLIANCE)
-        found = contact_forces(step)
-        assert found.wrench.tobytes() == p[:, WRENCH].tobytes()
-        assert found.delta_q.tobytes() == delta_q.tobytes()
 
 
 def test_where_newtons_method_does_not_end_the_definition_decides(monkeypatch):
@@ -189,14 +170,12 @@ def test_net_impulse_has_its_bits_from_every_backend():
 def test_whatever_should_not_matter_does_not(monkeypatch):
     """A sample of validation/make/forces.py, with its method in 60 digits; and a planted fault."""
     monkeypatch.setattr(checks, "BACKENDS", ("daqp", "none"))
-    found = checks.differences(mixed_step(3), oracle=True)
-    assert {"backends", "fast", "permuted", "definition", "independent"} <= set(found)
+    for _, step in checks.random_steps(5):
+        assert not any(checks.differences(step, oracle=False).values())
+    step = mixed_step(4)
+    found = checks.differences(step, oracle=True)
+    assert set(found) >= {"backends", "fast", "permuted", "definition", "independent"}
     assert not any(found.values())
-    for seed in (4, 8):
-        step = mixed_step(seed)
-        expected = independent_forces(step, COMPLIANCE)
-        assert contact_forces(step).wrench.tobytes() == expected.tobytes()
-        monkeypatch.setattr(
-            checks, "independent_forces", lambda *_, wrong=expected: np.nextafter(wrong, 1.0)
-        )
-        assert checks.differences(step, oracle=True)["independent"] == 1
+    wrong = np.nextafter(contact_forces(step).wrench, 1.0)
+    monkeypatch.setattr(checks, "independent_forces", lambda *_: wrong)
+    assert checks.differences(step, oracle=True)["independent"] == 1
