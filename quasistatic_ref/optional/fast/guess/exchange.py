@@ -157,12 +157,12 @@ class Walk:
             pull = self.lam[j]
             if pull > 0:
                 return
-            row = self.working[j : j + 1]
+            row = self.A[self.working[j]]
             towards = np.delete(self._reached[:, j], j)
             self._drop(j)
-            change = pull * np.linalg.solve(self._reached, towards)
-            self.lam = self.lam + change
-            self._move(change, row, -pull)
+            change = np.linalg.solve(self._reached, towards)
+            self.lam = self.lam + pull * change
+            self._move(-pull, row, change)
 
     def violated(self) -> int | None:
         """The row that is violated most, if there is one."""
@@ -176,8 +176,8 @@ class Walk:
         pressed = 0.0
         along = self.inverse.dot(row)
         square = float(row.dot(along))
+        towards = self.A[self.working].dot(along)
         while True:
-            towards = self.A[self.working].dot(along)
             falls = np.linalg.solve(self._reached, towards)  # of lam, per unit of p's multiplier
             rate = square - float(falls.dot(towards))
             moves = rate > DEPENDENT * square
@@ -192,10 +192,12 @@ class Walk:
             self.lam = np.maximum(self.lam - taken * falls, 0.0)
             pressed += taken
             if moves:
-                self._move(-taken * falls, np.array([p]), taken)
+                self._move(taken, row, falls)
             if full <= least:
                 break
-            self._drop(int(np.argmin(limits)))
+            first = int(np.argmin(limits))
+            towards = np.delete(towards, first)
+            self._drop(first)
         self.slack[p] = 0.0
         self._reached = np.block([[self._reached, towards[:, None]], [towards, square]])
         self.working = np.append(self.working, p)
@@ -208,12 +210,12 @@ class Walk:
         self.lam = self.lam[rest]
         self._reached = self._reached[rest][:, rest]
 
-    def _move(self, of_working: Array, rows: Indices, of_rows: float) -> None:
-        """The slacks after multipliers have changed, (k,), and that of a row outside."""
-        rows = np.concatenate([self.working, rows])
-        change = np.append(of_working, of_rows)
-        of_A, of_inverse = self.sizes
-        self.slack += self.A.dot(self.inverse.dot(change.dot(self.A[rows])))
-        size = of_inverse.dot(np.abs(change).dot(of_A[rows]))
-        self.noise += ROUNDING * of_A.dot(size)
+    def _move(self, pressed: float, row: Array, falls: Array) -> None:
+        """The slacks once a row outside is pressed, and those of W less by `falls` (k,) times that."""
+        A_W = self.A[self.working]
+        size_of_A, size_of_inverse = self.sizes
+        push = row - falls.dot(A_W)
+        size = np.abs(row) + np.abs(falls).dot(np.abs(A_W))
+        self.slack += pressed * self.A.dot(self.inverse.dot(push))
+        self.noise += ROUNDING * abs(pressed) * size_of_A.dot(size_of_inverse.dot(size))
         self.slack[self.working] = 0.0

@@ -32,10 +32,10 @@ int inverse(double *a, double *R, int64_t n)
             double f = a[i * n + c];
             if (i == c || f == 0.0)
                 continue;
-            for (int64_t j = 0; j < n; j++) {
+            for (int64_t j = c; j < n; j++) /* before c the pivot's row is zero */
                 a[i * n + j] -= f * a[c * n + j];
+            for (int64_t j = 0; j < n; j++)
                 R[i * n + j] -= f * R[c * n + j];
-            }
         }
     }
     return 1;
