@@ -211,7 +211,7 @@ class Walk:
         self._reached = self._reached[rest][:, rest]
 
     def _move(self, pressed: float, row: Array, falls: Array) -> None:
-        """The slacks once a row outside is pressed, and those of W less by `falls` (k,) times that."""
+        """The slacks once a row outside is pressed, those of W less by `falls` (k,) times that."""
         A_W = self.A[self.working]
         size_of_A, size_of_inverse = self.sizes
         push = row - falls.dot(A_W)
