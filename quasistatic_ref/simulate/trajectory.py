@@ -132,7 +132,7 @@ class Trajectory(Plain, Shown):
         """What is wrong with its scene or doubtful in it: causes first, then what comes of them.
 
         There are none without ``optional/doctor``, nor in files from before there were findings;
-        what is found of :attr:`seconds` is kept in memory only, as they are.
+        what is found of ``seconds`` is kept in memory only, as they are.
         """
         listed = enumerate(self.header.get("findings", ()))
         found = [finding_read(table, f"findings[{i}]") for i, table in listed]
