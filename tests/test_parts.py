@@ -9,8 +9,10 @@ import quasistatic_ref
 from quasistatic_ref import parts
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.solve.solve import solve_step
 from tests.helpers import random_step
 
 
@@ -81,3 +83,14 @@ def test_without_pages_data_show_their_fields_and_objects_their_class(without):
     assert run._repr_html_() is None
     with pytest.raises(InputError, match=r"^to_pandas needs quasistatic_ref/optional/show$"):
         run.to_pandas()
+
+
+def test_a_solver_and_a_kind_of_file_need_their_parts(without, tmp_path):
+    step = random_step(np.random.default_rng(0))
+    without("qpsolvers")
+    with pytest.raises(InputError, match=r"^qpsolvers:osqp needs .*/optional/qpsolvers$"):
+        solve_step(step, "qpsolvers:osqp")
+    assert solve_step(step, "osqp").certificate.kind == "exact"
+    without("readers")
+    with pytest.raises(InputError, match=r"a \.ply cloud needs .*/optional/readers$"):
+        point_cloud(tmp_path / "cloud.ply")

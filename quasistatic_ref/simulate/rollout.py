@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.simulate.goals import (
     Force,
     Target,
@@ -20,7 +19,6 @@ from quasistatic_ref.simulate.goals import (
 )
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
-from quasistatic_ref.simulate.pace import Pace
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -129,11 +127,9 @@ def rollout(
                     raise InputError(problem, field=name)
             runs.resumed(saved, recorder, simulator, q_bar_a, pushed, STRETCH)
     left = range(recorder.steps, steps)
-    pace = Pace(simulator.fast or not progress, len(left))
+    if progress and (fast := part("fast.pace")) is not None:
+        recorder.observers.append(fast.Pace(simulator.fast, len(left)))
     bar: Any = progress_bar(left, unit="step", total=steps, done=left.start, shown=progress)
-    entries = 4 * len(simulator.layout.rows) * simulator.system.n_v
-    if (opening := pace.opening(entries)) is not None:
-        bar.write(f"quasistatic-ref: {opening}", file=sys.stderr)
     last: StepResult | None = None
     with Interrupt() as interrupt:
         for k in bar:
@@ -154,11 +150,6 @@ def rollout(
                 file = None if saved is None else saved.written
                 raise RunFailed(reason, trajectory, step, file) from failure
             recorder.add(goal, last)
-            if (advice := pace.advice(last.seconds)) is not None:
-                bar.write(f"quasistatic-ref: {advice}", file=sys.stderr)
-    certified = progress and simulator.certify == "full"
-    if certified and (closing := pace.closing()) is not None:
-        bar.write(f"quasistatic-ref: {closing}", file=sys.stderr)
     return recorder.trajectory()
 
 

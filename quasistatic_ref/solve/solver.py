@@ -20,17 +20,18 @@ from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.parts import needed_part
-from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
     NONE,
     QPSOLVERS,
     RESIDUAL,
+    THROUGH_QPSOLVERS,
     UNSAFE,
     Options,
     check_backend,
 )
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
@@ -321,11 +322,10 @@ def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> S
     check_backend(name, step.cone)
     if name == NONE:
         return NoSolver(step)
-    # The classes are imported where they are used: their packages take longer than a short run.
     if name.startswith(QPSOLVERS):
-        from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
-
-        return QpsolversSolver(step, name)
+        other: Solver = needed_part(THROUGH_QPSOLVERS, name).QpsolversSolver(step, name)
+        return other
+    # CVXPY takes longer to import than a short run.
     from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 
     return CvxpySolver(step, name)

@@ -7,9 +7,9 @@ from typing import Protocol
 import cvxpy as cp
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import KIND, OptionSet, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach

@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from quasistatic_ref.certify.compliance.forces import ContactForces
     from quasistatic_ref.certify.solution import Certificate
     from quasistatic_ref.certify.verdict import Verdict
-    from quasistatic_ref.solve.solver import Solver
     from quasistatic_ref.step.data import StepData
 
 Rows: TypeAlias = "tuple[Any, ...]"
@@ -193,10 +192,6 @@ class CurvedCone(Cone, ABC):
         claims: Certificate | None,
     ) -> Verdict:
         """As :func:`~quasistatic_ref.certify.certificate.verify`."""
-
-    @abstractmethod
-    def native_solver(self, like: StepData, name: str) -> Solver:
-        """A solver by the own interface of a backend that takes such cones."""
 
 
 def row_violations(slack: Array, lam: Array) -> Violations:

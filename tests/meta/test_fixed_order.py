@@ -25,8 +25,6 @@ EXCEPTIONS = {
         "contact/solids/ways_out.py",
     ),
     "files, read and checked before a run": (
-        "model/readers/pcd.py",
-        "model/readers/point_table.py",
         "model/urdf/urdf_file.py",
         "model/urdf/urdf_inertia.py",
         "model/urdf/urdf_tree.py",

@@ -19,9 +19,9 @@ from tqdm import tqdm
 
 from quasistatic_ref.lab.digits import correct_digits
 from quasistatic_ref.lab.grasp import CASES
+from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.scaled import DenseStep
-from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.units import from_natural, within_reach
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form

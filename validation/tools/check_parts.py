@@ -29,6 +29,8 @@ PARTS: dict[str, tuple[list[str], str]] = {
     "extensions": ([], ""),
     "fast": (["--fast"], "fast"),
     "large": (["--certify", "residual"], 'certify = "residual"'),
+    "qpsolvers": (["--backend", "qpsolvers:clarabel"], "qpsolvers:clarabel"),
+    "readers": (["--set", "bodies.bunny.cloud=bunny.ply"], "a .ply cloud"),
     "runs": (["--resume"], "resume"),
     "show": (["--view"], "view"),
 }

@@ -16,9 +16,8 @@ from quasistatic_ref.errors import InputError, ModelError, about_field, about_fi
 from quasistatic_ref.formats.files import bytes_read, text_of
 from quasistatic_ref.formats.npz import npy_array, npz_arrays
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.model.readers.pcd import pcd_points
-from quasistatic_ref.model.readers.ply import ply_points
 from quasistatic_ref.model.readers.text import decimal
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
@@ -133,6 +132,13 @@ def _obj(lines: Lines) -> Iterator[Point]:
             yield number, words[1:4]
 
 
+def _of_part(kind: str, path: Path) -> Array:
+    """Points of a format whose reader is an optional part."""
+    read = getattr(needed_part(f"readers.{kind}", f"a .{kind} cloud"), f"{kind}_points")
+    points: Array = read(bytes_read(path, ModelError))
+    return points
+
+
 def _npz(path: Path) -> Array:
     arrays = npz_arrays(path, "a file of NumPy's arrays")
     name = "points" if "points" in arrays else next(iter(arrays), "")
@@ -152,9 +158,9 @@ def _of_array(array: NDArray[Any], name: str) -> Array:
 KINDS: dict[str, Callable[[Path], list[list[float]] | Array]] = {
     ".xyz": partial(_of_lines, _xyz),
     ".csv": partial(_of_lines, _csv),
-    ".ply": lambda path: ply_points(bytes_read(path, ModelError)),
+    ".ply": partial(_of_part, "ply"),
     ".obj": partial(_of_lines, _obj),
-    ".pcd": lambda path: pcd_points(bytes_read(path, ModelError)),
+    ".pcd": partial(_of_part, "pcd"),
     ".npy": lambda path: _of_array(npy_array(path), "its array"),
     ".npz": _npz,
 }

@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.model.readers.dae import check_dae
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, hull_of_mesh
 from quasistatic_ref.step.arrays import Array, Indices
 
@@ -64,7 +64,7 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Pat
         )
         raise ModelError(problem, value=uri)
     if found.suffix.lower() == ".dae":
-        check_dae(found)
+        needed_part("readers.dae", "a .dae mesh").check_dae(found)
     return found
 
 

@@ -37,7 +37,7 @@ from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
 
 if TYPE_CHECKING:
-    from quasistatic_ref.solve.solver import Solver
+    pass
 
 Active = tuple[tuple[int, int], ...]
 LARGEST = float(np.finfo(np.float64).max)
@@ -189,12 +189,6 @@ class EllipsoidCone(CurvedCone):
         x, reason = judge(step, form, delta_q, tuple(active), lam, claims)
         reason = reason or _not_multipliers(step, form, x, lam, claims.gap)
         return Verdict(not reason, reason)
-
-    def native_solver(self, like: StepData, name: str) -> Solver:
-        """A :class:`~quasistatic_ref.optional.ellipsoid.second_order.ConeSolver`."""
-        from quasistatic_ref.optional.ellipsoid.second_order import ConeSolver  # above certify
-
-        return ConeSolver(like, name)
 
 
 def motion(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:

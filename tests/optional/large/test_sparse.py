@@ -9,8 +9,8 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.errors import BackendError, StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast.sparse_solver import MOST_ITERATIONS, SparseSolver, reachable
 from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.optional.large.sparse import MOST_ITERATIONS, SparseSolver, reachable
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry

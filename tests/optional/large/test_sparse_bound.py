@@ -10,10 +10,10 @@ from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.point import positive_definite
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
-from quasistatic_ref.optional.large.sparse import SparseSolver
 from quasistatic_ref.optional.large.sparse_bound import least_way
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.solve.solve import solve_step

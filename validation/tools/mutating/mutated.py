@@ -51,7 +51,7 @@ step/groups.py
     own
 step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
 certify/digits.py model/angles.py step/ordered.py model/rotation.py contact/cloud.py
-model/readers/mesh_files.py simulate/pace.py
+model/readers/mesh_files.py optional/fast/pace.py
     own
 step/standard_form.py
     PAGE
@@ -124,13 +124,14 @@ optional/large/sparse_form.py
     SPARSE
 model/body.py
     solid planar SCENES
-model/readers/clouds.py model/readers/pcd.py model/readers/ply.py model/readers/point_table.py
+model/readers/clouds.py optional/readers/pcd.py optional/readers/ply.py
+optional/readers/point_table.py
     CLOUDS
 model/configuration.py
     system_refusals SCENES
 shapes/convex_mesh.py
     mesh_files shapes SOLIDS
-model/readers/dae.py
+optional/readers/dae.py
     mesh_files
 shapes/frozen.py
     shapes plain_data SYSTEM
@@ -167,8 +168,9 @@ model/workspace.py
     world SYSTEM mass_in_blocks memory
 model/world.py
     planar SYSTEM sparse
-solve/adapters/clarabel.py solve/adapters/daqp.py solve/adapters/osqp.py solve/adapters/piqp.py
-solve/adapters/program.py solve/adapters/quadprog.py solve/backends.py
+optional/fast/adapters/clarabel.py optional/fast/adapters/daqp.py optional/fast/adapters/osqp.py
+optional/fast/adapters/piqp.py optional/fast/adapters/program.py optional/fast/adapters/quadprog.py
+solve/backends.py
 optional/extensions/extended.py solve/scaled.py solve/units.py
     SOLVERS
 solve/cvxpy_problem.py
@@ -177,15 +179,15 @@ optional/fast/backends.py
     defaults SOLVERS
 optional/fast/solver.py
     SOLVED native defaults
-solve/native.py
+optional/fast/native.py
     units
-optional/ellipsoid/second_order.py
+optional/fast/second_order.py
     native cones
 solve/solve.py
     SOLVED native rounded_bound
-solve/solver.py solve/through_cvxpy.py solve/through_qpsolvers.py
+solve/solver.py solve/through_cvxpy.py optional/qpsolvers/through_qpsolvers.py
     SOLVED
-optional/large/sparse.py
+optional/large/sparse.py optional/fast/sparse_solver.py
     SPARSE sparse_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA

@@ -20,12 +20,12 @@ from quasistatic_ref.lab.study.bench.timing import (
     ratio,
     seconds,
 )
+from quasistatic_ref.optional.fast.adapters.program import Program
+from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, installed, installed_backends
-from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 

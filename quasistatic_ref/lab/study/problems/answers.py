@@ -16,9 +16,9 @@ from quasistatic_ref.lab.study.problems.problem import BOUNDED, ENCLOSED, EXACT,
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.large.bound import enclosed_answer
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.backends import BACKENDS, installed
-from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import Units, natural_form, natural_hessian, units_of
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm

@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import quadprog
 
-from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply
+from quasistatic_ref.optional.fast.adapters.program import Adapter, Program
+from quasistatic_ref.solve.reply import Reply
 
 
 class Quadprog(Adapter):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
 
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array, Indices
 
 if TYPE_CHECKING:
@@ -70,25 +71,19 @@ class SparseProgram:
 
     Parameters
     ----------
-    P : scipy.sparse.csc_matrix, shape (n_v, n_v)
-        Upper triangle of H.
+    H, P : scipy.sparse.csc_matrix, shape (n_v, n_v)
+        H, and its upper triangle.
     f : ndarray, shape (n_v,)
         -g [N m s].
     A : scipy.sparse.csc_matrix, shape (m, n_v)
     b : ndarray, shape (m,)
     """
 
+    H: csc_matrix
     P: csc_matrix
     f: Array
     A: csc_matrix
     b: Array
-
-    @cached_property
-    def H(self) -> csc_matrix:
-        """The whole symmetric matrix."""
-        whole = self.P + self.P.T
-        whole.setdiag(self.P.diagonal())
-        return whole.tocsc()
 
     @property
     def P_data(self) -> Array:
@@ -103,40 +98,6 @@ class SparseProgram:
     def columns(self) -> tuple[csc_matrix, csc_matrix]:
         """P and A."""
         return self.P, self.A
-
-
-@dataclass(eq=False)
-class Reply:
-    """What came back from one call of a solver: as it is, not judged.
-
-    Parameters
-    ----------
-    x : ndarray, shape (n,), or None
-        The answer to min 1/2 x'Hx - g'x, A x >= b; any shape if the solver is broken.
-    lam : ndarray, shape (m,), or None
-        Multipliers of A x >= b, >= 0 but for the solver's tolerance.
-    solved : bool
-        Whether it claims a full solution.
-    status : str
-        Its own word, or what it raised.
-    iterations : int or None
-    seconds : float or None
-        Inside the solver [s], where it says so.
-    call_seconds : float
-        Of the whole call [s], in a study.
-    own, setup : float or None
-        Of solving and of setting up [s], by the solver's own account, in a study.
-    """
-
-    x: Array | None
-    lam: Array | None
-    solved: bool
-    status: str
-    iterations: int | None = None
-    seconds: float | None = None
-    call_seconds: float = 0.0
-    own: float | None = None
-    setup: float | None = None
 
 
 class Adapter(Protocol):

@@ -1,7 +1,7 @@
 """Vertex positions of a PLY file, ascii or binary little endian."""
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.readers.point_table import PointTable, header_lines, table_points
+from quasistatic_ref.optional.readers.point_table import PointTable, header_lines, table_points
 from quasistatic_ref.step.arrays import Array
 
 _TYPES = {

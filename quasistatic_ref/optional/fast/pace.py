@@ -1,7 +1,14 @@
 """What is said of a run that takes long: of `fast`, and of proofs."""
 
+import sys
 from collections.abc import Mapping
 
+from tqdm import tqdm
+
+from quasistatic_ref.simulate.observer import Observer
+from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.tolerances import SPARSE_FROM_PIQP
 
 FIRST = 5
@@ -18,8 +25,8 @@ PROOFS = 0.8
 """Share of the time of a run, if it takes WORTH or longer, above which its proofs are named."""
 
 
-class Pace:
-    """The time of the steps of a run.
+class Pace(Observer):
+    """Measures the steps of a run, and prints what would make it shorter.
 
     Parameters
     ----------
@@ -34,6 +41,25 @@ class Pace:
         self.left = steps
         self.times: list[float] = []
         self.total = self.proofs = 0.0
+        self.opened = False
+
+    def before(self, recorder: Recorder) -> None:
+        """Before the first step, of a large scene."""
+        if not self.opened:
+            simulator = recorder.simulator
+            said(self.opening(4 * len(simulator.layout.rows) * simulator.system.n_v))
+        self.opened = True
+
+    def after(self, recorder: Recorder, result: StepResult) -> dict[str, None]:
+        """After each step, what `fast` would save."""
+        said(self.advice(result.seconds))
+        return {}
+
+    def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:
+        """At the end of a run that is certified, and whole, what its proofs took."""
+        if recorder.simulator.certify == "full" and trajectory.header["failed"] is None:
+            said(self.closing())
+        return trajectory
 
     def opening(self, entries: int) -> str | None:
         """One sentence before the first step, where J has so many `entries`, 4 n_c n_v."""
@@ -74,3 +100,9 @@ class Pace:
             f"proofs took {self.proofs:.0f} s of the {self.total:.0f} s of these steps; "
             'certify = "residual" bounds the error of each step instead, in less time'
         )
+
+
+def said(sentence: str | None) -> None:
+    """Print a sentence, if there is one, above the bar of progress."""
+    if sentence is not None:
+        tqdm.write(f"quasistatic-ref: {sentence}", file=sys.stderr)

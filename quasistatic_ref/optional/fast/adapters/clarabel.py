@@ -5,7 +5,8 @@ from typing import Any
 import clarabel
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, SparseProgram
+from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, SparseProgram
+from quasistatic_ref.solve.reply import Reply
 
 
 class Clarabel(Adapter):

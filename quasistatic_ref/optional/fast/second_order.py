@@ -4,8 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Program, Reply
-from quasistatic_ref.solve.native import NativeSolver
+from quasistatic_ref.optional.fast.adapters.program import Program
+from quasistatic_ref.optional.fast.native import NativeSolver
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import OptionSet
 from quasistatic_ref.step.data import Array, Mask, StepData
 

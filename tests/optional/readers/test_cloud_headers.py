@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.readers.pcd import pcd_points
-from quasistatic_ref.model.readers.ply import ply_points
+from quasistatic_ref.optional.readers.pcd import pcd_points
+from quasistatic_ref.optional.readers.ply import ply_points
 
 POINTS = [[0.5, -0.25, 2.0], [1.0, 4.0, -8.0]]
 LINES = "0.5 -0.25 2\n1 4 -8\n"

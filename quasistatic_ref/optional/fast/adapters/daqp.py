@@ -5,7 +5,8 @@ from typing import Any, Literal
 import daqp
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply
+from quasistatic_ref.optional.fast.adapters.program import Adapter, Program
+from quasistatic_ref.solve.reply import Reply
 
 STATUS = {1: "optimal", 2: "soft optimal", -1: "infeasible", -2: "cycling", -3: "unbounded",
           -4: "iteration limit", -5: "not convex", -6: "overdetermined"}  # fmt: skip

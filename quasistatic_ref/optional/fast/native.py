@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import BackendError
-from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply, SparseProgram
+from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, installed
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import OptionSet, Solver
 from quasistatic_ref.solve.units import NaturalHessian, reach_of_rows
 from quasistatic_ref.step.cones import cone
@@ -68,7 +69,8 @@ class NativeSolver(Solver):
     def __init__(self, like: StepData, name: str, warm: bool = True) -> None:
         check_native(name, like.cone)
         super().__init__(like, name)
-        module = import_module(f"quasistatic_ref.solve.adapters.{name}")  # needs its package
+        # Needs its package.
+        module = import_module(f"quasistatic_ref.optional.fast.adapters.{name}")
         self.adapter: type[Adapter] = getattr(module, BACKENDS[name].adapter)
         self.sizes = sizes(like)
         self.warm = warm and self.adapter.WARM

@@ -7,13 +7,18 @@ from typing import Any
 import numpy as np
 import qpsolvers
 
-from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import OptionSet, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
+
+
+def available_solvers() -> list[str]:
+    """Names of the solvers that qpsolvers finds here."""
+    return list(qpsolvers.available_solvers)
 
 
 class QpsolversSolver(Solver):

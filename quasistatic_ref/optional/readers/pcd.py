@@ -6,7 +6,7 @@ The viewpoint is where the sensor stood; the points are taken as written.
 import math
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.readers.point_table import PointTable, header_lines, table_points
+from quasistatic_ref.optional.readers.point_table import PointTable, header_lines, table_points
 from quasistatic_ref.step.arrays import Array
 
 _TYPES = {

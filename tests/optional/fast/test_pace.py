@@ -2,7 +2,7 @@
 
 import pytest
 
-from quasistatic_ref.simulate.pace import FIRST, SAVED, WORTH, Pace
+from quasistatic_ref.optional.fast.pace import FIRST, SAVED, WORTH, Pace
 from quasistatic_ref.tolerances import SPARSE_FROM_PIQP
 
 STEPS = 1000

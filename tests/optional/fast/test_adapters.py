@@ -5,8 +5,8 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from quasistatic_ref.solve.adapters.daqp import STATUS
-from quasistatic_ref.solve.adapters.program import Program, SparseProgram
+from quasistatic_ref.optional.fast.adapters.daqp import STATUS
+from quasistatic_ref.optional.fast.adapters.program import Program, SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from tests.tolerances import OPTIMUM
 
@@ -14,7 +14,9 @@ every_backend = pytest.mark.parametrize("name", installed("native"))
 
 
 def adapter_class(name):
-    return getattr(import_module(f"quasistatic_ref.solve.adapters.{name}"), BACKENDS[name].adapter)
+    return getattr(
+        import_module(f"quasistatic_ref.optional.fast.adapters.{name}"), BACKENDS[name].adapter
+    )
 
 
 def written(program, h, g, a, b):
@@ -85,6 +87,8 @@ def test_piqp_scales_dense_programs_only():
 
     dense, program = held("piqp")
     P, A = csc_matrix(np.triu(program.H)), csc_matrix(program.A)
-    sparse = adapter_class("piqp")(SparseProgram(P, program.f, A, program.b), {})
+    sparse = adapter_class("piqp")(
+        SparseProgram(csc_matrix(program.H), P, program.f, A, program.b), {}
+    )
     assert dense.solver.settings.preconditioner_iter > 0
     assert sparse.solver.settings.preconditioner_iter == 0

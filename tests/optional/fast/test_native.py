@@ -10,11 +10,11 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.optional.extensions.extended import extension_rows, with_rows
+from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
-from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for

@@ -1,0 +1,1 @@
+"""Further formats of files: clouds in PLY and PCD, meshes in COLLADA."""
