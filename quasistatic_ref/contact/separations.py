@@ -7,8 +7,8 @@ docs/conventions.md states the rule.
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
-from quasistatic_ref.contact.solids.ways_out import gaps, sharp_directions
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.step.data import Array
@@ -108,6 +108,18 @@ def _of_solids(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array,
         ways.append(sign * product(normals[0], solid.R.T))
     every = np.concatenate(ways)
     return gaps(a._replace(t=a.t - b.t), b._replace(t=0 * b.t), every), every
+
+
+def gaps(a: ShapeInWorld, b: ShapeInWorld, directions: Array) -> Array:
+    """Gap from a to b along unit vectors (N, 3) of the world frame, shape (N,) [m]."""
+    return -b.reach(-directions) - a.reach(directions)
+
+
+def sharp_directions(solid: ShapeInWorld) -> Array:
+    """Normals of the faces, or the axes of a curved solid, in the world frame, shape (N, 3)."""
+    flat = polytope(solid.shape)
+    own = np.concatenate([np.eye(3), -np.eye(3)]) if flat is None else flat.normals
+    return own @ solid.R.T
 
 
 def distinct(ways: list[Array]) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -99,11 +99,6 @@ class ConvexMesh(Shape):
     def edge_count(self) -> int:
         """A face has no more than the whole has vertices."""
         return len(self.vertices)
-
-    def resized(self, scale: float) -> ConvexMesh:
-        """All lengths by a scale [-]."""
-        vertices, offsets = scale * self.vertices, scale * self.offsets
-        return replace(self, vertices=vertices, offsets=offsets, volume=scale**3 * self.volume)
 
     def surface(self, around: int, up: int) -> Array:
         """Its vertices, shape (V, 3) [m]."""

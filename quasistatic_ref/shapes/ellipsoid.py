@@ -59,10 +59,6 @@ class Ellipsoid(Shape):
         scaled = directions * self.half_axes
         return norm(scaled)
 
-    def resized(self, scale: float) -> Ellipsoid:
-        """All lengths by a scale [-]."""
-        return Ellipsoid(scale * self.half_axes)
-
     def surface(self, around: int, up: int) -> Array:
         """Points of a sphere, scaled, shape (N, 3) [m]."""
         return np.asarray(ball(around, up) * self.half_axes)

@@ -136,16 +136,6 @@ class Shape(Plain):
         reach = self.support_value(AXES)
         return float((reach[:3] + reach[3:]).max())
 
-    def resized(self, scale: float) -> "Shape":
-        """The shape with all lengths multiplied by a scale [-].
-
-        Raises
-        ------
-        ContactError
-            If it has no coal object.
-        """
-        raise self.lacks("has no coal object of another size")
-
     def surface(self, around: int, up: int) -> Array:
         """Points whose hull is drawn as the shape, or the points of a cloud, shape (N, 3) [m].
 

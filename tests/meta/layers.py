@@ -19,6 +19,7 @@ CORE = (
 # Each folder of `optional` imports the core, and no other folder of `optional`.
 OPTIONAL = (
     "optional/coulomb",
+    "optional/curved",
     "optional/derivatives",
     "optional/doctor",
     "optional/ellipsoid",
@@ -82,7 +83,7 @@ WALLS = {
         "lab/study/bench/by_hand.py",
     ),
     "pinocchio": ("model", "optional/derivatives/model"),
-    "coal": ("shapes", "model", "contact", "optional/derivatives/contact"),
+    "coal": ("shapes", "model", "optional/curved"),
     "matplotlib": ("optional/show/figures", "lab/figures"),
     "meshcat": ("optional/show/figures",),
     "jax": ("optional/derivatives/step_jax.py",),

@@ -13,10 +13,10 @@ from matplotlib import pyplot as plt
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.solids.faces import kinks
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.declared import Field
+from quasistatic_ref.optional.curved.faces import kinks
 from quasistatic_ref.optional.derivatives.contact.features import feature
 from quasistatic_ref.optional.show.figures import draw_scene, moment, panels
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -93,7 +93,7 @@ def test_its_distance_to_other_solids_is_that_of_the_faces(other):
 
 def test_what_it_has_not_said_is_refused_in_a_sentence():
     box = ShapeInWorld(Box(np.full(3, 0.05)), np.eye(3), np.zeros(3))
-    with pytest.raises(ContactError, match="shape: has no coal object of another size"):
+    with pytest.raises(ContactError, match="shape: has no closest points with this solid"):
         solid_pair("pad", ShapeInWorld(PAD, np.eye(3), np.zeros(3)), box)
     with pytest.raises(ContactError, match="shape: has no known faces"):
         kinks(PAD)

@@ -23,6 +23,7 @@ ROOT = Path(__file__).parents[2]
 SCENARIO, STEPS = "bunny_grasp", 40
 PARTS: dict[str, tuple[list[str], str]] = {
     "coulomb": ([], ""),
+    "curved": ([], ""),
     "derivatives": ([], ""),
     "doctor": (["--strict"], "strict"),
     "ellipsoid": (["--cone", "ellipsoid"], 'cone = "ellipsoid"'),

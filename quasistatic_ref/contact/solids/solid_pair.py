@@ -2,17 +2,17 @@
 
 A sphere on anything, anything on a half-space, and every pair of box, convex mesh and capsule
 have closed forms, right to rounding (a sphere on an ellipsoid: Newton's method, as accurate). For
-all others, a cylinder, cone or ellipsoid and any of these or of those, coal's answer is refined,
-and then checked.
+all others, a cylinder, cone or ellipsoid and any of these or of those, ``optional/curved`` refines
+and checks coal's answer.
 """
 
 import numpy as np
 
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
-from quasistatic_ref.contact.solids.by_coal import coal_witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import dot, product, rotated
@@ -63,7 +63,11 @@ def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
         return _solid_on_plane(a, a.shape, b)
     if isinstance(b.shape, HalfSpace):
         return _solid_on_plane(b, b.shape, a).swapped()
-    return coal_witness(name, a, b)
+    kinds = " and ".join(type(solid.shape).__name__.lower() for solid in (a, b))
+    found: Witness = needed_part("curved.by_coal", f"{name}: contact of {kinds}").coal_witness(
+        name, a, b
+    )
+    return found
 
 
 def _sphere_on_solid(solid: ShapeInWorld, sphere: ShapeInWorld, radius: float) -> Witness:

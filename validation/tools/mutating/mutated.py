@@ -101,7 +101,7 @@ contact/pairs.py
 optional/fast/tracker/tracker.py optional/fast/tracker/tracker_bound.py
 optional/fast/tracker/ball_tree.py
     FOLLOWED
-contact/solids/settle.py contact/solids/faces.py contact/solids/by_coal.py
+optional/curved/settle.py optional/curved/faces.py optional/curved/by_coal.py
     CURVED
 optional/ellipsoid/enclosure.py optional/ellipsoid/interior.py optional/ellipsoid/newton.py
 optional/ellipsoid/scaled_blocks.py
@@ -113,7 +113,7 @@ contact/patch.py
 contact/crossings.py
     own
 contact/shape_in_world.py contact/solids/polytope.py contact/solids/polytope_pair.py
-contact/solids/ways_out.py shapes/hull.py shapes/round.py
+optional/curved/ways_out.py shapes/hull.py shapes/round.py
     SOLIDS
 contact/separations.py
     flat_on_flat depth_ties

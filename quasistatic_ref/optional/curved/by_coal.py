@@ -9,17 +9,21 @@ coal's tolerances are lengths. So a pair is enlarged or shrunk by a power of two
 nothing, until its size is about one; every number below is relative to that size.
 """
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
 import coal
 import numpy as np
 
+from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
-from quasistatic_ref.contact.solids.settle import settled
-from quasistatic_ref.contact.solids.ways_out import gaps, rival_directions
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.shapes.placed_shape import Shape
+from quasistatic_ref.optional.curved.settle import settled
+from quasistatic_ref.optional.curved.ways_out import rival_directions
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import Box, Ellipsoid, Shape
+from quasistatic_ref.shapes.round import Round
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SUPPORT, WITNESS
 
@@ -89,7 +93,19 @@ def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
 @lru_cache(maxsize=256)
 def _resized(shape: Shape, scale: float) -> Shape:
     """The shape with all lengths multiplied; kept, with its coal object."""
-    return shape.resized(scale)
+    match shape:
+        case Box():
+            return Box(scale * shape.half_extents)
+        case Round():
+            return type(shape)(scale * shape.radius, scale * shape.half_length)
+        case Ellipsoid():
+            return Ellipsoid(scale * shape.half_axes)
+        case ConvexMesh():
+            vertices, offsets = scale * shape.vertices, scale * shape.offsets
+            return replace(
+                shape, vertices=vertices, offsets=offsets, volume=scale**3 * shape.volume
+            )
+    raise shape.lacks("has no closest points with this solid")
 
 
 def _best(a: ShapeInWorld, b: ShapeInWorld, start: Judged) -> Judged:

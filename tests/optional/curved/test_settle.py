@@ -5,10 +5,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
-from quasistatic_ref.contact.solids import by_coal
-from quasistatic_ref.contact.solids.settle import settled
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.curved import by_coal
+from quasistatic_ref.optional.curved.settle import settled
 from quasistatic_ref.shapes.placed_shape import Cylinder, Ellipsoid
 from tests.contact.solids.test_curved_pair import HERE, PAIRS, SOLIDS
 from tests.oracles import closest

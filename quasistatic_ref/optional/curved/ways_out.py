@@ -9,8 +9,8 @@ from functools import cache
 
 import numpy as np
 
+from quasistatic_ref.contact.separations import gaps, sharp_directions
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.step.data import Array, Indices
 
 SPREAD = 1024
@@ -27,11 +27,6 @@ NEAR = np.cos(0.2)
 
 APART = 0.985
 """Cosine above which two directions are taken to lead to the same maximum."""
-
-
-def gaps(a: ShapeInWorld, b: ShapeInWorld, directions: Array) -> Array:
-    """Gap from a to b along unit vectors (N, 3) of the world frame, shape (N,) [m]."""
-    return -b.reach(-directions) - a.reach(directions)
 
 
 def rival_directions(
@@ -69,13 +64,6 @@ def rival_directions(
         if all(directions[k] @ other < APART for other in chosen):
             chosen.append(directions[k])
     return chosen[1:]
-
-
-def sharp_directions(solid: ShapeInWorld) -> Array:
-    """Normals of the faces, or the axes of a curved solid, in the world frame, shape (N, 3)."""
-    flat = polytope(solid.shape)
-    own = np.concatenate([np.eye(3), -np.eye(3)]) if flat is None else flat.normals
-    return own @ solid.R.T
 
 
 @cache

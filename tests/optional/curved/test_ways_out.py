@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
-from quasistatic_ref.contact.solids.ways_out import APART, REACH, STARTS, gaps, rival_directions
+from quasistatic_ref.optional.curved.ways_out import APART, REACH, STARTS, rival_directions
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder, Ellipsoid
 from tests.tolerances import EXACT, ROUNDING

@@ -13,7 +13,7 @@ from itertools import combinations
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
-from quasistatic_ref.contact.solids.faces import Face, curvature, face, placed_kinks
+from quasistatic_ref.optional.curved.faces import Face, curvature, face, placed_kinks
 from quasistatic_ref.step.data import Array
 
 NEAR = 1e-3

@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.solids.faces import Face, curvature, face, kinks
+from quasistatic_ref.optional.curved.faces import Face, curvature, face, kinks
 from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder
 from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT, ROUNDING

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.solids import by_coal
-from quasistatic_ref.contact.solids.by_coal import coal_witness
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.curved import by_coal
+from quasistatic_ref.optional.curved.by_coal import coal_witness
 from quasistatic_ref.shapes.placed_shape import Cone, Ellipsoid
 from tests.contact.still import found_for, placed, standing
 from tests.tolerances import COAL, CURVED_PAIR, EXACT, ROUNDING
