@@ -112,6 +112,8 @@ contact/patch.py
     flat_on_flat PAIRS
 contact/crossings.py
     own
+optional/curved/rims.py
+    crossings
 contact/shape_in_world.py contact/solids/polytope.py contact/solids/polytope_pair.py
 optional/curved/ways_out.py shapes/hull.py shapes/round.py
     SOLIDS
