@@ -25,7 +25,6 @@ from flint import fmpq, fmpz, fmpz_mat
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.arrays import positive_definite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Contacts, StepData
@@ -216,37 +215,6 @@ def h_times_hessian(step: StepData) -> Dyadic:
     positive_definite("M_u", step.M_u)
     h = dyadic(step.h)
     return block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
-
-
-def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
-    """The same for float64 H, g, A, b taken as they are given.
-
-    Parameters
-    ----------
-    H : ndarray, shape (n_v, n_v)
-        Symmetric to the last bit.
-    g : ndarray, shape (n_v,)
-    A : ndarray, shape (m, n_v)
-    b : ndarray, shape (m,)
-
-    Returns
-    -------
-    ExactForm
-
-    Raises
-    ------
-    StepDataError
-        If H is not symmetric, or a number is not finite.
-    InputError
-        If nothing can be proved in this thread.
-    """
-    check_arithmetic()
-    for name, array in (("H", H), ("g", g), ("A", A), ("b", b)):
-        if not np.isfinite(array).all():
-            raise StepDataError("must contain finite numbers only", field=name, value=array)
-    if not np.array_equal(H, H.T):
-        raise StepDataError("must be symmetric to the last bit", field="H", value=H.tolist())
-    return in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))
 
 
 def contact_motion(contacts: Contacts, of: Which = ALL) -> Dyadic:

@@ -207,24 +207,23 @@ def within_reach(natural: StepData) -> StepData:
     far = out_of_reach(natural)
     if not far.any():
         return natural
-    near = np.where(far, _reach(natural.contacts.J), natural.contacts.phi)
+    near = np.where(far, reach(natural.contacts.J), natural.contacts.phi)
     return natural.replace(contacts=replace(natural.contacts, phi=near))
 
 
 def out_of_reach(natural: StepData) -> Mask:
     """Which contacts are too far to matter, shape (n_c,)."""
-    return np.asarray(natural.contacts.phi > _reach(natural.contacts.J))
+    return np.asarray(natural.contacts.phi > reach(natural.contacts.J))
 
 
-def _reach(J: Array) -> Array:
+def reach(J: Array) -> Array:
+    """How far a contact may be before it is out of reach, shape (n_c,), in natural units [-].
+
+    Parameters
+    ----------
+    J : ndarray, shape (n_c, 4, n_v)
+    """
     return np.asarray(FAR * np.maximum(1.0, np.sqrt(np.einsum("cij,cij->c", J, J))))
-
-
-def reach_of_rows(step: StepData, units: Units) -> Array:
-    """How far each row may be in natural units before its contact is out of reach, shape (m,)."""
-    reach = _reach(step.contacts.J * (units.coordinate / units.length))
-    own = np.full(len(step.extra.names), np.inf)  # a user's own rows are no contacts
-    return np.concatenate([np.repeat(reach, step.counts), own])
 
 
 def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:

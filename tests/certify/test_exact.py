@@ -13,12 +13,13 @@ from quasistatic_ref.certify.degeneracy import (
     strictly_active,
 )
 from quasistatic_ref.certify.exact import exact_optimum, exact_step
-from quasistatic_ref.certify.rational import exact_form, exact_form_of
+from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.cli.decimals import decimal_strings
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 
 ULP = 2.0**-52
 LEAST = 5e-324

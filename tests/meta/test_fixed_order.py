@@ -47,7 +47,7 @@ EXCEPTIONS = {
         "simulate/wrenches.py:wrench_on",
         "step/contacts.py:Contacts.motion",
         "step/data.py:StepData.momentum",
-        "step/friction.py:_wrenches",
+        "step/friction.py:wrenches",
     ),
 }
 """Reason -> files, or functions of files."""

@@ -17,9 +17,9 @@ from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, Spa
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import OptionSet, Solver
-from quasistatic_ref.solve.units import NaturalHessian, reach_of_rows
+from quasistatic_ref.solve.units import NaturalHessian, Units, reach
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import FAR
 
 
@@ -100,9 +100,9 @@ class NativeSolver(Solver):
         program = self.program
         if not self.adapter.NEAR or program.b.min(initial=0.0) >= -FAR:
             return None
-        reach = -reach_of_rows(scaled.step, scaled.units)
-        np.maximum(program.b, reach, out=program.b)
-        return np.asarray(program.b == reach)
+        least = -reach_of_rows(scaled.step, scaled.units)
+        np.maximum(program.b, least, out=program.b)
+        return np.asarray(program.b == least)
 
     def write_program(self, scaled: Any) -> None:
         """Write the program in natural units as it is; H only where it is another array."""
@@ -132,6 +132,13 @@ class NativeSolver(Solver):
         held.metric, held.warm = self.metric, reply.solved
         attempt.kept = held
         return reply
+
+
+def reach_of_rows(step: StepData, units: Units) -> Array:
+    """How far each row may be in natural units before its contact is out of reach, shape (m,)."""
+    of_contacts = reach(step.contacts.J * (units.coordinate / units.length))
+    own = np.full(len(step.extra.names), np.inf)  # a user's own rows are no contacts
+    return np.concatenate([np.repeat(of_contacts, step.counts), own])
 
 
 def sizes(step: StepData) -> tuple[int, int, int]:

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.solution import Certificate, SolverStatistics, step_solution
-from quasistatic_ref.cli.solution_files import solution_text
+from quasistatic_ref.cli.solution_files import rounded_wrenches, solution_text
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.friction import rounded_wrenches
 from tests.helpers import point_on_floor, random_step
 from tests.tolerances import EXACT
 

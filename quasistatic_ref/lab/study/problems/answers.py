@@ -7,12 +7,12 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
-from quasistatic_ref.certify.rational import exact_form_of
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.study.calling.calls import tried
 from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, ENCLOSED, EXACT, Answer
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.large.bound import enclosed_answer
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
