@@ -98,10 +98,6 @@ def exact_optimum(
     -------
     ExactOptimum or Farkas
 
-    Raises
-    ------
-    StepDataError
-        If H, formed without rounding, is not positive definite.
     """
     end = dual_active_set(form, warm, violated)
     return end if isinstance(end, Farkas) else _rounded(form, end)

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import closest, signed_distance
+from quasistatic_ref.contact.cloud import closest
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
@@ -226,7 +226,7 @@ def _cloud_on_solid(
     """The k closest points of a cloud on a solid."""
     relative = relative_pose(solid, cloud)
     x = rotated(relative[:, :3], points) + relative[:, 3]
-    return cloud_contacts(pair, solid, cloud, relative, x, *signed_distance(solid.shape, x))
+    return cloud_contacts(pair, solid, cloud, relative, x, *solid.shape.signed_distance(x))
 
 
 def cloud_contacts(

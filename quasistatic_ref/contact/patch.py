@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.separations import (
     BISECTOR,
     OF_CLOUD,
@@ -88,7 +87,7 @@ def corner_surface(solid: ShapeInWorld, x: Array, n: Array, within: float) -> Su
         What is rounding [m].
     """
     shape = solid.shape
-    phi, normal = signed_distance(shape, x)
+    phi, normal = shape.signed_distance(x)
     tie = np.full(len(x), OWN)
     if isinstance(shape, HalfSpace):
         return Surface(phi, normal, tie)

@@ -32,7 +32,9 @@ class Shape(Plain):
         phi : ndarray, shape (N,)
             [m], negative inside.
         normal : ndarray, shape (N, 3)
-            Unit normals: the gradient of phi. Where it is not unique, one of them, always the same.
+            Unit normals: the gradient of phi; the closest point on the shape is p - phi n. Where
+            it is not unique (the centre of a sphere, a tie of two faces), one of them, always the
+            same: results are deterministic.
 
         Raises
         ------

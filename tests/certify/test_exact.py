@@ -153,16 +153,15 @@ def test_row_without_coefficients_is_idle_or_a_contradiction():
 @pytest.mark.parametrize(
     "H",
     [
-        [[1.0, 1.0], [1.0, 1.0]],  # singular: no ball shows the sign of its last pivot
+        [[1.0, 1.0], [1.0, 1.0]],  # singular
         [[1.0, 2.0], [2.0, 1.0]],
         [[0.0, 0.0], [0.0, 1.0]],
         [[1.0, 1.0 + ULP], [1.0 + ULP, 1.0 + ULP]],
     ],
 )
 def test_matrix_that_is_not_positive_definite_is_refused(H):
-    form = exact_form_of(np.array(H), np.ones(2), np.zeros((0, 2)), np.zeros(0))
     with pytest.raises(StepDataError, match="positive definite"):
-        exact_optimum(form)
+        exact_form_of(np.array(H), np.ones(2), np.zeros((0, 2)), np.zeros(0))
 
 
 def test_barely_positive_definite_matrix_is_solved():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from quasistatic_ref.contact.cloud import closest, signed_distance
+from quasistatic_ref.contact.cloud import closest
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -66,7 +66,7 @@ def cylinder_distance(shape, point):
 @pytest.mark.parametrize("name", BY_COAL)
 def test_a_distance_is_coal_s_point_by_point(name, rng):
     shape, points = SHAPES[name], rng.uniform(-0.8, 0.8, size=(400, 3))
-    phi, normal = signed_distance(shape, points)
+    phi, normal = shape.signed_distance(points)
     assert (phi < 0).any()
     assert (phi > 0).any()
     for i, point in enumerate(points):
@@ -79,7 +79,7 @@ def test_a_distance_is_coal_s_point_by_point(name, rng):
 
 def test_a_cylinder_s_distance_is_that_in_the_plane_of_radius_and_height(rng):
     shape, points = SHAPES["cylinder"], rng.uniform(-0.5, 0.5, size=(2000, 3))
-    phi, _ = signed_distance(shape, points)
+    phi, _ = shape.signed_distance(points)
     expected = [cylinder_distance(shape, point) for point in points.tolist()]
     assert min(expected) < -0.1
     np.testing.assert_allclose(phi, expected, rtol=EXACT, atol=SIGNED_DISTANCE)
@@ -88,10 +88,10 @@ def test_a_cylinder_s_distance_is_that_in_the_plane_of_radius_and_height(rng):
 @pytest.mark.parametrize("name", SHAPES)
 def test_the_normal_is_the_gradient_where_phi_is_smooth(name, rng):
     shape, points = SHAPES[name], rng.uniform(-0.8, 0.8, size=(200, 3))
-    _, normal = signed_distance(shape, points)
+    _, normal = shape.signed_distance(points)
     gradient = np.zeros_like(points)
     for k, step in enumerate(DIFFERENCE_STEP * np.eye(3)):
-        ahead, behind = (signed_distance(shape, points + s * step) for s in (1, -1))
+        ahead, behind = (shape.signed_distance(points + s * step) for s in (1, -1))
         gradient[:, k] = (ahead[0] - behind[0]) / (2 * DIFFERENCE_STEP)
     # A kink within the difference shows as a gradient that is no unit vector: leave those out.
     smooth = np.abs(np.linalg.norm(gradient, axis=1) - 1) < DIFFERENCE
@@ -106,9 +106,9 @@ def test_the_normal_is_the_gradient_where_phi_is_smooth(name, rng):
 @given(name=SHAPE, point=POINT)
 def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
     shape, points = SHAPES[name], np.array([point])
-    phi, normal = signed_distance(shape, points)
+    phi, normal = shape.signed_distance(points)
     np.testing.assert_allclose(np.linalg.norm(normal[0]), 1.0, rtol=ROUNDING)
-    foot, _ = signed_distance(shape, points - phi[:, None] * normal)
+    foot, _ = shape.signed_distance(points - phi[:, None] * normal)
     np.testing.assert_allclose(foot, [0.0], rtol=EXACT, atol=SIGNED_DISTANCE)
 
 
@@ -131,21 +131,21 @@ DEGENERATE = {
 
 @pytest.mark.parametrize(("name", "point", "phi", "n"), DEGENERATE.values(), ids=DEGENERATE)
 def test_where_the_normal_is_not_unique_the_first_one_wins(name, point, phi, n):
-    found_phi, found_n = signed_distance(SHAPES[name], np.array([point], dtype=np.float64))
+    found_phi, found_n = SHAPES[name].signed_distance(np.array([point], dtype=np.float64))
     np.testing.assert_allclose(found_phi, [phi], rtol=EXACT, atol=SIGNED_DISTANCE)
     np.testing.assert_allclose(found_n, [n], rtol=EXACT, atol=SIGNED_DISTANCE)
 
 
 def test_half_way_between_a_disc_s_caps_the_upper_one_is_the_nearest():
     disc = Cylinder(0.25, 0.125)
-    phi, n = signed_distance(disc, np.array([[0.0, 0.0, 0.0], [0.0625, 0.0, -0.0]]))
+    phi, n = disc.signed_distance(np.array([[0.0, 0.0, 0.0], [0.0625, 0.0, -0.0]]))
     np.testing.assert_allclose(phi, [-0.125, -0.125], rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(n, [[0, 0, 1], [0, 0, 1]], rtol=EXACT, atol=EXACT)
 
 
 def test_a_tie_of_faces_goes_to_the_first_of_them():
     box = Box(np.array([0.25, 0.5, 0.75]))  # exact in binary, so that the ties are exact
-    phi, n = signed_distance(box, np.array([[0.125, 0.375, 0.0], [0.0, -0.25, -0.5]]))
+    phi, n = box.signed_distance(np.array([[0.125, 0.375, 0.0], [0.0, -0.25, -0.5]]))
     np.testing.assert_allclose(phi, [-0.125, -0.25], rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(n, [[1, 0, 0], [1, 0, 0]], rtol=EXACT, atol=EXACT)
 
@@ -153,9 +153,9 @@ def test_a_tie_of_faces_goes_to_the_first_of_them():
 @pytest.mark.parametrize("name", SHAPES)
 def test_a_point_s_distance_does_not_depend_on_its_batch(name, rng):
     shape, points = SHAPES[name], rng.uniform(-0.8, 0.8, size=(37, 3))
-    phi, normal = signed_distance(shape, points)
+    phi, normal = shape.signed_distance(points)
     for i, point in enumerate(points):
-        alone_phi, alone_normal = signed_distance(shape, point[None])
+        alone_phi, alone_normal = shape.signed_distance(point[None])
         np.testing.assert_allclose(alone_phi[0], phi[i], rtol=EXACT, atol=EXACT)
         np.testing.assert_allclose(alone_normal[0], normal[i], rtol=EXACT, atol=EXACT)
 
@@ -163,7 +163,7 @@ def test_a_point_s_distance_does_not_depend_on_its_batch(name, rng):
 def test_a_cloud_is_no_shape_to_measure_against():
     cloud = PointCloud(np.zeros((1, 3)))
     with pytest.raises(ContactError, match=r"shape: a cloud touches .* \(got 'PointCloud'\)"):
-        signed_distance(cloud, np.zeros((1, 3)))
+        cloud.signed_distance(np.zeros((1, 3)))
 
 
 @given(
@@ -195,7 +195,7 @@ BY_CONE = {
 def test_a_point_put_off_a_feature_of_a_cone_has_that_distance(foot, distance, normal) -> None:
     r, z = np.add(foot, np.multiply(distance, normal))
     for x, y in ((1.0, 0.0), (-0.6, 0.8)):  # half-planes about the axis
-        phi, n = signed_distance(CONE, np.array([[r * x, r * y, z]]))
+        phi, n = CONE.signed_distance(np.array([[r * x, r * y, z]]))
         np.testing.assert_allclose(phi, [distance], rtol=EXACT, atol=CLOSED_FORM)
         turned = [normal[0] * x, normal[0] * y, normal[1]]
         if r > 0:
@@ -210,7 +210,7 @@ def test_the_normal_at_a_tip_is_one_of_the_tip_whatever_is_rounded(rng) -> None:
     So n_r radius <= 2 half_length n_z; of the side's normal the two are equal.
     """
     for radius, half_length in rng.uniform(0.01, 1.0, size=(500, 2)):
-        phi, n = signed_distance(Cone(radius, half_length), np.array([[0.0, 0.0, half_length]]))
+        phi, n = Cone(radius, half_length).signed_distance(np.array([[0.0, 0.0, half_length]]))
         np.testing.assert_allclose(phi, [0.0], rtol=EXACT, atol=CLOSED_FORM)
         np.testing.assert_allclose(np.sum(n * n), 1.0, rtol=ROUNDING)
         n_r = np.hypot(n[0, 0], n[0, 1])
@@ -226,6 +226,6 @@ def test_half_way_through_an_ellipsoid_the_upper_side_is_the_nearest(x, z) -> No
     a, b, c = 0.3, 0.2, 0.1
     foot_x = a**2 * x / (a**2 - c**2)
     way = np.array([foot_x - x, 0.0, c * np.sqrt(1 - (foot_x / a) ** 2)])
-    phi, n = signed_distance(Ellipsoid(np.array([a, b, c])), np.array([[x, 0.0, z]]))
+    phi, n = Ellipsoid(np.array([a, b, c])).signed_distance(np.array([[x, 0.0, z]]))
     np.testing.assert_allclose(phi, [-np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)
     np.testing.assert_allclose(n, [way / np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
@@ -53,7 +52,7 @@ def test_a_cloud_s_contacts_are_its_nearest_points_by_brute_force(name, rng):
     each = []
     for i, p in enumerate(points):
         world = own[0] @ p + own[1]
-        phi, n = signed_distance(solid.shape, (pose[0].T @ (world - pose[1]))[None])
+        phi, n = solid.shape.signed_distance((pose[0].T @ (world - pose[1]))[None])
         each.append((phi[0], i, world, pose[0] @ n[0]))
     each.sort(key=lambda item: item[:2])
     assert found.point.tolist() == [item[1] for item in each[:7]]
@@ -106,7 +105,7 @@ def test_shapes_sit_where_their_links_carry_them(tmp_path, rng):
     np.testing.assert_allclose(found.beta, expected, rtol=ROUNDING, atol=ROUNDING)
     for i in range(6):
         in_solid = kinematics.R[lower].T @ (found.alpha[i] - kinematics.t[lower])
-        phi, _ = signed_distance(solid.shape, (R_s.T @ (in_solid - t_s))[None])
+        phi, _ = solid.shape.signed_distance((R_s.T @ (in_solid - t_s))[None])
         np.testing.assert_allclose(phi, [0.0], rtol=EXACT, atol=SIGNED_DISTANCE)
 
 

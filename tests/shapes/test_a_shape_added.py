@@ -11,7 +11,6 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
@@ -74,7 +73,7 @@ def scene(tmp_path, monkeypatch):
 def test_its_distances_of_points_are_those_of_the_formula():
     corner, beyond = HALF, np.array([0.02, 0.03, 0.06])
     points = np.array([[0.0, 0.1, HALF[2] + 0.05], [0.0, 0.0, 0.03], corner + beyond])
-    phi, normal = signed_distance(PAD, points)
+    phi, normal = PAD.signed_distance(points)
     away = np.sqrt(beyond @ beyond)
     np.testing.assert_allclose(phi, [0.05 - RADIUS, -0.01 - RADIUS, away - RADIUS], rtol=ROUNDING)
     np.testing.assert_allclose(normal, [[0, 0, 1], [0, 0, 1], beyond / away], atol=ROUNDING)

@@ -9,7 +9,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Shape
 from quasistatic_ref.shapes.rounded import distance_to_rounded_box
@@ -59,7 +58,7 @@ class Polytope:
         """Signed distance and normal of points, in the shape's own frame, to the core."""
         if isinstance(self.shape, Capsule):
             return distance_to_rounded_box(points, self.shape.core[0])
-        return signed_distance(self.shape, points)
+        return self.shape.signed_distance(points)
 
 
 @lru_cache(maxsize=256)

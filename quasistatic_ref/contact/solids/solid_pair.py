@@ -8,7 +8,6 @@ and checks coal's answer.
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
@@ -71,7 +70,7 @@ def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
 
 
 def _sphere_on_solid(solid: ShapeInWorld, sphere: ShapeInWorld, radius: float) -> Witness:
-    distance, normal = signed_distance(solid.shape, product(sphere.t - solid.t, solid.R)[None])
+    distance, normal = solid.shape.signed_distance(product(sphere.t - solid.t, solid.R)[None])
     n = product(solid.R, normal[0])
     phi = float(distance[0])
     return Witness(phi - radius, sphere.t - phi * n, sphere.t - radius * n, n)

@@ -44,7 +44,7 @@ class Kept:
         Raises
         ------
         StepDataError
-            If H is not positive definite without rounding.
+            If M_u is not positive definite.
         """
         if self.hessian is None or not self.hessian.fits(step):
             self.hessian = BallHessian(step)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.curved.faces import Face, curvature, face, kinks
 from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder
@@ -64,7 +63,7 @@ def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
         wide += len(found.corners) > 1 or found.radius > 0
         for x in 0.3 * np.random.default_rng(5).normal(size=(20, 3)):
             on = found.nearest(x)
-            depth = signed_distance(SOLIDS[name], (R.T @ (on - solid.t))[None])[0]
+            depth = SOLIDS[name].signed_distance((R.T @ (on - solid.t))[None])[0]
             np.testing.assert_allclose(depth, 0, rtol=EXACT, atol=CURVED_PAIR)
             # Nearest: no corner lies further towards x.
             across = x - on - ((x - on) @ n) * n

@@ -67,7 +67,7 @@ certify/rational.py certify/dependence.py certify/active_set.py certify/degenera
 certify/rounding.py cli/decimals.py certify/exact.py certify/warm.py certify/certificate.py
     EXACT
 certify/point.py
-    balls EXACT
+    EXACT
 optional/large/bound.py certify/gap.py optional/ellipsoid/impulses.py optional/large/judged.py
 optional/ellipsoid/apex.py optional/extensions/conic.py
     FORGED

@@ -7,7 +7,6 @@ pinocchio, measures all points, and builds a new quadratic program for qpsolvers
 import numpy as np
 from qpsolvers import solve_qp
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import PointCloud
@@ -34,7 +33,7 @@ def hand_rows(scenario: Scenario, kinematics: Kinematics) -> tuple[Array, Array]
             raise TypeError(f"{pair.name}: beta must be a cloud")
         R_a, t_a = kinematics.R[a] @ pair.alpha.R, kinematics.R[a] @ pair.alpha.t + kinematics.t[a]
         world = cloud.points @ kinematics.R[b].T + kinematics.t[b]
-        phi, normals = signed_distance(pair.alpha.shape, (world - t_a) @ R_a)
+        phi, normals = pair.alpha.shape.signed_distance((world - t_a) @ R_a)
         for i in np.argsort(phi, kind="stable")[: pair.k]:
             n, beta = R_a @ normals[i], world[i]
             alpha = beta - phi[i] * n
