@@ -8,7 +8,6 @@ chooses among them.
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -35,7 +34,7 @@ from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import KIND, StepData
 from quasistatic_ref.tolerances import ALIKE
 
 RELAXED = (1.0, 1e2, 1e4)
@@ -43,19 +42,6 @@ RELAXED = (1.0, 1e2, 1e4)
 
 Second-order cones cost Clarabel digits: of 40 planted steps it solves none at 1e-12, 39 at 1e-10
 and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
-
-
-KIND: dict[str, Callable[[StepData], Any]] = {
-    "n_a": lambda step: step.n_a,
-    "n_u": lambda step: step.n_u,
-    "cone": lambda step: step.cone,
-    "rows of contacts": lambda step: step.contacts.rows,
-    "rows of the user's own": lambda step: len(step.extra.names),
-    "h": lambda step: step.h,
-    "mu_v": lambda step: step.contacts.mu_v,
-    "mu_omega": lambda step: step.contacts.mu[:, 2],  # 0 where it is not used
-}
-"""What the steps of one compiled problem may have in common."""
 
 
 @dataclass(eq=False)
@@ -112,7 +98,7 @@ class Solver(ABC):
     engine : str
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
-        What the steps that it solves have in common, of ``KIND``.
+        What the steps that it solves have in common, of ``KIND`` of ``step/data.py``.
     remembers : bool
         Whether its answer to a step may depend on the steps before.
     unsafe : bool
@@ -155,8 +141,8 @@ class Solver(ABC):
 
     def differences(self, step: StepData) -> list[str]:
         """In what of ``fixed`` a step is not like the one that the problem was compiled for."""
-        pairs = ((what, KIND[what](self.like), KIND[what](step)) for what in self.fixed)
-        return [what for what, made, given in pairs if not np.array_equal(made, given)]
+        pairs = ((name, KIND[name](self.like), KIND[name](step)) for name in self.fixed)
+        return [name for name, made, given in pairs if not np.array_equal(made, given)]
 
     def takes(self, step: StepData) -> bool:
         """Whether the numbers of a step can be written into the problem."""

@@ -11,9 +11,9 @@ from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.scaled import DenseStep
-from quasistatic_ref.solve.solver import KIND, OptionSet, Solver
+from quasistatic_ref.solve.solver import OptionSet, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
-from quasistatic_ref.step.data import Array, Mask, StepData
+from quasistatic_ref.step.data import KIND, Array, Mask, StepData
 
 CANON = cp.CPP_CANON_BACKEND
 """CVXPY's way of compiling, for problems of any size. From 1,000 parameters on it would choose

@@ -6,6 +6,7 @@ tangents are in the world frame; SI units. The JSON form is version 1 of ``quasi
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
@@ -247,6 +248,19 @@ class StepData(Plain, Shown):
     def replace(self, **changes: Any) -> StepData:
         """Return a copy with some fields changed, validated again."""
         return StepData(**(field_values(self) | changes))
+
+
+KIND: dict[str, Callable[[StepData], Any]] = {
+    "cone": lambda step: step.cone,
+    "h": lambda step: step.h,
+    "n_a": lambda step: step.n_a,
+    "n_u": lambda step: step.n_u,
+    "contacts.rows": lambda step: step.contacts.rows,
+    "contacts.mu_v": lambda step: step.contacts.mu[:, 0],
+    "contacts.mu_omega": lambda step: step.contacts.mu[:, 2],  # 0 where it is not used
+    "extra": lambda step: len(step.extra.names),
+}
+"""What the steps of one compiled problem may have in common."""
 
 
 def hessian(h: float, K_q: Array, M_u: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import KIND, StepData
 from quasistatic_ref.step.friction import frame_jacobian
 
 
@@ -130,17 +130,8 @@ class StepProblem(Shown):
 
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
-        like = self.like
-        for name, own, other in (
-            ("cone", like.cone, step.cone),
-            ("h", like.h, step.h),
-            ("n_a", like.n_a, step.n_a),
-            ("n_u", like.n_u, step.n_u),
-            ("contacts.rows", like.contacts.rows, step.contacts.rows),
-            ("contacts.mu_v", like.contacts.mu[:, 0], step.contacts.mu[:, 0]),
-            ("contacts.mu_omega", like.contacts.mu[:, 2], step.contacts.mu[:, 2]),
-            ("extra", len(like.extra.names), len(step.extra.names)),
-        ):
+        for name, value in KIND.items():
+            own, other = value(self.like), value(step)
             if not np.array_equal(own, other):
                 problem = f"is {own} in this problem; make a problem like this step"
                 raise StepDataError(problem, field=name, value=np.asarray(other).tolist())

@@ -18,9 +18,6 @@ FUNCTIONS = {"sin", "cos", "tan", "arcsin", "arccos", "arctan", "arctan2", "asin
 UNORDERED = SUMS | REDUCTIONS | FUNCTIONS | {"atan2", "hypot", "exp", "log"}
 """Names of what is called; ``@`` is found as an operator."""
 EXCEPTIONS = {
-    "pairs of curved solids, for which coal and LAPACK are the method": (
-        "contact/separations.py:sharp_directions",
-    ),
     "files, read and checked before a run": (
         "model/urdf/urdf_file.py",
         "model/urdf/urdf_inertia.py",

@@ -131,13 +131,13 @@ OTHERS = {
     "n_a": (lambda s, rng: random_step(rng, 2, 4, ROWS), "CF"),
     "n_u": (lambda s, rng: random_step(rng, 3, 5, ROWS), "CF"),
     "cone": (lambda s, rng: s.replace(cone="facets-8"), "CFQ"),
-    "rows of contacts": (lambda s, rng: random_step(rng, 3, 4, (4, 6, 6)), "CF"),
-    "rows of the user's own": (
+    "contacts.rows": (lambda s, rng: random_step(rng, 3, 4, (4, 6, 6)), "CF"),
+    "extra": (
         lambda s, rng: s.replace(extra=Extra(("a",), np.ones((1, 7)), [-1.0])), "CF",
     ),
     "h": (lambda s, rng: s.replace(h=2 * s.h), "C"),
-    "mu_v": (lambda s, rng: with_mu(s, mu_v=0.5 * s.contacts.mu_v), "C"),
-    "mu_omega": (lambda s, rng: with_mu(s, mu_omega=0.5 * s.contacts.mu_omega), "C"),
+    "contacts.mu_v": (lambda s, rng: with_mu(s, mu_v=0.5 * s.contacts.mu_v), "C"),
+    "contacts.mu_omega": (lambda s, rng: with_mu(s, mu_omega=0.5 * s.contacts.mu_omega), "C"),
 }  # fmt: skip
 """Steps of another kind, and who cannot take them: (C)vxpy, (F)ast, (Q)psolvers."""
 
@@ -172,7 +172,7 @@ def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(
 def test_rows_of_an_extension_count_as_rows_of_the_step(step):
     floor = Extension(lambda s: [s.delta_q >= -1.0])
     for fast in (False, True):
-        with pytest.raises(InputError, match="rows of the user's own"):
+        with pytest.raises(InputError, match="in extra; make"):
             solve_step(step, solver_for(step, "clarabel", fast), extension=floor)
 
 

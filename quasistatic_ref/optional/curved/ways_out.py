@@ -9,9 +9,11 @@ from functools import cache
 
 import numpy as np
 
-from quasistatic_ref.contact.separations import gaps, sharp_directions
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.separations import gaps
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.ordered import product
 
 SPREAD = 1024
 """Directions over the sphere, about 0.11 rad apart: no direction is farther than REACH from one."""
@@ -64,6 +66,30 @@ def rival_directions(
         if all(directions[k] @ other < APART for other in chosen):
             chosen.append(directions[k])
     return chosen[1:]
+
+
+def sharp_directions(solid: ShapeInWorld) -> Array:
+    """Normals of the faces, or the axes of a curved solid, in the world frame, shape (N, 3)."""
+    flat = polytope(solid.shape)
+    own = np.concatenate([np.eye(3), -np.eye(3)]) if flat is None else flat.normals
+    return own @ solid.R.T
+
+
+def known_gaps(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array, Array]:
+    """Gaps, (N,) [m], along the normals (N, 3) of faces at the closest points, and along axes.
+
+    Parameters
+    ----------
+    a, b : ShapeInWorld
+    found : Witness
+        Their closest points.
+    """
+    ways = [sharp_directions(a), -sharp_directions(b)]
+    for solid, end, sign in ((a, found.alpha, 1.0), (b, found.beta, -1.0)):
+        _, normals = solid.shape.faces(product(end - solid.t, solid.R)[None])
+        ways.append(sign * product(normals[0], solid.R.T))
+    every = np.concatenate(ways)
+    return gaps(a._replace(t=a.t - b.t), b._replace(t=0 * b.t), every), every
 
 
 @cache

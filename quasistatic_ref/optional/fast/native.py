@@ -64,7 +64,7 @@ class NativeSolver(Solver):
 
     engine = "native"
     remembers = True
-    fixed = ("n_a", "n_u", "cone", "rows of contacts", "rows of the user's own")
+    fixed = ("n_a", "n_u", "cone", "contacts.rows", "extra")
 
     def __init__(self, like: StepData, name: str, warm: bool = True) -> None:
         check_native(name, like.cone)
