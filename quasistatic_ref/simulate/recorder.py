@@ -212,7 +212,7 @@ class Recorder(Shown):
             "quasi_dynamic_number": None,  # the observers know
             "largest_drag_share": None,
             "largest_boundary_layer": None,
-            "contacts": [self.layout.contact_names(p) for p in arrays["point"]] if full else [],
+            "contacts": [list(self.layout.contact_names(p)) for p in arrays["point"]] if full else [],
             "findings": [],
         } | ({} if self.alone else {"alone": False})
         constant = {k: getattr(self.layout, k) if self.steps else np.zeros(0) for k in CONSTANT}

@@ -91,6 +91,9 @@ def view_written(
     InputError
         If the extra ``view`` is not installed, the run has no steps, or its scene is not known.
     """
+    if not isinstance(path, str | Path):
+        problem = "must be a file; give what is shown, then the file, then the run"
+        raise InputError(problem, field="path", value=type(path).__name__)
     viewer = viewer_script()
     scene, run = _scene(shown, run)
     moments, fps = ([still(scene)], 1.0) if run is None else frames(scene, run, FRAMES_PER_SECOND)
