@@ -48,7 +48,8 @@ def duality_gap(form: ExactForm, x: Sequence[fmpq], lam: Sequence[fmpq]) -> fmpq
     fmpq
         In the form's units of energy, ``net_unit * x_unit`` [N m s].
     """
-    column, push = fmpq_mat(form.n, 1, list(x)), fmpq_mat(1, form.m, list(lam))
+    column = fmpq_mat(form.n, 1, list(x))
+    push = fmpq_mat(1, form.m, list(lam))
     A = fmpq_mat(form.A)
     off = fmpq_mat(form.H) * column - fmpq_mat(form.g) - A.transpose() * push.transpose()
     work = push * (A * column - fmpq_mat(form.b))

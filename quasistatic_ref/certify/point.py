@@ -205,7 +205,9 @@ class Point:
     """
 
     def __init__(self, form: ExactForm, balls: BallForm, working: tuple[int, ...]) -> None:
-        self.form, self.ball_form, self.working = form, balls, working
+        self.form = form
+        self.ball_form = balls
+        self.working = working
         self._implied: dict[int, bool] = {}
 
     @cached_property

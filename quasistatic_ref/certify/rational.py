@@ -230,7 +230,8 @@ def friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
     kind = cone(name)
     mu = dyadic(kind.in_rows(contacts.mu[of]))
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
-    mu_v, mu_omega = mu[:, :1, None], mu[:, 2:, None]
+    mu_v = mu[:, :1, None]
+    mu_omega = mu[:, 2:, None]
     rows = kind.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
     return joined(rows, axis=1)
 
@@ -238,8 +239,10 @@ def friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
 def block_diagonal(K: Dyadic, M: Dyadic) -> Dyadic:
     """Two square blocks, of any units, on the diagonal of a matrix of zeros."""
     (n_a, _), (n_u, _) = K.m.shape, M.m.shape
-    right, left = np.full((n_a, n_u), 0, object), np.full((n_u, n_a), 0, object)
-    above, below = joined([K, Dyadic(right, 0)], axis=1), joined([Dyadic(left, 0), M], axis=1)
+    right = np.full((n_a, n_u), 0, object)
+    left = np.full((n_u, n_a), 0, object)
+    above = joined([K, Dyadic(right, 0)], axis=1)
+    below = joined([Dyadic(left, 0), M], axis=1)
     return joined([above, below])
 
 

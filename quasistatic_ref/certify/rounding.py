@@ -35,12 +35,14 @@ def nearest_in(ball: arb) -> float | None:
     float64 numbers.
     """
     x = float(ball) + 0.0  # of its midpoint: a candidate, never -0.0
-    below, above = math.nextafter(x, -math.inf), math.nextafter(x, math.inf)
+    below = math.nextafter(x, -math.inf)
+    above = math.nextafter(x, math.inf)
     if not (math.isfinite(below) and math.isfinite(above)):
         return None
     if 2 * ball > arb(below) + x and 2 * ball < arb(above) + x:
         return x
-    low, high = _exact(ball.lower()), _exact(ball.upper())
+    low = _exact(ball.lower())
+    high = _exact(ball.upper())
     return low if low == high else None
 
 

@@ -68,11 +68,14 @@ def solution_text(solution: StepSolution) -> str:
     Where a backend's own answer has an error bound, negative multipliers are written as 0.0,
     because the bound was computed with 0.0 in their place.
     """
-    step, certificate = solution.step, solution.certificate
-    lam, lam_extra = solution.lam, solution.lam_extra
+    step = solution.step
+    certificate = solution.certificate
+    lam = solution.lam
+    lam_extra = solution.lam_extra
     kind = certificate.kind
     if kind == "residual" and certificate.error_bound is not None:
-        lam, lam_extra = np.maximum(lam, 0.0), np.maximum(lam_extra, 0.0)
+        lam = np.maximum(lam, 0.0)
+        lam_extra = np.maximum(lam_extra, 0.0)
     record = _head(step, "optimal") | {
         "delta_q": solution.delta_q,
         "lam": [lam[a:b] for a, b in pairwise(step.offsets)],
@@ -204,7 +207,8 @@ def rounded_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     """
     kind = cone(name)
     exact = np.frompyfunc(Fraction, 1, 1)
-    of_rows, mu = impulses(contacts, lam, name), kind.in_rows(contacts.mu)
+    of_rows = impulses(contacts, lam, name)
+    mu = kind.in_rows(contacts.mu)
     wrench = wrenches(exact(of_rows), exact(kind.matrix), exact(mu)) / Fraction(h)
     return np.array([_nearest(x) for x in wrench.ravel()]).reshape(-1, 4) + 0.0
 

@@ -45,7 +45,9 @@ def refutation(step: StepData, solution: SolutionFile) -> str | None:
     """
     if solution.farkas is not None:
         return farkas_refutation(step, solution.farkas)
-    certificate, delta_q, lam = solution.certificate, solution.delta_q, solution.lam
+    certificate = solution.certificate
+    delta_q = solution.delta_q
+    lam = solution.lam
     if certificate is None:
         return "the solution belongs to another step: step_sha256 differs"
     assert delta_q is not None

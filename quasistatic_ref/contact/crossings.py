@@ -97,7 +97,8 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
     n : ndarray, shape (3,)
         The pair's normal out of the body [-].
     """
-    shape, way = body.shape, product(body.R.T, n)
+    shape = body.shape
+    way = product(body.R.T, n)
     flat = polytope(shape)
     assert flat is not None
     if isinstance(shape, Capsule):
@@ -132,7 +133,8 @@ def line(shape: Round, above: float, up: float, way: Array) -> tuple[Array, Indi
     radial = norm(way[:2])
     if side[0] * radial + side[1] * way[2] < FACES * norm(side):
         return np.zeros((0, 2, 3)), np.zeros(0, dtype=np.int64)
-    outward, tip = way * [1.0, 1.0, 0.0] / radial, shape.half_length * UP
+    outward = way * [1.0, 1.0, 0.0] / radial
+    tip = shape.half_length * UP
     ends = np.array([[shape.radius * outward - tip, above * outward + tip]])
     return ends, np.zeros(1, dtype=np.int64)
 
@@ -151,15 +153,20 @@ def _of_polytope(flat: Polytope, extent: float, x: Array, way: Array) -> tuple[A
 def edge_crossings(on_a: Edges, on_b: Edges, n: Array) -> Crossings:
     """Crossings of straight curves, seen along the pair's normal n, shape (3,) [-]."""
     i, j = every(len(on_a.ends), len(on_b.ends))
-    tail, start = on_a.ends[i, 0], on_b.ends[j, 0]
-    u, v, w = on_a.ends[i, 1] - tail, on_b.ends[j, 1] - start, start - tail
+    tail = on_a.ends[i, 0]
+    start = on_b.ends[j, 0]
+    u = on_a.ends[i, 1] - tail
+    v = on_b.ends[j, 1] - start
+    w = start - tail
     # tail + s u + phi n = start + t v
     steep = dot(crossed(u, v), n)
     crossing = np.abs(steep) > SKEW * norm(u) * norm(v)
     steep = np.where(crossing, steep, 1.0)
-    s, t = dot(crossed(w, v), n) / steep, dot(crossed(w, u), n) / steep
+    s = dot(crossed(w, v), n) / steep
+    t = dot(crossed(w, u), n) / steep
     crossing &= (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
-    alpha, beta = tail + s[:, None] * u, start + t[:, None] * v
+    alpha = tail + s[:, None] * u
+    beta = start + t[:, None] * v
     number = crossing_number(on_a.number[i], on_b.number[j], on_b.total)
     return Crossings(alpha[crossing], beta[crossing], number[crossing])
 

@@ -76,14 +76,16 @@ def tied_normals(
     every : (ndarray, ndarray), optional
         Of two polytopes, all gaps (N,) [m] and normals (N, 3) [-].
     """
-    shapes, own = (a.shape, b.shape), found.n[None]
+    shapes = (a.shape, b.shape)
+    own = found.n[None]
     if found.phi > within or any(isinstance(shape, HalfSpace) for shape in shapes):
         return own
     if any(isinstance(shape, Sphere) for shape in shapes):
         out, ways = _of_centre(a, b, found)
     elif all(isinstance(shape, Capsule) for shape in shapes):
         radii = sum(shape.radius for shape in shapes if isinstance(shape, Capsule))
-        out, ways = np.array([-found.phi - 2 * radii]), -own
+        out = np.array([-found.phi - 2 * radii])
+        ways = -own
     else:
         out, ways = _of_curved(a, b, found) if every is None else every
     tied = distinct([*ways[out >= found.phi - within]])

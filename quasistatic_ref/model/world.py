@@ -95,7 +95,8 @@ class World(Plain):
         own: dict[str, list[str]] = {}
         for link in self.links:
             own.setdefault(link.partition("/")[0], []).append(link)
-        groups, frames = [], []
+        groups = []
+        frames = []
         for some in _groups(turning):
             bodies = self.bodies[some]
             groups.append(_joined(bodies, turning[some]))
@@ -122,8 +123,12 @@ def world_of(bodies: Sequence[Body]) -> World:
         )
         _check_joint_names(body, urdf)
         urdfs[body.name] = urdf
-    links, masses, roots, shapes = ["world"], [0.0], {}, []
-    centres, inertias = [np.zeros(3)], [np.zeros((3, 3))]
+    links = ["world"]
+    masses = [0.0]
+    roots = {}
+    shapes = []
+    centres = [np.zeros(3)]
+    inertias = [np.zeros((3, 3))]
     for name, urdf in urdfs.items():
         first = roots[name] = len(links)
         links += [f"{name}/{link}" for link in urdf.links]
@@ -133,7 +138,8 @@ def world_of(bodies: Sequence[Body]) -> World:
         for shape in urdf.shapes:
             shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
     model = _joined(bodies, [urdf.model for urdf in urdfs.values()])
-    joints, start = [], pin.neutral(model)
+    joints = []
+    start = pin.neutral(model)
     for body in bodies:
         for joint, position in _joints(body, urdfs[body.name], model):
             joints.append(joint)
@@ -172,7 +178,8 @@ def _joined(bodies: Sequence[Body], models: Sequence[Any]) -> Any:
 
 def _groups(models: Sequence[Any]) -> list[slice]:
     """Models that follow one another, with PART coordinates at most, or one that has more."""
-    starts, size = [0], 0
+    starts = [0]
+    size = 0
     for i, model in enumerate(models):
         if size and size + model.nv > PART:
             starts.append(i)
@@ -253,10 +260,8 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
         else:
             start = np.array([position])
         actuated = body.actuated == "all" or name in body.actuated
-        q, v = (
-            slice(joint.idx_q, joint.idx_q + joint.nq),
-            slice(joint.idx_v, joint.idx_v + joint.nv),
-        )
+        q = slice(joint.idx_q, joint.idx_q + joint.nq)
+        v = slice(joint.idx_v, joint.idx_v + joint.nv)
         limits = _limits(model, joint) if kind in ("revolute", "prismatic") else None
         found.append((Joint(f"{body.name}/{name}", kind, actuated, q, v, limits), start))
     return found

@@ -110,7 +110,8 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     urdf = path_in(folder, table, "urdf")
     if urdf is None:
         raise table.fail("urdf", "is missing")
-    base, actuated = value(table, BODY, "base"), value(table, BODY, "actuated")
+    base = value(table, BODY, "base")
+    actuated = value(table, BODY, "actuated")
     if actuated != "all":
         if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
             raise table.fail("actuated", 'must be a list of joint names, or "all"', actuated)
@@ -154,7 +155,8 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
     ScenarioError
         If a joint is left out, unknown, or its stiffness has the wrong shape.
     """
-    joints, table = entry.actuated(system), entry.table
+    joints = entry.actuated(system)
+    table = entry.table
     if entry.K_q is None and joints:
         raise table.fail("K_q", f"is missing for {', '.join(entry.short(j) for j in joints)}")
     if isinstance(entry.K_q, list):
@@ -260,7 +262,8 @@ def _planar(waypoint: Fields, name: str, body: Body) -> tuple[Array, Array]:
 
 
 def _wrenches(name: str, table: Fields) -> Wrenches | None:
-    times, values = [], []
+    times = []
+    values = []
     for i, record in enumerate(value(table, BODY, "wrenches")):
         one = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
         check_names(one, WRENCH)

@@ -267,7 +267,8 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         raise ScenarioError(f"at the start, {far}", field="bodies")
 
     gravity_acts = np.zeros(system.n_a, dtype=bool)
-    tracks, wrenches = [], []
+    tracks = []
+    wrenches = []
     for entry in entries.values():
         for joint in entry.actuated(system):
             gravity_acts[joint.v] = not entry.gravity_compensated

@@ -54,7 +54,8 @@ class Cylinder(Round):
 
     def support_value(self, directions: Array) -> Array:
         """Sum of the radial and the axial reach along `directions` (N, 3) [-], shape (N,) [m]."""
-        radial, axial = norm(directions[:, :2]), directions[:, 2]
+        radial = norm(directions[:, :2])
+        axial = directions[:, 2]
         return self.radius * radial + self.half_length * np.abs(axial)
 
     @property
@@ -69,7 +70,8 @@ class Cylinder(Round):
 
     def surface(self, around: int, up: int) -> Array:
         """Points of both rims, shape (N, 3) [m]."""
-        rim, end = self.radius * circle(around), np.array([0, 0, self.half_length])
+        rim = self.radius * circle(around)
+        end = np.array([0, 0, self.half_length])
         return np.concatenate([rim - end, rim + end])
 
 

@@ -133,7 +133,8 @@ def rollout(
     last: StepResult | None = None
     with Interrupt() as interrupt:
         for k in bar:
-            t, q = recorder.t, recorder.q
+            t = recorder.t
+            q = recorder.q
             if k % STRETCH == 0:
                 start_cold(simulator)
             try:

@@ -110,7 +110,8 @@ class Solver(ABC):
     remembers: ClassVar[bool] = False
 
     def __init__(self, like: StepData, name: str) -> None:
-        self.like, self.name = like, name
+        self.like = like
+        self.name = name
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
         self._attempts: dict[float, list[OptionSet]] = {}
         self._fitting: StepData | None = None
@@ -224,11 +225,13 @@ class Solver(ABC):
         idle = self.write(scaled)
         cause: Exception | None = None
         for attempt in self.attempts(accuracy):
-            tried, status = attempt.accuracy, "an answer that is not finite"
+            tried = attempt.accuracy
+            status = "an answer that is not finite"
             try:
                 reply = self.reply(attempt, scaled)
             except Exception as error:  # whatever another package raises
-                status, cause = f"the solver failed: {error}", error
+                status = f"the solver failed: {error}"
+                cause = error
                 continue
             cause = None
             if not reply.solved:

@@ -85,7 +85,8 @@ def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bo
         warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
         problem.solve(solver=name.upper(), warm_start=warm, canon_backend=CANON, **options)
     seconds = perf_counter() - begin
-    status, stats = str(problem.status), problem.solver_stats
+    status = str(problem.status)
+    stats = problem.solver_stats
     own, setup = (None if t is None else float(t) for t in (stats.solve_time, stats.setup_time))
     known = all(x.value is not None for x in problem.variables() if x.size)
     return Reply(

@@ -163,7 +163,8 @@ class StepData(Plain, Shown):
         extra: Extra | None = None,
     ) -> None:
         cone_of(cone)  # refuses a name that it does not know
-        n_a, n_u = np.size(tau_a), np.size(tau_u)
+        n_a = np.size(tau_a)
+        n_u = np.size(tau_u)
         n_v = n_a + n_u
         extra = no_rows(n_v) if extra is None else extra
         checked = {
@@ -268,7 +269,8 @@ def hessian(h: float, K_q: Array, M_u: Array) -> Array:
 
     StepDataError if an entry leaves the range of float64.
     """
-    n_a, n_v = len(K_q), len(K_q) + len(M_u)
+    n_a = len(K_q)
+    n_v = len(K_q) + len(M_u)
     H = np.zeros((n_v, n_v))
     H[:n_a, :n_a], H[n_a:, n_a:] = hessian_blocks(h, K_q, M_u)
     return read_only(H)

@@ -52,7 +52,10 @@ class StepProblem(Shown):
     def __init__(self, like: StepData) -> None:
         self.like = like
         self.check_kind()
-        n_a, n_u, n_v, n_c = like.n_a, like.n_u, like.n_v, like.contacts.n_c
+        n_a = like.n_a
+        n_u = like.n_u
+        n_v = like.n_v
+        n_c = like.contacts.n_c
 
         # What all these steps have in common.
         h = like.h
@@ -131,14 +134,16 @@ class StepProblem(Shown):
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
         for name, value in KIND.items():
-            own, other = value(self.like), value(step)
+            own = value(self.like)
+            other = value(step)
             if not np.array_equal(own, other):
                 problem = f"is {own} in this problem; make a problem like this step"
                 raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
 
     def check_kind(self) -> None:
         """Refuse steps that are not the paper's, with StepDataError."""
-        cone, names = self.like.cone, list(self.like.extra.names)
+        cone = self.like.cone
+        names = list(self.like.extra.names)
         elsewhere = "solve/cvxpy_problem.py has what is not in the paper"
         if cone != PYRAMID:
             raise StepDataError(f"is not the pyramid; {elsewhere}", field="cone", value=cone)

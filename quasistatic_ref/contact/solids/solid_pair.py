@@ -42,10 +42,12 @@ def pair_and_gaps(
     name: str, a: ShapeInWorld, b: ShapeInWorld
 ) -> tuple[Witness, tuple[Array, Array] | None]:
     """The same, and of two polytopes the gaps (N,) [m] along all their normals (N, 3) [-]."""
-    P, Q = polytope(a.shape), polytope(b.shape)
+    P = polytope(a.shape)
+    Q = polytope(b.shape)
     if P is None or Q is None:
         return _curved_pair(name, a, b), None
-    R, t = product(a.R.T, b.R), product(a.R.T, b.t - a.t)
+    R = product(a.R.T, b.R)
+    t = product(a.R.T, b.t - a.t)
     every, normals = gaps_between(P, Q.moved(R, t))
     found = polytope_pair(P, Q, R, t, (every, normals))
     alpha, beta, n = rotated(a.R, np.array([found.alpha, found.beta, found.n]))

@@ -108,7 +108,8 @@ def _csv(lines: Lines) -> Iterator[Point]:
             columns = [0, 1, 2]
             header = [word.lower() for word in words]
             if any(name in header for name in "xyz"):
-                columns, width = [_column(header, name, number) for name in "xyz"], len(words)
+                columns = [_column(header, name, number) for name in "xyz"]
+                width = len(words)
                 continue
         if len(words) != width:
             raise ModelError(f"must have {width} columns", field=f"line {number}", value=line)
