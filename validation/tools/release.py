@@ -129,6 +129,7 @@ RESULTS = (
     to_file("same_bits", "same_bits.json"),
     to_file("derivatives", "derivatives.md"),
     script("clouds", "jsonl"),
+    script("second_order", "jsonl", "md"),
     to_file("reach", "reach.md"),
     to_file("environments", "environments.md"),
     fuzzed("fuzzing"),
