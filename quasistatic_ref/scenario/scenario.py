@@ -230,9 +230,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         check_names(top, TOP)
     top.check_format(FORMAT, VERSION)
     check_names(top, TOP)
-    h, steps, gravity, record = (
-        value(top, TOP, name) for name in ("h", "steps", "gravity", "record")
-    )
+    h, gravity, fast = (value(top, TOP, name) for name in ("h", "gravity", "fast"))
     named = cone(value(top, TOP, "cone")).name
     solver = value(top, TOP, "solver")
     if "engine" in solver.names():
@@ -240,7 +238,6 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         raise solver.fail("engine", problem)
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")
-    accuracy = value(solver, SOLVER, "accuracy")
     limits = _limits(value(top, TOP, "limits"))
 
     tables = value(top, TOP, "bodies")
@@ -260,7 +257,6 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         pairs, rises = found.scenario_rises(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
     blocks = system.constant_mass_matrix and not len(rises)
     entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if blocks else 0
-    fast = value(top, TOP, "fast")
     backend = _backend(solver, certify, named, entries_of_J, fast)
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
@@ -278,7 +274,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     return Scenario(
         path=path,
         h=h,
-        steps=steps,
+        steps=value(top, TOP, "steps"),
         gravity=gravity,
         system=system,
         pairs=pairs,
@@ -287,9 +283,9 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         targets=Targets(system.q_start[: system.n_q_a], tracks),
         wrenches=tuple(wrenches),
         backend=backend,
-        accuracy=accuracy,
+        accuracy=value(solver, SOLVER, "accuracy"),
         certify=certify,
-        record=record,
+        record=value(top, TOP, "record"),
         cone=named,
         limits=limits,
         bodies=entries,

@@ -14,7 +14,6 @@ from quasistatic_ref.simulate.goals import (
     Force,
     Target,
     force_function,
-    needed_arguments,
     target_function,
 )
 from quasistatic_ref.simulate.interrupt import Interrupt
@@ -116,16 +115,9 @@ def rollout(
     pushed = force_function(simulator.system, force)
     saved = None
     if save is not None:
-        first = needed_part("runs.saved", "save").first_step(save, steps, resume)
+        given = {"target": (target, q_bar_a), "force": (force, pushed)}
         runs = needed_part("runs.resume", "save")
-        saved = runs.saved_run(save, save_every, simulator, recorder)
-        recorder.observers.append(saved)
-        if first:
-            for name, function in (("target", target), ("force", force)):
-                if callable(function) and needed_arguments(function, name) == 3:
-                    problem = "cannot be asked again: the results of saved steps are not kept"
-                    raise InputError(problem, field=name)
-            runs.resumed(saved, recorder, simulator, q_bar_a, pushed, STRETCH)
+        saved = runs.saved_run(save, save_every, resume, steps, recorder, given, STRETCH)
     left = range(recorder.steps, steps)
     if progress and (fast := part("fast.pace")) is not None:
         recorder.observers.append(fast.Pace(simulator.fast, len(left)))

@@ -10,7 +10,6 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.degeneracy import (
     differentiable,
     multipliers_unique,
-    strictly_active,
 )
 from quasistatic_ref.certify.exact import exact_optimum, exact_step
 from quasistatic_ref.certify.rational import exact_form
@@ -20,6 +19,7 @@ from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
 
 ULP = 2.0**-52
 LEAST = 5e-324

@@ -7,14 +7,11 @@ written, in metres. A line or a vertex that cannot be read is an error, never le
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, ModelError, about_field, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
-from quasistatic_ref.formats.npz import npy_array, npz_arrays
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.readers.text import decimal
 from quasistatic_ref.parts import needed_part
@@ -134,35 +131,17 @@ def _obj(lines: Lines) -> Iterator[Point]:
 
 
 def _of_part(kind: str, path: Path) -> Array:
-    """Points of a format whose reader is an optional part."""
-    read = getattr(needed_part(f"readers.{kind}", f"a .{kind} cloud"), f"{kind}_points")
-    points: Array = read(bytes_read(path, ModelError))
+    points: Array = needed_part("readers.points", f"a {kind} cloud").POINTS[kind](path)
     return points
-
-
-def _npz(path: Path) -> Array:
-    arrays = npz_arrays(path, "a file of NumPy's arrays")
-    name = "points" if "points" in arrays else next(iter(arrays), "")
-    if name != "points" and len(arrays) != 1:
-        problem = "must contain one array, or one that is named points"
-        raise ModelError(problem, field="its arrays", value=list(arrays))
-    return _of_array(arrays[name], name)
-
-
-def _of_array(array: NDArray[Any], name: str) -> Array:
-    if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
-        given = f"{array.dtype} of shape {array.shape}"
-        raise ModelError("must contain numbers of shape (N, 3)", field=name, value=given)
-    return array.astype(np.float64)
 
 
 KINDS: dict[str, Callable[[Path], list[list[float]] | Array]] = {
     ".xyz": partial(_of_lines, _xyz),
     ".csv": partial(_of_lines, _csv),
-    ".ply": partial(_of_part, "ply"),
+    ".ply": partial(_of_part, ".ply"),
     ".obj": partial(_of_lines, _obj),
-    ".pcd": partial(_of_part, "pcd"),
-    ".npy": lambda path: _of_array(npy_array(path), "its array"),
-    ".npz": _npz,
+    ".pcd": partial(_of_part, ".pcd"),
+    ".npy": partial(_of_part, ".npy"),
+    ".npz": partial(_of_part, ".npz"),
 }
 """Extension -> the points of such a file, x, y and z one after the other."""

@@ -127,7 +127,7 @@ optional/large/sparse_form.py
 model/body.py
     solid planar SCENES
 model/readers/clouds.py optional/readers/pcd.py optional/readers/ply.py
-optional/readers/point_table.py
+optional/readers/point_table.py optional/readers/points.py
     CLOUDS
 model/configuration.py
     system_refusals SCENES
