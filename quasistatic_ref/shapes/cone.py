@@ -7,7 +7,6 @@ import coal
 import numpy as np
 
 from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
-from quasistatic_ref.shapes.shape import circle
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import dot, norm
 from quasistatic_ref.tolerances import ON_SURFACE
@@ -71,11 +70,6 @@ class Cone(Round):
         """Tip, and four points of the rim, the first `towards` [-] the other; shape (5, 3) [m]."""
         tip = np.array([[0, 0, self.half_length]])
         return np.concatenate([tip, rim_corners(self.radius, -self.half_length, towards)]), 0.0
-
-    def surface(self, around: int, up: int) -> Array:
-        """Points of the rim, and the tip, shape (N, 3) [m]."""
-        end = np.array([0, 0, self.half_length])
-        return np.concatenate([self.radius * circle(around) - end, end[None]])
 
 
 def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[Array, Array]:

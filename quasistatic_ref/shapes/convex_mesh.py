@@ -101,10 +101,6 @@ class ConvexMesh(Shape):
         """A face has no more than the whole has vertices."""
         return len(self.vertices)
 
-    def surface(self, around: int, up: int) -> Array:
-        """Its vertices, shape (V, 3) [m]."""
-        return self.vertices
-
     def words(self) -> str:
         """Kind, number of corners, and the edges of the box about them [m]."""
         extent = lengths(np.ptp(self.vertices, axis=0))

@@ -7,7 +7,6 @@ import coal
 import numpy as np
 
 from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
-from quasistatic_ref.shapes.shape import circle
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import norm
 
@@ -67,12 +66,6 @@ class Cylinder(Round):
         """Four points on each rim, shape (8, 3) [m], the first of each `towards` [-] the other."""
         ends = (-self.half_length, self.half_length)
         return np.concatenate([rim_corners(self.radius, z, towards) for z in ends]), 0.0
-
-    def surface(self, around: int, up: int) -> Array:
-        """Points of both rims, shape (N, 3) [m]."""
-        rim = self.radius * circle(around)
-        end = np.array([0, 0, self.half_length])
-        return np.concatenate([rim - end, rim + end])
 
 
 def distance_to_cylinder(points: Array, radius: float, half_length: float) -> tuple[Array, Array]:

@@ -42,10 +42,6 @@ class Pad(Rounded):
         """Of the parent, which knows distances and farthest points by it."""
         return self.half_extents, self.radius
 
-    def surface(self, around, up):
-        """The corners of the box around it."""
-        return Box(self.half_extents + self.radius).surface(around, up)
-
     def words(self):
         """Kind and sizes [m]."""
         return f"pad {lengths(2 * self.half_extents)}, rounded by {self.radius:g} m"

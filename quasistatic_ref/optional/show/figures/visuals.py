@@ -11,7 +11,7 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.mesh_files import mesh_corners, mesh_path
 from quasistatic_ref.model.urdf.urdf_file import FileMesh, urdf_file, written_shape
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
-from quasistatic_ref.optional.show.figures.surfaces import triangles
+from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
 from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.data import Array
 
@@ -19,7 +19,7 @@ PALETTE: Final = (0x0072B2, 0xE69F00, 0x009E73, 0xCC79A7, 0x56B4E9, 0xF0E442)
 """Colours of bodies in turn, which are told apart by every eye (Okabe and Ito 2008)."""
 FIXED: Final = 0xBDBDBD
 """What belongs to no body."""
-AROUND, UP = 32, 13
+AROUND, UP = 32, 12
 """Corners of round shapes around their axis and along it."""
 
 
@@ -72,7 +72,7 @@ def _of_body(body: Body) -> Iterator[Visual]:
 def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
     if not isinstance(shape, FileMesh):
-        points = shape.surface(AROUND, UP)
+        points = surface_points(shape, AROUND, UP)
         return np.asarray(points[triangles(points)].reshape(-1, 3))
     return mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
 

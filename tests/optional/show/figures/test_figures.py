@@ -16,7 +16,6 @@ from quasistatic_ref.optional.show.figures.surfaces import surface_points
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import (
     HalfSpace,
-    PlacedShape,
 )
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from tests.tolerances import EXACT, ROUNDING
@@ -174,4 +173,4 @@ def test_a_camera_from_the_front_sees_y_to_the_right_and_z_upwards():
 
 def test_a_half_space_has_no_outline():
     floor = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
-    assert len(surface_points(PlacedShape("s", 0, np.eye(3), np.zeros(3), floor))) == 0
+    assert len(surface_points(floor)) == 0
