@@ -42,14 +42,14 @@ def multipliers_unique(
     """
     if spanned or len(unspanned) <= 1:
         return not spanned
-    return feasible(form, working, [form.row(i) for i in unspanned], [1] * len(unspanned))
+    return feasible(form, working, form.rows(unspanned), [1] * len(unspanned))
 
 
 def differentiable(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> bool:
     """Whether delta_q is differentiable in g; parameters as of :func:`multipliers_unique`."""
     if len(unspanned) <= 1:
         return not unspanned
-    moves = [form.row(i) for i in unspanned]
+    moves = form.rows(unspanned)
     total = [sum(column, fmpz(0)) for column in zip(*moves, strict=True)]
     return not feasible(form, working, [*moves, total], [0] * len(unspanned) + [1])
 
@@ -70,7 +70,7 @@ def feasible(
         One for each row.
     """
     n = form.n
-    held = [form.row(i) for i in working]
+    held = form.rows(working)
     rows = held + [[-a for a in row] for row in held] + moves
     identity = [[int(i == j) for j in range(n)] for i in range(n)]
     one = fmpq(1)

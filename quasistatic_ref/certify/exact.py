@@ -31,7 +31,7 @@ from quasistatic_ref.certify.point import (
     RationalSolution,
 )
 from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
+from quasistatic_ref.certify.rounding import all_nearest_in, nearest_fraction
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -153,7 +153,8 @@ def nearest_numbers(
         shown = values(point.balls)
         with ctx.workprec(PRECISION):
             factor = arb(unit)
-            rounded = {i: nearest_in(shown[i] * factor) for i in rounded}
+            scaled = [shown[i] * factor for i in rounded]
+            rounded = dict(zip(rounded, all_nearest_in(scaled), strict=True))
     hidden = [i for i, value in rounded.items() if value is None]
     rounded.update(dict.fromkeys(zeros(hidden), 0.0))
     for i in hidden:

@@ -255,7 +255,7 @@ class Point:
     def spanned(self, rows: Sequence[int]) -> list[int]:
         """Return those of some rows whose slack is zero because the working set implies it."""
         new = [i for i in rows if i not in self._implied]
-        equations = [self.form.equation(i) for i in new]
+        equations = self.form.equations(new)
         if new:
             self._implied.update(zip(new, implied(self.form, self.working, equations), strict=True))
         return [i for i in rows if self._implied[i]]

@@ -16,7 +16,7 @@ of Python integers and one common exponent hold them all.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -156,9 +156,13 @@ class ExactForm:
         """Return row i of A."""
         return [self.A[i, v] for v in range(self.n)]
 
-    def equation(self, i: int) -> list[fmpz]:
-        """Row i of A, and b_i after it: n + 1 numbers."""
-        return [*self.row(i), self.b[i, 0]]
+    def rows(self, some: Iterable[int]) -> list[list[fmpz]]:
+        """Return some rows of A."""
+        return [self.row(i) for i in some]
+
+    def equations(self, some: Iterable[int]) -> list[list[fmpz]]:
+        """Some rows of A, and b_i after each: n + 1 numbers."""
+        return [[*self.row(i), self.b[i, 0]] for i in some]
 
 
 def exact_form(step: StepData) -> ExactForm:

@@ -16,7 +16,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import closest
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
@@ -113,6 +112,27 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     order = closest(np.where(late(candidates, pair.k), np.inf, candidates.phi), pair.k)
     kept = candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
     return joined([kept, *filling(pair, nearest, pair.n_c - len(order))])
+
+
+def closest(phi: Array, k: int) -> Indices:
+    """Indices of the k smallest signed distances in ascending order, ties broken by index.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (N,)
+    k : int
+        All of them if k >= N.
+
+    Returns
+    -------
+    ndarray of int, shape (min(k, N),)
+    """
+    if k < len(phi):
+        # Only what can be among the k smallest is sorted; every tie stays in the running.
+        candidates = np.flatnonzero(~(phi > np.partition(phi, k - 1)[k - 1]))
+    else:
+        candidates = np.arange(len(phi))
+    return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
 
 
 def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:

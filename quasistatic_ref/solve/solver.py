@@ -11,8 +11,6 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-import numpy as np
-
 from quasistatic_ref.certify.exact import ExactOptimum, exact_step
 from quasistatic_ref.certify.norm import Norm, energy_norm
 from quasistatic_ref.certify.solution import SolverStatistics
@@ -34,7 +32,7 @@ from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import KIND, StepData
+from quasistatic_ref.step.data import StepData, differences
 from quasistatic_ref.tolerances import ALIKE
 
 RELAXED = (1.0, 1e2, 1e4)
@@ -142,8 +140,7 @@ class Solver(ABC):
 
     def differences(self, step: StepData) -> list[str]:
         """In what of ``fixed`` a step is not like the one that the problem was compiled for."""
-        pairs = ((name, KIND[name](self.like), KIND[name](step)) for name in self.fixed)
-        return [name for name, made, given in pairs if not np.array_equal(made, given)]
+        return differences(self.like, step, self.fixed)
 
     def takes(self, step: StepData) -> bool:
         """Whether the numbers of a step can be written into the problem."""

@@ -6,7 +6,7 @@ tangents are in the world frame; SI units. The JSON form is version 1 of ``quasi
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
@@ -262,6 +262,12 @@ KIND: dict[str, Callable[[StepData], Any]] = {
     "extra": lambda step: len(step.extra.names),
 }
 """What the steps of one compiled problem may have in common."""
+
+
+def differences(like: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
+    """In what of those `names` of ``KIND`` a step is not like another."""
+    every = ((name, KIND[name](like), KIND[name](step)) for name in names)
+    return [name for name, own, other in every if not np.array_equal(own, other)]
 
 
 def hessian(h: float, K_q: Array, M_u: Array) -> Array:

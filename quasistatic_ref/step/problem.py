@@ -9,7 +9,7 @@ import numpy as np
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import KIND, StepData
+from quasistatic_ref.step.data import KIND, StepData, differences
 from quasistatic_ref.step.friction import frame_jacobian
 
 
@@ -133,12 +133,10 @@ class StepProblem(Shown):
 
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
-        for name, value in KIND.items():
-            own = value(self.like)
-            other = value(step)
-            if not np.array_equal(own, other):
-                problem = f"is {own} in this problem; make a problem like this step"
-                raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
+        for name in differences(self.like, step):
+            own, other = KIND[name](self.like), KIND[name](step)
+            problem = f"is {own} in this problem; make a problem like this step"
+            raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
 
     def check_kind(self) -> None:
         """Refuse steps that are not the paper's, with StepDataError."""

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from quasistatic_ref.contact.cloud import closest
+from quasistatic_ref.contact.distance import closest
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.placed_shape import (
     Box,

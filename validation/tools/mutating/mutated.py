@@ -29,7 +29,7 @@ SETS = {
     ),
     "SOLIDS": "corners patch polytope_pair solid_pair contact/distance curved_pair",
     "CURVED": "curved_pair settle faces by_coal contact/distance",
-    "PAIRS": "patch contact/distance pairs jacobian",
+    "PAIRS": "cloud patch contact/distance pairs jacobian",
     "SPARSE": "kept_and_shown mass_in_blocks sparse solver",
     "CLOUDS": "clouds cloud_headers mesh_files",
     "URDF": "urdf urdf_refusals urdf_file mesh_files bad_urdfs",
@@ -50,7 +50,7 @@ step/cones.py
 step/groups.py
     own
 step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
-certify/digits.py model/angles.py step/ordered.py model/rotation.py contact/cloud.py
+certify/digits.py model/angles.py step/ordered.py model/rotation.py
 model/readers/mesh_files.py optional/fast/pace.py
     own
 step/standard_form.py

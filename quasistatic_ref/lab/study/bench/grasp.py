@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import closest
-from quasistatic_ref.contact.distance import closest_points, in_world, relative_pose
+from quasistatic_ref.contact.distance import closest, closest_points, in_world, relative_pose
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.timing import (

@@ -26,7 +26,7 @@ def strictly_active(form: ExactForm, working: Sequence[int], unspanned: Sequence
     """
     if len(unspanned) <= 1:
         return []
-    moves = [form.row(i) for i in unspanned]
+    moves = form.rows(unspanned)
     alone = [[int(i == e) for i in unspanned] for e in unspanned]
     return [e for e, least in zip(unspanned, alone, strict=True)
             if not feasible(form, working, moves, least)]  # fmt: skip
