@@ -32,6 +32,7 @@ _HOMES = {
     "simulate.recorder": "Recorder",
     "simulate.trajectory": "Trajectory trajectory_read",
     "scenario.scenario": "Scenario load_scenario",
+    "optional.runs.scene_file": "scenario_written",
     # One step and its answer.
     "step.data": "StepData Contacts Extra",
     "step.files": "step_read step_written",

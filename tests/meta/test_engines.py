@@ -15,7 +15,7 @@ from quasistatic_ref.lab.vectors.challenge.program import Program
 from validation.make.second_order import Engines
 from validation.programs.engines import phenomena, second_order, second_order_page
 from validation.programs.engines.judge import ENGINES, HERE, RESULTS
-from validation.programs.engines.reproduce import FOLDER, LIST, missing, printed_for, unlike
+from validation.programs.engines.reproduce import FOLDER, LIST, missing, unlike
 from validation.programs.engines.tables import phenomena_page
 
 G, M = 9.81, 0.3
@@ -63,19 +63,6 @@ def test_coulomb_s_law_itself_holds_in_every_cell():
     assert "not asked" in found["pinch"].words
 
 
-def test_an_engine_that_creeps_lifts_and_bounces_differs():
-    def wrong(scene):
-        answer = one_body(scene)
-        for poses in answer["poses"].values():
-            for k, time in enumerate(scene["times"]):
-                poses[k][0] += 1e-4 * time
-                poses[k][2] += 5e-5 * math.sin(300 * time) ** 2
-        return answer
-
-    differs = {cell.phenomenon for cell in phenomena.cells(wrong, 1e-3) if not cell.holds}
-    assert {"sticks_on_slope", "no_lift_off", "no_rebound", "comes_to_rest"} <= differs
-
-
 def test_the_engine_of_the_page_is_asked_everything(capsys):
     page = (RESULTS.parents[2] / "docs" / "engines.md").read_text("utf-8")
     (code,) = re.findall(r"^```python\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
@@ -85,28 +72,8 @@ def test_the_engine_of_the_page_is_asked_everything(capsys):
     assert [line.split()[0] for line in lines] == list(phenomena.PHENOMENA)
 
 
-def test_poses_that_are_no_numbers_are_no_answer():
-    cell = next(phenomena.cells(lambda _: {"poses": {"sled": [[math.nan] * 7] * 26}}, 1e-3))
-    assert not cell.holds
-    assert cell.words.startswith("no answer")
-
-
 def test_every_red_cell_is_shown_by_its_reproduction_in_its_setting():
     assert missing(RECORDS) == unlike(RECORDS) == []
-
-
-def test_a_reproduction_that_prints_another_number_shows_no_cell():
-    cell = {"phenomenon": "sticks_on_slope", "verdict": "differs", "value": 100.0}
-    record = {"settings": {"elliptic, impratio 100": [cell]}}
-    for words, shown in (
-        ('cone="elliptic" impratio="100": 95 um/s (Coulomb: 0)', True),
-        ('cone="elliptic" impratio="100": 80 um/s (Coulomb: 0)', False),
-        ('cone="elliptic": 100 um/s (Coulomb: 0)', False),
-        ("", False),
-    ):
-        records = {"mujoco": {**record, "printed": {"mujoco_slope.py": words}}}
-        assert (unlike(records) == []) == shown
-    assert printed_for("XPBD: -1.5e-3 rad/s (Coulomb: 0)\nVBD: 2", "XPBD") == [-1.5e-3, 0.0]
 
 
 def test_the_page_is_that_of_the_results():

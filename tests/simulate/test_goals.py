@@ -7,7 +7,6 @@ import pytest
 
 from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.goals import of_all
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.rollout import rollout
 from tests.scenes import written_scenario
@@ -63,16 +62,6 @@ def test_a_function_of_time_may_be_written_in_any_way(run, target):
     np.testing.assert_allclose(run(target)["q_bar_a"], expected, rtol=EXACT, atol=EXACT)
 
 
-def test_what_has_no_signature_is_a_function_of_time():
-    class NoSignature:
-        __signature__ = "none"
-
-        def __call__(self, *given):
-            return given
-
-    assert of_all(NoSignature(), "target")(0.5, None, None) == (0.5,)
-
-
 def test_a_target_of_t_and_q_is_asked_where_the_step_starts(scenario, run):
     calls = []
 
@@ -84,21 +73,6 @@ def test_a_target_of_t_and_q_is_asked_where_the_step_starts(scenario, run):
     np.testing.assert_allclose([t for t, _ in calls], done["t"], rtol=EXACT)
     np.testing.assert_allclose([q for _, q in calls], done["q"][:STEPS], rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(done["q_bar_a"], done["q"][:STEPS, :3], rtol=EXACT, atol=EXACT)
-
-
-def test_a_closed_loop_is_the_open_loop_with_its_own_targets(run):
-    closed = run(lambda t, q: [q[0] + 0.001, q[1], q[2]])
-    opened = run(closed["q_bar_a"])
-    for name in ("q", "lam", "wrench", "delta_q"):
-        np.testing.assert_allclose(opened[name], closed[name], rtol=EXACT, atol=EXACT)
-    assert np.ptp(closed["q_bar_a"][:, 0]) > 0
-
-
-def test_a_force_may_be_a_function_of_time_alone(run):
-    of_t = run(goal, force=lambda t: np.full(8, t))
-    of_t_and_q = run(goal, force=lambda t, q: np.full(8, t))
-    np.testing.assert_allclose(of_t["q"], of_t_and_q["q"], rtol=EXACT, atol=EXACT)
-    assert not np.array_equal(of_t["q"], run(goal)["q"])
 
 
 OTHER = {

@@ -1,7 +1,5 @@
 """The simulator: its step is the hand-assembled one, its targets and forces at the right times."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -71,14 +69,6 @@ def test_the_target_is_a_change_from_where_the_joints_are(scenario):
     q_bar_a = np.array([0.01, np.cos(3.4), np.sin(3.4)])
     step = simulator.step(q, q_bar_a).step
     np.testing.assert_allclose(step.delta_q_bar_a, [0.006, 0.4], rtol=ROUNDING)
-
-
-def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
-    steps = 100
-    table = np.stack([np.linspace(0, -0.1, steps), np.ones(steps), np.zeros(steps)], axis=1)
-    q = scenario.system.q_start
-    run = rollout(scenario.simulator(), q, table, steps, record="light", progress=False)
-    np.testing.assert_allclose(run["q_bar_a"], table, rtol=EXACT, atol=EXACT)
 
 
 def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):
@@ -159,14 +149,3 @@ def test_an_uncompensated_joint_sags_by_its_weight_over_its_stiffness(lift):
     sag = 2 * GRAVITY / 400
     np.testing.assert_allclose(run["tau_a"], [[-2 * GRAVITY]] * 3, rtol=ROUNDING)
     np.testing.assert_allclose(run["q"][:, 0], [0, -sag, -sag, -sag], rtol=STICKING, atol=ROUNDING)
-
-
-def test_the_problem_is_compiled_once(scenario):
-    simulator, q = replace(scenario, fast=False).simulator(), scenario.system.q_start
-    compiled = []
-    for k in range(4):
-        result = simulator.step(q, scenario.targets(0.01 * (k + 1)))
-        compiled.append(simulator.solver.problem.problem._cache.param_prog)
-        q = result.q
-    assert compiled[0] is not None
-    assert all(program is compiled[0] for program in compiled)

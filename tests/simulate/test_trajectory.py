@@ -132,21 +132,6 @@ def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
         back.step_data(0)
 
 
-@pytest.mark.parametrize("k", [-1, 5, 1000])
-def test_a_step_that_does_not_exist_is_refused(run, k):
-    with pytest.raises(InputError, match=rf"^step: must be 0 to 4 \(got {k}\)$"):
-        run.step_data(k)
-
-
-def test_the_worst_residual_is_that_of_all_steps(tmp_path, run, folder):
-    assert worst_residual(run) == max(run["worst_residual"])
-    settings = ["solver.certify=off"]
-    uncertified = load_scenario(folder / "scene.toml", settings, fast=True).run(progress=False)
-    assert worst_residual(uncertified) is None
-    back = trajectory_read(uncertified.save(tmp_path / "off.npz"))
-    assert np.isnan(back["digits"]).all()
-
-
 def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
     empty = load_scenario(folder / "scene.toml", ["steps=0"], fast=True).run(progress=False)
     back = trajectory_read(empty.save(tmp_path / "run.npz"))
@@ -184,18 +169,3 @@ def test_an_interrupted_run_keeps_the_steps_before(scenario):
     assert caught.value.trajectory.steps == 2
     assert caught.value.step is None
     assert isinstance(caught.value.__cause__, KeyboardInterrupt)
-
-
-def test_what_a_run_leaves_cannot_be_written(tmp_path, scenario, run):
-    arrays = [
-        *run.arrays.values(),
-        *trajectory_read(run.save(tmp_path / "run.npz")).arrays.values(),
-    ]
-    arrays += [scenario.gravity, scenario.K_q, scenario.gravity_acts, scenario.targets.q_a_start]
-    for one in (*scenario.targets.tracks, *scenario.wrenches):
-        arrays += [one.times, one.values]
-    assert not any(array.flags.writeable for array in arrays)
-    given = np.array(scenario.K_q)
-    other = dataclasses.replace(scenario, K_q=given)
-    given[:] = 0.0
-    assert other == scenario

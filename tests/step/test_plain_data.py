@@ -12,7 +12,6 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Sphere
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from tests.scenes import written_scenario
 from tests.step.public_data import public_data, squeezed
@@ -76,14 +75,6 @@ def test_a_copy_can_be_written_no_more_than_what_it_is_a_copy_of(things, name, t
     kept = sorted(key for key in locked(things[name]))
     derived = {"H", "mu", "wrench"}  # a copy forms them when they are read
     assert [key for key in again if key not in derived] == [k for k in kept if k not in derived]
-
-
-@every_trip
-@pytest.mark.parametrize("name", ["StepData", "StepData with rows of a user's", "PosedStep"])
-def test_a_copy_of_a_step_is_solved_to_the_same_bits(things, name, trip):
-    one, two = solve_step(things[name]), solve_step(trip(things[name]))
-    assert one.certificate.kind == "exact"
-    assert one == two
 
 
 def test_a_pickled_system_does_not_need_its_files(tmp_path):

@@ -53,8 +53,6 @@ class SparseSolver(NativeSolver):
         With contacts in blocks, and no rows of the user's own.
     name : str
         Of a backend whose adapter takes sparse matrices.
-    warm : bool
-        Whether to start from the answer to the step before, where the backend can.
 
     Raises
     ------
@@ -64,13 +62,13 @@ class SparseSolver(NativeSolver):
         If the step is not in blocks.
     """
 
-    def __init__(self, like: StepData, name: str, warm: bool = True) -> None:
+    def __init__(self, like: StepData, name: str) -> None:
         able = [entry.name for entry in BACKENDS.values() if entry.sparse]
         if name not in able:
             problem = f"takes no sparse matrices; a step this large needs {', '.join(able)}"
             raise BackendError(problem, field="backend", value=name)
         self.proofs = Proofs()
-        super().__init__(like, name, warm)
+        super().__init__(like, name)
 
     def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum."""
