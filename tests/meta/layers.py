@@ -41,6 +41,7 @@ LAB = (
     "lab/measures",
     "lab/json_schema",
     "lab/digits",
+    "lab/folders",
     "lab/parallel",
     "lab/processes",
     "lab/supervised",

@@ -59,7 +59,7 @@ def scene(tmp_path, monkeypatch):
         {"size": size, "radius": rounding}, lambda _, __, size, radius: Pad(size / 2, radius)
     )
     monkeypatch.setitem(SOLIDS, "pad", row)
-    pad = {"pad": SIZES, "pose": {"xyz": [0.0, 0.0, -HALF[2] - RADIUS]}}
+    pad = {"pad": SIZES, "pose": {"xyz": [0.0, 0.0, float(-HALF[2] - RADIUS)]}}
     with_pad = changed(
         SCENE, ("shapes/pad", pad), ("contacts/floor/alpha", "pad"), ("contacts/push", ...)
     )

@@ -24,8 +24,8 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import spsolve
 
 from quasistatic_ref.certify.digits import digits_of_error
-from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.figures.line_styles import pens
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.calling.calls import tried
 from quasistatic_ref.lab.study.calling.native import Native

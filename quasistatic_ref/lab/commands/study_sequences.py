@@ -56,7 +56,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run_sequences(options: argparse.Namespace) -> int:
     """Run solvers; print a line for each solver and mode. InputError if that is not possible."""
     from quasistatic_ref.formats.files import text_written
-    from quasistatic_ref.formats.resources import problem_set_folder
+    from quasistatic_ref.lab.folders import problem_set_folder
     from quasistatic_ref.lab.study.calling.solvers import Setting
     from quasistatic_ref.lab.study.file.study_file import Part, Study
     from quasistatic_ref.lab.study.measuring.run import run_study

@@ -12,7 +12,7 @@ import numpy as np
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.compliance.forces import ContactForces
-from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
+from quasistatic_ref.certify.gap import duality_gap, fractions
 from quasistatic_ref.certify.point import rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows
@@ -29,6 +29,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
     point,
 )
 from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
+from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.step.arrays import Array, Mask, largest
 from quasistatic_ref.step.cones import ELLIPSOID, CurvedCone, Judge, Rows, Violations

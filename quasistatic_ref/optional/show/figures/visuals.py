@@ -1,12 +1,15 @@
 """What bodies look like: the visual elements of their URDFs, and a colour for each body."""
 
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any, Final, NamedTuple
 from xml.etree.ElementTree import Element
 
+import numpy as np
+
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.readers.mesh_files import mesh_corners, mesh_path
+from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_path, triangles_of
 from quasistatic_ref.model.urdf.urdf_file import FileMesh, urdf_file, written_shape
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
@@ -71,7 +74,7 @@ def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
     if not isinstance(shape, FileMesh):
         return triangles(surface_points(shape, AROUND, UP))
-    return mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
+    return _mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
 
 
 def _colour(material: Element | None, named: dict[str | None, Element]) -> int | None:
@@ -89,3 +92,21 @@ def _colour(material: Element | None, named: dict[str | None, Element]) -> int |
         return None
     each = (round(255 * min(max(x, 0.0), 1.0)) for x in (red, green, blue))
     return int.from_bytes(bytes(each), "big")
+
+
+def _mesh_corners(path: Path, scale: Array) -> Array:
+    """The triangles of a mesh file, three corners each, shape (3T, 3) [m].
+
+    Parameters
+    ----------
+    path : Path
+    scale : ndarray, shape (3,)
+        Of each coordinate [-].
+
+    Raises
+    ------
+    ModelError
+        If coal cannot read the file.
+    """
+    loaded = loaded_mesh(path, scale)
+    return np.asarray(np.array(loaded.vertices())[triangles_of(loaded).ravel()])
