@@ -18,6 +18,7 @@ _HOMES = {
     # A scene.
     "model.system": "System",
     "model.body": "Body",
+    "optional.mjcf.mjcf": "mjcf_urdf",
     "shapes.placed_shape": "Sphere Box Cylinder Capsule Cone Ellipsoid HalfSpace PointCloud "
     "PlacedShape",
     "shapes.convex_mesh": "convex_hull",
@@ -47,8 +48,8 @@ _HOMES = {
     "optional.derivatives.step.sensitivity": "sensitivity",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
-    "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NotDifferentiable "
-    "RunFailed",
+    "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NoFixedPoint "
+    "NotDifferentiable RunFailed",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

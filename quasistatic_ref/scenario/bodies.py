@@ -14,6 +14,7 @@ from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
 from quasistatic_ref.model.system import Body, System
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.paths import path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import (
@@ -107,9 +108,11 @@ class BodyEntry(Plain):
 def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
     check_names(table, BODY)
-    urdf = path_in(folder, table, "urdf")
-    if urdf is None:
+    urdf, mjcf = path_in(folder, table, "urdf"), path_in(folder, table, "mjcf")
+    if urdf is None and mjcf is None:
         raise table.fail("urdf", "is missing")
+    if urdf is not None and mjcf is not None:
+        raise table.fail("mjcf", "takes the place of urdf; give one of them")
     base = value(table, BODY, "base")
     actuated = value(table, BODY, "actuated")
     if actuated != "all":
@@ -123,8 +126,16 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     moved = "gravity_compensated" in table
     if moved and not actuated:
         raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
+    robot: str | Path
+    if urdf is not None:
+        robot = urdf
+        folders += shared_folders(urdf)
+    else:
+        assert mjcf is not None
+        robot = needed_part("mjcf.mjcf", "mjcf").mjcf_urdf(mjcf, base)
+        folders.append(mjcf.parent)
     try:
-        body = Body(name, urdf, base, actuated, xyz, rpy, start, folders + shared_folders(urdf))
+        body = Body(name, robot, base, actuated, xyz, rpy, start, folders)
     except ModelError as error:
         if error.field == f"{name}.rpy":
             error.field = table.name("pose.rpy")

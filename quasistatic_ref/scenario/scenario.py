@@ -38,6 +38,7 @@ from quasistatic_ref.scenario.scenario_table import (
     value,
 )
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.law import CONVEX, check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.simulator import Simulator
@@ -76,7 +77,7 @@ class Scenario(Plain, Shown):
         q_bar_a(t).
     wrenches : tuple of Wrenches
         External wrenches [N, N m] in the world frame, each at the centre of mass of a root link.
-    backend, accuracy, certify, record, cone
+    backend, accuracy, certify, record, cone, law
         The fields of these names in the scenario's file.
     fast : bool
         As for :class:`~quasistatic_ref.simulate.simulator.Simulator`.
@@ -111,6 +112,7 @@ class Scenario(Plain, Shown):
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
     fast: bool = False
     rises: Rises = NO_RISES
+    law: str = CONVEX
 
     def __post_init__(self) -> None:
         keep(self, "gravity", "K_q", "gravity_acts")
@@ -132,6 +134,7 @@ class Scenario(Plain, Shown):
             accuracy=self.accuracy,
             certify=self.certify,
             cone=self.cone,
+            law=self.law,
             extension=extension,
             limits=self.limits,
         )
@@ -238,6 +241,8 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         raise solver.fail("engine", problem)
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")
+    law = value(top, TOP, "law")
+    check_law(law, certify)
     limits = _limits(value(top, TOP, "limits"))
 
     tables = value(top, TOP, "bodies")
@@ -255,7 +260,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     if any(entry.rubs for entry in entries.values()):
         found = needed_part("extensions.scenario_rises", "joint_friction and support")
         pairs, rises = found.scenario_rises(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
-    blocks = system.constant_mass_matrix and not len(rises)
+    blocks = system.constant_mass_matrix and not len(rises) and law == CONVEX
     entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if blocks else 0
     backend = _backend(solver, certify, named, entries_of_J, fast)
     check_motion(system, pairs)
@@ -291,6 +296,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         bodies=entries,
         fast=fast,
         rises=rises,
+        law=law,
     )
 
 

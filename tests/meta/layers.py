@@ -26,6 +26,7 @@ OPTIONAL = (
     "optional/extensions",
     "optional/fast",
     "optional/large",
+    "optional/mjcf",
     "optional/qpsolvers",
     "optional/readers",
     "optional/runs",
@@ -78,11 +79,7 @@ WALLS = {
     ),
     # A QP assembled by hand, to check ours: it must not go through our own way to a solver.
     # And the loop that people write first, to compare its time.
-    "qpsolvers": (
-        "optional/qpsolvers",
-        "lab/claims/engines/by_hand.py",
-        "lab/study/bench/by_hand.py",
-    ),
+    "qpsolvers": ("optional/qpsolvers", "lab/claims/engines/by_hand.py"),
     "pinocchio": ("model", "optional/derivatives/model"),
     "coal": ("shapes", "model", "optional/curved"),
     "matplotlib": ("optional/show/figures", "lab/figures"),

@@ -33,11 +33,12 @@ def things(tmp_path_factory):
 
 NAMES = (
     "StepData", "StepData with rows of a user's", "PosedStep", "sparse PosedStep", "Contacts",
-    "PosedContacts", "SparseContacts", "Blocks", "Extra", "StepSolution", "Certificate",
+    "PosedContacts", "SparseContacts", "Blocks", "Extra", "StepSolution",
+    "CoulombSolution", "Certificate",
     "StepResult", "Derivatives", "smoothed Derivatives", "Trajectory", "System",
     "System of the grasp", "Body", "ContactPair", "Scenario", "Scenario of the grasp", "Targets",
     "Limits", "Wrenches", "Sphere", "Box", "HalfSpace", "PointCloud", "FarkasVector", "InputError",
-    "StepDataError", "StepNotSolved", "StepInfeasible", "LimitExceeded",
+    "StepDataError", "StepNotSolved", "StepInfeasible", "LimitExceeded", "NoFixedPoint",
     "NotDifferentiable", "RunFailed",
 )  # fmt: skip
 
@@ -114,8 +115,9 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
         "backend": "osqp",
         "fast": False,
         "accuracy": 1e-7,
-        "certify": "off",
+        "certify": "full",
         "cone": "product",
+        "law": "coulomb",
         "extension": squeezed,  # any function that a pickle finds by its name
         "limits": replace(scenario.limits, reach=7.0),
     }

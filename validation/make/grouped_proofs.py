@@ -3,12 +3,12 @@
 Processor time and memory of certified steps of boxes that do not touch each other, each a group of
 its own, and of boxes that do; next to that with ``certify = "residual"``. Each scene is measured in
 a process of its own. Random steps and the steps of scenarios have the same bits whether they are
-proved whole or by group. Takes some minutes. Exit status 1 if a promise does not hold.
+proved whole or by group (``--random`` of the first, ``--every`` so manyth of the others). Takes
+some minutes. Exit status 1 if a promise does not hold.
 """
 
 from __future__ import annotations
 
-import argparse
 import multiprocessing
 import resource
 import sys
@@ -40,6 +40,7 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.groups import groups
 from tests.oracles.random_steps import mixed_step
 from validation.make.large_steps import print_table
+from validation.tools.scripts import asked
 
 SAME = (
     "delta_q",
@@ -257,10 +258,7 @@ def compared(random: int, every: int) -> list[str]:
 
 def main() -> int:
     """Measure, compare, and print the page."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--random", type=int, default=1000, metavar="STEPS")
-    parser.add_argument("--every", type=int, default=30, metavar="N", help="of a scenario's steps")
-    options = parser.parse_args()
+    options = asked(__doc__, random=1000, every=30)
     m = machine()
     print("# Proofs by group, and of connected scenes")
     print(

@@ -8,7 +8,6 @@ validation/results/second_order.jsonl, one a line, each engine in an environment
 
 from __future__ import annotations
 
-import argparse
 import shlex
 import tempfile
 from pathlib import Path
@@ -32,6 +31,7 @@ from validation.programs.engines.second_order import (
     scene_of,
 )
 from validation.programs.engines.second_order_page import RESULTS, rows, tables
+from validation.tools.scripts import asked
 
 TIMEOUT = 1200.0
 """For one run [s]."""
@@ -93,10 +93,7 @@ class Engines:
 
 def main() -> None:
     """Take what was not yet taken."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--count", type=int, help="runs of each engine; prints, writes nothing")
-    parser.add_argument("--environments", type=Path)
-    given = parser.parse_args()
+    given = asked(__doc__, count=int, environments=Path)
     wanted = runs()
     if given.count:
         wanted = [

@@ -1,4 +1,4 @@
-"""What is said of a run that takes long: of `fast`, and of proofs."""
+"""What is said of a run that takes long: of `fast`."""
 
 import sys
 from collections.abc import Mapping
@@ -8,7 +8,6 @@ from tqdm import tqdm
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.tolerances import SPARSE_FROM_PIQP
 
 FIRST = 5
@@ -21,12 +20,8 @@ WORTH = 10.0
 """Seconds saved from which a run says so."""
 
 
-PROOFS = 0.8
-"""Share of the time of a run, if it takes WORTH or longer, above which its proofs are named."""
-
-
 class Pace(Observer):
-    """Measures the steps of a run, and prints what would make it shorter.
+    """Measures the steps of a run, and prints that `fast` would shorten it.
 
     Parameters
     ----------
@@ -40,7 +35,6 @@ class Pace(Observer):
         self.fast = fast
         self.left = steps
         self.times: list[float] = []
-        self.total = self.proofs = 0.0
         self.opened = False
 
     def before(self, recorder: Recorder) -> None:
@@ -54,12 +48,6 @@ class Pace(Observer):
         """After each step, what `fast` would save."""
         said(self.advice(result.seconds))
         return {}
-
-    def end(self, recorder: Recorder, trajectory: Trajectory, interrupted: bool) -> Trajectory:
-        """At the end of a run that is certified, and whole, what its proofs took."""
-        if recorder.simulator.certify == "full" and trajectory.header["failed"] is None:
-            said(self.closing())
-        return trajectory
 
     def opening(self, entries: int) -> str | None:
         """One sentence before the first step, where J has so many `entries`, 4 n_c n_v."""
@@ -79,8 +67,6 @@ class Pace(Observer):
             Wall time of the parts of the step that was just taken [s].
         """
         self.left -= 1
-        self.total += sum(seconds.values())
-        self.proofs += seconds["proof"]
         if self.fast or len(self.times) > FIRST:
             return None
         self.times.append(sum(seconds.values()))
@@ -90,15 +76,6 @@ class Pace(Observer):
         return (
             f"the other {self.left} steps take some {rest:.0f} s; --fast (fast=True in Python) "
             "takes the same steps sooner, to the same certified bits"
-        )
-
-    def closing(self) -> str | None:
-        """One sentence after a certified run whose time went into proofs."""
-        if self.total <= WORTH or self.proofs <= PROOFS * self.total:
-            return None
-        return (
-            f"proofs took {self.proofs:.0f} s of the {self.total:.0f} s of these steps; "
-            'certify = "residual" bounds the error of each step instead, in less time'
         )
 
 

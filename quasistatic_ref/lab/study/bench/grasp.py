@@ -1,4 +1,4 @@
-"""The 13 x 80 step of the bunny: native, through CVXPY, rebuilt, by hand; and the solver alone."""
+"""The 13 x 80 step of the bunny: native, through CVXPY, rebuilt; and the solver alone."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -10,7 +10,6 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import closest, closest_points, in_world, relative_pose
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.timing import (
     INTERFACES,
     Job,
@@ -79,7 +78,6 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
         "DAQP alone": lambda q, goal: alone_call,
         "step, through CVXPY": lambda q, goal: partial(through.step, q, goal),
         "step, CVXPY rebuilt each time": lambda q, goal: partial(_rebuilt, through, q, goal),
-        "hand-written qpsolvers loop": lambda q, goal: partial(hand_step, at.scenario, q, goal),
         "all distances, brute force": lambda q, goal: partial(brute_force, at.scenario, q),
     }
     before = min(BEFORE, len(at.q) - 1)
@@ -101,7 +99,6 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
         "over_solver": 1 / ratios["DAQP alone"],
         "cvxpy_over_native": ratios["step, through CVXPY"],
         "rebuilt_over_native": ratios["step, CVXPY rebuilt each time"],
-        "by_hand_over_native": ratios["hand-written qpsolvers loop"],
     }
 
 
