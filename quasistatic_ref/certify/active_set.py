@@ -119,7 +119,7 @@ def dual_active_set(
         if isinstance(after, Farkas):
             return after
         point = after
-        walks = walks + 1
+        walks += 1
 
 
 def _start(form: ExactForm, balls: BallForm, warm: Sequence[int]) -> Point:

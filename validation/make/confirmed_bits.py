@@ -113,7 +113,7 @@ def nearby_answer(
     """What is proved on a guess or near it, in balls or by compiled code."""
     rows = np.array(sorted(set(guess)), dtype=np.int64)
     prove = partial(proof, step) if by_code else BallStep(step, hessian).confirmed
-    return proved_nearby(prove, rows, standard_form(step), float_inverse(step.H))
+    return proved_nearby(prove, rows, standard_form(step), float_inverse(step.H))[0]
 
 
 def checked(seed: int) -> tuple[str, Counter[str], list[str]]:

@@ -28,6 +28,7 @@ from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
 PLAIN = "full, plain"
+FORCES = "full, and the forces of its contacts"
 SETTINGS = ["solver.certify=off", "record=light"]
 PARTS = ("distances", "selection", "rows", "solve", "integrate")
 
@@ -229,12 +230,14 @@ def brute_force(scenario: Scenario, q: Array) -> None:
 
 
 def certification(at: Places, repeat: int) -> Mapping[str, Any]:
-    """The fast step with each kind of certificate, and the plain one with the first [us]."""
+    """The fast step with each certificate; with the first also plain, and with forces [us]."""
     simulators = {kind: replace(at.scenario, certify=kind).simulator() for kind in CERTIFY}
     plain = replace(at.scenario, certify=CERTIFY[0], fast=False, backend=DEFAULT)
     simulators[PLAIN] = plain.simulator()
+    proved = simulators[CERTIFY[0]]
     rounds = [
         {kind: partial(simulator.step, q, g) for kind, simulator in simulators.items()}
+        | {FORCES: lambda q=q, g=g: proved.step(q, g).forces}
         for q, g in zip(at.q, at.goals, strict=True)
     ]
     times = in_turn(rounds, repeat, time.thread_time)

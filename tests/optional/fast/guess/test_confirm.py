@@ -1,11 +1,8 @@
 """A guessed working set, confirmed in balls: the bits of the exact method, or None."""
 
-import itertools
-
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.dependence import follow
 from quasistatic_ref.certify.exact import exact_optimum, exact_step
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepDataError
@@ -13,7 +10,6 @@ from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step, grasp_step
 from quasistatic_ref.optional.fast.compiled import why_not
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
-from quasistatic_ref.optional.fast.guess.zeros import exact_rows, spanned_in_contacts
 from quasistatic_ref.step.data import Extra, StepData
 from tests.certify.test_exact import resting_point
 from tests.helpers import pinch, planted_step, random_step, sphere_on_floor
@@ -87,19 +83,3 @@ def test_a_mass_matrix_that_a_simulator_poses_is_checked():
     object.__setattr__(step, "M_u", M_u)
     with pytest.raises(StepDataError, match="M_u: must be positive definite"):
         BallHessian(step)
-
-
-def test_rows_that_are_seen_to_be_spanned_are_spanned():
-    """Of a contact, +d1 and -d1 add up to +d2 and -d2, and to +spin and -spin."""
-    step = sphere_on_floor(wrench=(0.0, 0.0, -3.0, 0.0, 0.0, 0.0))
-    seen = {
-        (working, row): spanned_in_contacts(step, working, [row])
-        for working in itertools.combinations(range(6), 3)
-        for row in set(range(6)) - set(working)
-    }
-    for (working, row), is_seen in seen.items():
-        held, (equation,) = exact_rows(step, working), exact_rows(step, [row])
-        assert follow(held, [equation]) == [is_seen]
-    assert seen[(0, 1, 2), 3]
-    assert seen[(0, 2, 4), 5]
-    assert not seen[(0, 1, 4), 5]
