@@ -12,7 +12,7 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.study.problems.checking import refutation, wrong_answers
 from quasistatic_ref.lab.study.problems.editions import FROZEN, edition_problem
 from quasistatic_ref.lab.study.problems.folder import FACTS, MANIFEST, NUMBERS, manifest, set_read

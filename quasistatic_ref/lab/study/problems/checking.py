@@ -7,12 +7,12 @@ from scipy.sparse import csc_matrix
 
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.rational import exact_form_of
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.study.problems.answers import cone_answer, step_of
 from quasistatic_ref.lab.study.problems.families.short import framed
 from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
