@@ -1,7 +1,5 @@
 """Every answer of a set proved again, without a solver."""
 
-from collections.abc import Sequence
-
 import numpy as np
 from scipy.sparse import csc_matrix
 
@@ -42,12 +40,6 @@ def refutation(one: Problem) -> str | None:
         name for name, v in parts.items() if v.tobytes() != getattr(one.answer, name).tobytes()
     ]
     return f"{' and '.join(wrong)} have other bits" if wrong else None
-
-
-def wrong_answers(problems: Sequence[Problem]) -> list[tuple[str, str]]:
-    """Names of problems whose answers are refuted, and why."""
-    found = [(one.id, refutation(one)) for one in problems]
-    return [(name, why) for name, why in found if why is not None]
 
 
 def cone_step(one: Problem) -> StepData:
