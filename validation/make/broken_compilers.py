@@ -29,7 +29,7 @@ LONGEST = 1200.0
 
 FLAGS = ("", "-O0", "-march=native", "-ffast-math", "-mfpmath=387", "-fvisibility=hidden")
 """Before the package's own."""
-LAST_FLAGS = ("-ffp-contract=fast", "-ffast-math", "-UFUSED")
+LAST_FLAGS = ("-mfma -ffp-contract=fast", "-ffast-math")
 """After them, by a wrapper. Further flags are in the tests of the self-test."""
 OUT = 'while [ "$1" != -o ]; do shift; done; '
 ON_LOAD = (
@@ -134,13 +134,14 @@ def environments(folder: Path) -> dict[str, str]:
     return found | COMMANDS | dict.fromkeys(CACHES, "gcc")
 
 
-def steps_of(name: str) -> dict[str, str | None]:
+def steps_of(environment: str) -> dict[str, str | None]:
     """Why nothing is compiled in an environment, and the hash of a few certified steps."""
-    if name in CACHES:
-        CACHES[name]()
-    library.PATIENCE = 1.0 if "hangs" in name else PATIENCE
+    if environment in CACHES:
+        CACHES[environment]()
+    library.PATIENCE = 1.0 if "hangs" in environment else PATIENCE
     made = hashlib.sha256()
-    for scenario in (load_scenario("bunny_grasp"), load_scenario("sphere_spin")):
+    for name in ("bunny_grasp", "sphere_spin"):
+        scenario = load_scenario(name, fast=True)
         simulator, q = scenario.simulator(), scenario.system.q_start
         for k in range(STEPS):
             result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
