@@ -58,8 +58,3 @@ def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
         for what, value, sense, limit in measured
         if value is not None
     ]
-
-
-def from_paper(tables: Mapping[str, Any]) -> float:
-    """How many times the paper's 90 us the step takes on this machine [-]."""
-    return float(tables["interfaces"]["microseconds"]["step, native"]) / PAPER

@@ -8,7 +8,7 @@ import numpy as np
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.bench.acceptance import from_paper, promises
+from quasistatic_ref.lab.study.bench.acceptance import promises
 from quasistatic_ref.lab.study.bench.grasp import (
     by_compiled_code,
     certification,
@@ -54,7 +54,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     found["certification"] = certification(some, 1 if quick else 2)
     found["residual_over_off"] = residual_over_off(some, 1 if quick else 2)
     found["machine"]["load"] = f"{load}, after it {_load()}"
-    found["promises"], found["times_paper"] = promises(found), from_paper(found)
+    found["promises"] = promises(found)
     return found
 
 
