@@ -44,7 +44,8 @@ def test_a_part_is_a_module_or_none_and_a_mistaken_name_is_no_missing_part(witho
 
 
 @pytest.mark.parametrize(
-    ("name", "folder"), [("smoothed", "derivatives"), ("coulomb_step", "coulomb")]
+    ("name", "folder"),
+    [("smoothed", "derivatives"), ("coulomb_step", "coulomb"), ("mjcf_urdf", "mjcf")],
 )
 def test_a_name_of_the_front_door_needs_its_part(without, name, folder):
     without(folder)

@@ -150,10 +150,13 @@ def verify(
         working = flat_rows(step, active)
     except IndexError as error:
         return Verdict(False, str(error))
-    delta_q_exact, lam_exact, reason = np.zeros(step.n_v), np.zeros(step.m), ""
+    delta_q_exact = np.zeros(step.n_v)
+    lam_exact = np.zeros(step.m)
+    reason = ""
     solved = []
     for group, part in parts(step):
-        form, own = exact_form(part), tuple(group.within(working))
+        form = exact_form(part)
+        own = tuple(group.within(working))
         try:
             solution = rational_solution(form, own)
         except ZeroDivisionError:

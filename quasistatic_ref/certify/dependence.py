@@ -117,7 +117,8 @@ def combination(form: ExactForm, working: Sequence[int], p: int) -> list[fmpq] |
         c with a_p = sum_j c_j A[working[j]]; None if a_p is independent of them.
     """
     k = len(working)
-    held, target = [form.row(i) for i in working], form.row(p)
+    held = [form.row(i) for i in working]
+    target = form.row(p)
     for prime in _primes():
         pivots, echelon = _echelon([*held, target], prime)
         if pivots == list(range(k + 1)):
@@ -148,7 +149,8 @@ def _echelon(columns: Sequence[Row], prime: int) -> tuple[list[int], list[list[i
         return [], [[] for _ in columns]
     reduced, rank = nmod_mat(fmpz_mat(list(columns)).transpose(), prime).rref()
     table = [[int(x) for x in column] for column in reduced.transpose().tolist()]
-    pivots, j = [], 0
+    pivots = []
+    j = 0
     for i in range(rank):
         while not table[j][i]:
             j += 1

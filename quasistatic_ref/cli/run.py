@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.trajectory import Trajectory, certified
 from quasistatic_ref.step.cones import cone
 
@@ -30,7 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     shared.completed(scenario, scenario_names, ".toml")
     shared.add(parser, "--out", default="results")
-    shared.add(parser, *shared.SOLVER, "--set", "--json")
+    shared.add(parser, *shared.SOLVER, "--law", "--set", "--json")
     shared.add_resume(parser)
     parser.add_argument(
         "--sweep",
@@ -109,6 +111,7 @@ def run(options: argparse.Namespace) -> int:
         "steps": trajectory.steps,
         "backend": scenario.backend,
         "fast": scenario.fast,
+        "law": scenario.law,
         "variables": scenario.system.n_v,
         "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
@@ -124,8 +127,11 @@ def run(options: argparse.Namespace) -> int:
             for body, motion in free_body_motions(scenario.system, trajectory).items()
         },
         "milliseconds_per_step": milliseconds,
-        "findings": list(trajectory.header["findings"]),
+        "findings": [asdict(finding) for finding in trajectory.findings],
     }
+    if scenario.law == COULOMB:
+        summary["s_iterations"] = trajectory["s_iterations"].tolist()
+        summary["largest_s_residual"] = float(trajectory["s_residual"].max(initial=0.0))
     status = 1 if options.strict and any(f.grave for f in trajectory.findings) else 0
     if view is not None:
         summary["view"] = str(view)
@@ -139,6 +145,12 @@ def run(options: argparse.Namespace) -> int:
     print(
         f"{summary['certified']}; backend {scenario.backend}, {speed} path, worst residual {worst}"
     )
+    if scenario.law == COULOMB and trajectory.steps:
+        solved, off = trajectory["s_iterations"], summary["largest_s_residual"]
+        print(
+            f"Coulomb's law: {solved.mean():.1f} iterations a step, at most {solved.max()}; "
+            f"s is its own to within {off:.1e} m"
+        )
     if part("doctor.observer") is not None:
         print(_artifacts(trajectory.header))
     for line in _moved(summary["free_bodies"]):

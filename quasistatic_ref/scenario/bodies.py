@@ -105,9 +105,11 @@ class BodyEntry(Plain):
 def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
     check_names(table, BODY)
-    urdf = path_in(folder, table, "urdf")
-    if urdf is None:
+    urdf, mjcf = path_in(folder, table, "urdf"), path_in(folder, table, "mjcf")
+    if urdf is None and mjcf is None:
         raise table.fail("urdf", "is missing")
+    if urdf is not None and mjcf is not None:
+        raise table.fail("mjcf", "takes the place of urdf; give one of them")
     base, actuated = value(table, BODY, "base"), value(table, BODY, "actuated")
     if actuated != "all":
         if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
@@ -120,8 +122,15 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     moved = "gravity_compensated" in table
     if moved and not actuated:
         raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
+    robot: str | Path
+    if urdf is not None:
+        robot, folders = urdf, folders + shared_folders(urdf)
+    else:
+        assert mjcf is not None
+        robot = needed_part("mjcf.mjcf", "mjcf").mjcf_urdf(mjcf, base)
+        folders.append(mjcf.parent)
     entry = BodyEntry(
-        body=Body(name, urdf, base, actuated, xyz, rpy, start, folders + shared_folders(urdf)),
+        body=Body(name, robot, base, actuated, xyz, rpy, start, folders),
         table=table,
         K_q=value(table, BODY, "K_q"),
         targets=value(table, BODY, "targets"),

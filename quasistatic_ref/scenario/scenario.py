@@ -39,6 +39,7 @@ from quasistatic_ref.scenario.scenario_table import (
     value,
 )
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.law import CONVEX, check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.simulator import Simulator
@@ -98,7 +99,7 @@ class Scenario(Plain, Shown):
         q_bar_a(t).
     wrenches : tuple of Wrenches
         External wrenches [N, N m] in the world frame, each at the centre of mass of a root link.
-    backend, accuracy, certify, record, cone
+    backend, accuracy, certify, record, cone, law
         The fields of these names in the scenario's file.
     fast : bool
         As for :class:`~quasistatic_ref.simulate.simulator.Simulator`.
@@ -133,6 +134,7 @@ class Scenario(Plain, Shown):
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
     fast: bool = False
     rises: Rises = NO_RISES
+    law: str = CONVEX
 
     def __post_init__(self) -> None:
         keep(self, "gravity", "K_q", "gravity_acts")
@@ -151,6 +153,7 @@ class Scenario(Plain, Shown):
             accuracy=self.accuracy,
             certify=self.certify,
             cone=self.cone,
+            law=self.law,
             extension=Rising(self.rises, extension) if len(self.rises) else extension,
             limits=self.limits,
         )
@@ -260,6 +263,8 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")
     accuracy = value(solver, SOLVER, "accuracy")
+    law = value(top, TOP, "law")
+    check_law(law, certify)
     limits = _limits(value(top, TOP, "limits"))
 
     tables = value(top, TOP, "bodies")
@@ -274,7 +279,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     for entry in entries.values():
         stiffness(system, entry, K_q)
     pairs, rises = _with_rises(system, pairs, entries, h, K_q, gravity)
-    blocks = system.constant_mass_matrix and not len(rises)
+    blocks = system.constant_mass_matrix and not len(rises) and law == CONVEX
     entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if blocks else 0
     fast = value(top, TOP, "fast")
     backend = _backend(solver, certify, named, entries_of_J, fast)
@@ -310,6 +315,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         bodies=entries,
         fast=fast,
         rises=rises,
+        law=law,
     )
 
 

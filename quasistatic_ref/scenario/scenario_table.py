@@ -9,6 +9,7 @@ from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.model.body import BASES
 from quasistatic_ref.scenario.world_solids import SOLIDS
+from quasistatic_ref.simulate.law import CONVEX, LAWS
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.simulator import GRAVITY
@@ -49,6 +50,10 @@ TABLES = Tables({
             "text", f"friction cone of every contact: {', '.join(CONES)} (K even, from 4 on)",
             default=PYRAMID, schema={"pattern": rf"^({'|'.join(CONES)})$".replace("-K", "-[0-9]+")},
         ),
+        "law": Field(
+            "text", "whether sliding contacts rise, as in the model, or not (coulomb)",
+            default=CONVEX, choices=LAWS,
+        ),
         "fast": Field(
             "boolean", "whether to take the same steps sooner, to the same certified bits",
             default=False,
@@ -83,6 +88,8 @@ TABLES = Tables({
     },
     BODY: {
         "urdf": Field("text", "file in the scenario's folder, or package://NAME/PATH of a robot",
+                      default=None, schema={"pattern": r"\S"}),
+        "mjcf": Field("text", "in place of a URDF; read by MuJoCo (extra 'engines')", default=None,
                       schema={"pattern": r"\S"}),
         "base": Field("text", "how the root link moves", default="fixed", choices=BASES),
         "actuated": Field(

@@ -1,4 +1,4 @@
-"""What is said of a run that takes long: of `fast`, and of proofs."""
+"""What is said of a run that takes long: of `fast`."""
 
 from collections.abc import Mapping
 
@@ -12,10 +12,6 @@ SAVED = 0.9
 
 WORTH = 10.0
 """Seconds saved from which a run says so."""
-
-
-PROOFS = 0.8
-"""Share of the time of a run, if it takes WORTH or longer, above which its proofs are named."""
 
 
 class Pace:
@@ -33,7 +29,6 @@ class Pace:
         self.fast = fast
         self.left = steps
         self.times: list[float] = []
-        self.total = self.proofs = 0.0
 
     def opening(self, entries: int) -> str | None:
         """One sentence before the first step, where J has so many `entries`, 4 n_c n_v."""
@@ -53,8 +48,6 @@ class Pace:
             Wall time of the parts of the step that was just taken [s].
         """
         self.left -= 1
-        self.total += sum(seconds.values())
-        self.proofs += seconds["proof"]
         if self.fast or len(self.times) > FIRST:
             return None
         self.times.append(sum(seconds.values()))
@@ -64,13 +57,4 @@ class Pace:
         return (
             f"the other {self.left} steps take some {rest:.0f} s; --fast (fast=True in Python) "
             "takes the same steps sooner, to the same certified bits"
-        )
-
-    def closing(self) -> str | None:
-        """One sentence after a certified run whose time went into proofs."""
-        if self.total <= WORTH or self.proofs <= PROOFS * self.total:
-            return None
-        return (
-            f"proofs took {self.proofs:.0f} s of the {self.total:.0f} s of these steps; "
-            'certify = "residual" bounds the error of each step instead, in less time'
         )

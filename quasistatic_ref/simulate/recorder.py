@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
@@ -133,6 +134,8 @@ class Recorder(Shown):
             row |= program(step)
         if self.record == "forces":
             row["forces"] = solution.forces
+        if self.simulator.law == COULOMB:
+            row |= {name: getattr(solution, name) for name in ITERATED}
         self.alone &= solution.alone
         if step.extra.names:
             row["lam_extra"] = solution.lam_extra
@@ -188,7 +191,7 @@ class Recorder(Shown):
         """
         parts = self.packed()
         kept = parts[0] if parts else {}
-        names = [name for name in (*PER_STEP, *PROGRAM, *FORCES, *EXTRA) if name in kept]
+        names = [name for name in (*PER_STEP, *PROGRAM, *FORCES, *EXTRA, *ITERATED) if name in kept]
         arrays = {name: _joined(parts, name) for name in names} or {
             name: np.zeros(0) for name in ("t", "delta_q", "worst_residual")
         }
@@ -215,6 +218,8 @@ class Recorder(Shown):
             "contacts": [self.layout.contact_names(p) for p in arrays["point"]] if full else [],
             "findings": [],
         } | ({} if self.alone else {"alone": False})
+        if self.simulator.law != CONVEX:
+            header["law"] = self.simulator.law
         constant = {k: getattr(self.layout, k) if self.steps else np.zeros(0) for k in CONSTANT}
         q = np.concatenate([self.start[None], *(part["q"] for part in parts)])
         arrays = {"q": q + 0.0, **arrays, **constant}

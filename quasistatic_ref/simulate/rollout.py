@@ -71,8 +71,7 @@ def rollout(
         of single contacts in their place.
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal, and to print
-        there that `fast` would save ten seconds or more, and, at the end of a run, that most of its
-        time went into proofs, and its findings
+        there that `fast` would save ten seconds or more, and, at the end of a run, its findings
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`).
     save : str or Path, optional
         The trajectory's file, written when the run ends, also when it ends early: then next to it,
@@ -156,9 +155,6 @@ def rollout(
             recorder.add(goal, last)
             if (advice := pace.advice(last.seconds)) is not None:
                 bar.write(f"quasistatic-ref: {advice}", file=sys.stderr)
-    certified = progress and simulator.certify == "full"
-    if certified and (closing := pace.closing()) is not None:
-        bar.write(f"quasistatic-ref: {closing}", file=sys.stderr)
     return recorder.trajectory()
 
 

@@ -52,8 +52,6 @@ class NativeSolver(Solver):
         A step of that kind.
     name : str
         Of a backend with an adapter.
-    warm : bool
-        Whether to start from the answer to the step before, where the backend can.
 
     Raises
     ------
@@ -65,18 +63,17 @@ class NativeSolver(Solver):
     remembers = True
     fixed = ("n_a", "n_u", "cone", "rows of contacts", "rows of the user's own")
 
-    def __init__(self, like: StepData, name: str, warm: bool = True) -> None:
+    def __init__(self, like: StepData, name: str) -> None:
         check_native(name, like.cone)
         super().__init__(like, name)
         module = import_module(f"quasistatic_ref.solve.adapters.{name}")  # needs its package
         self.adapter: type[Adapter] = getattr(module, BACKENDS[name].adapter)
         self.sizes = sizes(like)
-        self.warm = warm and self.adapter.WARM
         self.metric: NaturalHessian | None = None
         self.program: Program | SparseProgram = self.empty()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.like, self.name, self.warm)
+        return type(self), (self.like, self.name)
 
     def empty(self) -> Program | SparseProgram:
         """A program of the right size."""
@@ -123,7 +120,7 @@ class NativeSolver(Solver):
         attempt.kept = None  # an adapter that raises is set up again
         if held is None:
             held = _SetUpAdapter(self.adapter(program, attempt.options), self.metric)
-        warm = self.warm and held.warm
+        warm = self.adapter.WARM and held.warm
         reply = held.adapter.reply(held.metric is self.metric, warm)
         if warm and not reply.solved:
             reply = held.adapter.reply(False, False)

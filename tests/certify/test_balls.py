@@ -57,12 +57,3 @@ def test_definiteness_is_what_the_leading_minors_say():
 )
 def test_pivots_that_balls_leave_open_are_decided_by_minors(H, definite):
     assert point.positive_definite(fmpz_mat(H)) == definite
-
-
-def test_pivots_that_balls_decide_need_no_minors(monkeypatch):
-    def refused(H):
-        raise AssertionError("the minors were formed")
-
-    monkeypatch.setattr(point, "_minors_positive", refused)
-    assert point.positive_definite(fmpz_mat([[4, 2], [2, 2]]))
-    assert not point.positive_definite(fmpz_mat([[1, 2], [2, 1]]))

@@ -31,14 +31,6 @@ def prime(request, monkeypatch):
 
 
 @pytest.mark.usefixtures("prime")
-def test_rows_that_are_equal_modulo_the_prime_only_are_independent():
-    """(1, 101) is (1, 0) modulo 101."""
-    form = rows([1, 0], [1, UNLUCKY])
-    assert implied(form, [0], [equation(form, 1)]) == [False]
-    assert combination(form, [0], 1) is None
-
-
-@pytest.mark.usefixtures("prime")
 def test_sets_dependent_modulo_the_prime_alone_are_independent():
     """(2, 101) = 2 (1, 0) + 101 (0, 1)."""
     form = rows([1, 0], [1, UNLUCKY], [2, UNLUCKY], [0, 1])

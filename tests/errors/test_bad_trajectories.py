@@ -122,6 +122,23 @@ CAUSES = {
         f"{NOT_ONE}: its header is not JSON",
     ),
     "a later version": (lambda run: rewritten(run, header={"version": 2}), "reads 1 (got 2)"),
+    "a header that is a list": (
+        lambda run: rewritten(run, {"header": npy(np.frombuffer(b"[]", dtype=np.uint8))}),
+        "must be a table of named fields",
+    ),
+    "no cone": (lambda run: rewritten(run, header={"cone": ...}), "cone: is missing"),
+    "an unknown field": (
+        lambda run: rewritten(run, header={"step": 5}), "step: is unknown; did you mean 'steps'?",
+    ),
+    "a coordinate less": (
+        lambda run: rewritten(run, header={"coordinates": ["x"]}), "coordinates: must have ",
+    ),
+    "an unknown array": (
+        lambda run: rewritten(run, {"ph": npy(ZEROS)}), "ph: is unknown; did you mean 'phi'?",
+    ),
+    "NaN in phi": (
+        lambda run: rewritten(run, {"phi": npy(np.full((3, 2), np.nan))}), "phi: must contain fin",
+    ),
     "an unknown record": (
         lambda run: rewritten(run, header={"record": "ful"}), "record: is not a choice; did you",
     ),

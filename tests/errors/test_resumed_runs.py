@@ -60,6 +60,7 @@ KINDS = {
     "by splitting": ({"solver.backend": "osqp", "solver.certify": "off", "record": "light"}, None),
     "on the plain path": ({"solver.backend": "osqp", "solver.certify": "off", "fast": False}, None),
     "with an extension": ({}, above_the_floor),
+    "under Coulomb's law": ({"law": "coulomb"}, above_the_floor),
     "without a backend": ({"solver.backend": "none"}, None),
 }  # fmt: skip
 

@@ -25,6 +25,7 @@ OPTIONAL = (
     "optional/extensions",
     "optional/fast",
     "optional/large",
+    "optional/mjcf",
     "optional/runs",
     "optional/show",
 )
@@ -74,7 +75,7 @@ WALLS = {
     ),
     # A QP assembled by hand, to check ours: it must not go through our own way to a solver.
     # And the loop that people write first, to compare its time.
-    "qpsolvers": ("solve", "lab/claims/engines/by_hand.py", "lab/study/bench/by_hand.py"),
+    "qpsolvers": ("solve", "lab/claims/engines/by_hand.py"),
     "pinocchio": ("model", "optional/derivatives/model"),
     "coal": ("shapes", "model", "contact", "optional/derivatives/contact"),
     "matplotlib": ("optional/show/figures", "lab/figures"),

@@ -6,12 +6,15 @@ import re
 import subprocess
 import sys
 from importlib.metadata import version
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from validation.programs.engines import phenomena
-from validation.programs.engines.judge import ENGINES, RESULTS
+from quasistatic_ref.lab.vectors.challenge.program import Program
+from validation.make.second_order import Engines
+from validation.programs.engines import phenomena, second_order, second_order_page
+from validation.programs.engines.judge import ENGINES, HERE, RESULTS
 from validation.programs.engines.reproduce import FOLDER, LIST, missing, unlike
 from validation.programs.engines.tables import phenomena_page
 
@@ -90,3 +93,16 @@ def test_a_reproduction_of_mujoco_prints_what_is_committed(file):
     command = [sys.executable, str(FOLDER / file)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
     assert done.stdout.rstrip() == RECORDS["mujoco"]["printed"][file]
+
+
+@pytest.mark.parametrize("scene", second_order.STUDY["scene"])
+def test_a_run_of_the_study_of_second_order_simulators_is_the_committed_one(scene):
+    # One engine's own run, and the reference of the scene without a closed form.
+    engine, setting, h = "mujoco", "implicitfast, elliptic, impratio 100, solref 5 ms", 0.002
+    run = second_order.Run(scene, 0.3, engine, setting, h)
+    engines = Engines(Path(sys.prefix))
+    engines.programs[engine] = Program(f"{sys.executable} {HERE / 'mujoco_adapter.py'}", 60.0)
+    with engines.programs[engine]:
+        found = engines.row(run)
+    (committed,) = second_order_page.chosen(**run._asdict())
+    assert found | {"cost": 0.0} == committed | {"cost": 0.0}

@@ -34,18 +34,3 @@ def test_a_large_scene_is_told_at_once():
 
 def test_a_fast_run_says_nothing():
     assert not any(said(True, 1.0))
-
-
-@pytest.mark.parametrize(
-    ("solve", "proof", "spoken"), [(2.0, 8.5, True), (2.0, 7.9, False), (3.0, 9.0, False)]
-)
-def test_a_run_whose_time_went_into_proofs_says_so(solve, proof, spoken):
-    """8.5 of 10.5 s are 81 %; 9.9 s are not long enough; 9 of 12 s are 75 %."""
-    pace = Pace(True, 2)
-    for _ in range(2):
-        pace.advice({"solve": solve / 2, "proof": proof / 2})
-    words = pace.closing()
-    assert (words is not None) == spoken
-    if words is not None:
-        assert words.startswith("proofs took 8 s of the 10 s of these steps; ")
-        assert 'certify = "residual"' in words

@@ -133,21 +133,6 @@ def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
         back.step_data(0)
 
 
-@pytest.mark.parametrize("k", [-1, 5, 1000])
-def test_a_step_that_does_not_exist_is_refused(run, k):
-    with pytest.raises(InputError, match=rf"^step: must be 0 to 4 \(got {k}\)$"):
-        run.step_data(k)
-
-
-def test_the_worst_residual_is_that_of_all_steps(tmp_path, run, folder):
-    assert worst_residual(run) == max(run["worst_residual"])
-    settings = ["solver.certify=off"]
-    uncertified = load_scenario(folder / "scene.toml", settings, fast=True).run(progress=False)
-    assert worst_residual(uncertified) is None
-    back = trajectory_read(uncertified.save(tmp_path / "off.npz"))
-    assert np.isnan(back["digits"]).all()
-
-
 def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
     empty = load_scenario(folder / "scene.toml", ["steps=0"], fast=True).run(progress=False)
     back = trajectory_read(empty.save(tmp_path / "run.npz"))

@@ -206,7 +206,7 @@ def claims_of(solver: str, interface: str, some: Sequence[Problem]) -> list[str]
     call = call_of(one)
     options = one.settings_of(HIGH, SECONDS) if one.takes(HIGH) else {}
     options |= INNER if one.label == "native:proxqp" else {}
-    replies = [tried(call, p.natural.form, options, None, SECONDS) for p in some]
+    replies = [tried(call, p.natural.form, options, None) for p in some]
     return [one.claim(reply.status) for reply in replies]
 
 

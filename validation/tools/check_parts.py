@@ -22,13 +22,14 @@ import numpy as np
 ROOT = Path(__file__).parents[2]
 SCENARIO, STEPS = "bunny_grasp", 40
 PARTS: dict[str, tuple[list[str], str]] = {
-    "coulomb": ([], ""),
+    "coulomb": (["--law", "coulomb"], 'law = "coulomb"'),
     "derivatives": ([], ""),
     "doctor": (["--strict"], "strict"),
     "ellipsoid": (["--cone", "ellipsoid"], 'cone = "ellipsoid"'),
     "extensions": ([], ""),
     "fast": (["--fast"], "fast"),
     "large": (["--certify", "residual"], 'certify = "residual"'),
+    "mjcf": ([], ""),
     "runs": (["--resume"], "resume"),
     "show": (["--view"], "view"),
 }

@@ -123,7 +123,8 @@ def urdf_file(given: str | Path) -> UrdfFile:
 def _content(path: Path, text: str) -> UrdfFile:
     robot = xml_root(text)
     if robot.tag != "robot":
-        raise ModelError("must be <robot>", field="root element", value=robot.tag)
+        remedy = '; give an MJCF model as mjcf = "FILE"' if robot.tag == "mujoco" else ""
+        raise ModelError(f"must be <robot>{remedy}", field="root element", value=robot.tag)
     version = robot.get("version", "1.0")
     if version not in _VERSIONS:
         problem = f"must be one of {', '.join(_VERSIONS)}"

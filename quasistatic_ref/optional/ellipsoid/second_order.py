@@ -28,8 +28,6 @@ class ConeSolver(NativeSolver):
         In the ellipsoid.
     name : str
         Of a backend with an adapter that takes cones.
-    warm : bool
-        Whether to start from the answer to the step before, where the backend can.
     """
 
     def empty(self) -> Program:

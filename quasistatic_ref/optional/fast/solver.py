@@ -43,7 +43,7 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     large = part("large.sparse_contacts")
     if large is not None and isinstance(step.contacts, large.SparseContacts):
         kind = needed_part("large.sparse", "a step in blocks").SparseSolver
-        sparse: Solver = kind(step, name, proofs=Proofs())
+        sparse: Solver = kind(step, name, Proofs())
         return sparse
     return FastSolver(step, name)
 
@@ -57,8 +57,6 @@ class FastSolver(NativeSolver):
         A step of the kind that is to be solved, in a polyhedral cone.
     name : str
         Of a backend with an adapter.
-    warm : bool
-        Whether to start from the answer to the step before, where the backend can.
 
     Attributes
     ----------
@@ -72,8 +70,8 @@ class FastSolver(NativeSolver):
         Natural units of the step whose g, A and b compiled code has written into the program.
     """
 
-    def __init__(self, like: StepData, name: str, warm: bool = True) -> None:
-        super().__init__(like, name, warm)
+    def __init__(self, like: StepData, name: str) -> None:
+        super().__init__(like, name)
         self.proofs, self.whole = Proofs(), Kept()
         self.bound: Any = None
         self.written: Units | None = None

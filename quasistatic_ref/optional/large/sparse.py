@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.certify.exact import ExactOptimum, exact_step
+from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.norm import Norm
 from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
 from quasistatic_ref.errors import BackendError
@@ -59,10 +59,8 @@ class SparseSolver(NativeSolver):
         With contacts in blocks, and no rows of the user's own.
     name : str
         Of a backend whose adapter takes sparse matrices.
-    warm : bool
-        Whether to start from the answer to the step before, where the backend can.
-    proofs : object, optional
-        What proves the optimum of a step that is certified exactly, as the Proofs of `fast`.
+    proofs : object
+        What proves the optimum of a step that is certified exactly: the Proofs of `fast`.
 
     Raises
     ------
@@ -72,29 +70,25 @@ class SparseSolver(NativeSolver):
         If the step is not in blocks.
     """
 
-    def __init__(self, like: StepData, name: str, warm: bool = True, proofs: Any = None) -> None:
+    def __init__(self, like: StepData, name: str, proofs: Any) -> None:
         able = [entry.name for entry in BACKENDS.values() if entry.sparse]
         if name not in able:
             problem = f"takes no sparse matrices; a step this large needs {', '.join(able)}"
             raise BackendError(problem, field="backend", value=name)
         self.proofs = proofs
-        super().__init__(like, name, warm)
+        super().__init__(like, name)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        proofs = None if self.proofs is None else type(self.proofs)()
-        return type(self), (self.like, self.name, self.warm, proofs)
+        return type(self), (self.like, self.name, type(self.proofs)())
 
     def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
-        """The exact optimum: by the proofs of `fast`, where they are given."""
-        if self.proofs is not None:
-            proved: ExactOptimum = self.proofs.optimum(scaled, answer)
-            return proved
-        pressed = () if answer is None else np.argsort(-answer.lam)[: np.sum(answer.lam > 0)]
-        return exact_step(scaled.step, [int(i) for i in pressed])
+        """The exact optimum, proved group by group."""
+        proved: ExactOptimum = self.proofs.optimum(scaled, answer)
+        return proved
 
     def norm(self, scaled: NaturalStep) -> Norm:
         """The norm ||.||_H of a step."""
-        norm: Norm = super().norm(scaled) if self.proofs is None else self.proofs.norm()
+        norm: Norm = self.proofs.norm()
         return norm
 
     def empty(self) -> SparseProgram:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +12,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, run_settings
 from quasistatic_ref.parts import needed_part
+from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.recorder import Part, Recorder, program
 from quasistatic_ref.simulate.rollout import start_cold
 from quasistatic_ref.solve.backends import NONE
@@ -105,9 +106,12 @@ class _Again:
                 step, linear = self._step(q, goal, pushed)
                 _check("scene", k, part["phi"][i], step.contacts.phi)
                 recorder.alone &= linear
-                rows.append(program(step) if self.record == "full" else {})
                 if k >= self.cold:
                     self._ask(step, linear)
+                if "s" in part:
+                    raised = step.contacts.phi + part["s"][i]
+                    step = step.replace(contacts=replace(step.contacts, phi=raised))
+                rows.append(program(step) if self.record == "full" else {})
         return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
 
     def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, bool]:
@@ -124,10 +128,13 @@ class _Again:
     def _ask(self, step: StepData, linear: bool) -> None:
         """Ask the solver as the step did, for what it keeps; nothing else is done with it."""
         simulator, solver = self.simulator, self.simulator.solver
-        if linear and (solver is None or solver.remembers) and simulator.backend != NONE:
-            solver = simulator.fitting(step)
-            with suppress(StepNotSolved):
-                solve_step(step, solver, accuracy=simulator.accuracy, certify="off")
+        if not linear or not (solver is None or solver.remembers) or simulator.backend == NONE:
+            return
+        if simulator.law == COULOMB:  # it was asked for each iterate
+            simulator.solution(step)
+            return
+        with suppress(StepNotSolved):
+            solve_step(step, simulator.fitting(step), accuracy=simulator.accuracy, certify="off")
 
 
 def _check(what: str, k: int, then: Array, now: Array) -> None:

@@ -61,6 +61,7 @@ def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, s
         "h": repr(simulator.h),
         "gravity": repr(simulator.gravity),
         "cone": simulator.cone,
+        "law": simulator.law,
         "record": record,
         "certify": simulator.certify,
         "backend": simulator.backend,

@@ -1,6 +1,6 @@
 """Every pair of solids against an independent computation, on a sample of poses.
 
-The whole table, 1,000 poses a pair, is printed by validation/pair_distances.py.
+The whole table, 1,000 poses a pair, is printed by validation/make/pair_distances.py.
 """
 
 import numpy as np

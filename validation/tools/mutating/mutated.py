@@ -30,10 +30,10 @@ SETS = {
     "SOLIDS": "corners patch polytope_pair solid_pair contact/distance curved_pair",
     "CURVED": "curved_pair settle faces by_coal contact/distance",
     "PAIRS": "patch contact/distance pairs jacobian",
-    "SPARSE": "kept_and_shown mass_in_blocks sparse solver",
+    "SPARSE": "mass_in_blocks sparse solver",
     "CLOUDS": "clouds cloud_headers mesh_files",
     "URDF": "urdf urdf_refusals urdf_file mesh_files",
-    "DATA": "arrays kept_and_shown data plain_data step_files",
+    "DATA": "arrays posed_data data plain_data step_files",
     "SYSTEM": "system system_forces system_refusals random_mechanisms",
     "SCENES": "scenario simulator words",
     "FOLLOWED": "tracker_bound tracker",
@@ -44,7 +44,7 @@ TABLE = """
 step/problem.py
     standard_form PAGE problem
 step/friction.py
-    PAGE cones kept_and_shown wrenches
+    PAGE cones wrenches
 step/cones.py
     PAGE JUDGE completion
 step/groups.py
@@ -200,9 +200,9 @@ step/files.py
 optional/show/show.py optional/show/step_words.py
     words DATA
 certify/solution.py
-    kept_and_shown certificate newton
+    certificate newton
 cli/solution_files.py
-    kept_and_shown solution_files solutions_of_version_1 FORGED
+    certify/solution solution_files solutions_of_version_1 FORGED
 optional/derivatives/step/optimum_rates.py optional/derivatives/step/reason.py
 optional/derivatives/step/touching.py optional/derivatives/contact/couples.py
 optional/derivatives/contact/depth_ties.py optional/derivatives/contact/features.py

@@ -28,9 +28,7 @@ class Native:
         self.kind: type[Adapter] = getattr(module, BACKENDS[name].adapter)
         self.quiet = QUIET.get(name, {})
 
-    def __call__(
-        self, form: StandardForm, options: Options, before: Reply | None = None, limit: float = 0.0
-    ) -> Reply:
+    def __call__(self, form: StandardForm, options: Options, before: Reply | None = None) -> Reply:
         """The reply to a problem.
 
         Parameters
@@ -41,8 +39,6 @@ class Native:
         before : Reply, optional
             To the problem before: its memory and factors are kept, and where it has an x, the
             backend starts from what it found. By default the backend is set up.
-        limit : float
-            Of a call [s]; it is among the options, if the backend has one.
         """
         if before is None:
             return self._set_up(form, options)

@@ -139,6 +139,7 @@ def ungraded(
         "clock_agrees": None,
         "memory": None,
         "iterations": None,
+        "repeats": None,
     }
 
 

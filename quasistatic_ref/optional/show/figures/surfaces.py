@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.shapes import placed_shape as shapes
-from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.data import Array
 
 AROUND, UP = 48, 25
 """Corners of round shapes around their axis and along it."""
@@ -32,15 +32,14 @@ def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:
     return np.asarray(foot + around)
 
 
-def triangles(points: Array) -> Indices:
-    """Triangles of the convex hull as indices, (T, 3), counter-clockwise from outside."""
+def triangles(points: Array) -> Array:
+    """Corners of the convex hull's triangles, shape (3T, 3), counter-clockwise from outside."""
     hull = ConvexHull(points)
     corners = points[hull.simplices]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     inward = np.einsum("ti,ti->t", normal, hull.equations[:, :3]) < 0
-    found = np.array(hull.simplices, dtype=np.int64)
-    found[inward] = found[inward][:, [0, 2, 1]]
-    return found
+    corners[inward] = corners[inward][:, [0, 2, 1]]
+    return np.asarray(corners.reshape(-1, 3))
 
 
 def faces(points: Array) -> list[Array]:

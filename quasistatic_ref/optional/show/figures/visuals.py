@@ -4,8 +4,6 @@ from collections.abc import Iterator, Sequence
 from typing import Any, Final, NamedTuple
 from xml.etree.ElementTree import Element
 
-import numpy as np
-
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.mesh_files import mesh_corners, mesh_path
@@ -16,7 +14,7 @@ from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.data import Array
 
 PALETTE: Final = (0x0072B2, 0xE69F00, 0x009E73, 0xCC79A7, 0x56B4E9, 0xF0E442)
-"""Colours of bodies in turn, which are told apart by every eye (Okabe and Ito 2008)."""
+"""Colours of bodies in turn, which colour-blind readers can distinguish (Okabe and Ito 2008)."""
 FIXED: Final = 0xBDBDBD
 """What belongs to no body."""
 AROUND, UP = 32, 13
@@ -73,7 +71,7 @@ def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
     if not isinstance(shape, FileMesh):
         points = shape.surface(AROUND, UP)
-        return np.asarray(points[triangles(points)].reshape(-1, 3))
+        return triangles(points)
     return mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
 
 

@@ -18,30 +18,18 @@ from quasistatic_ref.optional.fast.tracker.tracker_bound import (
 )
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
-    Box,
-    Cone,
-    Cylinder,
-    Ellipsoid,
     HalfSpace,
     PlacedShape,
     PointCloud,
-    Sphere,
 )
 from quasistatic_ref.step.ordered import rotated
 from quasistatic_ref.tolerances import UNSEEN
+from tests.properties.test_tracker import SHAPES as EVERY
+from tests.properties.test_tracker import WEDGE
 from tests.tolerances import EXACT, ROUNDING
 
 X, _, Z = np.eye(3)
-WEDGE = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2], [0.2, 0.2, 0.1]])
-SHAPES = {
-    "sphere": Sphere(0.1),
-    "box": Box(np.array([0.05, 0.125, 0.25])),
-    "cylinder": Cylinder(0.1, 0.05),
-    "cone": Cone(0.1, 0.1),
-    "ellipsoid": Ellipsoid(np.array([0.05, 0.1, 0.2])),
-    "half-space": HalfSpace(Z, -0.0625),
-    "hull": convex_hull(WEDGE),
-}
+SHAPES = {name: shape for name, shape in EVERY.items() if name != "tilted half-space"}
 K, WIDTH = 5, 32
 
 

@@ -13,12 +13,13 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.show.figures import viewer
+from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.moments import SLIP, focus, frames
 from quasistatic_ref.optional.show.figures.three import z_along
 from quasistatic_ref.optional.show.figures.viewer import (
     FRAMES_PER_SECOND,
+    LONGEST,
     STATES,
-    metres_per_newton,
     scene_commands,
     view_written,
 )
@@ -90,7 +91,7 @@ def test_forces_start_at_beta_and_are_as_long_as_they_are_strong(commands, pushe
         force = np.linalg.norm(run.forces[::2, j, :3], axis=1)
         length = np.maximum(0.01 * force, NANOMETRE)
         np.testing.assert_allclose(found[".scale"][:, 2], length, atol=NANOMETRE)
-    assert metres_per_newton(moments, 0.1) * max(
+    assert force_scale(moments, None, 0.1, LONGEST) * max(
         np.linalg.norm(c.force) for m in moments for c in m.contacts
     ) <= 0.05 * (1 + ROUNDING)
 
