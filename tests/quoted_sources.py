@@ -202,9 +202,3 @@ def unsolved_random_steps(*backends):
     assert {digits for _, digits, _ in found} == {"0.0"}
     left = {backend: int(count) for backend, _, count in found}
     return [left[backend] or "none" for backend in backends]
-
-
-def pinch(cone, d, mass=0.2, mu_v=0.5, mu_omega=0.02):
-    """(R21) and (R23): the least squeeze [N] at the distance d [m]."""
-    u, w = mass * G / (2 * mu_v), mass * G * d / (2 * mu_omega)
-    return u + w if cone == "pyramid" else max(u, w)

@@ -34,7 +34,7 @@ SETS = {
     "CLOUDS": "clouds cloud_headers mesh_files",
     "URDF": "urdf urdf_refusals urdf_file mesh_files",
     "DATA": "arrays posed_data data plain_data step_files",
-    "SYSTEM": "system system_forces system_refusals",
+    "SYSTEM": "system system_forces system_refusals random_mechanisms",
     "SCENES": "scenario simulator words",
     "FOLLOWED": "tracker_bound tracker",
     "LARGE": "sparse_bound bound_formulas",
