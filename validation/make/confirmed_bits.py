@@ -41,8 +41,8 @@ from validation.tools.scripts import asked, shown
 
 CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
 COLUMNS = (
-    "optima", "infeasible", "confirmed", "left open", "compiled", "wrong sets", "refused", "also right",
-    "proved too", "nearby",
+    "optima", "infeasible", "confirmed", "left open", "compiled", "wrong sets", "refused",
+    "also right", "proved too", "nearby",
 )  # fmt: skip
 
 
