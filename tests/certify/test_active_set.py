@@ -71,6 +71,17 @@ def test_the_row_of_smallest_ratio_leaves_in_a_tie_the_longest_held(order, c, fi
     assert order[leaving] == (order[0] if first is None else first)
 
 
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+def test_multipliers_that_do_not_fall_never_vanish(order, balls):
+    """Of lam = (1, 3), lam_0 stays as t grows, and lam_1 + t grows with it."""
+    form = program([[1, 0], [0, 1], [0, -1]], [1, 3, 99])
+    combination = active_set.combination(form, order, 2)
+    assert (
+        active_set._first_to_vanish_on_combination(point_on(form, order, balls), combination)
+        is None
+    )
+
+
 def test_combination_without_positive_part_proves_infeasibility():
     """x_0 >= 1, x_1 >= 1 and -2 x_0 - 3 x_1 >= -4: y = (2, 3, 1), b'y = 1."""
     end = dual_active_set(program([[1, 0], [0, 1], [-2, -3]], [1, 1, -4]), [0, 1])

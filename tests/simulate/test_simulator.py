@@ -71,6 +71,14 @@ def test_the_target_is_a_change_from_where_the_joints_are(scenario):
     np.testing.assert_allclose(step.delta_q_bar_a, [0.006, 0.4], rtol=ROUNDING)
 
 
+def test_row_k_of_a_table_is_the_target_at_the_end_of_step_k(scenario):
+    steps = 100
+    table = np.stack([np.linspace(0, -0.1, steps), np.ones(steps), np.zeros(steps)], axis=1)
+    q = scenario.system.q_start
+    run = rollout(scenario.simulator(), q, table, steps, record="light", progress=False)
+    np.testing.assert_allclose(run["q_bar_a"], table, rtol=EXACT, atol=EXACT)
+
+
 def test_targets_and_forces_are_asked_for_at_the_end_of_the_step(scenario):
     calls = []
 

@@ -170,3 +170,18 @@ def test_an_interrupted_run_keeps_the_steps_before(scenario):
     assert caught.value.trajectory.steps == 2
     assert caught.value.step is None
     assert isinstance(caught.value.__cause__, KeyboardInterrupt)
+
+
+def test_what_a_run_leaves_cannot_be_written(tmp_path, scenario, run):
+    arrays = [
+        *run.arrays.values(),
+        *trajectory_read(run.save(tmp_path / "run.npz")).arrays.values(),
+    ]
+    arrays += [scenario.gravity, scenario.K_q, scenario.gravity_acts, scenario.targets.q_a_start]
+    for one in (*scenario.targets.tracks, *scenario.wrenches):
+        arrays += [one.times, one.values]
+    assert not any(array.flags.writeable for array in arrays)
+    given = np.array(scenario.K_q)
+    other = dataclasses.replace(scenario, K_q=given)
+    given[:] = 0.0
+    assert other == scenario

@@ -10,6 +10,8 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve.adapters.daqp import Daqp
+from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.scaled import DenseStep
@@ -18,8 +20,8 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import changed, pinch, random_step
-from tests.tolerances import EXACT
+from tests.helpers import changed, error, pinch, planted_step, random_step, unconstrained
+from tests.tolerances import ACTIVE_SET, EXACT
 
 every_backend = pytest.mark.parametrize("backend", installed("native"))
 
@@ -51,6 +53,27 @@ def test_certified_steps_have_the_bits_of_the_exact_method(backend, rng):
         np.testing.assert_allclose(two.delta_q, one.delta_q, rtol=EXACT, atol=EXACT)
         assert two.certificate.kind == "exact"
         np.testing.assert_allclose(A.T @ two.lam, A.T @ one.lam, rtol=1e-12, atol=1e-15)
+
+
+def test_a_step_without_rows_needs_no_backend(rng):
+    step = random_step(rng, rows=())
+    answer = solve_step(step, NativeSolver(step, "daqp"), certify="off")
+    assert error(step, answer.delta_q, unconstrained(step)) <= ACTIVE_SET
+
+
+def test_a_start_from_the_answer_before_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
+    step, calls, honest = planted_step(rng)[0], [], Daqp.reply
+    solver = NativeSolver(step, "daqp")
+    right = solve_step(step, solver, certify="off").delta_q
+
+    def reply(self, same_H, warm):
+        calls.append(warm)
+        return Reply(None, None, False, "at a loss") if warm else honest(self, same_H, warm)
+
+    monkeypatch.setattr(Daqp, "reply", reply)
+    found = solve_step(step, solver, certify="off").delta_q
+    assert error(step, found, right) <= ACTIVE_SET
+    assert calls == [True, False]
 
 
 REFUSED = {

@@ -1,10 +1,14 @@
 """The bound in float64 is never below the error, and each of its constants is needed."""
 
 import numpy as np
+from flint import fmpq_mat
 
+from quasistatic_ref.certify.gap import fractions, free_energy
+from quasistatic_ref.certify.rational import exact_form, fraction
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian
+from quasistatic_ref.optional.large import rounded_bound
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.rounded_bound import FloatBound
@@ -39,7 +43,43 @@ class Judged:
         self.x, self.y = x, np.maximum(lam, 0.0)
         hessian = BallHessian(step)
         self.bound = FloatBound(hessian.inverse, hessian.h, self.form.H, S)
-        self.error = self.bound.error(step, self.form, (ell, rho), x, lam)
+        self.given = step, self.form, (ell, rho), x
+        self.at = self.bound.rounded(*self.given, self.y)
+        self.error = self.bound.error(*self.given, lam)
+
+    def exact(self):
+        """A x - b, H x - g - A'y and ||H^-1 g||_H^2 in natural units, without rounding."""
+        S, ell, rho = self.units
+        form = exact_form(self.step)
+        delta_q, lam = from_natural(self.x, self.y, self.units)
+        x = fmpq_mat(form.n, 1, fractions(delta_q, form.x_unit))
+        y = fmpq_mat(form.m, 1, fractions(lam, form.lam_unit))
+        A = fmpq_mat(form.A)
+        slack = A * x - fmpq_mat(form.b)
+        balance = fmpq_mat(form.H) * x - fmpq_mat(form.g) - A.transpose() * y
+        length, size = fraction(rho) * fraction(ell), fraction(rho)
+        energy = 2 * free_energy(form) * form.net_unit * form.x_unit / size**2
+        return (
+            [s * form.slack_unit / length for s in slack.entries()],
+            [
+                r * form.net_unit * fraction(s) / size
+                for r, s in zip(balance.entries(), S, strict=True)
+            ],
+            energy,
+        )
+
+    def within(self):
+        """Whether slacks, balance and energy are as near to their exact values as is claimed."""
+        slack, balance, energy = self.exact()
+        at, u = self.at, fraction(rounded_bound.U)
+        off_slack = fraction(at.off_slack)
+        return (
+            all(abs(fraction(v) - e) <= off_slack + u * abs(fraction(v))
+                for v, e in zip(at.slack, slack, strict=True)),
+            all(abs(fraction(v) - e) <= fraction(off)
+                for v, e, off in zip(at.balance, balance, at.off_balance, strict=True)),
+            fraction(self.bound.energy(self.form.g, at.load)) <= energy,
+        )  # fmt: skip
 
 
 def some_answer(rng, step):
@@ -54,6 +94,13 @@ def some_answer(rng, step):
     right = in_natural(answer.delta_q, answer.lam, scaled.units)
     size = rng.choice([0.0, 1e-14, 1e-9, 1e-3])
     return right[0] + size * x, right[1] + size * lam
+
+
+def test_slacks_balance_and_energy_are_as_near_as_is_claimed():
+    rng = np.random.default_rng(1)
+    for _ in range(FUZZED):
+        step = small_step(rng)
+        assert all(Judged(step, *some_answer(rng, step)).within())
 
 
 def test_no_answer_of_random_steps_has_a_false_bound():

@@ -1,16 +1,102 @@
-"""Sizes of the terms of sums, and how far rounding moves these: against their formulas."""
+"""The roundings of the a-priori bounds, counted by numbers that carry how many they went through.
 
+A number of a step has none. A sum has one more than the worse of its terms, a product one more
+than both of its factors together; multiplying by zero, one or a unit costs nothing.
+"""
+
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import reduce
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.optional.large import sizes as of
-from quasistatic_ref.optional.large.sizes import TINY, UNIT, rounding, sizes_of
+from quasistatic_ref.optional.large.sizes import ROUNDINGS, TINY, UNIT, rounding, sizes_of
 from quasistatic_ref.step.cones import cone_function
 from tests.helpers import in_blocks, random_step
 
 CONES = ["pyramid", "product", "facets-4", "facets-8", "frictionless"]
+
+
+@dataclass(frozen=True)
+class Counted:
+    """So many roundings; None is an exact zero."""
+
+    count: int | None = 0
+
+    def __abs__(self):
+        return self
+
+    __neg__ = __abs__
+
+    def __add__(self, other):
+        other = other if isinstance(other, Counted) else Counted(None if other == 0 else 0)
+        if None in (self.count, other.count):
+            return other if self.count is None else self
+        return Counted(1 + max(self.count, other.count))
+
+    __sub__ = __radd__ = __rsub__ = __add__
+
+    def __mul__(self, other):
+        if not isinstance(other, Counted):  # a unit, a power of two
+            return self
+        if None in (self.count, other.count):
+            return Counted(None)
+        return Counted(1 + self.count + other.count)
+
+    __rmul__ = __mul__
+
+
+def counted(array):
+    """The same array as numbers of a step, its zeros exact."""
+    numbers = [Counted(None if v == 0 else 0) for v in np.asarray(array).ravel()]
+    found = np.empty(len(numbers), dtype=object)
+    found[:] = numbers
+    return found.reshape(np.shape(array))
+
+
+def most(values):
+    return max(v.count or 0 for v in np.ravel(values))
+
+
+def counting(cone, n_c=2):
+    """Sizes of a step whose numbers are counted, and x and lam that are."""
+    step = in_blocks(random_step(np.random.default_rng(0), rows=(6,) * n_c).replace(cone=cone))
+    sizes = sizes_of(step, np.ones(step.n_v), 1.0, 1.0)
+    blocks = object.__new__(type(sizes.blocks))
+    vars(blocks).update(vars(sizes.blocks), J=counted(sizes.blocks.J))
+    sizes = replace(
+        sizes, blocks=blocks, axes=counted(sizes.axes), mu=counted(sizes.mu),
+        cone=counted(sizes.cone), coordinate=np.ones(step.n_v),
+    )  # fmt: skip
+    return sizes, counted(np.ones(step.n_v)), counted(np.ones(sizes.mask.sum()))
+
+
+def entry(cone):
+    """Roundings of an entry of A: products with three axes, mu, and the cone's own sum."""
+    part, mu = reduce(lambda a, b: a + b, [Counted() * Counted()] * 3), Counted()
+    corners = type("Corner", (Counted,), {})
+    slip = [mu * part, mu * part, mu * Counted()]
+    rows = cone_function(cone)
+    if cone.startswith("facets"):  # whose cosines and sines are numbers of the step, too
+        K = int(cone.partition("-")[2])
+        sides = part + corners() * slip[0] + corners() * slip[1]
+        assert len(rows(part, *slip)) == K + 2
+        return max(sides.count, (part + slip[2]).count)
+    return max(row.count for row in rows(part, *slip))
+
+
+@pytest.mark.parametrize("cone", CONES)
+def test_no_result_has_more_roundings_than_its_bound_allows(cone):
+    for n_c in (1, 2, 5):
+        sizes, x, lam = counting(cone, n_c)
+        rows, columns = sizes.row_terms + ROUNDINGS, sizes.column_terms + ROUNDINGS
+        assert most(sizes.rows(x)) + 1 <= rows  # and |b| is added
+        assert most(sizes.columns(lam)) + 2 <= columns  # and the sizes of H x and g are
+        a = entry(cone)
+        assert a + 1 + (sizes.row_terms - 1) + 1 <= rows  # A x - b
+        assert a + 1 + (sizes.column_terms - 1) + 2 <= columns  # H x - g - A'lam
 
 
 def test_the_unit_is_the_largest_relative_error_of_one_operation():

@@ -1,6 +1,7 @@
 """Contacts as two features: which corners they are, how these slide on rims, which are level."""
 
 import numpy as np
+import pytest
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
@@ -8,19 +9,24 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.contact.contact_rates import (
+    contact_rates,
     merged_features,
+    nearly_level,
 )
 from quasistatic_ref.optional.derivatives.contact.couples import Rim, couples, rim_velocity
 from quasistatic_ref.optional.derivatives.contact.features import Feature
+from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.shapes.placed_shape import (
     Box,
+    Capsule,
     Cone,
     Cylinder,
     HalfSpace,
     PlacedShape,
     Sphere,
 )
-from tests.tolerances import ROUNDING
+from tests.oracles.differences import rate
+from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
 
 FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
 TANGENTS = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
@@ -46,6 +52,33 @@ def kept(system, pair, q=None):
     return points, couples([pair], points, where.R, where.t)
 
 
+@pytest.mark.parametrize("first", ["fixed", "body"])
+def test_corners_slide_along_a_tilted_rim_as_differences_say(first):
+    # Of the eight corners of a cylinder over a floor the first of each rim is its lowest point,
+    # the others are quarter turns from it: all slide as the cylinder turns.
+    system = body((0.01, 0.02, 0.08), (0.4, 0.3, 0.2))
+    pair = pair_of(system, FLOOR, Cylinder(0.04, 0.06), first, 9)
+    points, found = kept(system, pair)
+    assert {c.rim.quarter for c in found if c.rim is not None} == {0, 1, 2, 3}
+    n_c = len(found)
+    J = MotionRates(system.kinematics(system.q_start), system.motion).J
+    rates = contact_rates(found, tuple(np.tile(d, (n_c, 1)) for d in TANGENTS), J)
+    assert rates.unique.all()
+    for column, e in enumerate(np.eye(6)):
+
+        def moved(t, e=e):
+            there = closest_points(
+                [pair], system.kinematics(system.integrate(system.q_start, t * e))
+            )
+            # Contacts come by distance: these are put in the order of `points`, by their numbers.
+            order = np.argsort(there.point)[np.argsort(np.argsort(points.point))]
+            return np.stack([there.alpha[order], there.beta[order]])
+
+        expected = rate(moved)
+        for own, side in zip((rates.alpha, rates.beta), expected, strict=True):
+            np.testing.assert_allclose(own[:, :, column], side, atol=DIFFERENCE_OF_STEPS)
+
+
 def test_candidates_of_two_cones_are_tips_and_quarters_of_rims():
     # Alpha's candidates are 0 to 4, beta's 5 to 9: of each cone the tip, then its rim. On its base
     # the rim of a larger one is over no face, and four contacts fill the number.
@@ -60,6 +93,20 @@ def test_candidates_of_two_cones_are_tips_and_quarters_of_rims():
     assert rims == {Rim(0, quarter, 0.03) for quarter in range(4)}
 
 
+def test_the_ball_about_a_capsule_s_corner_is_its_own():
+    # The corners of a capsule are the ends of its segment, t +- half_length * axis.
+    system = body((0.0, 0.0, 0.2), (0.4, 0.3, 0.2))
+    capsule = Capsule(0.03, 0.05)
+    _, found = kept(system, pair_of(system, FLOOR, capsule, "fixed", 2))
+    own = found[0].of.bodies[1]
+    ends = [own.t - 0.05 * own.R[:, 2], own.t + 0.05 * own.R[:, 2]]
+    ends.sort(key=lambda end: end[2])
+    for couple, end in zip(found, ends, strict=True):
+        other, centre, radius = couple.centre
+        assert (other, radius) == (0, 0.03)
+        np.testing.assert_allclose(centre, end, atol=ROUNDING)
+
+
 def test_a_level_rim_whose_body_turns_has_no_lowest_point():
     z = np.array([0.0, 0.0, 1.0])
     cylinder = ShapeInWorld(Cylinder(0.04, 0.06), np.eye(3), np.zeros(3))
@@ -68,6 +115,19 @@ def test_a_level_rim_whose_body_turns_has_no_lowest_point():
     rim = Rim(0, 1, 0.04)
     assert np.array_equal(rim_velocity(rim, cylinder, z, about_z), np.zeros((3, 1)))
     assert rim_velocity(rim, cylinder, z, about_x) is None
+
+
+@pytest.mark.parametrize("away", [0.0, 5.0])
+def test_nearly_level_is_a_matter_of_the_rim_and_of_a_slight_tilt(away):
+    # Of a tilt between rounding and LEVEL, 1e-5, the lowest point of a rim is not well known.
+    slight, much = (0.0, 3e-6, 0.0), (0.0, 1e-3, 0.0)
+    for rpy, expected in ((slight, True), (much, False), ((0.0, 0.0, 0.0), False)):
+        system = body((away, away, 0.06), rpy)
+        _, (couple,) = kept(system, pair_of(system, FLOOR, Cylinder(0.04, 0.06), "fixed", 1))
+        end = couple.of.bodies[1].t + couple.of.bodies[1].R @ np.array([0.04, 0.0, -0.06])
+        assert nearly_level(couple._replace(points=(end, end))) == expected
+        middle = couple.of.bodies[1].t + couple.of.bodies[1].R @ np.array([0.01, 0.0, -0.06])
+        assert not nearly_level(couple._replace(points=(middle, middle)))
 
 
 def test_merged_features_are_those_of_either_side_with_their_ends_free():

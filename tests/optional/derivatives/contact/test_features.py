@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.optional.derivatives.contact.features import feature
 from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, HalfSpace
 from quasistatic_ref.tolerances import ON_RIM
 from tests.tolerances import EXACT, ROUNDING
 
@@ -29,6 +29,31 @@ TOP = 0.01 * Z  # of the segment of PILL
 BALL = 0.01 * (np.eye(3) - np.outer(TILTED, TILTED))
 
 
+FREE = {
+    "a half-space": (HalfSpace(TILTED, 0.0), 0 * X, TILTED, NO, "normal"),
+    "a face of a box": (BOX, np.array([0.01, 0.0, 0.01]), X, NO, "normal"),
+    "an edge of a box": (BOX, np.array([0.01, 0.02, 0.0]), U, NO, [Z]),
+    "an edge of a mesh": (MESH, np.array([0.01, 0.02, 0.0]), U, NO, [Z]),
+    "a blunt edge of a mesh": (TETRAHEDRON, 0.01 * (X + Y), EDGE, NO, [(X - Y) / np.sqrt(2)]),
+    "a corner of a mesh": (MESH, np.array([0.01, 0.02, 0.03]), TILTED, NO, []),
+    "the side of a capsule": (PILL, 0.01 * U, U, 0.01 * np.outer(AROUND, AROUND), [Z]),
+    "an end of a capsule": (PILL, TOP + 0.01 * TILTED, TILTED, BALL, []),
+    "the side of a cylinder": (LOG, 0.01 * U, U, 0.01 * np.outer(AROUND, AROUND), [Z]),
+    "the top of a cylinder": (LOG, np.array([0.0, 0.005, 0.02]), Z, NO, "normal"),
+    # At half of its height its radius is 0.015, about a normal that is 0.8 outwards.
+    "the side of a cone": (
+        CONE,
+        0.015 * U,
+        SIDE,
+        0.015 / 0.8 * np.outer(AROUND, AROUND),
+        [GENERATOR],
+    ),
+    "the base of a cone": (CONE, np.array([0.0, 0.01, -0.02]), -Z, NO, "normal"),
+    "the tip of a cone": (CONE, 0.02 * Z, Z, NO, []),
+}
+"""Shape, point, normal, D, and F: unit vectors, or all across the normal."""
+
+
 def span(vectors):
     """Projection onto what orthonormal vectors (k, 3) span."""
     return np.array(vectors).reshape(-1, 3).T @ np.array(vectors).reshape(-1, 3)
@@ -36,6 +61,15 @@ def span(vectors):
 
 def like(found, expected):
     np.testing.assert_allclose(found, expected, rtol=EXACT, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("name", FREE)
+def test_a_feature_bends_and_is_straight_as_its_shape_is(name) -> None:
+    shape, x, n, bend, free = FREE[name]
+    found = feature(shape, x, n)
+    like(found.bend, bend)
+    like(span(found.free), np.eye(3) - np.outer(n, n) if free == "normal" else span(free))
+    assert not len(found.ends)
 
 
 ENDS = {

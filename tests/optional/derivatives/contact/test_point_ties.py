@@ -8,6 +8,7 @@ from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.tolerances import TIED
 from tests.contact.still import pair, placed
 
 TURNED = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
@@ -55,6 +56,20 @@ def test_a_point_as_near_as_the_farthest_that_is_kept_is_tied(solid) -> None:
     assert len(kept) == 1
     for k in (1, 2, 4, 5, 6):
         assert both(solid, cloud(solid, HEIGHTS), k) == ([], [])
+
+
+@pytest.mark.parametrize("solid", [FLOOR, BALL])
+def test_points_are_tied_within_a_share_of_the_size(solid) -> None:
+    # Equal is what differs by at most TIED * size, and the size is between 0.01 and 1 m here.
+    for off, expected in ((TIED, False), (-TIED, False), (TIED * 0.01, True), (-TIED * 0.01, True)):
+        near = cloud(solid, HEIGHTS + np.array([off, 0.0, 0.0, 0.0, 0.0]))
+        assert (both(solid, near, 3) != ([], [])) == expected
+    # Points 0 and 1 are kept, and one of 2 and 3, which are higher by `off`; the other is left out.
+    for off, with_0 in ((TIED, False), (TIED * 0.01, True)):
+        higher = cloud(solid, [0.03, 0.01, 0.03 + off, 0.03 + off, 0.04])
+        kept, out = both(solid, higher, 3)
+        assert out in ([2], [3])
+        assert kept == [0] * with_0 + [5 - out[0]]
 
 
 def test_corners_of_a_box_on_the_floor_are_tied_but_not_of_a_tilted_one() -> None:

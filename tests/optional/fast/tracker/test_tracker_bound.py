@@ -89,6 +89,26 @@ def test_a_solid_s_size_is_no_less_than_it_reaches_in_any_direction():
             assert size(shape) >= max(reaches)
 
 
+@pytest.mark.parametrize("name", SHAPES)
+def test_no_point_left_out_comes_below_the_limit_at_any_motion(name, rng):
+    shape, tightest = SHAPES[name], np.inf
+    points = rng.uniform(-0.2, 0.2, size=(300, 3))
+    n, phi = Z, points[:, 2]
+    if not isinstance(shape, HalfSpace):
+        phi, normal = signed_distance(shape, points + Z)
+        n = normal[phi.argmin()]
+    made = shortlist(ball_tree.ball_tree(points), shape, np.eye(3), Z, n, np.inf, K, WIDTH)
+    out = np.setdiff1d(np.arange(300), made.index)
+    for scale in (1e-6, 1e-3, 0.1, 1.0) * 10:
+        R = Rotation.from_rotvec(scale * rng.normal(size=3)).as_matrix()
+        t = Z + scale * rng.normal() * (n if scale < 1e-2 else rng.normal(size=3))
+        limit = made.limit(np.column_stack([R, t]))
+        above = signed_distance(shape, rotated(R, points[out]) + t)[0].min() - limit
+        assert above > 0
+        tightest = min(tightest, above)
+    assert tightest < 1e-2
+
+
 def test_the_limit_of_a_falling_cloud_is_the_next_height_less_the_room():
     # A column of points above a floor, each 1 mm above the other, of which the lowest 32 are
     # listed: the next is at 32 mm, and comes down with the cloud.

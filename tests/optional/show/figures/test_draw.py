@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from matplotlib.patches import Polygon
 from PIL import Image
 
 from quasistatic_ref.errors import InputError
@@ -10,10 +11,11 @@ from quasistatic_ref.optional.show.figures import animate, draw_scene, moment, p
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.draw import LONGEST, force_scale, round_scale
 from quasistatic_ref.optional.show.figures.moments import DrawnContact, Moment
-from quasistatic_ref.optional.show.figures.surfaces import faces, surface_points, triangles
+from quasistatic_ref.optional.show.figures.surfaces import faces, patch, surface_points, triangles
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import (
     Box,
+    HalfSpace,
     PlacedShape,
 )
 from tests.legible import faults
@@ -69,6 +71,14 @@ def test_the_last_moment_is_counted_from_the_end_and_others_are_refused(incline)
             moment(scenario, run, k)
 
 
+def test_the_ellipsoid_s_rim_is_a_circle(spun):
+    scenario = load_scenario("sphere_spin", ["steps=2", "cone=ellipsoid"], fast=True)
+    (contact,) = moment(scenario, scenario.run(progress=False), -1).contacts
+    across = contact.rim - contact.f_n * contact.frame[2]
+    lengths = np.linalg.norm(across, axis=1)
+    np.testing.assert_allclose(lengths, contact.mu_v * contact.f_n, rtol=ROUNDING)
+
+
 def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
     of = moment(*incline, -1)
     draw_scene(page, of, metres_per_newton=0.02)
@@ -88,6 +98,19 @@ def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
     ]
     unit = normals[0] / np.linalg.norm(normals[0])
     np.testing.assert_allclose(unit, [np.sin(SLOPE), np.cos(SLOPE)], atol=ROUNDING)
+
+
+def test_a_body_s_outline_is_where_the_body_is(incline, page):
+    scenario, run = incline
+    of = moment(scenario, run, -1)
+    draw_scene(page, of, parts=())
+    drawn = [p.get_xy()[:-1] for p in page.patches if isinstance(p, Polygon)]
+    (rough, smooth) = [s for s in of.shapes if isinstance(s.shape, Box)]
+    drawn.sort(key=lambda outline: outline[:, 0].max())
+    for outline, placed in zip(drawn, (rough, smooth), strict=True):
+        corners = 1e3 * of.world(placed, surface_points(placed))[:, [0, 2]]
+        np.testing.assert_allclose(outline.max(axis=0), corners.max(axis=0), rtol=ROUNDING)
+        np.testing.assert_allclose(outline.min(axis=0), corners.min(axis=0), rtol=ROUNDING)
 
 
 def test_the_circle_of_torsion_has_radius_mu_omega():
@@ -126,6 +149,15 @@ def test_faces_and_triangles_of_a_cube_and_their_direction():
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     assert len(corners) == 12
     assert (np.einsum("ti,ti->t", normal, corners.mean(axis=1)) > 0).all()
+
+
+def test_the_patch_of_a_floor_lies_in_it_below_the_scene():
+    floor = HalfSpace(np.array([1.0, 2.0, 2.0]), 0.6)
+    corners = patch(floor, np.array([0.3, 0.1, 0.5]), 0.2)
+    np.testing.assert_allclose(corners @ floor.normal, floor.offset, rtol=ROUNDING)
+    foot = corners.mean(axis=0) - [0.3, 0.1, 0.5]
+    np.testing.assert_allclose(np.cross(foot, floor.normal), 0, atol=ROUNDING)
+    np.testing.assert_allclose(np.linalg.norm(corners[1] - corners[0]), 0.4, rtol=ROUNDING)
 
 
 @pytest.mark.parametrize(

@@ -131,3 +131,8 @@ def test_the_camera_has_an_orthonormal_dextral_frame():
     np.testing.assert_allclose(axes @ axes.T, np.eye(3), rtol=EXACT, atol=ROUNDING)
     np.testing.assert_allclose(np.cross(axes[0], axes[1]), axes[2], rtol=EXACT, atol=ROUNDING)
     assert axes[1, 2] > 0.9  # up is up
+
+
+def test_a_camera_from_the_front_sees_y_to_the_right_and_z_upwards():
+    seen = Camera(azimuth=0, elevation=0).seen(np.array([[1.0, 2.0, 3.0]]))
+    np.testing.assert_allclose(seen, [[2, 3, 1]], rtol=ROUNDING)

@@ -61,6 +61,16 @@ def test_frames_come_thirty_a_second_or_one_a_step(pushed):
     assert [round(m.t / scenario.h) for m in moments] == list(range(0, 40, 2))
 
 
+def test_every_shape_and_every_contact_has_an_object(commands, pushed):
+    moments, sent = commands
+    made = [c["path"] for c in sent if c["type"] == "set_object"]
+    assert len([p for p in made if p.startswith("/links/")]) == len(moments[0].shapes) == 3
+    for kind in ("contacts", "forces"):
+        assert [p for p in made if p.startswith(f"/{kind}/")] == [f"/{kind}/{j}" for j in range(8)]
+    uuids = [c["object"]["object"]["uuid"] for c in sent if c["type"] == "set_object"]
+    assert len(set(uuids)) == len(uuids)  # three.js keeps what it animates by them
+
+
 def test_links_move_as_in_the_trajectory(commands, pushed):
     scenario, run = pushed
     _, sent = commands
