@@ -13,7 +13,6 @@ from collections.abc import Callable
 from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
-from scipy.linalg.lapack import dposv
 
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.step.data import Array, Indices
@@ -213,6 +212,8 @@ class Walk:
         LinAlgError
             If the rows are dependent in float64.
         """
+        from scipy.linalg.lapack import dposv  # here: most runs take no walk, and need no SciPy
+
         if not len(towards):
             return towards
         _, share, failed = dposv(self._reached, towards)
