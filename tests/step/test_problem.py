@@ -81,6 +81,21 @@ def test_empty_blocks_are_left_out(n_a, n_u, rows, rng):
     assert answer.lam.shape == lam.shape
 
 
+def test_a_row_of_the_user_s_own_holds_a_coordinate_back(rng):
+    # Alone, delta_q_a would be tau_a / K; the row -delta_q_a >= -limit stops it there with the
+    # multiplier h (tau_a - K limit).
+    step = random_step(rng, 1, 1, rows=()).replace(
+        K_q=[[100.0]],
+        tau_a=[2.0],
+        delta_q_bar_a=[0.0],
+        extra=Extra(("stop",), [[-1.0, 0.0]], [-0.005]),
+    )
+    answer = solve_step(step, JUDGE, certify="off")
+    push = step.h * (2.0 - 100.0 * 0.005)
+    np.testing.assert_allclose(answer.delta_q[0], 0.005, rtol=OPTIMUM, atol=0.0)
+    np.testing.assert_allclose(answer.lam_extra, [push], rtol=MULTIPLIERS, atol=0.0)
+
+
 def test_multipliers_are_contact_major_though_cvxpy_s_are_not(rng):
     step, _, lam = planted_step(rng, 3, 4, rows=(4, 6, 4, 6))
     answer = solve_step(step, JUDGE)
