@@ -107,10 +107,6 @@ def dual_active_set(
     -------
     Optimum or Farkas
 
-    Raises
-    ------
-    StepDataError
-        If H is not positive definite.
     """
     balls = ball_form(form)
     point = _start(form, balls, warm)

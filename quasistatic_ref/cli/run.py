@@ -92,7 +92,8 @@ def run(options: argparse.Namespace) -> int:
     try:
         trajectory: Trajectory = scenario.run(progress=not options.quiet, **saving)
     except RunFailed as error:
-        failure, trajectory = error, error.trajectory
+        failure = error
+        trajectory = error.trajectory
     if not saving:
         trajectory.save(path)
     if options.quiet:  # of progress; a finding is said all the same
@@ -163,7 +164,8 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _artifacts(header: Mapping[str, Any]) -> str:
-    drag, Pi = header["largest_drag_share"], header["quasi_dynamic_number"]
+    drag = header["largest_drag_share"]
+    Pi = header["quasi_dynamic_number"]
     share = "not defined" if drag is None else f"{drag:.2g} of what friction can bear"
     number = "not defined" if Pi is None else f"{Pi:.2g}"
     layer = 1e6 * header["largest_boundary_layer"]
@@ -175,7 +177,8 @@ def _artifacts(header: Mapping[str, Any]) -> str:
 
 def _moved(bodies: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
     for body, motion in list(bodies.items())[:PRINTED]:
-        turned, rose = motion["largest_rotation_deg"], motion["largest_rise_mm"]
+        turned = motion["largest_rotation_deg"]
+        rose = motion["largest_rise_mm"]
         yield f"{body}: largest rotation {turned:.3g} deg, largest rise {rose:.3g} mm"
     if len(bodies) > PRINTED:
         yield f"{len(bodies) - PRINTED} more free bodies: see --json"

@@ -18,14 +18,23 @@ from quasistatic_ref.step.cones import CONES, PYRAMID
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
-FORMAT, VERSION = "quasistatic-ref/scenario", 1
+FORMAT = "quasistatic-ref/scenario"
+VERSION = 1
 MOST_STEPS = 10_000_000
-TOP, SOLVER, LIMITS = "the top of the file", "[solver]", "[limits]"
-BODY, CONTACT, WRENCH = "[bodies.NAME]", "[contacts.NAME]", "[[bodies.NAME.wrenches]]"
-SHAPE, POSE, WAYPOINT = "[shapes.NAME]", "pose", "[[bodies.NAME.targets]]"
-SUPPORT, WITHIN = "[bodies.NAME.support]", "k"
+TOP = "the top of the file"
+SOLVER = "[solver]"
+LIMITS = "[limits]"
+BODY = "[bodies.NAME]"
+CONTACT = "[contacts.NAME]"
+WRENCH = "[[bodies.NAME.wrenches]]"
+SHAPE = "[shapes.NAME]"
+POSE = "pose"
+WAYPOINT = "[[bodies.NAME.targets]]"
+SUPPORT = "[bodies.NAME.support]"
+WITHIN = "k"
 ORIGIN = (0.0, 0.0, 0.0)
-NUMBER, TEXT = {"type": "number"}, {"type": "string"}
+NUMBER = {"type": "number"}
+TEXT = {"type": "string"}
 LIST = {"type": "array", "items": NUMBER}
 MATRIX = {"type": "array", "items": LIST}
 _TURN = "roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll)"

@@ -50,9 +50,8 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     full = record == "full"
     top.number("h", above=0.0)
     _unless_null(top, "failed", top.text)
-    _unless_null(top, "quasi_dynamic_number", top.number)
-    _unless_null(top, "largest_drag_share", top.number)
-    _unless_null(top, "largest_boundary_layer", top.number)
+    for name in ("quasi_dynamic_number", "largest_drag_share", "largest_boundary_layer"):
+        _unless_null(top, name, top.number)
     top.text("backend")
     with about_field("cone"):
         cone(top.text("cone"))

@@ -285,7 +285,8 @@ class Simulator(Shown):
         StepDataError
             If the force has another shape.
         """
-        n_a, tau = self.system.n_a, self.generalised_force(q, force)
+        n_a = self.system.n_a
+        tau = self.generalised_force(q, force)
         return StepData(
             h=self.h,
             K_q=self.K_q,

@@ -132,7 +132,7 @@ class Trajectory(Plain, Shown):
         """What is wrong with its scene or doubtful in it: causes first, then what comes of them.
 
         There are none without ``optional/doctor``, nor in files from before there were findings;
-        what is found of :attr:`seconds` is kept in memory only, as they are.
+        what is found of ``seconds`` is kept in memory only, as they are.
         """
         listed = enumerate(self.header.get("findings", ()))
         found = [finding_read(table, f"findings[{i}]") for i, table in listed]
@@ -202,7 +202,8 @@ class Trajectory(Plain, Shown):
             raise InputError(problem)
         if not self.header.get("alone", True):
             raise InputError(UNKNOWN, field="forces")
-        step, delta_q = self.step_data(k), self["delta_q"][k]
+        step = self.step_data(k)
+        delta_q = self["delta_q"][k]
         near = (delta_q, self["wrench"][k]) if step.n_v == len(delta_q) else None
         return contact_forces(step, near=near).wrench
 
@@ -348,6 +349,7 @@ def certified(trajectory: Trajectory) -> str:
     In the ellipsoid, also how many are enclosed: ``"20 of 30 steps exact, 10 enclosed"``.
     """
     kinds = [str(kind) for kind in trajectory["certificate"]] if trajectory.steps else []
-    exact, enclosed = kinds.count("exact"), kinds.count("enclosure")
+    exact = kinds.count("exact")
+    enclosed = kinds.count("enclosure")
     rest = f", {enclosed} enclosed" if enclosed else ""
     return f"{exact} of {trajectory.steps} steps exact{rest}"

@@ -6,7 +6,7 @@ import pytest
 from quasistatic_ref.certify import active_set
 from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
 from quasistatic_ref.certify.point import Point, ball_form
-from quasistatic_ref.certify.rational import exact_form_of
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 
 
 def program(A, b, g=None):

@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import exact_certificate, in_words, verify
+from quasistatic_ref.certify.certificate import exact_certificate, verify
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.solution import Certificate
+from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve.solve import solve_step

@@ -6,7 +6,7 @@ from flint import fmpq
 
 from quasistatic_ref.certify import dependence
 from quasistatic_ref.certify.dependence import SMALL, combination, implied, independent_rows
-from quasistatic_ref.certify.rational import exact_form_of
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 
 UNLUCKY = 101
 

@@ -10,15 +10,16 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.degeneracy import (
     differentiable,
     multipliers_unique,
-    strictly_active,
 )
 from quasistatic_ref.certify.exact import exact_optimum, exact_step
-from quasistatic_ref.certify.rational import exact_form, exact_form_of
+from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.cli.decimals import decimal_strings
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
 
 ULP = 2.0**-52
 LEAST = 5e-324
@@ -118,16 +119,15 @@ def test_row_without_coefficients_is_idle_or_a_contradiction():
 @pytest.mark.parametrize(
     "H",
     [
-        [[1.0, 1.0], [1.0, 1.0]],  # singular: no ball shows the sign of its last pivot
+        [[1.0, 1.0], [1.0, 1.0]],  # singular
         [[1.0, 2.0], [2.0, 1.0]],
         [[0.0, 0.0], [0.0, 1.0]],
         [[1.0, 1.0 + ULP], [1.0 + ULP, 1.0 + ULP]],
     ],
 )
 def test_matrix_that_is_not_positive_definite_is_refused(H):
-    form = exact_form_of(np.array(H), np.ones(2), np.zeros((0, 2)), np.zeros(0))
     with pytest.raises(StepDataError, match="positive definite"):
-        exact_optimum(form)
+        exact_form_of(np.array(H), np.ones(2), np.zeros((0, 2)), np.zeros(0))
 
 
 def test_decimals_of_a_step_begin_with_its_float64():

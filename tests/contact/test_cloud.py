@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from quasistatic_ref.contact.cloud import closest, signed_distance
+from quasistatic_ref.contact.distance import closest
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -61,7 +61,7 @@ def cylinder_distance(shape, point):
 @pytest.mark.parametrize("name", SHAPES)
 def test_a_distance_is_that_of_coal_or_of_the_plane_of_radius_and_height(name, rng):
     shape, points = SHAPES[name], rng.uniform(-0.8, 0.8, size=(400, 3))
-    phi, _ = signed_distance(shape, points)
+    phi, _ = shape.signed_distance(points)
     other = cylinder_distance if name == "cylinder" else asked_of_coal  # coal's is wrong inside one
     expected = [other(shape, point) for point in points]
     assert min(expected) < 0 < max(expected)
@@ -72,9 +72,9 @@ def test_a_distance_is_that_of_coal_or_of_the_plane_of_radius_and_height(name, r
 def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
     """So that, by its distance, it is the normal at the nearest point."""
     shape, points = SHAPES[name], np.array([point])
-    phi, normal = signed_distance(shape, points)
+    phi, normal = shape.signed_distance(points)
     np.testing.assert_allclose(np.linalg.norm(normal[0]), 1.0, rtol=ROUNDING)
-    foot, _ = signed_distance(shape, points - phi[:, None] * normal)
+    foot, _ = shape.signed_distance(points - phi[:, None] * normal)
     np.testing.assert_allclose(foot, [0.0], rtol=EXACT, atol=SIGNED_DISTANCE)
 
 
@@ -104,7 +104,7 @@ DEGENERATE = {
 
 @pytest.mark.parametrize(("shape", "point", "phi", "n"), DEGENERATE.values(), ids=DEGENERATE)
 def test_where_the_normal_is_not_unique_the_first_one_wins(shape, point, phi, n):
-    found_phi, found_n = signed_distance(shape, np.array([point], dtype=np.float64))
+    found_phi, found_n = shape.signed_distance(np.array([point], dtype=np.float64))
     np.testing.assert_allclose(found_phi, [phi], rtol=EXACT, atol=SIGNED_DISTANCE)
     np.testing.assert_allclose(found_n, [n], rtol=EXACT, atol=SIGNED_DISTANCE)
 
@@ -112,9 +112,9 @@ def test_where_the_normal_is_not_unique_the_first_one_wins(shape, point, phi, n)
 @pytest.mark.parametrize("name", SHAPES)
 def test_a_point_s_distance_does_not_depend_on_its_batch(name, rng):
     shape, points = SHAPES[name], rng.uniform(-0.8, 0.8, size=(37, 3))
-    phi, normal = signed_distance(shape, points)
+    phi, normal = shape.signed_distance(points)
     for i, point in enumerate(points):
-        alone_phi, alone_normal = signed_distance(shape, point[None])
+        alone_phi, alone_normal = shape.signed_distance(point[None])
         np.testing.assert_allclose(alone_phi[0], phi[i], rtol=EXACT, atol=EXACT)
         np.testing.assert_allclose(alone_normal[0], normal[i], rtol=EXACT, atol=EXACT)
 
@@ -122,7 +122,7 @@ def test_a_point_s_distance_does_not_depend_on_its_batch(name, rng):
 def test_a_cloud_is_no_shape_to_measure_against():
     cloud = PointCloud(np.zeros((1, 3)))
     with pytest.raises(ContactError, match=r"shape: a cloud touches .* \(got 'PointCloud'\)"):
-        signed_distance(cloud, np.zeros((1, 3)))
+        cloud.signed_distance(np.zeros((1, 3)))
 
 
 @given(
@@ -154,7 +154,7 @@ BY_CONE = {
 def test_a_point_put_off_a_feature_of_a_cone_has_that_distance(foot, distance, normal) -> None:
     r, z = np.add(foot, np.multiply(distance, normal))
     for x, y in ((1.0, 0.0), (-0.6, 0.8)):  # half-planes about the axis
-        phi, n = signed_distance(CONE, np.array([[r * x, r * y, z]]))
+        phi, n = CONE.signed_distance(np.array([[r * x, r * y, z]]))
         np.testing.assert_allclose(phi, [distance], rtol=EXACT, atol=CLOSED_FORM)
         turned = [normal[0] * x, normal[0] * y, normal[1]]
         if r > 0:
@@ -169,7 +169,7 @@ def test_the_normal_at_a_tip_is_one_of_the_tip_whatever_is_rounded(rng) -> None:
     So n_r radius <= 2 half_length n_z; of the side's normal the two are equal.
     """
     for radius, half_length in rng.uniform(0.01, 1.0, size=(500, 2)):
-        phi, n = signed_distance(Cone(radius, half_length), np.array([[0.0, 0.0, half_length]]))
+        phi, n = Cone(radius, half_length).signed_distance(np.array([[0.0, 0.0, half_length]]))
         np.testing.assert_allclose(phi, [0.0], rtol=EXACT, atol=CLOSED_FORM)
         np.testing.assert_allclose(np.sum(n * n), 1.0, rtol=ROUNDING)
         n_r = np.hypot(n[0, 0], n[0, 1])
@@ -185,6 +185,6 @@ def test_half_way_through_an_ellipsoid_the_upper_side_is_the_nearest(x, z) -> No
     a, b, c = 0.3, 0.2, 0.1
     foot_x = a**2 * x / (a**2 - c**2)
     way = np.array([foot_x - x, 0.0, c * np.sqrt(1 - (foot_x / a) ** 2)])
-    phi, n = signed_distance(Ellipsoid(np.array([a, b, c])), np.array([[x, 0.0, z]]))
+    phi, n = Ellipsoid(np.array([a, b, c])).signed_distance(np.array([[x, 0.0, z]]))
     np.testing.assert_allclose(phi, [-np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)
     np.testing.assert_allclose(n, [way / np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
@@ -47,7 +46,7 @@ def test_a_cloud_s_contacts_are_its_nearest_points_by_brute_force(name, rng):
     each = []
     for i, p in enumerate(points):
         world = R_cloud @ p + t_cloud
-        phi, n = signed_distance(solid.shape, (R_solid.T @ (world - t_solid))[None])
+        phi, n = solid.shape.signed_distance((R_solid.T @ (world - t_solid))[None])
         each.append((phi[0], i, world, R_solid @ n[0]))
     each.sort(key=lambda item: item[:2])
     phi, point, beta, n = zip(*each[:7], strict=True)

@@ -29,7 +29,7 @@ SAMPLE = (
     f"{CONES} pyramid: gap - slip_1 -> gap + slip_1",
     f"{CONES} pyramid: gap + spin -> gap - spin",
     f"{FRICTION} rows_along: mu_omega * J_w -> mu_omega / J_w",
-    f"{FRICTION} _wrenches: [mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n] -> "
+    f"{FRICTION} wrenches: [mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n] -> "
     "[mu_v * f_d2, mu_v * f_d1, f_n, mu_omega * tau_n]",
     f"{FRICTION} row_gaps: cone(name).matrix[:, 0] -> cone(name).matrix[:, 1]",
     f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "

@@ -10,17 +10,17 @@ import pytest
 
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast import adapters
+from quasistatic_ref.optional.fast.adapters.clarabel import Clarabel
+from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.solver import FastSolver
-from quasistatic_ref.optional.large.sparse import SparseSolver
+from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
+from quasistatic_ref.optional.qpsolvers.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve import backends
-from quasistatic_ref.solve.adapters.clarabel import Clarabel
 from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backends
-from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import NoSolver, solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
-from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
 from tests.helpers import (
@@ -35,7 +35,7 @@ from tests.helpers import (
 from tests.tolerances import EXACT, OPTIMUM
 
 ROWS = (6, 4, 6)
-ADAPTERS = Path(backends.__file__).parent / "adapters"
+ADAPTERS = Path(adapters.__file__).parent
 
 
 @pytest.fixture
@@ -102,13 +102,13 @@ OTHERS = {
     "n_a": (lambda s, rng: random_step(rng, 2, 4, ROWS), "CF"),
     "n_u": (lambda s, rng: random_step(rng, 3, 5, ROWS), "CF"),
     "cone": (lambda s, rng: s.replace(cone="facets-8"), "CFQ"),
-    "rows of contacts": (lambda s, rng: random_step(rng, 3, 4, (4, 6, 6)), "CF"),
-    "rows of the user's own": (
+    "contacts.rows": (lambda s, rng: random_step(rng, 3, 4, (4, 6, 6)), "CF"),
+    "extra": (
         lambda s, rng: s.replace(extra=Extra(("a",), np.ones((1, 7)), [-1.0])), "CF",
     ),
     "h": (lambda s, rng: s.replace(h=2 * s.h), "C"),
-    "mu_v": (lambda s, rng: with_mu(s, mu_v=0.5 * s.contacts.mu_v), "C"),
-    "mu_omega": (lambda s, rng: with_mu(s, mu_omega=0.5 * s.contacts.mu_omega), "C"),
+    "contacts.mu_v": (lambda s, rng: with_mu(s, mu_v=0.5 * s.contacts.mu_v), "C"),
+    "contacts.mu_omega": (lambda s, rng: with_mu(s, mu_omega=0.5 * s.contacts.mu_omega), "C"),
 }  # fmt: skip
 """Steps of another kind, and who cannot take them: (C)vxpy, (F)ast, (Q)psolvers."""
 
@@ -143,7 +143,7 @@ def test_a_solver_refuses_a_step_that_does_not_fit_and_says_what_differs(
 def test_rows_of_an_extension_count_as_rows_of_the_step(step):
     floor = Extension(lambda s: [s.delta_q >= -1.0])
     for fast in (False, True):
-        with pytest.raises(InputError, match="rows of the user's own"):
+        with pytest.raises(InputError, match="in extra; make"):
             solve_step(step, solver_for(step, "clarabel", fast), extension=floor)
 
 

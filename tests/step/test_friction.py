@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref.cli.solution_files import rounded_wrenches
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.step.cones import pyramid
 from quasistatic_ref.step.friction import (
     contact_wrenches,
     friction_rows,
-    rounded_wrenches,
     row_gaps,
 )
 from tests.helpers import point_on_floor, random_step

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.sparse import csc_matrix, triu
 
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.calling.calls import call_of, tried
 from quasistatic_ref.lab.study.calling.claims import HIDDEN, INFEASIBLE, NEITHER, OPTIMAL, hides

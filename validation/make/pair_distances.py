@@ -18,7 +18,6 @@ import time
 
 import numpy as np
 
-from quasistatic_ref.contact import cloud
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
@@ -37,8 +36,8 @@ are upper bounds: the machine did other work meanwhile.
 
 def points_off(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, found: Witness) -> float:
     """How far closest points are off the surfaces, or apart by another vector than phi n [m]."""
-    on_a = cloud.signed_distance(a, found.alpha[None])[0][0]
-    on_b = cloud.signed_distance(b, ((found.beta - t) @ R)[None])[0][0]
+    on_a = a.signed_distance(found.alpha[None])[0][0]
+    on_b = b.signed_distance(((found.beta - t) @ R)[None])[0][0]
     apart = np.abs(found.beta - found.alpha - found.phi * found.n).max()
     return float(max(abs(on_a), abs(on_b), apart))
 

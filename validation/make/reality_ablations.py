@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.formats.resources import reality_folder
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import bootstrapped, errors_of
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import loads_read

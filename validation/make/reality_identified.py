@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from quasistatic_ref.formats.resources import reality_folder
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import Loads, loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.resources import reality_folder
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import bootstrapped, pose_errors
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.predict import Prediction, predicted, rotation

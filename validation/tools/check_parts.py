@@ -23,6 +23,7 @@ ROOT = Path(__file__).parents[2]
 SCENARIO, STEPS = "bunny_grasp", 40
 PARTS: dict[str, tuple[list[str], str]] = {
     "coulomb": (["--law", "coulomb"], 'law = "coulomb"'),
+    "curved": ([], ""),
     "derivatives": ([], ""),
     "doctor": (["--strict"], "strict"),
     "ellipsoid": (["--cone", "ellipsoid"], 'cone = "ellipsoid"'),
@@ -30,6 +31,8 @@ PARTS: dict[str, tuple[list[str], str]] = {
     "fast": (["--fast"], "fast"),
     "large": (["--certify", "residual"], 'certify = "residual"'),
     "mjcf": ([], ""),
+    "qpsolvers": (["--backend", "qpsolvers:clarabel"], "qpsolvers:clarabel"),
+    "readers": (["--set", "bodies.bunny.cloud=bunny.ply"], "a .ply cloud"),
     "runs": (["--resume"], "resume"),
     "show": (["--view"], "view"),
 }

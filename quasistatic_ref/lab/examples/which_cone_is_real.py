@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import loads_read

@@ -6,11 +6,12 @@ import numpy as np
 
 from quasistatic_ref.optional.doctor.start import Said
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.simulate.pace import WORTH
 from quasistatic_ref.simulate.trajectory import Trajectory
 
+WORTH = 10.0
+"""Least time of a run whose proofs are named [s]."""
 SHARE = 0.8
-"""Of the time of a run, if it takes WORTH or longer, above which its proofs are named [-]."""
+"""Of the time of such a run, above which its proofs are named [-]."""
 
 
 def proofs(trajectory: Trajectory) -> Iterator[Said]:

@@ -1,5 +1,6 @@
 """Proofs of steps, group by group, with what is kept while groups and H stay."""
 
+import math
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -8,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined
-from quasistatic_ref.certify.norm import EnergyNorm, GroupNorm, Norm
+from quasistatic_ref.certify.norm import EnergyNorm, Norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
@@ -30,6 +31,27 @@ TOUCHING = 1e-6
 """Slack of a row, in natural units, up to which its contact may touch [-]."""
 
 
+@dataclass(frozen=True, eq=False)
+class GroupNorm:
+    """The norm of a step of several groups, from that of each.
+
+    Parameters
+    ----------
+    parts : list of (ndarray of int, EnergyNorm)
+        Coordinates of each group, and its norm.
+    """
+
+    parts: list[tuple[Indices, EnergyNorm]]
+
+    def displacement(self, v: Array) -> float:
+        """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
+        return math.hypot(*(norm.displacement(v[own]) for own, norm in self.parts))
+
+    def impulse(self, p: Array) -> float:
+        """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
+        return math.hypot(*(norm.impulse(p[own]) for own, norm in self.parts))
+
+
 class Kept:
     """What proofs of steps keep while H, and the rows of contacts, stay."""
 
@@ -44,7 +66,7 @@ class Kept:
         Raises
         ------
         StepDataError
-            If H is not positive definite without rounding.
+            If M_u is not positive definite.
         """
         if self.hessian is None or not self.hessian.fits(step):
             self.hessian = BallHessian(step)

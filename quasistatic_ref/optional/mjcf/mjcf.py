@@ -36,7 +36,7 @@ def mjcf_urdf(path: str | Path, base: str = "fixed") -> str:
     Its links are the bodies, in the same frames, its joints the hinges and slides. What the bodies
     of the world touch is of its root link ``worldbody``; where a free joint moves the only body,
     that is the root. What else the file says and the model ignores stands in
-    :attr:`~quasistatic_ref.model.system.System.ignored`, each element by its name.
+    ``ignored`` of the :class:`~quasistatic_ref.model.system.System`, each element by its name.
 
     Parameters
     ----------

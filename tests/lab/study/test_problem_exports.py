@@ -14,8 +14,8 @@ from scipy.io import loadmat
 from scipy.sparse import csc_matrix, csr_matrix
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.commands import study_problems
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.study.problems import exports
 
 

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import in_words, verify
+from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import contacts_of

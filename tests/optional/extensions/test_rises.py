@@ -158,6 +158,8 @@ def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):
         private_rises(system, [], **given, friction={"cabinet/slid": 1.0})
     with pytest.raises(InputError, match=r'support: is for a body with base = "planar"'):
         private_rises(system, [], **given, support={"cabinet": (0.5, 0.0)})
+    with pytest.raises(InputError, match=r"support: is no body; .*cabinet"):
+        private_rises(system, [], **given, support={"none": (0.5, 0.0)})
 
 
 REFUSED = {
@@ -171,6 +173,13 @@ REFUSED = {
 def test_a_friction_that_means_nothing_is_refused_by_name(tmp_path, change, says):
     with pytest.raises(InputError, match=says):
         scene(tmp_path, DRAWN.replace(*change))
+
+
+def test_a_tilted_planar_base_is_refused_with_its_field_and_a_remedy(tmp_path):
+    tilted = PUSHED.replace("support =", "pose = { rpy = [0.1, 0, 0] }\nsupport =")
+    says = r'^.*: bodies.l.pose.rpy: must be \[0, 0, yaw\].*or take base = "floating"'
+    with pytest.raises(InputError, match=says):
+        scene(tmp_path, tilted)
 
 
 def test_a_support_without_a_weight_is_refused(tmp_path):

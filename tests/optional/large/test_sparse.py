@@ -7,9 +7,10 @@ import pytest
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.errors import BackendError
+from quasistatic_ref.errors import BackendError, StepDataError
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.optional.large.sparse import MOST_ITERATIONS, SparseSolver, reachable
+from quasistatic_ref.optional.fast.sparse_solver import MOST_ITERATIONS, SparseSolver, reachable
+from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
@@ -110,7 +111,13 @@ def test_size_decides_whether_a_step_is_sparse(monkeypatch):
 def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always_sparse):
     step = step_after(pile(BOXES), 1).step
     with pytest.raises(BackendError, match=r"takes no sparse matrices; .* clarabel, osqp, piqp"):
-        SparseSolver(step, "daqp", None)
+        SparseSolver(step, "daqp")
+
+
+@pytest.mark.parametrize("column", [[1, 0], [1, 1], [-1, 0], [2, 4], [3, 2]])
+def test_columns_that_do_not_ascend_are_refused(column):
+    with pytest.raises(StepDataError, match=r"blocks.column: must ascend .* n_v = 3"):
+        Blocks(np.array([[0, 3], column]), np.zeros((2, 4, 2)), 3)
 
 
 def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():

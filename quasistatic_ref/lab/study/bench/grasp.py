@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import closest
-from quasistatic_ref.contact.distance import closest_points, in_world, relative_pose
+from quasistatic_ref.contact.distance import closest, closest_points, in_world, relative_pose
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.study.bench.timing import (
     INTERFACES,
@@ -19,12 +18,12 @@ from quasistatic_ref.lab.study.bench.timing import (
     ratio,
     seconds,
 )
+from quasistatic_ref.optional.fast.adapters.program import Program
+from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, installed, installed_backends
-from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 

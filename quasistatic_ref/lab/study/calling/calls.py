@@ -22,7 +22,7 @@ from quasistatic_ref.lab.study.calling.guests import NATIVELY, natively
 from quasistatic_ref.lab.study.calling.native import Native
 from quasistatic_ref.lab.study.calling.packages import loaded
 from quasistatic_ref.lab.study.calling.solvers import Solver
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
@@ -137,7 +137,7 @@ def _by_cvxpy(name: str) -> Call:
 
 
 def _directly(name: str) -> Call:
-    from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
+    from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 
     return lambda form, options, before: qpsolvers_reply(
         form, name, options, None if before is None else before.x

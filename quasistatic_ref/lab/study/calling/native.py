@@ -6,8 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply
+from quasistatic_ref.optional.fast.adapters.program import Adapter, Program
 from quasistatic_ref.solve.backends import BACKENDS, Options
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
 QUIET: Final[dict[str, Options]] = {"osqp": {"verbose": False}}
@@ -24,7 +25,7 @@ class Native:
     """
 
     def __init__(self, name: str) -> None:
-        module = importlib.import_module(f"quasistatic_ref.solve.adapters.{name}")
+        module = importlib.import_module(f"quasistatic_ref.optional.fast.adapters.{name}")
         self.kind: type[Adapter] = getattr(module, BACKENDS[name].adapter)
         self.quiet = QUIET.get(name, {})
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 
 HEAD = 1 << 16

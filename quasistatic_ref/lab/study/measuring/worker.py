@@ -23,7 +23,7 @@ from quasistatic_ref.lab.study.calling.calls import Crashed, Options, call_of, o
 from quasistatic_ref.lab.study.calling.sessions import kept, modes_of
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.messages import NOTHING, Response, to_bytes
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
 KEPT = 2

@@ -14,7 +14,7 @@ from scipy.sparse import csc_matrix, csr_matrix, tril
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_written, json_text, text_written, written_whole
-from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Problem
 from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
 

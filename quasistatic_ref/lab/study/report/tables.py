@@ -36,8 +36,8 @@ LEVELS = (3.0, 6.0, 9.0)
 """Digits at which success is counted."""
 LIMITS = tuple({b.time_limit for b in BACKENDS.values()})
 """Options that are not advice."""
-FALSE_SHOWN, WORST_SHOWN = 12, 10
-"""How many false claims are shown, and worst problems of a solver."""
+WORST_SHOWN = 10
+"""How many worst problems of a solver are shown."""
 HALF = "half = 1, or all where a half is empty; calls that a budget did not reach left out"
 SHARED = "; on the {} on which all these solvers were called"
 FACTS = ("n", "m", "contacts", "h", "mass_ratio", "condition", "condition_natural")

@@ -3,12 +3,12 @@
 import numpy as np
 
 from quasistatic_ref.contact.patch import TURNED, faces_apart
+from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between
-from quasistatic_ref.contact.solids.settle import settled
-from quasistatic_ref.contact.solids.ways_out import gaps, rival_directions
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import (
     Capsule,
     Ellipsoid,
@@ -19,6 +19,8 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import TIED
+
+CURVED = "the derivative of a contact of curved solids"
 
 
 def depth_tie(couple: Couple) -> bool:
@@ -60,6 +62,8 @@ def _axes_cross(couple: Couple) -> bool:
 
 def _rival(a: ShapeInWorld, b: ShapeInWorld, couple: Couple) -> bool:
     size = couple.of.size
+    rival_directions = needed_part("curved.ways_out", CURVED).rival_directions
+    settled = needed_part("curved.settle", CURVED).settled
     ways = rival_directions(a, b, couple.n, couple.phi, size)
     if not ways:
         return False

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import ClosestPoints, late, relative_pose
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
@@ -54,4 +53,4 @@ def _cloud_distances(solid: ShapeInWorld, body: ShapeInWorld, points: Array) -> 
     """Signed distances of all points of a cloud, shape (N,) [m]."""
     relative = relative_pose(solid, body)
     x = rotated(relative[:, :3], points) + relative[:, 3]
-    return signed_distance(solid.shape, x)[0]
+    return solid.shape.signed_distance(x)[0]

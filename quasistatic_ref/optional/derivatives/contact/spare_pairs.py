@@ -7,8 +7,10 @@ than corners, or where its feature ends, a motion makes another point of it: the
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from quasistatic_ref.contact.distance import ClosestPoints
-from quasistatic_ref.contact.solids.faces import face
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, merged_features
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.features import across
@@ -16,6 +18,9 @@ from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED
+
+LEVEL = 1e-11
+"""Difference of heights, relative to the solid, at which corners are of one face."""
 
 
 def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple[str, str] | None:
@@ -47,6 +52,17 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
     counts = int((level & of_alpha).sum()), int((level & of_beta & ~of_alpha).sum())
     for body, way, count in ((a, nearest.n, counts[0]), (b, -nearest.n, counts[1])):
         whole = not isinstance(body.shape, HalfSpace | Sphere)
-        if whole and count >= len(face(body, way).corners):
+        if whole and count >= _face_corners(body, way):
             return None  # all of the smaller face lies on the larger one
     return reason.MANY, "has parallel surfaces that overlap in more than corners"
+
+
+def _face_corners(body: ShapeInWorld, n: Array) -> int:
+    """How many corners a solid has farthest along n (3,), of a disc and a round surface one."""
+    way = body.R.T @ n
+    corners, _ = body.shape.corners(way)
+    height = corners @ way
+    level = height >= height.max(initial=-np.inf) - LEVEL * np.abs(corners).max(initial=0.0)
+    count = int(np.count_nonzero(level))
+    on_disc = body.shape.rim_radius is not None and count > 2
+    return 1 if on_disc else max(1, count)

@@ -73,10 +73,9 @@ def zeros(
     solution = rational_solution(form, w)
     if any(solution.slack[k:]) or any(solution.x[v] for v in coordinates):
         return None
-    total = [
-        sum(column, fmpz(0)) for column in zip(*map(form.equation, range(k, form.m)), strict=True)
-    ]
-    if not rows or all(follow([form.equation(i) for i in w], [total])):
+    columns = zip(*form.equations(range(k, form.m)), strict=True)
+    total = [sum(column, fmpz(0)) for column in columns]
+    if not rows or all(follow(form.equations(w), [total])):
         return all_active
     spanned, unspanned = idle_rows(form, w, solution.slack)
     unique = multipliers_unique(form, w, spanned, unspanned)

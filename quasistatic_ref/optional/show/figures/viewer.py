@@ -23,7 +23,7 @@ from quasistatic_ref.optional.show.figures.moments import (
     frames,
     still,
 )
-from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points, triangles
+from quasistatic_ref.optional.show.figures.surfaces import ball, patch, surface_points, triangles
 from quasistatic_ref.optional.show.figures.three import (
     clip,
     colour_clip,
@@ -36,7 +36,6 @@ from quasistatic_ref.optional.show.figures.three import (
 from quasistatic_ref.optional.show.figures.visuals import AROUND, FIXED, UP, colours, visuals
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
-from quasistatic_ref.shapes.shape import ball
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.data import Array
@@ -91,6 +90,9 @@ def view_written(
     InputError
         If the extra ``view`` is not installed, the run has no steps, or its scene is not known.
     """
+    if not isinstance(path, str | Path):
+        problem = "must be a file; give what is shown, then the file, then the run"
+        raise InputError(problem, field="path", value=type(path).__name__)
     viewer = viewer_script()
     scene, run = _scene(shown, run)
     moments, fps = ([still(scene)], 1.0) if run is None else frames(scene, run, FRAMES_PER_SECOND)
@@ -237,7 +239,7 @@ def _shape(placed: PlacedShape, of: Moment, half: float, colour: int) -> dict[st
     if isinstance(shape, HalfSpace):
         corners = patch(shape, focus([of]).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
         return thing(corners, "Mesh", material(FLOOR, 0.8))
-    points = surface_points(placed, AROUND, UP)
+    points = surface_points(placed.shape, AROUND, UP)
     return _lit(triangles(points), colour)
 
 

@@ -14,12 +14,12 @@ from flint import fmpq, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.certificate import exact_certificate
-from quasistatic_ref.certify.degeneracy import strictly_active
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.derivatives.step.sensitivity import sensitivity
+from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from tests.helpers import (

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.units import natural_hessian, units_of
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.optional.fast.compiled.test_fast import needs_compiler

@@ -128,6 +128,8 @@ def test_a_scene_made_in_python_and_one_without_a_run_have_pages(pushed, tmp_pat
     from_file = pickle.loads(pickle.dumps(run))
     with pytest.raises(InputError, match=r"is from a file; give its scenario or simulator first"):
         view_written(from_file, tmp_path / "other.html")
+    with pytest.raises(InputError, match="path: must be a file; give what is shown, then the file"):
+        view_written(scenario, run, tmp_path / "other.html")
 
 
 def test_contacts_have_the_colours_of_their_states(commands, pushed):
