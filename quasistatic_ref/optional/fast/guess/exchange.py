@@ -160,7 +160,7 @@ class Walk:
             row = self.A[self.working[j]]
             towards = np.delete(self._reached[:, j], j)
             self._drop(j)
-            change = np.linalg.solve(self._reached, towards)
+            change = self._taken_over(towards)
             self.lam = self.lam + pull * change
             self._move(-pull, row, change)
 
@@ -178,7 +178,7 @@ class Walk:
         square = float(row.dot(along))
         towards = self.A[self.working].dot(along)
         while True:
-            falls = np.linalg.solve(self._reached, towards)  # of lam, per unit of p's multiplier
+            falls = self._taken_over(towards)  # of lam, per unit of p's multiplier
             rate = square - float(falls.dot(towards))
             moves = rate > DEPENDENT * square
             full = max(-float(self.slack[p]), 0.0) / rate if moves else math.inf
@@ -204,6 +204,23 @@ class Walk:
         self.lam = np.append(self.lam, pressed)
         return True
 
+    def _taken_over(self, towards: Array) -> Array:
+        """What the rows of W take over of another that reaches them by `towards`, both (k,) [-].
+
+        Raises
+        ------
+        LinAlgError
+            If the rows are dependent in float64.
+        """
+        from scipy.linalg.lapack import dposv  # here: most runs take no walk, and need no SciPy
+
+        if not len(towards):
+            return towards
+        _, share, failed = dposv(self._reached, towards)
+        if failed > 0:
+            raise np.linalg.LinAlgError
+        return np.asarray(share)
+
     def _drop(self, j: int) -> None:
         rest = np.arange(len(self.working)) != j
         self.working = self.working[rest]
@@ -211,7 +228,7 @@ class Walk:
         self._reached = self._reached[rest][:, rest]
 
     def _move(self, pressed: float, row: Array, falls: Array) -> None:
-        """The slacks once a row outside is pressed, those of W less by `falls` (k,) times that."""
+        """The slacks once a row is pressed, and those of W less by `falls` (k,) times that."""
         A_W = self.A[self.working]
         size_of_A, size_of_inverse = self.sizes
         push = row - falls.dot(A_W)

@@ -1,5 +1,7 @@
 """A wrong guess of a working set is mended by walks in floating point, and proved."""
 
+from contextlib import nullcontext
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,8 @@ from quasistatic_ref.certify import exact as method
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast.guess import exchange
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import GUESSES, Refuted, proved_nearby, walked
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -43,6 +47,10 @@ def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
     assert mended >= 5
 
 
+CERTIFIED = "off", "full"
+NONE = np.zeros(0)
+
+
 def refused(*_):
     raise AssertionError("the method that decides everything was called, or prepared")
 
@@ -62,6 +70,19 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
         wrong += found.solution.statistics.digits < 16
         assert found.solution.certificate.kind == "exact"
     assert wrong > 0
+
+
+@pytest.mark.parametrize("tries", [GUESSES, 0])
+def test_boxes_at_rest_on_each_other_do_not_cost_the_exact_method(monkeypatch, tries):
+    """Four boxes, which fall by 1e-5 m a step, through three gaps of 1e-4 m; with walks alone."""
+    monkeypatch.setattr(exchange, "GUESSES", tries)
+    falling, certified = (pile((1, 1, 4), backend="daqp", certify=c).simulator for c in CERTIFIED)
+    q = falling.system.q_start
+    for _ in range(50):
+        q = falling.step(q, NONE).q
+    monkeypatch.setattr(method, "exact_optimum", refused)
+    with nullcontext() if tries else pytest.raises(AssertionError, match="decides everything"):
+        assert certified.step(q, NONE).solution.certificate.kind == "exact"
 
 
 def test_rows_that_depend_on_each_other_are_chosen_from_and_proved(monkeypatch):
