@@ -52,7 +52,7 @@ def paper_sentence(tables: Mapping[str, Any]) -> str:
 
 
 def like_for_like(tables: Mapping[str, Any]) -> dict[str, float]:
-    """Steps by an interior-point method of its own interface with all distances, by backend [us]."""
+    """Steps with all distances by an interior-point method, called natively, by backend [us]."""
     rows = {(row["engine"], row["backend"]): row for row in tables["parts"]}
     all_distances = tables["interfaces"]["microseconds"]["all distances, brute force"]
     return {
