@@ -225,6 +225,6 @@ def test_distances_that_are_no_numbers_are_an_error_and_no_endless_search(monkey
         return np.full(len(x), np.nan), np.zeros_like(x)
 
     pairs = one_pair(SHAPES["box"], cloud("random", 99, rng), 5)
-    monkeypatch.setattr(following, "signed_distance", unknown)
+    monkeypatch.setattr(type(SHAPES["box"]), "signed_distance", unknown)
     with pytest.raises(ContactError, match="p: has distances that are not numbers"):
         ContactTracker(pairs).closest_points(*poses((0, 0, 0), (0, 0, 1)))

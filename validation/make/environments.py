@@ -83,20 +83,33 @@ WORDS = {
 MODES = WORDS[platform.machine()]
 
 
-def set_mode(word: int) -> int:
-    """Set the thread's control register; the word that it had."""
-    libm, register = ctypes.CDLL(None), (ctypes.c_uint32 * 8)()
-    libm.fegetenv(register)
-    at = REGISTER[platform.machine()]
-    before, register[at] = register[at], word
-    libm.fesetenv(register)
-    return int(before)
+def environment_of_floats() -> Any:
+    """The floating-point environment of the thread, as fegetenv writes it."""
+    found = (ctypes.c_uint32 * 8)()
+    ctypes.CDLL(None).fegetenv(found)
+    return found
+
+
+def control_word() -> int:
+    """The thread's control register."""
+    return int(environment_of_floats()[REGISTER[platform.machine()]])
+
+
+def set_mode(word: int) -> None:
+    """Set the thread's control register.
+
+    A word without the masks of exceptions, such as 0, must never be set: any operation may end the
+    process then.
+    """
+    changed = environment_of_floats()
+    changed[REGISTER[platform.machine()]] = word
+    ctypes.CDLL(None).fesetenv(changed)
 
 
 @contextmanager
 def mode(name: str) -> Iterator[None]:
     """A mode of the thread's arithmetic, such as ``"FTZ"``, within a block."""
-    before = set_mode(0)
+    before = control_word()
     set_mode(before | MODES[name])
     try:
         yield
@@ -166,8 +179,7 @@ def left_by_backend(name: str, count: int) -> Counter[str]:
         solver = solver_for(step := mixed_step(seed), "daqp", fast=True)
         solver.reply = partial(reply_and_leave, solver.reply, name)  # type: ignore[method-assign]  # a planted fault
         for certify in ("full", "residual", "off"):
-            before = set_mode(0)
-            set_mode(before)
+            before = control_word()
             found = outcome(partial(solve_step, step, solver, certify=certify))
             set_mode(before)
             words[word(found, None)] += 1
@@ -179,7 +191,7 @@ def reply_and_leave(reply: Callable[..., Any], name: str, *given: Any) -> Any:
     try:
         return reply(*given)
     finally:
-        set_mode(set_mode(0) | MODES[name])
+        set_mode(control_word() | MODES[name])
 
 
 def after_all_modes(count: int) -> Counter[str]:
