@@ -15,7 +15,7 @@ from flint import fmpq, fmpz_mat
 from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector, along, dot, scaled, subtract
 from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP
-from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, nearest, row_counts
+from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, blocks, nearest
 from quasistatic_ref.lab.vectors.unrounded.step import Contact, Rows, rows
 
 CLOSE: Final = fmpq(1, 1 << 50)
@@ -67,13 +67,8 @@ def _combined(mu: Vector, some: Matrix) -> Vector:
 
 def _blocks(one: Base, contacts: Sequence[Contact], table: Rows) -> list[Matrix]:
     """The rows of each contact."""
-    found, first = [], 0
-    for count in row_counts(one.at.case, contacts):
-        every = range(first, first + count)
-        entries = [[table.A[i, v] for v in range(table.A.ncols())] for i in every]
-        found.append([[fmpq(x, table.denominator) for x in row] for row in entries])
-        first += count
-    return found
+    A = [[fmpq(x, table.denominator) for x in row] for row in table.A.tolist()]
+    return [[A[i] for i in block] for block in blocks(one.at.case, contacts)]
 
 
 def _rates(
