@@ -23,7 +23,7 @@ def replaced(case: Json, path: Path, value: Json) -> Json:
 def fewer_parts(case: Json) -> Iterator[Json]:
     """One contact, pair, wrench, block, group, point or row alone, or all but one."""
     for path, value in nodes(case):
-        name = path[-1] if path else ""
+        name = str(path[-1]) if path else ""
         if isinstance(value, list) and (name in LISTS or path[:-1] == ("phi",)):
             for part in _fewer(value):
                 if len(part) >= LISTS.get(name, 0):

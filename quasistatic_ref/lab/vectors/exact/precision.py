@@ -8,7 +8,7 @@ is 0, and one of relative radius < 2^-200 that contains a midpoint is that midpo
 rational answers on the way to which a root or a sine cancelled.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
 from math import inf, isqrt, nextafter
@@ -44,11 +44,6 @@ class Undecided(ArithmeticError):
 def number(x: float | Real) -> Real:
     """A float64 or whole number, exactly; what is exact or a ball already, as it is."""
     return x if isinstance(x, (fmpq, arb)) else fmpq(*x.as_integer_ratio())
-
-
-def numbers(values: Sequence[float | Real]) -> list[Real]:
-    """Several float64 values [any unit], exactly."""
-    return [number(x) for x in values]
 
 
 def ball(x: Real) -> arb:

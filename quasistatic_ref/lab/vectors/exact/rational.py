@@ -28,7 +28,7 @@ def rationals(values: Any) -> Any:
 
 def inverse(M: Any) -> Any:
     """The inverse of an array of rational numbers."""
-    return np.array(fmpq_mat(*M.shape, M.ravel().tolist()).inv().tolist()).reshape(M.shape)
+    return np.array(fmpq_mat(len(M), len(M), M.ravel().tolist()).inv().tolist()).reshape(M.shape)
 
 
 def largest(values: Any, unit: fmpq = UNITY) -> Fraction:
