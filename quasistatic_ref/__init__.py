@@ -18,6 +18,7 @@ _HOMES = {
     # A scene.
     "model.system": "System",
     "model.body": "Body",
+    "optional.mjcf.mjcf": "mjcf_urdf",
     "shapes.placed_shape": "Sphere Box Cylinder Capsule Cone Ellipsoid HalfSpace PointCloud "
     "PlacedShape",
     "shapes.convex_mesh": "convex_hull",
@@ -32,6 +33,7 @@ _HOMES = {
     "simulate.recorder": "Recorder",
     "simulate.trajectory": "Trajectory trajectory_read",
     "scenario.scenario": "Scenario load_scenario",
+    "optional.runs.scene_file": "scenario_written",
     # One step and its answer.
     "step.data": "StepData Contacts Extra",
     "step.files": "step_read step_written",
@@ -46,8 +48,8 @@ _HOMES = {
     "optional.derivatives.step.sensitivity": "sensitivity",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
-    "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NotDifferentiable "
-    "RunFailed",
+    "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NoFixedPoint "
+    "NotDifferentiable RunFailed",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

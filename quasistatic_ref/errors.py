@@ -299,6 +299,34 @@ class LimitExceeded(StepNotSolved):
         self.args = (problem,)
 
 
+class NoFixedPoint(StepNotSolved):
+    """The iteration for Coulomb's law found no solution of the step, of which nothing is claimed.
+
+    Parameters
+    ----------
+    step : StepData
+        The step in SI units, as given.
+    iterations : int
+        Convex steps that were solved.
+    residual : float
+        By how much s is not that of the last one's slip [m].
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.NoFixedPoint(step, 200, 1e-6).status
+    'no fixed point'
+    """
+
+    def __init__(self, step: StepData, iterations: int, residual: float) -> None:
+        super().__init__("coulomb", "no fixed point", step, 0.0)
+        self.iterations, self.residual = iterations, residual
+        self.args = (
+            f"no solution under Coulomb's law was found in {iterations} iterations: s is still off "
+            f'by {residual:.3g} m; take a smaller h, or law = "convex"',
+        )
+
+
 class NotDifferentiable(QuasistaticError):
     """A derivative is needed where a step has none.
 

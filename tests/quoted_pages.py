@@ -23,7 +23,6 @@ from tests.lab import test_digits_figure as digits
 from tests.lab.study import test_known_issues as known_issues
 from tests.quoted import claim, word
 from tests.quoted_sources import G, H
-from tests.solve import test_options_of_backends as options
 
 SOFT = ("250", "500")
 """Stiffnesses of the sweep that are too small [N/m]."""
@@ -191,7 +190,6 @@ QUOTED = {
         f"the can's {0.2 * G:.0f} N stretch by {1e3 * 0.2 * G / 2000:.0f} mm",
     ],
     "docs/guides/choose_a_backend.md": lambda: [
-        f"at which it does [not solve {of.one_in(of.highs_unsolved())} of the grasp's steps]",
         "{:.0f} to {:.0f} times as fast, depending on the backend".format(*of.native_gains()),
     ],
 }
@@ -199,9 +197,6 @@ QUOTED = {
 OTHERS = {
     "docs/speed.md": speed.held,
     "docs/exactness.md": digits.quoted,
-    "docs/conventions.md": lambda: [
-        phrase.format(*values()) for phrase, values in options.quoted()
-    ],
     **vectors.HELD,
     "docs/reality.md": reality.held,
 }

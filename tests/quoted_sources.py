@@ -12,8 +12,6 @@ from quasistatic_ref.lab.examples.grasp_against_mu_omega import needed, rotation
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
 from quasistatic_ref.lab.runs import grasp
 from tests.quoted import ROOT, cells, claim
-from validation.make.options_of_backends import NATURAL
-from validation.make.options_of_backends import records_read as options
 
 G, H = 9.81, 0.01
 """m/s^2, and the time step of the scenes [s]."""
@@ -184,12 +182,6 @@ def native_gains():
     at = {(r["engine"], r["backend"]): float(r["solve"]) for r in laps}
     gains = [at["cvxpy", b] / at["native", b] for _, b in at]
     return min(gains), max(gains)
-
-
-def highs_unsolved():
-    at = {(r.backend, r.units, r.options): r for r in options()}
-    highs = at["highs", NATURAL, "tolerances 1e-10"]
-    return (highs.unsolved_with + highs.unsolved_without) / 600
 
 
 def equal_bits():

@@ -8,10 +8,16 @@ import pytest
 import quasistatic_ref
 from quasistatic_ref import parts
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import Box, Cylinder
 from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.solve.solve import solve_step
 from tests.helpers import random_step
+from tests.tolerances import ROUNDING
 
 
 @pytest.fixture
@@ -44,7 +50,8 @@ def test_a_part_is_a_module_or_none_and_a_mistaken_name_is_no_missing_part(witho
 
 
 @pytest.mark.parametrize(
-    ("name", "folder"), [("smoothed", "derivatives"), ("coulomb_step", "coulomb")]
+    ("name", "folder"),
+    [("smoothed", "derivatives"), ("coulomb_step", "coulomb"), ("mjcf_urdf", "mjcf")],
 )
 def test_a_name_of_the_front_door_needs_its_part(without, name, folder):
     without(folder)
@@ -81,3 +88,25 @@ def test_without_pages_data_show_their_fields_and_objects_their_class(without):
     assert run._repr_html_() is None
     with pytest.raises(InputError, match=r"^to_pandas needs quasistatic_ref/optional/show$"):
         run.to_pandas()
+
+
+def test_a_solver_and_a_kind_of_file_need_their_parts(without, tmp_path):
+    step = random_step(np.random.default_rng(0))
+    without("qpsolvers")
+    with pytest.raises(InputError, match=r"^qpsolvers:osqp needs .*/optional/qpsolvers$"):
+        solve_step(step, "qpsolvers:osqp")
+    assert solve_step(step, "osqp").certificate.kind == "exact"
+    without("readers")
+    with pytest.raises(InputError, match=r"a \.ply cloud needs .*/optional/readers$"):
+        point_cloud(tmp_path / "cloud.ply")
+
+
+def test_a_contact_of_curved_solids_needs_its_part(without):
+    can = ShapeInWorld(Cylinder(0.02, 0.05), np.eye(3), np.zeros(3))
+    box = ShapeInWorld(Box(np.full(3, 0.1)), np.eye(3), np.array([0.0, 0.0, 0.2]))
+    gap = solid_pair("can", can, box).phi
+    assert gap == pytest.approx(0.05, rel=ROUNDING)  # 0.2 - 0.1 - 0.05
+    without("curved")
+    part = "quasistatic_ref/optional/curved"
+    with pytest.raises(InputError, match=f"^can: contact of cylinder and box needs {part}$"):
+        solid_pair("can", can, box)

@@ -65,10 +65,6 @@ lengths and angles differ by up to a thousand."""
 NO_PENETRATION: Final = 1e-10
 """A delta_q - b of a solved step [m]: 1e-12 in natural units of about a centimetre, with room."""
 
-DIFFCP: Final = 1e-5
-"""Derivatives by diffcp against the largest of their kind: its solver stops at 1e-8, and the linear
-system behind a derivative is solved by iteration."""
-
 CLOSED_FORM: Final = 1e-12
 """Distances [m] and normals of shapes of 0.1 m by closed forms: rounding is 1e-16."""
 

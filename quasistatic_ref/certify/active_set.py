@@ -107,10 +107,6 @@ def dual_active_set(
     -------
     Optimum or Farkas
 
-    Raises
-    ------
-    StepDataError
-        If H is not positive definite.
     """
     balls = ball_form(form)
     point = _start(form, balls, warm)
@@ -122,7 +118,8 @@ def dual_active_set(
         after = _walk(point, p)
         if isinstance(after, Farkas):
             return after
-        point, walks = after, walks + 1
+        point = after
+        walks += 1
 
 
 def _start(form: ExactForm, balls: BallForm, warm: Sequence[int]) -> Point:
@@ -169,12 +166,14 @@ def _first_to_vanish(point: Point, after: Point) -> int | None:
 def _vanishes_before(point: Point, after: Point, j: int, k: int) -> bool:
     """Return whether l_j / (l_j - u_j) < l_k / (l_k - u_k), both u being negative."""
     if point.balls is not None and after.balls is not None:
-        l_ball, u_ball = point.balls.lam, after.balls.lam
+        l_ball = point.balls.lam
+        u_ball = after.balls.lam
         with ctx.workprec(PRECISION):
             difference = l_ball[k] * u_ball[j] - l_ball[j] * u_ball[k]
         if not difference.contains(0):
             return bool(difference < 0)
-    l_exact, u_exact = point.rational.lam, after.rational.lam
+    l_exact = point.rational.lam
+    u_exact = after.rational.lam
     return bool(l_exact[k] * u_exact[j] < l_exact[j] * u_exact[k])
 
 

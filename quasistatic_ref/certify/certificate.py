@@ -57,43 +57,6 @@ def exact_certificate(
     )
 
 
-def in_words(certificate: Certificate) -> str:
-    """What a certificate claims of its step, in a sentence or two."""
-    if certificate.kind == "residual":
-        known = certificate.error_bound is not None
-        bound = _error_in_words(certificate) if known else "no useful bound of its error"
-        if not certificate.residuals:
-            return f"not exact: {bound}"
-        worst = max(certificate.residuals.values())
-        return f"not exact: worst residual {worst:.1e} in natural units, {bound}"
-    if certificate.kind == "enclosure":
-        return f"enclosed: {_error_in_words(certificate)}, proved in ball arithmetic"
-    if certificate.kind != "exact":
-        return "nothing is certified"
-    step = certificate.step
-    assert step is not None
-    kind = cone(step.cone)
-    if isinstance(kind, CurvedCone):
-        return kind.in_words(certificate)
-    words = [
-        "exact: the optimum of the step, correctly rounded",
-        f"working set: {len(certificate.active)} of {step.m} rows",
-        "multipliers unique" if certificate.multipliers_unique else "multipliers not unique",
-        f"delta_q {'' if certificate.differentiable else 'not '}differentiable with respect to "
-        "forces and targets",
-    ]
-    if certificate.smallest_inactive_slack is not None:
-        words.append(f"smallest inactive slack {certificate.smallest_inactive_slack:.1e} m")
-    if certificate.smallest_active_multiplier is not None:
-        words.append(f"smallest active multiplier {certificate.smallest_active_multiplier:.1e} N s")
-    return "; ".join(words)
-
-
-def _error_in_words(certificate: Certificate) -> str:
-    bound = certificate.error_bound
-    return f"the relative error of delta_q in the norm of H is at most {bound:.1e}"
-
-
 def verify(
     step: StepData,
     delta_q: Array,
@@ -150,10 +113,13 @@ def verify(
         working = flat_rows(step, active)
     except IndexError as error:
         return Verdict(False, str(error))
-    delta_q_exact, lam_exact, reason = np.zeros(step.n_v), np.zeros(step.m), ""
+    delta_q_exact = np.zeros(step.n_v)
+    lam_exact = np.zeros(step.m)
+    reason = ""
     solved = []
     for group, part in parts(step):
-        form, own = exact_form(part), tuple(group.within(working))
+        form = exact_form(part)
+        own = tuple(group.within(working))
         try:
             solution = rational_solution(form, own)
         except ZeroDivisionError:

@@ -42,24 +42,35 @@ def multipliers_unique(
     """
     if spanned or len(unspanned) <= 1:
         return not spanned
-    return _feasible(form, working, [form.row(i) for i in unspanned], [1] * len(unspanned))
+    return feasible(form, working, form.rows(unspanned), [1] * len(unspanned))
 
 
 def differentiable(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> bool:
     """Whether delta_q is differentiable in g; parameters as of :func:`multipliers_unique`."""
     if len(unspanned) <= 1:
         return not unspanned
-    moves = [form.row(i) for i in unspanned]
+    moves = form.rows(unspanned)
     total = [sum(column, fmpz(0)) for column in zip(*moves, strict=True)]
-    return not _feasible(form, working, [*moves, total], [0] * len(unspanned) + [1])
+    return not feasible(form, working, [*moves, total], [0] * len(unspanned) + [1])
 
 
-def _feasible(
+def feasible(
     form: ExactForm, working: Sequence[int], moves: list[list[fmpz]], least: list[int]
 ) -> bool:
-    """Return whether some v has A_W v = 0 and moves v >= least, by the active-set method."""
+    """Whether some v has A_W v = 0 and moves v >= least, by the active-set method.
+
+    Parameters
+    ----------
+    form : ExactForm
+    working : sequence of int
+        W.
+    moves : list of list of fmpz
+        Rows.
+    least : list of int
+        One for each row.
+    """
     n = form.n
-    held = [form.row(i) for i in working]
+    held = form.rows(working)
     rows = held + [[-a for a in row] for row in held] + moves
     identity = [[int(i == j) for j in range(n)] for i in range(n)]
     one = fmpq(1)
@@ -74,29 +85,3 @@ def _feasible(
         net_unit=one,
     )
     return isinstance(dual_active_set(cone, range(len(held))), Optimum)
-
-
-def strictly_active(form: ExactForm, working: Sequence[int], unspanned: Sequence[int]) -> list[int]:
-    """Those of the `unspanned` rows whose multiplier is positive in some optimal lam.
-
-    By Motzkin's theorem a row e is not strictly active iff some v has A_W v = 0, A_E v >= 0 and
-    a_e v > 0. (Rows that W spans are always strictly active.)
-
-    Parameters
-    ----------
-    form : ExactForm
-    working : sequence of int
-        W: independent rows without slack, all multipliers positive.
-    unspanned : sequence of int
-        The other rows without slack that W does not span.
-
-    Returns
-    -------
-    list of int
-    """
-    if len(unspanned) <= 1:
-        return []
-    moves = [form.row(i) for i in unspanned]
-    alone = [[int(i == e) for i in unspanned] for e in unspanned]
-    return [e for e, least in zip(unspanned, alone, strict=True)
-            if not _feasible(form, working, moves, least)]  # fmt: skip

@@ -36,7 +36,7 @@ def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, .
     -------
     tuple of int
     """
-    pivots, _ = _echelon([form.row(i) for i in candidates], PRIME)
+    pivots, _ = _echelon(form.rows(candidates), PRIME)
     return tuple(candidates[j] for j in pivots)
 
 
@@ -55,7 +55,7 @@ def implied(form: ExactForm, working: Sequence[int], rows: Sequence[Row]) -> lis
     -------
     list of bool
     """
-    return follow([form.equation(i) for i in working], rows)
+    return follow(form.equations(working), rows)
 
 
 def idle_rows(
@@ -72,7 +72,7 @@ def idle_rows(
         Of the minimiser on them [any unit].
     """
     idle = [i for i, s in enumerate(slack) if not s and i not in working]
-    spans = implied(form, working, [form.equation(i) for i in idle]) if idle else []
+    spans = implied(form, working, form.equations(idle)) if idle else []
     at = dict(zip(idle, spans, strict=True))
     return [i for i in idle if at[i]], [i for i in idle if not at[i]]
 
@@ -117,7 +117,8 @@ def combination(form: ExactForm, working: Sequence[int], p: int) -> list[fmpq] |
         c with a_p = sum_j c_j A[working[j]]; None if a_p is independent of them.
     """
     k = len(working)
-    held, target = [form.row(i) for i in working], form.row(p)
+    held = form.rows(working)
+    target = form.row(p)
     for prime in _primes():
         pivots, echelon = _echelon([*held, target], prime)
         if pivots == list(range(k + 1)):
@@ -148,7 +149,8 @@ def _echelon(columns: Sequence[Row], prime: int) -> tuple[list[int], list[list[i
         return [], [[] for _ in columns]
     reduced, rank = nmod_mat(fmpz_mat(list(columns)).transpose(), prime).rref()
     table = [[int(x) for x in column] for column in reduced.transpose().tolist()]
-    pivots, j = [], 0
+    pivots = []
+    j = 0
     for i in range(rank):
         while not table[j][i]:
             j += 1

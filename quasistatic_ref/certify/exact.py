@@ -31,7 +31,7 @@ from quasistatic_ref.certify.point import (
     RationalSolution,
 )
 from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
+from quasistatic_ref.certify.rounding import all_nearest_in, nearest_fraction
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -98,17 +98,14 @@ def exact_optimum(
     -------
     ExactOptimum or Farkas
 
-    Raises
-    ------
-    StepDataError
-        If H, formed without rounding, is not positive definite.
     """
     end = dual_active_set(form, warm, violated)
     return end if isinstance(end, Farkas) else _rounded(form, end)
 
 
 def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
-    point, working = end.point, end.point.working
+    point = end.point
+    working = point.working
     signs = np.array(end.slack_signs, dtype=np.int64)
     inside = np.flatnonzero(signs)
     idle = [int(i) for i in np.flatnonzero(signs == 0) if i not in working]
@@ -117,7 +114,8 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     smooth = differentiable(form, working, unspanned)
 
     coordinates = range(form.n)
-    lam, slack = np.zeros(form.m), np.zeros(form.m)
+    lam = np.zeros(form.m)
+    slack = np.zeros(form.m)
     lam_w = nearest_numbers(point, lambda s: s.lam, form.lam_unit, range(len(working)))
     lam[list(working)] = lam_w
     slack[inside] = nearest_numbers(point, lambda s: s.slack, form.slack_unit, inside)
@@ -155,13 +153,14 @@ def nearest_numbers(
         shown = values(point.balls)
         with ctx.workprec(PRECISION):
             factor = arb(unit)
-            rounded = {i: nearest_in(shown[i] * factor) for i in rounded}
+            scaled = [shown[i] * factor for i in rounded]
+            rounded = dict(zip(rounded, all_nearest_in(scaled), strict=True))
     hidden = [i for i, value in rounded.items() if value is None]
     rounded.update(dict.fromkeys(zeros(hidden), 0.0))
     for i in hidden:
         if rounded[i] is None:
-            numerator, denominator = values(point.rational)[i], point.rational.denominator
-            rounded[i] = nearest_fraction(unit * numerator / denominator)
+            exact = point.rational
+            rounded[i] = nearest_fraction(unit * values(exact)[i] / exact.denominator)
     return np.array(list(rounded.values()), dtype=np.float64)
 
 
@@ -218,8 +217,10 @@ def joined(step: StepData, of: Sequence[Group], optima: Sequence[ExactOptimum]) 
     """The optimum of a step from the `optima` of all of its groups."""
     if len(of) == 1 and len(of[0].rows) == step.m:
         return optima[0]
-    delta_q, net = np.zeros((2, step.n_v))
-    lam, slack = np.zeros((2, step.m))
+    delta_q = np.zeros(step.n_v)
+    net = np.zeros(step.n_v)
+    lam = np.zeros(step.m)
+    slack = np.zeros(step.m)
     working: list[int] = []
     for group, optimum in zip(of, optima, strict=True):
         delta_q[group.coordinates] = optimum.delta_q

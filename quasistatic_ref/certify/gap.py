@@ -9,15 +9,12 @@ with equality at x = x*. The first term is what lam leaves unbalanced (Eq. :eq:`
 is complementarity (Eq. :eq:`eq-12`): a force where nothing touches cannot hide in it.
 """
 
-import math
 from collections.abc import Sequence
 
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.rational import ExactForm, fraction
-from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import IMPULSES
 
 
 def fractions(values: Array, unit: fmpq) -> list[fmpq]:
@@ -48,16 +45,12 @@ def duality_gap(form: ExactForm, x: Sequence[fmpq], lam: Sequence[fmpq]) -> fmpq
     fmpq
         In the form's units of energy, ``net_unit * x_unit`` [N m s].
     """
-    column, push = fmpq_mat(form.n, 1, list(x)), fmpq_mat(1, form.m, list(lam))
+    column = fmpq_mat(form.n, 1, list(x))
+    push = fmpq_mat(1, form.m, list(lam))
     A = fmpq_mat(form.A)
     off = fmpq_mat(form.H) * column - fmpq_mat(form.g) - A.transpose() * push.transpose()
     work = push * (A * column - fmpq_mat(form.b))
     return _squared(form, off) / 2 + sum(work.entries(), fmpq(0))
-
-
-def in_joules(form: ExactForm, gap: fmpq) -> float:
-    """A gap in the form's units as a float64 that is not below it [N m s]."""
-    return _nearest_not_below(gap * form.net_unit * form.x_unit)
 
 
 def free_energy(form: ExactForm) -> fmpq:
@@ -69,18 +62,6 @@ def energy(form: ExactForm, x: Sequence[fmpq]) -> fmpq:
     """1/2 ||x||_H^2, in the form's units of energy [N m s]."""
     column = fmpq_mat(form.n, 1, list(x))
     return sum((column.transpose() * fmpq_mat(form.H) * column).entries(), fmpq(0)) / 2
-
-
-def negligible(form: ExactForm, x: Sequence[fmpq], gap: fmpq) -> bool:
-    """Whether a duality gap is mere rounding of the step's energies, with contacts and without."""
-    return bool(gap <= fraction(IMPULSES) * (free_energy(form) + energy(form, x)))
-
-
-def _nearest_not_below(x: fmpq) -> float:
-    """The smallest float64 that is not below a fraction [-]."""
-    value = nearest_fraction(x)
-    below = math.isfinite(value) and fraction(value) < x
-    return math.nextafter(value, math.inf) if below else value
 
 
 def _squared(form: ExactForm, impulse: fmpq_mat) -> fmpq:

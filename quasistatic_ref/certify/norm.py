@@ -2,12 +2,12 @@
 
 import math
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Protocol
 
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.pivots import exact_factor
 
 
@@ -41,28 +41,14 @@ class EnergyNorm:
         return _norms(np.asarray(np.linalg.solve(self.L, (P * self.unit).T), dtype=np.float64))
 
 
-@dataclass(frozen=True, eq=False)
-class GroupNorm:
-    """The norm of a step of several groups, from that of each.
-
-    Parameters
-    ----------
-    parts : list of (ndarray of int, EnergyNorm)
-        Coordinates of each group, and its norm.
-    """
-
-    parts: list[tuple[Indices, EnergyNorm]]
+class Norm(Protocol):
+    """Lengths of displacements and of impulses."""
 
     def displacement(self, v: Array) -> float:
-        """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
-        return math.hypot(*(norm.displacement(v[own]) for own, norm in self.parts))
+        """||v||_H of a displacement v, shape (n_v,) [m, rad]."""
 
     def impulse(self, p: Array) -> float:
         """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
-        return math.hypot(*(norm.impulse(p[own]) for own, norm in self.parts))
-
-
-Norm: TypeAlias = EnergyNorm | GroupNorm
 
 
 def energy_norm(H: Array) -> EnergyNorm:

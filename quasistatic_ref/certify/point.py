@@ -16,7 +16,6 @@ from flint import arb, arb_mat, ctx, fmpq_mat, fmpz, fmpz_mat
 from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.certify.rounding import nearest_fraction
-from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.data import Array
 
 PRECISION: Final = 320
@@ -70,15 +69,7 @@ class BallSolution:
 
 
 def ball_form(form: ExactForm) -> BallForm:
-    """An exact form in balls, H proved to be positive definite.
-
-    Raises
-    ------
-    StepDataError
-        If H is not positive definite.
-    """
-    if not positive_definite(form.H):
-        raise StepDataError("must be positive definite without rounding", field="H")
+    """An exact form in balls; its H is positive definite, as that of a step is."""
     H_inv = inverse(form.H)
     with ctx.workprec(PRECISION):
         return BallForm(H_inv, H_inv * arb_mat(form.g), arb_mat(form.A), arb_mat(form.b))
@@ -121,34 +112,6 @@ def equality_solution(balls: BallForm, working: Sequence[int]) -> BallSolution |
         net = A_w.transpose() * lam
         slack = balls.A * x - balls.b
         return BallSolution(x.entries(), lam.entries(), net.entries(), slack.entries())
-
-
-def positive_definite(H: fmpz_mat) -> bool:
-    """Whether a symmetric H is positive definite, decided exactly.
-
-    By the pivots of H = L D L' in balls; by the leading minors where a pivot stays open.
-    """
-    n = H.nrows()
-    with ctx.workprec(PRECISION):
-        S = [[arb(H[i, j]) for j in range(i + 1)] for i in range(n)]
-        for k in range(n):
-            if not S[k][k] > 0:
-                return not S[k][k] < 0 and _minors_positive(H)
-            for i in range(k + 1, n):
-                if S[i][k].is_zero():
-                    continue
-                factor = S[i][k] / S[k][k]
-                for j in range(k + 1, i + 1):
-                    S[i][j] = S[i][j] - factor * S[j][k]
-    return True
-
-
-def _minors_positive(H: fmpz_mat) -> bool:
-    n = H.nrows()
-    return all(
-        fmpz_mat(k, k, [H[i, j] for i in range(k) for j in range(k)]).det() > 0
-        for k in range(1, n + 1)
-    )
 
 
 def square_root(square: arb) -> arb:
@@ -242,7 +205,9 @@ class Point:
     """
 
     def __init__(self, form: ExactForm, balls: BallForm, working: tuple[int, ...]) -> None:
-        self.form, self.ball_form, self.working = form, balls, working
+        self.form = form
+        self.ball_form = balls
+        self.working = working
         self._implied: dict[int, bool] = {}
 
     @cached_property
@@ -290,7 +255,7 @@ class Point:
     def spanned(self, rows: Sequence[int]) -> list[int]:
         """Return those of some rows whose slack is zero because the working set implies it."""
         new = [i for i in rows if i not in self._implied]
-        equations = [self.form.equation(i) for i in new]
+        equations = self.form.equations(new)
         if new:
             self._implied.update(zip(new, implied(self.form, self.working, equations), strict=True))
         return [i for i in rows if self._implied[i]]

@@ -16,7 +16,7 @@ of Python integers and one common exponent hold them all.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -25,7 +25,6 @@ from flint import fmpq, fmpz, fmpz_mat
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.step.arrays import positive_definite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Contacts, StepData
@@ -157,9 +156,13 @@ class ExactForm:
         """Return row i of A."""
         return [self.A[i, v] for v in range(self.n)]
 
-    def equation(self, i: int) -> list[fmpz]:
-        """Row i of A, and b_i after it: n + 1 numbers."""
-        return [*self.row(i), self.b[i, 0]]
+    def rows(self, some: Iterable[int]) -> list[list[fmpz]]:
+        """Return some rows of A."""
+        return [self.row(i) for i in some]
+
+    def equations(self, some: Iterable[int]) -> list[list[fmpz]]:
+        """Some rows of A, and b_i after each: n + 1 numbers."""
+        return [[*self.row(i), self.b[i, 0]] for i in some]
 
 
 def exact_form(step: StepData) -> ExactForm:
@@ -218,37 +221,6 @@ def h_times_hessian(step: StepData) -> Dyadic:
     return block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
 
 
-def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
-    """The same for float64 H, g, A, b taken as they are given.
-
-    Parameters
-    ----------
-    H : ndarray, shape (n_v, n_v)
-        Symmetric to the last bit.
-    g : ndarray, shape (n_v,)
-    A : ndarray, shape (m, n_v)
-    b : ndarray, shape (m,)
-
-    Returns
-    -------
-    ExactForm
-
-    Raises
-    ------
-    StepDataError
-        If H is not symmetric, or a number is not finite.
-    InputError
-        If nothing can be proved in this thread.
-    """
-    check_arithmetic()
-    for name, array in (("H", H), ("g", g), ("A", A), ("b", b)):
-        if not np.isfinite(array).all():
-            raise StepDataError("must contain finite numbers only", field=name, value=array)
-    if not np.array_equal(H, H.T):
-        raise StepDataError("must be symmetric to the last bit", field="H", value=H.tolist())
-    return in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))
-
-
 def contact_motion(contacts: Contacts, of: Which = ALL) -> Dyadic:
     """The motion along n, d1, d2 and spin per unit of delta_q, shape (n_c, 4, n_v), `of` some."""
     J = dyadic(contacts.J[of])
@@ -262,7 +234,8 @@ def friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
     kind = cone(name)
     mu = dyadic(kind.in_rows(contacts.mu[of]))
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
-    mu_v, mu_omega = mu[:, :1, None], mu[:, 2:, None]
+    mu_v = mu[:, :1, None]
+    mu_omega = mu[:, 2:, None]
     rows = kind.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
     return joined(rows, axis=1)
 
@@ -270,8 +243,10 @@ def friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
 def block_diagonal(K: Dyadic, M: Dyadic) -> Dyadic:
     """Two square blocks, of any units, on the diagonal of a matrix of zeros."""
     (n_a, _), (n_u, _) = K.m.shape, M.m.shape
-    right, left = np.full((n_a, n_u), 0, object), np.full((n_u, n_a), 0, object)
-    above, below = joined([K, Dyadic(right, 0)], axis=1), joined([Dyadic(left, 0), M], axis=1)
+    right = np.full((n_a, n_u), 0, object)
+    left = np.full((n_u, n_a), 0, object)
+    above = joined([K, Dyadic(right, 0)], axis=1)
+    below = joined([Dyadic(left, 0), M], axis=1)
     return joined([above, below])
 
 

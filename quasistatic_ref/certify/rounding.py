@@ -1,6 +1,7 @@
 """From exact numbers and from balls to float64, rounded correctly (half to even)."""
 
 import math
+from collections.abc import Sequence
 
 from flint import arb, fmpq
 
@@ -35,13 +36,20 @@ def nearest_in(ball: arb) -> float | None:
     float64 numbers.
     """
     x = float(ball) + 0.0  # of its midpoint: a candidate, never -0.0
-    below, above = math.nextafter(x, -math.inf), math.nextafter(x, math.inf)
+    below = math.nextafter(x, -math.inf)
+    above = math.nextafter(x, math.inf)
     if not (math.isfinite(below) and math.isfinite(above)):
         return None
     if 2 * ball > arb(below) + x and 2 * ball < arb(above) + x:
         return x
-    low, high = _exact(ball.lower()), _exact(ball.upper())
+    low = _exact(ball.lower())
+    high = _exact(ball.upper())
     return low if low == high else None
+
+
+def all_nearest_in(balls: Sequence[arb]) -> list[float | None]:
+    """:func:`nearest_in` of each of some balls."""
+    return [nearest_in(ball) for ball in balls]
 
 
 def nearest_above(ball: arb) -> float:

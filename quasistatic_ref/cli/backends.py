@@ -22,7 +22,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the table of backends."""
-    known, native = backend_names(), installed("native")
+    known = backend_names()
+    native = installed("native")
     quick = fast_default()
     if options.json:
         defaults = {"default": DEFAULT, "default_of_fast": quick}

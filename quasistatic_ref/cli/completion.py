@@ -49,7 +49,8 @@ def _words_and_files(argument: str, words: list[str], files: tuple[str, ...]) ->
 
     Words are not handed to shtab as choices: zsh would take a colon in one for its own.
     """
-    listed, endings = " ".join(words), " ".join(files)
+    listed = " ".join(words)
+    endings = " ".join(files)
     name = re.sub(r"\W", "_", f"_{'file' if files else 'word'}_of_{argument}")
     zsh = [f"  compadd -- {listed}"]
     bash = [f'  compgen -W "{listed}" -- "$1"']

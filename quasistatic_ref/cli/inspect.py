@@ -161,7 +161,8 @@ def _print(record: dict[str, Any]) -> None:
     print()
     print("inertias: about the centre of mass, along the link's axes")
     moments_of = "ixx iyy izz ixy ixz iyz [kg m^2]"
-    rows, notes = [("link", "mass [kg]", "centre of mass [m]", moments_of)], []
+    rows = [("link", "mass [kg]", "centre of mass [m]", moments_of)]
+    notes = []
     for link in record["links"]:
         inertia = np.array(link["inertia"])[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
         moments = " ".join(f"{moment:.3g}" for moment in inertia) if link["mass"] else ""
@@ -171,7 +172,8 @@ def _print(record: dict[str, Any]) -> None:
     shared.print_rows(rows, notes)
     if "pairs" in record:
         print()
-        rows, notes = [("pair", "mu_v", "mu_omega [m]", "contacts", "rows each")], []
+        rows = [("pair", "mu_v", "mu_omega [m]", "contacts", "rows each")]
+        notes = []
         for p in record["pairs"]:
             numbers = (f"{p['mu_v']:g}", f"{p['mu_omega']:g}")
             rows.append((p["name"], *numbers, str(p["contacts"]), str(p["rows"])))

@@ -16,7 +16,8 @@ from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, QuasistaticError
 from quasistatic_ref.formats.quoting import clipped, nearest_name, suggestion
 
-CORE, LAB = "quasistatic_ref.cli", "quasistatic_ref.lab.commands"
+CORE = "quasistatic_ref.cli"
+LAB = "quasistatic_ref.lab.commands"
 COMMANDS = {
     "demo": "the paper's Figure 1: the bunny grasped with and without torsional friction",
     "run": "simulate a scenario and write its trajectory",

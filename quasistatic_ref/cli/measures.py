@@ -60,7 +60,8 @@ def free_body_motions(system: System, trajectory: Trajectory) -> dict[str, LinkM
 
 def _motions(system: System, trajectory: Trajectory, links: Sequence[str]) -> dict[str, LinkMotion]:
     poses = [system.kinematics(q) for q in trajectory["q"]]
-    R, t = np.array([pose.R for pose in poses]), np.array([pose.t for pose in poses])
+    R = np.array([pose.R for pose in poses])
+    t = np.array([pose.t for pose in poses])
     times = np.concatenate([[0.0], trajectory["t"]])
     at = {link: system.link(link) for link in links}
     return {link: LinkMotion(times=times, R=R[:, i], t=t[:, i]) for link, i in at.items()}

@@ -12,6 +12,7 @@ from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.parts import part
+from quasistatic_ref.simulate.law import LAWS
 from quasistatic_ref.step.cones import CONES
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_written
@@ -26,6 +27,10 @@ OPTIONS: Final[dict[str, dict[str, Any]]] = {
     "--cone": {
         "metavar": "NAME",
         "help": f"friction cone in place of the file's: {', '.join(CONES)}",
+    },
+    "--law": {
+        "metavar": "NAME",
+        "help": "law of friction: convex (default), or coulomb, under which nothing lifts off",
     },
     "--certify": {"metavar": "KIND", "help": "full (default), residual or off"},
     "--set": {
@@ -59,6 +64,7 @@ WORDS: Final[dict[str, Callable[[], Iterable[str]]]] = {
     "--backend": _backends,
     "--cone": lambda: [name.replace("-K", "-8") for name in CONES],
     "--certify": lambda: CERTIFY,
+    "--law": lambda: LAWS,
 }
 """What a shell completes an option by."""
 
@@ -124,6 +130,8 @@ def scenario_settings(options: argparse.Namespace) -> list[str]:
         settings.append("fast=true")
     if getattr(options, "cone", None) is not None:
         settings.append(f"cone={json_text(options.cone)}")
+    if getattr(options, "law", None) is not None:
+        settings.append(f"law={json_text(options.law)}")
     return settings
 
 

@@ -3,6 +3,7 @@
 import argparse
 import sys
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.trajectory import Trajectory, certified
 from quasistatic_ref.step.cones import cone
 
@@ -30,7 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     shared.completed(scenario, scenario_names, ".toml")
     shared.add(parser, "--out", default="results")
-    shared.add(parser, *shared.SOLVER, "--set", "--json")
+    shared.add(parser, *shared.SOLVER, "--law", "--set", "--json")
     shared.add_resume(parser)
     parser.add_argument(
         "--sweep",
@@ -90,7 +92,8 @@ def run(options: argparse.Namespace) -> int:
     try:
         trajectory: Trajectory = scenario.run(progress=not options.quiet, **saving)
     except RunFailed as error:
-        failure, trajectory = error, error.trajectory
+        failure = error
+        trajectory = error.trajectory
     if not saving:
         trajectory.save(path)
     if options.quiet:  # of progress; a finding is said all the same
@@ -109,6 +112,7 @@ def run(options: argparse.Namespace) -> int:
         "steps": trajectory.steps,
         "backend": scenario.backend,
         "fast": scenario.fast,
+        "law": scenario.law,
         "variables": scenario.system.n_v,
         "rows": int(cone(scenario.cone).counts(trajectory["rows"]).sum()),
         "certified": certified(trajectory),
@@ -124,8 +128,11 @@ def run(options: argparse.Namespace) -> int:
             for body, motion in free_body_motions(scenario.system, trajectory).items()
         },
         "milliseconds_per_step": milliseconds,
-        "findings": list(trajectory.header["findings"]),
+        "findings": [asdict(finding) for finding in trajectory.findings],
     }
+    if scenario.law == COULOMB:
+        summary["s_iterations"] = trajectory["s_iterations"].tolist()
+        summary["largest_s_residual"] = float(trajectory["s_residual"].max(initial=0.0))
     status = 1 if options.strict and any(f.grave for f in trajectory.findings) else 0
     if view is not None:
         summary["view"] = str(view)
@@ -139,6 +146,12 @@ def run(options: argparse.Namespace) -> int:
     print(
         f"{summary['certified']}; backend {scenario.backend}, {speed} path, worst residual {worst}"
     )
+    if scenario.law == COULOMB and trajectory.steps:
+        solved, off = trajectory["s_iterations"], summary["largest_s_residual"]
+        print(
+            f"Coulomb's law: {solved.mean():.1f} iterations a step, at most {solved.max()}; "
+            f"s is its own to within {off:.1e} m"
+        )
     if part("doctor.observer") is not None:
         print(_artifacts(trajectory.header))
     for line in _moved(summary["free_bodies"]):
@@ -151,7 +164,8 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _artifacts(header: Mapping[str, Any]) -> str:
-    drag, Pi = header["largest_drag_share"], header["quasi_dynamic_number"]
+    drag = header["largest_drag_share"]
+    Pi = header["quasi_dynamic_number"]
     share = "not defined" if drag is None else f"{drag:.2g} of what friction can bear"
     number = "not defined" if Pi is None else f"{Pi:.2g}"
     layer = 1e6 * header["largest_boundary_layer"]
@@ -163,7 +177,8 @@ def _artifacts(header: Mapping[str, Any]) -> str:
 
 def _moved(bodies: Mapping[str, Mapping[str, float]]) -> Iterator[str]:
     for body, motion in list(bodies.items())[:PRINTED]:
-        turned, rose = motion["largest_rotation_deg"], motion["largest_rise_mm"]
+        turned = motion["largest_rotation_deg"]
+        rose = motion["largest_rise_mm"]
         yield f"{body}: largest rotation {turned:.3g} deg, largest rise {rose:.3g} mm"
     if len(bodies) > PRINTED:
         yield f"{len(bodies) - PRINTED} more free bodies: see --json"

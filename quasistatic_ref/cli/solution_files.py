@@ -6,6 +6,7 @@ a backend. Files of version 1 are read too; their fields that nothing proves are
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, get_type_hints
@@ -17,9 +18,10 @@ from quasistatic_ref.errors import StepDataError, about_file
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import json_read, json_text
 from quasistatic_ref.step.cones import CLAIMS, PYRAMID, cone
+from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
-from quasistatic_ref.step.friction import rounded_wrenches
+from quasistatic_ref.step.friction import impulses, wrenches
 
 SOLUTION_FORMAT = "quasistatic-ref/solution"
 VERSION = 2
@@ -66,11 +68,14 @@ def solution_text(solution: StepSolution) -> str:
     Where a backend's own answer has an error bound, negative multipliers are written as 0.0,
     because the bound was computed with 0.0 in their place.
     """
-    step, certificate = solution.step, solution.certificate
-    lam, lam_extra = solution.lam, solution.lam_extra
+    step = solution.step
+    certificate = solution.certificate
+    lam = solution.lam
+    lam_extra = solution.lam_extra
     kind = certificate.kind
     if kind == "residual" and certificate.error_bound is not None:
-        lam, lam_extra = np.maximum(lam, 0.0), np.maximum(lam_extra, 0.0)
+        lam = np.maximum(lam, 0.0)
+        lam_extra = np.maximum(lam_extra, 0.0)
     record = _head(step, "optimal") | {
         "delta_q": solution.delta_q,
         "lam": [lam[a:b] for a, b in pairwise(step.offsets)],
@@ -184,3 +189,32 @@ def _claim(table: Fields, name: str, may_be_null: bool) -> Any:
         return tuple((j, i) for j, i in pairs)
     kind = get_type_hints(Certificate)[name]
     return table.boolean(name) if kind == bool | None else table.number(name)
+
+
+def rounded_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
+    """Contact wrenches, each number of them rounded once, as files have it.
+
+    Parameters
+    ----------
+    contacts, lam, h, name
+        As of :func:`~quasistatic_ref.step.friction.contact_wrenches`; lam is finite.
+
+    Returns
+    -------
+    ndarray, shape (n_c, 4)
+        (f_d1, f_d2, f_n, tau_n) [N, N m]: each the float64 nearest to the exact combination, which
+        ``contact_wrenches`` may miss by the rounding of its sums; infinite beyond float64's range.
+    """
+    kind = cone(name)
+    exact = np.frompyfunc(Fraction, 1, 1)
+    of_rows = impulses(contacts, lam, name)
+    mu = kind.in_rows(contacts.mu)
+    wrench = wrenches(exact(of_rows), exact(kind.matrix), exact(mu)) / Fraction(h)
+    return np.array([_nearest(x) for x in wrench.ravel()]).reshape(-1, 4) + 0.0
+
+
+def _nearest(x: Fraction) -> float:
+    try:
+        return float(x)
+    except OverflowError:
+        return float("inf") if x > 0 else float("-inf")

@@ -4,11 +4,11 @@ import argparse
 import sys
 from pathlib import Path
 
-from quasistatic_ref.certify.certificate import in_words
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.cli import options as shared
+from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.decimals import decimal_strings
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.errors import InputError, StepInfeasible

@@ -49,8 +49,10 @@ def time_step_words(record: dict[str, float | None]) -> str:
     record : dict of str to float
         Of :func:`time_step_record` [m/s, s, rad].
     """
-    speed, h = record["target_speed"], record["small_drag_from"]
-    turn, between = round(record["target_turn"] or 0.0, 4), record["between_waypoints"]
+    speed = record["target_speed"]
+    h = record["small_drag_from"]
+    turn = round(record["target_turn"] or 0.0, 4)
+    between = record["between_waypoints"]
     words = []
     if speed:
         words.append(f"targets move by up to {speed:.3g} m/s")
@@ -71,7 +73,8 @@ def _fastest(scenario: Scenario) -> tuple[float, float]:
         return 0.0, 0.0
     links = np.array([shape.link for shape in placed])
     origins = np.array([shape.t for shape in placed])
-    h, steps = scenario.h, scenario.steps
+    h = scenario.h
+    steps = scenario.steps
     waypoints = np.concatenate([track.times for track in tracks])
     after = np.floor(np.clip(waypoints, 0, steps * h) / h).astype(int)
     way = turn = 0.0

@@ -3,13 +3,13 @@
 import argparse
 from pathlib import Path
 
-from quasistatic_ref.certify.certificate import in_words, verify
+from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.verdict import wrong_bits
 from quasistatic_ref.cli import options as shared
-from quasistatic_ref.cli.solution_files import SolutionFile, solution_read
+from quasistatic_ref.cli.certificate_words import in_words
+from quasistatic_ref.cli.solution_files import SolutionFile, rounded_wrenches, solution_read
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import rounded_wrenches
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -45,7 +45,9 @@ def refutation(step: StepData, solution: SolutionFile) -> str | None:
     """
     if solution.farkas is not None:
         return farkas_refutation(step, solution.farkas)
-    certificate, delta_q, lam = solution.certificate, solution.delta_q, solution.lam
+    certificate = solution.certificate
+    delta_q = solution.delta_q
+    lam = solution.lam
     if certificate is None:
         return "the solution belongs to another step: step_sha256 differs"
     assert delta_q is not None

@@ -16,7 +16,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import closest, signed_distance
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
@@ -76,7 +75,8 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
         If a pair has no trustworthy normal, or a pose is not finite (given NaN, coal would
         answer with a distance of 0).
     """
-    R, t = kinematics.R, kinematics.t
+    R = kinematics.R
+    t = kinematics.t
     check_finite(R, t)
     return joined([pair_closest_points(pair, R, t) for pair in pairs])
 
@@ -90,7 +90,8 @@ def check_finite(R: Array, t: Array) -> None:
 def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
     """Several lists of contacts as one, in which zero is 0.0, never -0.0."""
     if not found:
-        empty, none = np.zeros((0, 3)), np.zeros(0, dtype=np.int64)
+        empty = np.zeros((0, 3))
+        none = np.zeros(0, dtype=np.int64)
         return ClosestPoints(np.zeros(0), empty, empty, empty, none, none)
     every = ClosestPoints(*map(np.concatenate, zip(*found, strict=True)))
     return every._replace(phi=every.phi + 0.0, n=every.n + 0.0)
@@ -113,6 +114,27 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     return joined([kept, *filling(pair, nearest, pair.n_c - len(order))])
 
 
+def closest(phi: Array, k: int) -> Indices:
+    """Indices of the k smallest signed distances in ascending order, ties broken by index.
+
+    Parameters
+    ----------
+    phi : ndarray, shape (N,)
+    k : int
+        All of them if k >= N.
+
+    Returns
+    -------
+    ndarray of int, shape (min(k, N),)
+    """
+    if k < len(phi):
+        # Only what can be among the k smallest is sorted; every tie stays in the running.
+        candidates = np.flatnonzero(~(phi > np.partition(phi, k - 1)[k - 1]))
+    else:
+        candidates = np.arange(len(phi))
+    return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
+
+
 def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
     """How many candidates of a pair are at most that much farther than its nearest one.
 
@@ -129,7 +151,8 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
     if pair.has_cloud:
         phi = pair_closest_points(whole, R, t).phi
     else:
-        a, b = in_world(pair.alpha, R, t), in_world(pair.beta, R, t)
+        a = in_world(pair.alpha, R, t)
+        b = in_world(pair.beta, R, t)
         every = every_candidate(whole, a, b, nearest_of_solids(whole, a, b))
         phi = every.phi[~late(every, 1)]  # without the closest pair, if a corner is as near
     return int(np.count_nonzero(phi <= phi.min() + within))
@@ -144,7 +167,8 @@ def filling(pair: ContactPair, nearest: ClosestPoints, count: int) -> list[Close
 def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:
     """The closest pair of two solids, numbered after the corners if several contacts are kept."""
     found, tie = pair_normal(pair.name, a, b)
-    phi, point = np.array([found.phi]), np.array([pair.corners if pair.n_c > 1 else 0])
+    phi = np.array([found.phi])
+    point = np.array([pair.corners if pair.n_c > 1 else 0])
     ends = found.alpha[None], found.beta[None]
     return ClosestPoints(phi, *ends, found.n[None], point, np.array([tie]))
 
@@ -226,7 +250,7 @@ def _cloud_on_solid(
     """The k closest points of a cloud on a solid."""
     relative = relative_pose(solid, cloud)
     x = rotated(relative[:, :3], points) + relative[:, 3]
-    return cloud_contacts(pair, solid, cloud, relative, x, *signed_distance(solid.shape, x))
+    return cloud_contacts(pair, solid, cloud, relative, x, *solid.shape.signed_distance(x))
 
 
 def cloud_contacts(
@@ -291,6 +315,7 @@ def _contacts(
 
 def in_world(shape: PlacedShape, R: Array, t: Array) -> ShapeInWorld:
     """A shape where its link is; R (L, 3, 3) and t (L, 3) [m] are the links'."""
-    R_link, t_link = R[shape.link], t[shape.link]
+    R_link = R[shape.link]
+    t_link = t[shape.link]
     world = product(R_link, np.column_stack([shape.R, shape.t]))
     return ShapeInWorld(shape.shape, world[:, :3], world[:, 3] + t_link)

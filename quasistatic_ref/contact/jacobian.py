@@ -95,7 +95,9 @@ def columns_at(columns: Array, r: Array, n: Array) -> Array:
     ndarray, shape (..., 4, n_x)
         Rows 0-2: nu_origin + omega x r [m]; row 3: n'omega [rad].
     """
-    nu_origin, omega, at = columns[:3], columns[3:], r[..., None]
+    nu_origin = columns[:3]
+    omega = columns[3:]
+    at = r[..., None]
     found = np.empty((*r.shape[:-1], 4, columns.shape[1]))
     found[..., :3, :] = nu_origin + (omega[YZX] * at[..., ZXY, :] - omega[ZXY] * at[..., YZX, :])
     found[..., 3, :] = product(n, omega)

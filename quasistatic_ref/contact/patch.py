@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.separations import (
     BISECTOR,
     OF_CLOUD,
@@ -68,7 +67,8 @@ def faces_apart(heights: Array, normals: Array, within: float) -> tuple[Indices,
     highest : ndarray of int, shape (N,)
     rivals : ndarray of bool, shape (N, F)
     """
-    every, highest = np.arange(len(heights)), heights.argmax(axis=1)
+    every = np.arange(len(heights))
+    highest = heights.argmax(axis=1)
     level = heights >= (heights[every, highest] - within)[:, None]
     away = np.abs(normals - normals[every, highest][:, None]).max(axis=2)
     return highest, level & (away > SAME_NORMAL)
@@ -88,14 +88,16 @@ def corner_surface(solid: ShapeInWorld, x: Array, n: Array, within: float) -> Su
         What is rounding [m].
     """
     shape = solid.shape
-    phi, normal = signed_distance(shape, x)
+    phi, normal = shape.signed_distance(x)
     tie = np.full(len(x), OWN)
     if isinstance(shape, HalfSpace):
         return Surface(phi, normal, tie)
     # Another corner is outside, and nearest to a face that faces n: nothing else to choose.
     near = OVER_FACE * shape.extent + within
     open_ = np.flatnonzero((phi <= near) | (dot(normal, n) < TURNED))
-    phi, own, normal = phi.copy(), normal, normal.copy()
+    phi = phi.copy()
+    own = normal
+    normal = normal.copy()
     block = max(1, CHUNK // max(1, shape.faces(x[:1])[0].size))
     for start in range(0, len(open_), block):
         some = open_[start : start + block]
@@ -118,7 +120,8 @@ def _facing(
     heights = np.where(dot(normals, n) >= TURNED, heights, -np.inf)
     face, rivals = faces_apart(heights, normals, within)
     chosen = np.arange(len(x)), face
-    height, own = heights[chosen], normals[chosen]
+    height = heights[chosen]
+    own = normals[chosen]
     over = _over(shape, x, height, own, OVER_FACE * shape.extent + within) & ~rivals.any(axis=1)
     return over, np.where(over, height, phi), np.where(over[:, None], own, normal)
 
@@ -162,7 +165,8 @@ def cloud_surface(
     ContactError
         If the cloud is as deep along two of the normals that a point has.
     """
-    tie, within = np.full(len(x), OWN), rounding(solid, cloud)
+    tie = np.full(len(x), OWN)
+    within = rounding(solid, cloud)
     near = np.flatnonzero(phi <= within)
     heights, normals = solid.shape.faces(x[near])
     if not heights.size:

@@ -8,8 +8,8 @@ import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
-from quasistatic_ref.contact.solids.ways_out import gaps, sharp_directions
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import Capsule, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import dot, norm, product, total
@@ -76,16 +76,18 @@ def tied_normals(
     every : (ndarray, ndarray), optional
         Of two polytopes, all gaps (N,) [m] and normals (N, 3) [-].
     """
-    shapes, own = (a.shape, b.shape), found.n[None]
+    shapes = (a.shape, b.shape)
+    own = found.n[None]
     if found.phi > within or any(isinstance(shape, HalfSpace) for shape in shapes):
         return own
     if any(isinstance(shape, Sphere) for shape in shapes):
         out, ways = _of_centre(a, b, found)
     elif all(isinstance(shape, Capsule) for shape in shapes):
         radii = sum(shape.radius for shape in shapes if isinstance(shape, Capsule))
-        out, ways = np.array([-found.phi - 2 * radii]), -own
+        out = np.array([-found.phi - 2 * radii])
+        ways = -own
     else:
-        out, ways = _of_solids(a, b, found) if every is None else every
+        out, ways = _of_curved(a, b, found) if every is None else every
     tied = distinct([*ways[out >= found.phi - within]])
     if len(tied) > 1:
         return tied
@@ -100,14 +102,17 @@ def _of_centre(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array,
     return heights[0] - ball.shape.radius, sign * product(normals[0], solid.R.T)
 
 
-def _of_solids(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array, Array]:
-    """Along the normals of the faces at the closest points, and along the axes."""
-    ways = [sharp_directions(a), -sharp_directions(b)]
-    for solid, end, sign in ((a, found.alpha, 1.0), (b, found.beta, -1.0)):
-        _, normals = solid.shape.faces(product(end - solid.t, solid.R)[None])
-        ways.append(sign * product(normals[0], solid.R.T))
-    every = np.concatenate(ways)
-    return gaps(a._replace(t=a.t - b.t), b._replace(t=0 * b.t), every), every
+def _of_curved(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array, Array]:
+    """Of two solids that are not polytopes: gaps along what may be normals, and these."""
+    known: tuple[Array, Array] = needed_part("curved.ways_out", "a curved solid").known_gaps(
+        a, b, found
+    )
+    return known
+
+
+def gaps(a: ShapeInWorld, b: ShapeInWorld, directions: Array) -> Array:
+    """Gap from a to b along unit vectors (N, 3) of the world frame, shape (N,) [m]."""
+    return -b.reach(-directions) - a.reach(directions)
 
 
 def distinct(ways: list[Array]) -> Array:

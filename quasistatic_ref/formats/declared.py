@@ -84,14 +84,3 @@ class Tables(dict[str, dict[str, Field]]):
             If it is missing and has no default, or is not of its kind.
         """
         return self[kind][name].read(table, name, default)
-
-    def all_values(self, table: Fields, kind: str) -> dict[str, Any]:
-        """Every field of a table of some kind, by name.
-
-        Raises
-        ------
-        InputError
-            If the table has any other, or :meth:`value` refuses one.
-        """
-        table.only(self[kind])
-        return {name: self.value(table, kind, name) for name in self[kind]}

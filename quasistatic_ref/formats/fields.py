@@ -30,7 +30,8 @@ class Fields:
     """
 
     def __init__(self, table: Any, where: str = "", error: type[InputError] = InputError) -> None:
-        self.where, self.error = where, error
+        self.where = where
+        self.error = error
         if not isinstance(table, dict):
             raise error("must be a table of named fields", field=where or None, value=table)
         self._left: dict[str, Any] = dict(table)

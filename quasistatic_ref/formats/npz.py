@@ -82,15 +82,11 @@ def npz_record(path: str | Path, what: str) -> tuple[Any, dict[str, NDArray[Any]
         If the file cannot be read, or has no such header.
     """
     arrays = npz_arrays(path, what)
-    return _header(path, what, arrays.pop("header", None)), arrays
+    return header_of(path, what, arrays.pop("header", None)), arrays
 
 
-def npz_header(path: str | Path, what: str) -> Any:
-    """The header alone, as :func:`npz_record` reads it."""
-    return _header(path, what, npz_arrays(path, what, only="header").get("header"))
-
-
-def _header(path: str | Path, what: str, header: NDArray[Any] | None) -> Any:
+def header_of(path: str | Path, what: str, header: NDArray[Any] | None) -> Any:
+    """What the array `header` of a file holds, shape (bytes,) [-]; InputError if it is not JSON."""
     with about_file(path):
         if header is None or header.dtype != np.uint8:
             raise InputError(f"is not {what}: it has no header")

@@ -9,31 +9,11 @@ from quasistatic_ref.formats.quoting import suggestion
 
 def models_folder() -> Path:
     """The folder of the models that come with the package."""
-    return _folder("models", "models")
+    return data_folder("models", "models")
 
 
-def vectors_folder() -> Path:
-    """The folder of the reference vectors that come with the package."""
-    return _folder("validation/vectors", "lab/vectors/data")
-
-
-def reality_folder() -> Path:
-    """The folder of measured pushes that come with the package."""
-    return _folder("validation/reality", "lab/reality/data")
-
-
-def problem_set_folder() -> Path:
-    """The folder of the set of quadratic programs that comes with the package."""
-    return _folder("validation/contact_qp_1", "lab/study/problems/data")
-
-
-def clouds_file() -> Path:
-    """The rows of the study of clouds that come with the package."""
-    return _folder("validation/results", "lab/clouds/data") / "clouds.jsonl"
-
-
-def _folder(next_to: str, inside: str) -> Path:
-    """Return a folder by its place in a checkout, or by that in the wheel."""
+def data_folder(next_to: str, inside: str) -> Path:
+    """A folder of data by its place in a checkout, or by that in the wheel."""
     package = Path(__file__).parents[1]
     root = package.parent
     in_checkout = (root / "pyproject.toml").is_file() and (root / next_to).is_dir()

@@ -22,7 +22,8 @@ def cos_sin(angle: float) -> tuple[float, float]:
     while precision <= MOST:
         with ctx.workprec(precision):
             sine, cosine = arb(angle).sin_cos()
-            s, c = float(sine.lower()), float(cosine.lower())
+            s = float(sine.lower())
+            c = float(cosine.lower())
             if s == float(sine.upper()) and c == float(cosine.upper()):
                 return c, s
         precision *= 4

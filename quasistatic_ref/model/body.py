@@ -86,6 +86,7 @@ class Body(Plain):
                 freeze_array(self, key, (3,))
         if self.base == "planar" and np.any(np.asarray(self.rpy)[:2]):
             problem = "must be [0, 0, yaw]: a planar base stays upright"
+            problem += '; tilt it in its URDF, or take base = "floating"'
             raise ModelError(problem, field=f"{self.name}.rpy", value=np.asarray(self.rpy).tolist())
         positions = {
             joint: finite(value, f"{self.name}.positions.{joint}")

@@ -18,26 +18,6 @@ W_FIRST = [1.0, 0.0, 0.0, 0.0]
 """The quaternion of no turn where w comes first, as in MuJoCo and Drake."""
 
 
-def normalised(joints: Sequence[Joint], q: Array) -> Array:
-    """Copy of q, shape (n_q,), its quaternions of length one, however long they were.
-
-    Those that are of length one but for rounding keep their bits, and those of length zero stay.
-
-    Parameters
-    ----------
-    joints : sequence of Joint
-    q : ndarray, shape (n_q,)
-    """
-    found = q + 0.0
-    for joint in joints:
-        if joint.kind in UNIT_PART:
-            unit = found[joint.q][UNIT_PART[joint.kind] :]
-            size = length(unit)
-            if size > 0 and abs(size - 1) > UNIT_ROUNDING:
-                unit /= size
-    return found
-
-
 def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
     """Copy of q, finite, of shape (n_q,), its quaternions of length one.
 

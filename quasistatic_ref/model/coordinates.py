@@ -181,7 +181,8 @@ def paper_order(joints: Sequence[Joint]) -> Order:
     entries_q: list[int] = []
     entries_v: list[int] = []
     for joint in sorted(joints, key=lambda joint: (not joint.actuated, joint.v.start)):
-        q, v = range(joint.q.start, joint.q.stop), range(joint.v.start, joint.v.stop)
+        q = range(joint.q.start, joint.q.stop)
+        v = range(joint.v.start, joint.v.stop)
         own_q = slice(len(entries_q), len(entries_q) + len(q))
         own_v = slice(len(entries_v), len(entries_v) + len(v))
         ordered.append(replace(joint, q=own_q, v=own_v))

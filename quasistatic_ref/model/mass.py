@@ -51,11 +51,13 @@ class MassMatrix:
         known: Array,
         constant: Mask,
     ) -> None:
-        self.n_u, self.known = motion.n_v - n_a, read_only(known)
+        self.n_u = motion.n_v - n_a
+        self.known = read_only(known)
         free = (motion.owner >= n_a) & ~constant[motion.owner]
         # Each link once for each column that moves it.
         self.link, self.column = np.nonzero((motion.moves[:, 0] > 0) & free)
-        self.centre, self.inertia = centres[self.link], inertias[self.link]
+        self.centre = centres[self.link]
+        self.inertia = inertias[self.link]
         owner = motion.owner[self.column] - n_a
         # Two columns of a link at a time, for the entries on the diagonal and above it. A joint and
         # its mimic have one coordinate: both orders of their columns count in the same entry.
@@ -63,7 +65,8 @@ class MassMatrix:
         i = np.concatenate([np.repeat(own, len(own)) for own in of_links])
         j = np.concatenate([np.tile(own, len(own)) for own in of_links])
         once = owner[i] <= owner[j]
-        self.i, self.j = i[once], j[once]
+        self.i = i[once]
+        self.j = j[once]
         self.mass = masses[self.link[self.i]]
         self.entry = owner[self.i] * self.n_u + owner[self.j]
         # Where each entry of M is computed: above the diagonal.
@@ -74,7 +77,8 @@ class MassMatrix:
         """M_u, shape (n_u, n_u) [kg, kg m, kg m^2], exactly symmetric and read-only."""
         if not len(self.link):
             return self.known
-        R, t = kinematics.R[self.link], kinematics.t[self.link]
+        R = kinematics.R[self.link]
+        t = kinematics.t[self.link]
         column = kinematics.columns.T[self.column]
         omega = column[:, 3:]
         nu = column[:, :3] + crossed(omega, rotated(R, self.centre) + t)
@@ -105,7 +109,8 @@ def mass_matrix(
     """
     motion = at.motion
     assert motion is not None
-    n_u, constant = motion.n_v - n_a, np.zeros(motion.n_v, dtype=bool)
+    n_u = motion.n_v - n_a
+    constant = np.zeros(motion.n_v, dtype=bool)
     whole = MassMatrix(motion, n_a, *inertias, np.zeros((n_u, n_u)), constant).at(at)
     known = np.zeros((n_u, n_u))
     for joint in free:

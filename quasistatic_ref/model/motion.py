@@ -41,7 +41,9 @@ class Motion:
         owner = np.zeros(model.nvExtended, dtype=np.int64)
         for at, v in zip(columns, model.idx_vs, strict=True):
             owner[at] = v + np.arange(at.stop - at.start)
-        self.order, self.owner, self.n_v = order, order.v_back[owner], int(model.nv)
+        self.order = order
+        self.owner = order.v_back[owner]
+        self.n_v = int(model.nv)
         self.mimics = model.nvExtended > model.nv
         # A mimic joint comes after the one that it mimics.
         self.own = np.unique(self.owner, return_index=True)[1]

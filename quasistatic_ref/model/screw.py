@@ -29,11 +29,13 @@ def moved(joint: Joint, q: list[float], delta_q: list[float]) -> list[float]:
     q : list of n_q floats
     delta_q : list of n_v floats
     """
-    here, own = q[joint.q], delta_q[joint.v]
+    here = q[joint.q]
+    own = delta_q[joint.v]
     if joint.kind == "continuous":
         return _heading(here, own[0])
     if joint.kind == "planar":
-        v, w = [own[0], own[1], 0.0], [0.0, 0.0, own[2]]
+        v = [own[0], own[1], 0.0]
+        w = [0.0, 0.0, own[2]]
         return [*_carried(joint, here, v, w)[:2], *_heading(here[2:], own[2])]
     return [*_carried(joint, here, own[:3], own[3:]), *_quaternion(here[3:], own[3:])]
 
@@ -46,7 +48,8 @@ def change(joint: Joint, q: list[float], q_next: list[float]) -> list[float]:
     joint : Joint
     q, q_next : list of n_q floats
     """
-    here, there = q[joint.q], q_next[joint.q]
+    here = q[joint.q]
+    there = q_next[joint.q]
     if joint.kind == "continuous":
         return [_turn(here, there)]
     planar = joint.kind == "planar"
@@ -154,7 +157,8 @@ def _rotation_between(here: Vector, there: Vector) -> tuple[list[float], float, 
         s * r - z * k - x * q + y * p,
     ]
     w = s * k + x * p + y * q + z * r
-    S, C = length(v), abs(w)
+    S = length(v)
+    C = abs(w)
     b = angle_of(S, C)
     ratio = b / S if S else 1.0
     scale = 2 * ratio if w >= 0 else -2 * ratio
@@ -166,8 +170,10 @@ def _heading(here: Vector, angle: float) -> list[float]:
     if angle == 0:
         return [*here]
     (c, s), (C, S) = here, cos_sin(angle / 2)
-    cosine, sine = 1 - 2 * (S * S), 2 * (S * C)
-    x, y = c * cosine - s * sine, s * cosine + c * sine
+    cosine = 1 - 2 * (S * S)
+    sine = 2 * (S * C)
+    x = c * cosine - s * sine
+    y = s * cosine + c * sine
     shorter = (3 - (x * x + y * y)) / 2
     return [shorter * x, shorter * y]
 

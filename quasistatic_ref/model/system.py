@@ -116,18 +116,25 @@ class System(Shown):
         return hash(self.bodies)
 
     def _make(self, world: World) -> None:
-        self.bodies, self._world = world.bodies, world
+        self.bodies = world.bodies
+        self._world = world
         self._model = world.models[0]
         self._workspace = Workspace(*world.models)
         self.lock = RLock()
         self._latest: tuple[bytes, Kinematics] | None = None
-        self._order, self._frames = paper_order(world.joints), world.frames
+        self._order = paper_order(world.joints)
+        self._frames = world.frames
         self._roots = world.roots
         self._M_u: Array | None = None  # if M_u is constant: kept once it has been read
-        self.links, self.shapes, self.mimics = world.links, world.shapes, world.mimics
+        self.links = world.links
+        self.shapes = world.shapes
+        self.mimics = world.mimics
         self.texts = world.texts
-        self.masses, self.ignored, self.notes = world.masses, world.ignored, world.notes
-        self.centres, self.inertias = world.centres, world.inertias
+        self.masses = world.masses
+        self.ignored = world.ignored
+        self.notes = world.notes
+        self.centres = world.centres
+        self.inertias = world.inertias
         for array in (self.masses, self.centres, self.inertias):
             array.setflags(write=False)
         self.joints: tuple[Joint, ...] = self._order.joints
@@ -138,7 +145,8 @@ class System(Shown):
         self.coordinates: tuple[Coordinate, ...] = tuple(
             coordinate for joint in self.joints for coordinate in joint.coordinates
         )
-        self.n_q, self.n_v = int(self._model.nq), len(self.coordinates)
+        self.n_q = int(self._model.nq)
+        self.n_v = len(self.coordinates)
         self.n_a = sum(coordinate.actuated for coordinate in self.coordinates)
         self.n_u = self.n_v - self.n_a
         self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.joints if joint.actuated)
@@ -148,10 +156,8 @@ class System(Shown):
         self.constant_mass_matrix = constant_mass(self._model, free)
         self._mass: MassMatrix | None = None  # if M_u is constant
         if not self.constant_mass_matrix:
-            inertias, at = (
-                (self.masses, self.centres, self.inertias),
-                self.kinematics(self.neutral()),
-            )
+            inertias = (self.masses, self.centres, self.inertias)
+            at = self.kinematics(self.neutral())
             self._mass = mass_matrix(self._model, free, at, self.n_a, inertias)
             free = []
         self.mass_blocks = read_only(rigid_masses(self._model, free))
@@ -193,7 +199,9 @@ class System(Shown):
         """Configuration q (+) delta_q, shape (n_q,)."""
         q = of_shape(q, "q", (self.n_q,))
         delta_q = of_shape(delta_q, "delta_q", (self.n_v,))
-        q_next, here, change = q.copy(), q.tolist(), delta_q.tolist()
+        q_next = q.copy()
+        here = q.tolist()
+        change = delta_q.tolist()
         q_next[self._scalars_q] += delta_q[self._scalars_v]
         for joint in self._turning:
             q_next[joint.q] = screw.moved(joint, here, change)
@@ -206,7 +214,9 @@ class System(Shown):
     def _change(self, q: Array, q_next: Array, n: int) -> Array:
         """The first n entries of q_next (-) q, which are those of whole joints."""
         q, q_next = (of_shape(x, "q", (self.n_q,)) for x in (q, q_next))
-        delta_q, here, there = np.zeros(self.n_v), q.tolist(), q_next.tolist()
+        delta_q = np.zeros(self.n_v)
+        here = q.tolist()
+        there = q_next.tolist()
         delta_q[self._scalars_v] = q_next[self._scalars_q] - q[self._scalars_q]
         for joint in self._turning:
             if joint.v.stop <= n:

@@ -71,7 +71,8 @@ class Workspace:
             model = model.copy()  # its gravity is this workspace's own
             data = pin.Data(model)
             placements = [data.oMf[link] for link in links]
-            R, t = [p.rotation for p in placements], [p.translation for p in placements]
+            R = [p.rotation for p in placements]
+            t = [p.translation for p in placements]
             self.parts.append(Part(model, data, R, t, *_entries(whole, model, before)))
             before += model.njoints - 1
         self._turns = any(part.turns for part in self.parts)
@@ -100,7 +101,9 @@ class Workspace:
         Columns are as in :class:`~quasistatic_ref.model.kinematics.Kinematics`; all are read-only.
         """
         self.move(q)
-        R, t, columns = [WORLD], [ORIGIN], []
+        R = [WORLD]
+        t = [ORIGIN]
+        columns = []
         for part in self.parts:
             R += part.R
             t += part.t
@@ -129,9 +132,11 @@ class Workspace:
 
 def _entries(whole: Any, model: Any, before: int) -> tuple[slice | Indices, list[int]]:
     """Fields `of` and `turns` of a part, whose joints are in the whole after `before` others."""
-    of, turns = np.zeros(model.nq, dtype=np.int64), []
+    of = np.zeros(model.nq, dtype=np.int64)
+    turns = []
     for joint in range(1, model.njoints):
-        start, size = model.idx_qs[joint], model.nqs[joint]
+        start = model.idx_qs[joint]
+        size = model.nqs[joint]
         there = whole.idx_qs[joint + before] + np.arange(size)
         if size > whole.nqs[joint + before]:
             turns.append(start)

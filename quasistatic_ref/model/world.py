@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -86,14 +87,22 @@ class World(Plain):
         The groups have cosine and sine in place of angles, as
         :func:`~quasistatic_ref.model.urdf.urdf.with_turns` says.
         """
-        texts = self.texts, map(with_turns, self.texts)
-        one, other = (
-            [urdf_model(text, b.base) for b, text in zip(self.bodies, some, strict=True)]
-            for some in texts
-        )
-        whole, _, _ = _joined(self.bodies, one, self.links)
-        _, groups, frames = _joined(self.bodies, other, self.links)
-        return whole, groups, frames
+        whole = [urdf_model(text, b.base) for b, text in zip(self.bodies, self.texts, strict=True)]
+        turning = [
+            urdf_model(with_turns(text), b.base)
+            for b, text in zip(self.bodies, self.texts, strict=True)
+        ]
+        own: dict[str, list[str]] = {}
+        for link in self.links:
+            own.setdefault(link.partition("/")[0], []).append(link)
+        groups = []
+        frames = []
+        for some in _groups(turning):
+            bodies = self.bodies[some]
+            groups.append(_joined(bodies, turning[some]))
+            links = [link for body in bodies for link in own[body.name]]
+            frames.append([body_frame(groups[-1], link) for link in links])
+        return _joined(self.bodies, whole), groups, frames
 
 
 def world_of(bodies: Sequence[Body]) -> World:
@@ -114,8 +123,12 @@ def world_of(bodies: Sequence[Body]) -> World:
         )
         _check_joint_names(body, urdf)
         urdfs[body.name] = urdf
-    links, masses, roots, shapes = ["world"], [0.0], {}, []
-    centres, inertias = [np.zeros(3)], [np.zeros((3, 3))]
+    links = ["world"]
+    masses = [0.0]
+    roots = {}
+    shapes = []
+    centres = [np.zeros(3)]
+    inertias = [np.zeros((3, 3))]
     for name, urdf in urdfs.items():
         first = roots[name] = len(links)
         links += [f"{name}/{link}" for link in urdf.links]
@@ -124,8 +137,9 @@ def world_of(bodies: Sequence[Body]) -> World:
         inertias += [urdf.file.links[link].inertia for link in urdf.links]
         for shape in urdf.shapes:
             shapes.append(replace(shape, name=f"{name}/{shape.name}", link=first + shape.link))
-    model, _, _ = _joined(bodies, [urdf.model for urdf in urdfs.values()], links)
-    joints, start = [], pin.neutral(model)
+    model = _joined(bodies, [urdf.model for urdf in urdfs.values()])
+    joints = []
+    start = pin.neutral(model)
     for body in bodies:
         for joint, position in _joints(body, urdfs[body.name], model):
             joints.append(joint)
@@ -148,23 +162,30 @@ def world_of(bodies: Sequence[Body]) -> World:
     )
 
 
-def _joined(
-    bodies: Sequence[Body], models: Sequence[Any], links: Sequence[str]
-) -> tuple[Any, list[Any], list[list[int]]]:
-    """All bodies in one model; the same in parts; and the frames of the links of each part."""
-    model, parts, names = pin.Model(), [pin.Model()], [list[str]()]
+def _joined(bodies: Sequence[Body], models: Sequence[Any]) -> Any:
+    """All bodies in one model, by halves: to append a body takes time in proportion to the rest."""
+    if len(bodies) > 1:
+        half = len(bodies) // 2
+        first, rest = (
+            _joined(bodies[some], models[some]) for some in (slice(half), slice(half, None))
+        )
+        return pin.appendModel(first, rest, 0, pin.SE3.Identity())
+    model = pin.Model()
     for body, own in zip(bodies, models, strict=True):
-        prefixed, anchor = _prefixed(own, body.name), _anchor(body)
-        if parts[-1].nv and parts[-1].nv + prefixed.nv > PART:
-            parts.append(pin.Model())
-            names.append([])
-        names[-1] += [link for link in links if link.startswith(f"{body.name}/")]
-        parts[-1] = pin.appendModel(parts[-1], prefixed, 0, anchor)
-        model = pin.appendModel(model, prefixed, 0, anchor)
-    frames = [
-        [body_frame(part, link) for link in some] for part, some in zip(parts, names, strict=True)
-    ]
-    return model, parts, frames
+        model = pin.appendModel(model, _prefixed(own, body.name), 0, _anchor(body))
+    return model
+
+
+def _groups(models: Sequence[Any]) -> list[slice]:
+    """Models that follow one another, with PART coordinates at most, or one that has more."""
+    starts = [0]
+    size = 0
+    for i, model in enumerate(models):
+        if size and size + model.nv > PART:
+            starts.append(i)
+            size = 0
+        size += model.nv
+    return [slice(a, b) for a, b in pairwise([*starts, len(models)])]
 
 
 def _prefixed(model: Any, name: str) -> Any:
@@ -239,10 +260,8 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
         else:
             start = np.array([position])
         actuated = body.actuated == "all" or name in body.actuated
-        q, v = (
-            slice(joint.idx_q, joint.idx_q + joint.nq),
-            slice(joint.idx_v, joint.idx_v + joint.nv),
-        )
+        q = slice(joint.idx_q, joint.idx_q + joint.nq)
+        v = slice(joint.idx_v, joint.idx_v + joint.nv)
         limits = _limits(model, joint) if kind in ("revolute", "prismatic") else None
         found.append((Joint(f"{body.name}/{name}", kind, actuated, q, v, limits), start))
     return found

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.errors import ModelError, ScenarioError
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
@@ -19,8 +19,6 @@ from quasistatic_ref.scenario.checks import check_names
 from quasistatic_ref.scenario.paths import path_in, shared_folders
 from quasistatic_ref.scenario.scenario_table import (
     BODY,
-    SUPPORT,
-    URDF,
     WAYPOINT,
     WRENCH,
     pose,
@@ -78,8 +76,8 @@ class BodyEntry(Plain):
     wrenches : Wrenches or None
     joint_friction : object
         As parsed: a table of joints, or ``"urdf"``.
-    support : tuple of float, optional
-        mu_v [-] and mu_omega [m] of a planar base on its floor.
+    support : Fields or None
+        The table of that name.
     """
 
     body: Body
@@ -90,7 +88,12 @@ class BodyEntry(Plain):
     gravity_compensated: bool
     wrenches: Wrenches | None
     joint_friction: Any
-    support: tuple[float, float] | None
+    support: Fields | None = field(compare=False)
+
+    @property
+    def rubs(self) -> bool:
+        """Whether it has friction other than that of contacts."""
+        return self.joint_friction is not None or self.support is not None
 
     def actuated(self, system: System) -> list[Joint]:
         """The actuated joints of this body, in the order of q."""
@@ -105,10 +108,13 @@ class BodyEntry(Plain):
 def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
     check_names(table, BODY)
-    urdf = path_in(folder, table, "urdf")
-    if urdf is None:
+    urdf, mjcf = path_in(folder, table, "urdf"), path_in(folder, table, "mjcf")
+    if urdf is None and mjcf is None:
         raise table.fail("urdf", "is missing")
-    base, actuated = value(table, BODY, "base"), value(table, BODY, "actuated")
+    if urdf is not None and mjcf is not None:
+        raise table.fail("mjcf", "takes the place of urdf; give one of them")
+    base = value(table, BODY, "base")
+    actuated = value(table, BODY, "actuated")
     if actuated != "all":
         if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
             raise table.fail("actuated", 'must be a list of joint names, or "all"', actuated)
@@ -120,8 +126,22 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     moved = "gravity_compensated" in table
     if moved and not actuated:
         raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
+    robot: str | Path
+    if urdf is not None:
+        robot = urdf
+        folders += shared_folders(urdf)
+    else:
+        assert mjcf is not None
+        robot = needed_part("mjcf.mjcf", "mjcf").mjcf_urdf(mjcf, base)
+        folders.append(mjcf.parent)
+    try:
+        body = Body(name, robot, base, actuated, xyz, rpy, start, folders)
+    except ModelError as error:
+        if error.field == f"{name}.rpy":
+            error.field = table.name("pose.rpy")
+        raise
     entry = BodyEntry(
-        body=Body(name, urdf, base, actuated, xyz, rpy, start, folders + shared_folders(urdf)),
+        body=body,
         table=table,
         K_q=value(table, BODY, "K_q"),
         targets=value(table, BODY, "targets"),
@@ -129,10 +149,8 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
         gravity_compensated=value(table, BODY, "gravity_compensated"),
         wrenches=_wrenches(name, table),
         joint_friction=value(table, BODY, "joint_friction"),
-        support=_support(table) if "support" in table else None,
+        support=table.table("support") if "support" in table else None,
     )
-    if entry.support is not None and base != "planar":
-        raise table.fail("support", 'is for a body with base = "planar"')
     if entry.wrenches is not None and base == "fixed":
         raise table.fail("wrenches", 'do nothing to a body with base = "fixed"')
     return entry
@@ -148,7 +166,8 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
     ScenarioError
         If a joint is left out, unknown, or its stiffness has the wrong shape.
     """
-    joints, table = entry.actuated(system), entry.table
+    joints = entry.actuated(system)
+    table = entry.table
     if entry.K_q is None and joints:
         raise table.fail("K_q", f"is missing for {', '.join(entry.short(j) for j in joints)}")
     if isinstance(entry.K_q, list):
@@ -164,35 +183,6 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
         block = _joint_stiffness(given, entry.short(joint), joint)
         positive_definite(given.name(entry.short(joint)), block)
         K_q[joint.v, joint.v] = block
-
-
-def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:
-    """Friction of a body's coordinates, by their names [N, N m].
-
-    Raises
-    ------
-    ScenarioError
-        If a joint is unknown or a floating base, or a friction is no number >= 0.
-    """
-    if entry.joint_friction == URDF:
-        rises = needed_part("extensions.rises", "joint_friction")
-        return dict(rises.urdf_friction(system, entry.body.name))
-    table = {} if entry.joint_friction is None else entry.joint_friction
-    given = Fields(table, entry.table.name("joint_friction"), ScenarioError)
-    own = [joint for joint in system.joints if joint.name.startswith(f"{entry.body.name}/")]
-    rubbed = [joint for joint in own if joint.kind != "floating"]
-    given.only(entry.short(joint) for joint in rubbed)
-    found: dict[str, float] = {}
-    for joint in rubbed:
-        name, coordinates = entry.short(joint), joint.coordinates
-        if name not in given:
-            continue
-        one = len(coordinates) == 1
-        loads = [given.number(name)] if one else given.array(name, (len(coordinates),)).tolist()
-        if min(loads) < 0:
-            raise given.fail(name, "must be at least 0", loads)
-        found |= {c.name: load for c, load in zip(coordinates, loads, strict=True)}
-    return found
 
 
 def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
@@ -282,15 +272,9 @@ def _planar(waypoint: Fields, name: str, body: Body) -> tuple[Array, Array]:
     return xyz, rpy
 
 
-def _support(table: Fields) -> tuple[float, float]:
-    """mu_v [-] and mu_omega [m] of a planar base on its floor."""
-    rubs = table.table("support")
-    check_names(rubs, SUPPORT)
-    return value(rubs, SUPPORT, "mu_v"), value(rubs, SUPPORT, "mu_omega")
-
-
 def _wrenches(name: str, table: Fields) -> Wrenches | None:
-    times, values = [], []
+    times = []
+    values = []
     for i, record in enumerate(value(table, BODY, "wrenches")):
         one = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
         check_names(one, WRENCH)

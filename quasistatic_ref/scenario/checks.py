@@ -111,9 +111,12 @@ def check_motion(system: System, pairs: Sequence[ContactPair]) -> None:
         raise ScenarioError(problem, field="bodies")
     kinematics = system.kinematics(system.q_start)
     for pair in pairs:
-        a, b = pair.alpha.link, pair.beta.link
-        nu_a, omega_a = kinematics.J[a, :3], kinematics.J[a, 3:]
-        nu_b, omega_b = kinematics.J[b, :3], kinematics.J[b, 3:]
+        a = pair.alpha.link
+        b = pair.beta.link
+        nu_a = kinematics.J[a, :3]
+        omega_a = kinematics.J[a, 3:]
+        nu_b = kinematics.J[b, :3]
+        omega_b = kinematics.J[b, 3:]
         arm = kinematics.t[b] - kinematics.t[a]
         # Velocities of alpha's link, extended to the origin of beta's.
         nu_at_b = nu_a + np.cross(omega_a, arm, axis=0)

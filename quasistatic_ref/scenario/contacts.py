@@ -79,7 +79,8 @@ def world_shape(name: str, table: Fields, folder: Path) -> PlacedShape:
     kinds = [kind for kind in table.names() if kind in SOLIDS]
     if len(kinds) != 1:
         raise table.fail("shape", f"must be exactly one of {', '.join(SOLIDS)}", table.names())
-    kind, sizes = SOLIDS[kinds[0]], table.table(kinds[0])
+    kind = SOLIDS[kinds[0]]
+    sizes = table.table(kinds[0])
     given = {name: field.read(sizes, name) for name, field in kind.fields.items()}
     try:
         shape = kind.made(folder, sizes.where, **given)
@@ -101,12 +102,14 @@ def contact_pairs(tables: Fields, shapes: Shapes, start: Kinematics) -> tuple[Co
         table = tables.table(name)
         check_names(table, CONTACT)
         sides = [_side(table, key, shapes) for key in ("alpha", "beta")]
-        rows, mu_v = value(table, CONTACT, "rows"), value(table, CONTACT, "mu_v")
+        rows = value(table, CONTACT, "rows")
+        mu_v = value(table, CONTACT, "mu_v")
         mu_omega = value(table, CONTACT, "mu_omega", 0.0 if rows == 4 else REQUIRED)
         if rows == 4 and mu_omega > 0:
             raise table.fail("mu_omega", "does nothing with rows = 4; use 6, or leave it", mu_omega)
         given = value(table, CONTACT, "k")
-        within, k = _within(given, table.name("k")), 1
+        within = _within(given, table.name("k"))
+        k = 1
         if within is None:
             k = Fields({"k": given}, table.where, ScenarioError).integer("k", least=1)
         hull = value(table, CONTACT, "hull")

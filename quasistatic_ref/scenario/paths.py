@@ -64,7 +64,8 @@ def _shared() -> list[Path]:
 def _installed(table: Fields, field: str, text: str) -> Path:
     name, _, inside = text.removeprefix(PACKAGE).partition("/")
     for shared in _shared():
-        path, package = shared / name / inside, (shared / name).resolve()
+        path = shared / name / inside
+        package = (shared / name).resolve()
         if path.is_file() and package.parent == shared.resolve():
             if path.resolve().is_relative_to(package):
                 return path

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +23,6 @@ from quasistatic_ref.scenario.bodies import (
     BodyEntry,
     Wrenches,
     body_entry,
-    joint_friction,
     joint_tracks,
     stiffness,
 )
@@ -39,6 +38,7 @@ from quasistatic_ref.scenario.scenario_table import (
     value,
 )
 from quasistatic_ref.simulate.finding import Finding
+from quasistatic_ref.simulate.law import CONVEX, check_law
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.simulator import Simulator
@@ -53,27 +53,6 @@ from quasistatic_ref.tolerances import ACCURACY
 
 SAVING = ("save", "save_every", "resume", "observers")
 """What `run` hands on to a rollout."""
-
-
-@dataclass(frozen=True, eq=False)
-class Rising(Plain):
-    """An extension with private rises, at each q: those of a scenario and those of its own.
-
-    Parameters
-    ----------
-    rises : Rises
-        Of the scenario.
-    extension : callable, optional
-        A function of q, without rises.
-    """
-
-    rises: Rises
-    extension: Callable[[Array], Extension] | None = None
-
-    def __call__(self, q: Array) -> Extension:
-        """The extension at q, shape (n_q,)."""
-        own = Extension() if self.extension is None else self.extension(q)
-        return replace(own, rises=self.rises)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -98,7 +77,7 @@ class Scenario(Plain, Shown):
         q_bar_a(t).
     wrenches : tuple of Wrenches
         External wrenches [N, N m] in the world frame, each at the centre of mass of a root link.
-    backend, accuracy, certify, record, cone
+    backend, accuracy, certify, record, cone, law
         The fields of these names in the scenario's file.
     fast : bool
         As for :class:`~quasistatic_ref.simulate.simulator.Simulator`.
@@ -133,12 +112,16 @@ class Scenario(Plain, Shown):
     bodies: Mapping[str, BodyEntry] = field(default_factory=dict)
     fast: bool = False
     rises: Rises = NO_RISES
+    law: str = CONVEX
 
     def __post_init__(self) -> None:
         keep(self, "gravity", "K_q", "gravity_acts")
 
     def simulator(self, extension: Callable[[Array], Extension] | None = None) -> Simulator:
         """A simulator of this scenario, with an `extension` as it takes one."""
+        if len(self.rises):
+            rises = needed_part("extensions.scenario_rises", "joint_friction and support")
+            extension = rises.Rising(self.rises, extension)
         return Simulator(
             self.system,
             self.pairs,
@@ -151,7 +134,8 @@ class Scenario(Plain, Shown):
             accuracy=self.accuracy,
             certify=self.certify,
             cone=self.cone,
-            extension=Rising(self.rises, extension) if len(self.rises) else extension,
+            law=self.law,
+            extension=extension,
             limits=self.limits,
         )
 
@@ -249,9 +233,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         check_names(top, TOP)
     top.check_format(FORMAT, VERSION)
     check_names(top, TOP)
-    h, steps, gravity, record = (
-        value(top, TOP, name) for name in ("h", "steps", "gravity", "record")
-    )
+    h, gravity, fast = (value(top, TOP, name) for name in ("h", "gravity", "fast"))
     named = cone(value(top, TOP, "cone")).name
     solver = value(top, TOP, "solver")
     if "engine" in solver.names():
@@ -259,7 +241,8 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         raise solver.fail("engine", problem)
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")
-    accuracy = value(solver, SOLVER, "accuracy")
+    law = value(top, TOP, "law")
+    check_law(law, certify)
     limits = _limits(value(top, TOP, "limits"))
 
     tables = value(top, TOP, "bodies")
@@ -273,17 +256,20 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     K_q = np.zeros((system.n_a, system.n_a))
     for entry in entries.values():
         stiffness(system, entry, K_q)
-    pairs, rises = _with_rises(system, pairs, entries, h, K_q, gravity)
-    blocks = system.constant_mass_matrix and not len(rises)
+    rises = NO_RISES
+    if any(entry.rubs for entry in entries.values()):
+        found = needed_part("extensions.scenario_rises", "joint_friction and support")
+        pairs, rises = found.scenario_rises(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
+    blocks = system.constant_mass_matrix and not len(rises) and law == CONVEX
     entries_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if blocks else 0
-    fast = value(top, TOP, "fast")
     backend = _backend(solver, certify, named, entries_of_J, fast)
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
 
     gravity_acts = np.zeros(system.n_a, dtype=bool)
-    tracks, wrenches = [], []
+    tracks = []
+    wrenches = []
     for entry in entries.values():
         for joint in entry.actuated(system):
             gravity_acts[joint.v] = not entry.gravity_compensated
@@ -293,7 +279,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     return Scenario(
         path=path,
         h=h,
-        steps=steps,
+        steps=value(top, TOP, "steps"),
         gravity=gravity,
         system=system,
         pairs=pairs,
@@ -302,38 +288,16 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         targets=Targets(system.q_start[: system.n_q_a], tracks),
         wrenches=tuple(wrenches),
         backend=backend,
-        accuracy=accuracy,
+        accuracy=value(solver, SOLVER, "accuracy"),
         certify=certify,
-        record=record,
+        record=value(top, TOP, "record"),
         cone=named,
         limits=limits,
         bodies=entries,
         fast=fast,
         rises=rises,
+        law=law,
     )
-
-
-def _with_rises(
-    system: System,
-    pairs: tuple[ContactPair, ...],
-    entries: Mapping[str, BodyEntry],
-    h: float,
-    K_q: Array,
-    gravity: Array,
-) -> tuple[tuple[ContactPair, ...], Rises]:
-    """The pairs with those of supports, and the private rises of all friction."""
-    friction: dict[str, float] = {}
-    for entry in entries.values():
-        friction |= joint_friction(system, entry)
-    support = {name: entry.support for name, entry in entries.items() if entry.support is not None}
-    if not friction and not support:
-        return pairs, NO_RISES
-    made: tuple[tuple[ContactPair, ...], Rises] = needed_part(
-        "extensions.rises", "joint_friction and support"
-    ).private_rises(
-        system, pairs, h=h, K_q=K_q, gravity=gravity, friction=friction, support=support
-    )
-    return made
 
 
 def _backend(solver: Fields, certify: str, cone_name: str, entries: int, fast: bool) -> str:

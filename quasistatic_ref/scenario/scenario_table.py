@@ -9,6 +9,7 @@ from quasistatic_ref.formats.declared import Field, Tables
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.model.body import BASES
 from quasistatic_ref.scenario.world_solids import SOLIDS
+from quasistatic_ref.simulate.law import CONVEX, LAWS
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.record import RECORDS
 from quasistatic_ref.simulate.simulator import GRAVITY
@@ -17,14 +18,23 @@ from quasistatic_ref.step.cones import CONES, PYRAMID
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
-FORMAT, VERSION = "quasistatic-ref/scenario", 1
+FORMAT = "quasistatic-ref/scenario"
+VERSION = 1
 MOST_STEPS = 10_000_000
-TOP, SOLVER, LIMITS = "the top of the file", "[solver]", "[limits]"
-BODY, CONTACT, WRENCH = "[bodies.NAME]", "[contacts.NAME]", "[[bodies.NAME.wrenches]]"
-SHAPE, POSE, WAYPOINT = "[shapes.NAME]", "pose", "[[bodies.NAME.targets]]"
-SUPPORT, WITHIN = "[bodies.NAME.support]", "k"
+TOP = "the top of the file"
+SOLVER = "[solver]"
+LIMITS = "[limits]"
+BODY = "[bodies.NAME]"
+CONTACT = "[contacts.NAME]"
+WRENCH = "[[bodies.NAME.wrenches]]"
+SHAPE = "[shapes.NAME]"
+POSE = "pose"
+WAYPOINT = "[[bodies.NAME.targets]]"
+SUPPORT = "[bodies.NAME.support]"
+WITHIN = "k"
 ORIGIN = (0.0, 0.0, 0.0)
-NUMBER, TEXT = {"type": "number"}, {"type": "string"}
+NUMBER = {"type": "number"}
+TEXT = {"type": "string"}
 LIST = {"type": "array", "items": NUMBER}
 MATRIX = {"type": "array", "items": LIST}
 _TURN = "roll, pitch, yaw: R = Rz(yaw) Ry(pitch) Rx(roll)"
@@ -48,6 +58,10 @@ TABLES = Tables({
         "cone": Field(
             "text", f"friction cone of every contact: {', '.join(CONES)} (K even, from 4 on)",
             default=PYRAMID, schema={"pattern": rf"^({'|'.join(CONES)})$".replace("-K", "-[0-9]+")},
+        ),
+        "law": Field(
+            "text", "whether sliding contacts rise, as in the model, or not (coulomb)",
+            default=CONVEX, choices=LAWS,
         ),
         "fast": Field(
             "boolean", "whether to take the same steps sooner, to the same certified bits",
@@ -83,6 +97,8 @@ TABLES = Tables({
     },
     BODY: {
         "urdf": Field("text", "file in the scenario's folder, or package://NAME/PATH of a robot",
+                      default=None, schema={"pattern": r"\S"}),
+        "mjcf": Field("text", "in place of a URDF; read by MuJoCo (extra 'engines')", default=None,
                       schema={"pattern": r"\S"}),
         "base": Field("text", "how the root link moves", default="fixed", choices=BASES),
         "actuated": Field(

@@ -67,15 +67,6 @@ class Box(Rounded):
         """Those of a face."""
         return 4
 
-    def resized(self, scale: float) -> Box:
-        """All lengths by a scale [-]."""
-        return Box(scale * self.half_extents)
-
-    def surface(self, around: int, up: int) -> Array:
-        """Its vertices, shape (8, 3) [m]."""
-        signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
-        return np.asarray(signs * self.half_extents)
-
     def words(self) -> str:
         """Kind and edges [m]."""
         return f"box {lengths(2 * self.half_extents)}"

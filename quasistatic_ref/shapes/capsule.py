@@ -8,7 +8,6 @@ import numpy as np
 
 from quasistatic_ref.shapes.round import Round
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.shapes.shape import ball
 from quasistatic_ref.step.arrays import Array
 
 
@@ -42,9 +41,3 @@ class Capsule(Round, Rounded):
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Centres of its caps, shape (2, 3) [m], and its radius, whichever way `towards` [-] is."""
         return np.array([[0, 0, -self.half_length], [0, 0, self.half_length]]), self.radius
-
-    def surface(self, around: int, up: int) -> Array:
-        """Points of two spheres, shape (N, 3) [m]."""
-        points = np.asarray(self.radius * ball(around, up))
-        end = np.array([0, 0, self.half_length])
-        return np.concatenate([points + end, points - end])

@@ -7,7 +7,6 @@ import coal
 import numpy as np
 
 from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
-from quasistatic_ref.shapes.shape import circle
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import dot, norm
 from quasistatic_ref.tolerances import ON_SURFACE
@@ -57,7 +56,8 @@ class Cone(Round):
 
     def support_value(self, directions: Array) -> Array:
         """The larger reach of tip and rim along `directions` (N, 3) [-], shape (N,) [m]."""
-        radial, axial = norm(directions[:, :2]), directions[:, 2]
+        radial = norm(directions[:, :2])
+        axial = directions[:, 2]
         tip = self.half_length * axial
         return np.maximum(tip, self.radius * radial - tip)
 
@@ -71,11 +71,6 @@ class Cone(Round):
         tip = np.array([[0, 0, self.half_length]])
         return np.concatenate([tip, rim_corners(self.radius, -self.half_length, towards)]), 0.0
 
-    def surface(self, around: int, up: int) -> Array:
-        """Points of the rim, and the tip, shape (N, 3) [m]."""
-        end = np.array([0, 0, self.half_length])
-        return np.concatenate([self.radius * circle(around) - end, end[None]])
-
 
 def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[Array, Array]:
     """Signed distance (N,) [m] and outward normal (N, 3) of points against a cone, tip up.
@@ -83,7 +78,8 @@ def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[
     In the half-plane (r, z) it is a triangle with the edges rim - tip and axis - rim.
     """
     p, outward = _half_plane(points)
-    rim, tip = np.array([radius, -half_length]), np.array([0.0, half_length])
+    rim = np.array([radius, -half_length])
+    tip = np.array([0.0, half_length])
     slant = norm(tip - rim)
     side = _side(radius, half_length)
     above_side, above_base = _heights(p, radius, half_length)
@@ -91,7 +87,8 @@ def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[
     s = (p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1]
     on_side = rim + np.clip(s, 0.0, slant)[:, None] * along
     on_base = np.stack([np.minimum(p[:, 0], radius), np.full(len(p), -half_length)], axis=1)
-    d_side, d_base = norm(p - on_side), norm(p - on_base)
+    d_side = norm(p - on_side)
+    d_base = norm(p - on_base)
     side_nearest = d_side <= d_base
     nearest = np.where(side_nearest[:, None], on_side, on_base)
     away = p - nearest

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -64,7 +64,8 @@ class ConvexMesh(Shape):
     @cached_property
     def coal(self) -> Any:
         """The same shape as a coal geometry."""
-        points, polygons = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
+        points = coal.StdVec_Vec3s()
+        polygons = coal.StdVec_Triangle()
         points.extend(list(self.vertices))
         polygons.extend([coal.Triangle(*map(int, corners)) for corners in self.triangles])
         return coal.Convex(points, polygons)
@@ -99,15 +100,6 @@ class ConvexMesh(Shape):
     def edge_count(self) -> int:
         """A face has no more than the whole has vertices."""
         return len(self.vertices)
-
-    def resized(self, scale: float) -> ConvexMesh:
-        """All lengths by a scale [-]."""
-        vertices, offsets = scale * self.vertices, scale * self.offsets
-        return replace(self, vertices=vertices, offsets=offsets, volume=scale**3 * self.volume)
-
-    def surface(self, around: int, up: int) -> Array:
-        """Its vertices, shape (V, 3) [m]."""
-        return self.vertices
 
     def words(self) -> str:
         """Kind, number of corners, and the edges of the box about them [m]."""
@@ -154,8 +146,10 @@ def convex_hull(points: ArrayLike, excess: float = 0.0) -> ConvexMesh:
     kept = np.sort(hull.vertices).astype(np.int64)
     renumbered = np.zeros(len(points), dtype=np.int64)
     renumbered[kept] = np.arange(len(kept))
-    vertices, triangles = points[kept], renumbered[hull.simplices]
-    normals, offsets = hull.equations[:, :3], -hull.equations[:, 3]
+    vertices = points[kept]
+    triangles = renumbered[hull.simplices]
+    normals = hull.equations[:, :3]
+    offsets = -hull.equations[:, 3]
     a, b, c = vertices[triangles].transpose(1, 0, 2)
     inward = np.sum(np.cross(b - a, c - a) * normals, axis=1) < 0
     triangles[inward] = triangles[inward][:, ::-1]

@@ -7,7 +7,6 @@ import coal
 import numpy as np
 
 from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
-from quasistatic_ref.shapes.shape import circle
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import norm
 
@@ -54,7 +53,8 @@ class Cylinder(Round):
 
     def support_value(self, directions: Array) -> Array:
         """Sum of the radial and the axial reach along `directions` (N, 3) [-], shape (N,) [m]."""
-        radial, axial = norm(directions[:, :2]), directions[:, 2]
+        radial = norm(directions[:, :2])
+        axial = directions[:, 2]
         return self.radius * radial + self.half_length * np.abs(axial)
 
     @property
@@ -66,11 +66,6 @@ class Cylinder(Round):
         """Four points on each rim, shape (8, 3) [m], the first of each `towards` [-] the other."""
         ends = (-self.half_length, self.half_length)
         return np.concatenate([rim_corners(self.radius, z, towards) for z in ends]), 0.0
-
-    def surface(self, around: int, up: int) -> Array:
-        """Points of both rims, shape (N, 3) [m]."""
-        rim, end = self.radius * circle(around), np.array([0, 0, self.half_length])
-        return np.concatenate([rim - end, rim + end])
 
 
 def distance_to_cylinder(points: Array, radius: float, half_length: float) -> tuple[Array, Array]:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.shapes.frozen import freeze_lengths, halved
-from quasistatic_ref.shapes.shape import Shape, ball, lengths
+from quasistatic_ref.shapes.shape import Shape, lengths
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import dot, norm, total
 
@@ -58,14 +58,6 @@ class Ellipsoid(Shape):
         """Length of the `directions` (N, 3) [-] scaled by the half-axes, shape (N,) [m]."""
         scaled = directions * self.half_axes
         return norm(scaled)
-
-    def resized(self, scale: float) -> Ellipsoid:
-        """All lengths by a scale [-]."""
-        return Ellipsoid(scale * self.half_axes)
-
-    def surface(self, around: int, up: int) -> Array:
-        """Points of a sphere, scaled, shape (N, 3) [m]."""
-        return np.asarray(ball(around, up) * self.half_axes)
 
     def words(self) -> str:
         """Kind and axes [m]."""

@@ -28,29 +28,29 @@ def halved(owner: Any, key: str, half: Any, name: str, whole: Any) -> None:
     object.__setattr__(owner, key, numbers(whole, name, ModelError) / 2 if half is None else half)
 
 
-def freeze_size(owner: Any, key: str) -> None:
-    """Replace a field by a float; ModelError unless it is positive."""
-    value = getattr(owner, key)
-    number = finite(value, key)
-    # Twice the size is what coal is given.
-    if not (number > 0 and np.isfinite(2 * number)):
-        raise ModelError("must be a positive length", field=key, value=value)
-    if number < SHORT:
-        raise ModelError(f"must be at least {SHORT:g} m", field=key, value=value)
-    object.__setattr__(owner, key, number)
-
-
 def freeze_array(owner: Any, key: str, shape: tuple[int, ...]) -> None:
     """Replace a field by a read-only float64 copy; ModelError unless finite and of that shape."""
     freeze(owner, {key: shape}, error=ModelError)
 
 
+def freeze_size(owner: Any, key: str) -> None:
+    """Replace a field by a float; ModelError unless it is positive."""
+    value = getattr(owner, key)
+    number = finite(value, key)
+    _check_lengths([number], key, "a positive length", value)
+    object.__setattr__(owner, key, number)
+
+
 def freeze_lengths(owner: Any, key: str) -> None:
     """Replace a field by three positive lengths, read-only; ModelError if they are not."""
     freeze_array(owner, key, (3,))
-    lengths = getattr(owner, key)
-    # Of Python's floats: NumPy's warn where twice a length overflows.
-    if not all(length > 0 and np.isfinite(2 * length) for length in lengths.tolist()):
-        raise ModelError("must be three positive lengths", field=key, value=lengths.tolist())
-    if not (lengths >= SHORT).all():
-        raise ModelError(f"must be at least {SHORT:g} m", field=key, value=lengths.tolist())
+    lengths = getattr(owner, key).tolist()
+    _check_lengths(lengths, key, "three positive lengths", lengths)
+
+
+def _check_lengths(lengths: list[float], key: str, what: str, value: Any) -> None:
+    # Twice the size is what coal is given. Of Python's floats: NumPy's warn where it overflows.
+    if not all(length > 0 and np.isfinite(2 * length) for length in lengths):
+        raise ModelError(f"must be {what}", field=key, value=value)
+    if min(lengths) < SHORT:
+        raise ModelError(f"must be at least {SHORT:g} m", field=key, value=value)

@@ -69,10 +69,6 @@ class HalfSpace(Shape):
         phi, normal = self.signed_distance(points)
         return phi[:, None], normal[:, None]
 
-    def surface(self, around: int, up: int) -> Array:
-        """No points, shape (0, 3) [m]: how much of the plane is drawn depends on the scene."""
-        return np.zeros((0, 3))
-
     def words(self) -> str:
         """Kind, normal [-] and offset [m]."""
         x, y, z = self.normal + 0.0

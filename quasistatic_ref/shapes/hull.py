@@ -29,7 +29,8 @@ def distance_to_hull(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
     normal : ndarray, shape (N, 3)
         That of the face, unless an edge or a corner is the closest feature.
     """
-    phi, normal = np.empty(len(points)), np.empty((len(points), 3))
+    phi = np.empty(len(points))
+    normal = np.empty((len(points), 3))
     count = max(1, CHUNK // len(hull.triangles))
     for start in range(0, len(points), count):
         some = slice(start, start + count)
@@ -40,7 +41,8 @@ def distance_to_hull(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
 def _distance(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
     level = levels(points, hull)
     face = level.argmax(axis=1)
-    phi, normal = level[np.arange(len(points)), face], hull.normals[face].copy()
+    phi = level[np.arange(len(points)), face]
+    normal = hull.normals[face].copy()
     outside = np.flatnonzero(phi > 0)
     if len(outside):
         away = nearest_offsets(points[outside], hull)
@@ -69,7 +71,8 @@ def nearest_offsets(points: Array, hull: "ConvexMesh") -> Array:
     rows = np.arange(len(points))
     for k in range(3):
         # The nearest point of an edge, clamped to its ends.
-        tail, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
+        tail = corners[:, k]
+        along = corners[:, (k + 1) % 3] - corners[:, k]
         arm = points[:, None] - tail
         s = np.clip(dot(arm, along) / dot(along, along), 0.0, 1.0)
         away = arm - s[..., None] * along
@@ -82,7 +85,8 @@ def nearest_offsets(points: Array, hull: "ConvexMesh") -> Array:
     n = hull.normals
     within = np.ones((len(points), len(n)), dtype=bool)
     for k in range(3):
-        tail, along = corners[:, k], corners[:, (k + 1) % 3] - corners[:, k]
+        tail = corners[:, k]
+        along = corners[:, (k + 1) % 3] - corners[:, k]
         within &= dot(points[:, None] - tail, np.cross(n, along)) >= 0
     level = dot(points[:, None] - corners[:, 0], n)
     above = within & (level > 0)

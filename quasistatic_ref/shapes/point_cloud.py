@@ -42,10 +42,6 @@ class PointCloud(Shape):
         """Longest edge of the box about it along its own axes [m]."""
         return float(np.ptp(self.points, axis=0).max())
 
-    def surface(self, around: int, up: int) -> Array:
-        """Its points, shape (N, 3) [m]."""
-        return self.points
-
     def words(self) -> str:
         """How many points it has, and the edges of the box about them [m]."""
         extent = lengths(np.ptp(self.points, axis=0))

@@ -39,10 +39,6 @@ class Round(Shape):
         """As of a square: a rim crosses each edge twice, a line once."""
         return 4
 
-    def resized(self, scale: float) -> Round:
-        """All lengths by a scale [-]."""
-        return type(self)(scale * self.radius, scale * self.half_length)
-
     def words(self) -> str:
         """Kind, radius and length [m]."""
         kind = type(self).__name__.lower()

@@ -32,7 +32,9 @@ class Shape(Plain):
         phi : ndarray, shape (N,)
             [m], negative inside.
         normal : ndarray, shape (N, 3)
-            Unit normals: the gradient of phi. Where it is not unique, one of them, always the same.
+            Unit normals: the gradient of phi; the closest point on the shape is p - phi n. Where
+            it is not unique (the centre of a sphere, a tie of two faces), one of them, always the
+            same: results are deterministic.
 
         Raises
         ------
@@ -136,26 +138,6 @@ class Shape(Plain):
         reach = self.support_value(AXES)
         return float((reach[:3] + reach[3:]).max())
 
-    def resized(self, scale: float) -> "Shape":
-        """The shape with all lengths multiplied by a scale [-].
-
-        Raises
-        ------
-        ContactError
-            If it has no coal object.
-        """
-        raise self.lacks("has no coal object of another size")
-
-    def surface(self, around: int, up: int) -> Array:
-        """Points whose hull is drawn as the shape, or the points of a cloud, shape (N, 3) [m].
-
-        Parameters
-        ----------
-        around, up : int
-            Numbers of points on round surfaces, around the axis and along it.
-        """
-        raise self.lacks("has no surface to draw")
-
     def words(self) -> str:
         """Kind and size [m], e.g. ``box 0.1 x 0.2 x 0.3 m``."""
         raise self.lacks("has no words")
@@ -174,17 +156,3 @@ def lengths(values: Array) -> str:
         [m].
     """
     return " x ".join(f"{value:.4g}" for value in values) + " m"
-
-
-def circle(around: int) -> Array:
-    """Points of the unit circle about z, the first again at the end, shape (around, 3) [-]."""
-    angle = np.linspace(0, 2 * np.pi, around)
-    return np.stack([np.cos(angle), np.sin(angle), np.zeros(around)], axis=1)
-
-
-def ball(around: int, up: int) -> Array:
-    """Points of the unit sphere, shape (up around, 3) [-]."""
-    azimuth, height = np.meshgrid(np.linspace(0, 2 * np.pi, around), np.linspace(-1, 1, up))
-    r = np.sqrt(1 - height**2)
-    points = np.stack([r * np.cos(azimuth), r * np.sin(azimuth), height], axis=-1)
-    return points.reshape(-1, 3)

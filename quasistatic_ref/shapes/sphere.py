@@ -9,7 +9,6 @@ import numpy as np
 
 from quasistatic_ref.shapes.frozen import freeze_size
 from quasistatic_ref.shapes.rounded import Rounded
-from quasistatic_ref.shapes.shape import ball
 from quasistatic_ref.step.arrays import Array
 
 
@@ -38,10 +37,6 @@ class Sphere(Rounded):
     def core(self) -> tuple[Array, float]:
         """Its centre, as half extents of shape (3,) [m], and the radius."""
         return np.array([0.0, 0.0, 0.0]), self.radius
-
-    def surface(self, around: int, up: int) -> Array:
-        """Points on circles of latitude, shape (N, 3) [m]."""
-        return np.asarray(self.radius * ball(around, up))
 
     def words(self) -> str:
         """Kind and radius [m]."""

@@ -10,6 +10,7 @@ from quasistatic_ref.errors import InputError, about_field
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.simulate.finding import finding_read
+from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED, LAWS
 from quasistatic_ref.step.cones import cone
 
 RECORDS = ("full", "light", "forces")
@@ -49,9 +50,8 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     full = record == "full"
     top.number("h", above=0.0)
     _unless_null(top, "failed", top.text)
-    _unless_null(top, "quasi_dynamic_number", top.number)
-    _unless_null(top, "largest_drag_share", top.number)
-    _unless_null(top, "largest_boundary_layer", top.number)
+    for name in ("quasi_dynamic_number", "largest_drag_share", "largest_boundary_layer"):
+        _unless_null(top, name, top.number)
     top.text("backend")
     with about_field("cone"):
         cone(top.text("cone"))
@@ -63,13 +63,16 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
             raise InputError(f"must have {count} entries", field=name)
     top.words("slots", [])
     extra = top.words("extra")
+    iterated = ITERATED if top.text("law", CONVEX, LAWS) == COULOMB else ()
     needed: tuple[str, ...] = ("t", "delta_q")
     if steps:
         needed = (*PER_STEP, *PROGRAM, *(EXTRA if extra else ())) if full else PER_STEP
-        needed = (*needed, *(FORCES if record == "forces" else ()))
+        needed = (*needed, *(FORCES if record == "forces" else ()), *iterated)
         _check_present(arrays, needed)
     of_record = {"full": PROGRAM, "forces": FORCES}.get(record, ())
-    _check_known(arrays, ("q", *CONSTANT, *PER_STEP, *of_record, *(EXTRA if extra else ())))
+    _check_known(
+        arrays, ("q", *CONSTANT, *PER_STEP, *of_record, *(EXTRA if extra else ()), *iterated)
+    )
     for name, array in arrays.items():
         if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):
             raise InputError("must contain numbers", field=name, value=str(array.dtype))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.record import CONSTANT, EXTRA, FORCES, PER_STEP, PROGRAM, RECORDS
 from quasistatic_ref.simulate.trajectory import FORMAT, VERSION, Trajectory
@@ -81,11 +82,16 @@ class Recorder(Shown):
             raise InputError(f"must be one of {', '.join(RECORDS)}", field="record", value=record)
         self.simulator = simulator
         self.scene = simulator.scene
-        self.system, self.h, self.backend = simulator.system, simulator.h, simulator.backend
-        self.cone, self.layout, self.record = simulator.cone, simulator.layout, record
+        self.system = simulator.system
+        self.h = simulator.h
+        self.backend = simulator.backend
+        self.cone = simulator.cone
+        self.layout = simulator.layout
+        self.record = record
         self.observers = list(doctors() if observers is None else observers)
         self.start = self.system.checked(q)
-        self.q, self.steps = self.start, 0
+        self.q = self.start
+        self.steps = 0
         self.extra: tuple[str, ...] = ()
         self.alone = True
         self.parts: list[Part] = []
@@ -105,7 +111,9 @@ class Recorder(Shown):
             Its target.
         result : StepResult
         """
-        step, solution, points = result.step, result.solution, result.points
+        step = result.step
+        solution = result.solution
+        points = result.points
         row: dict[str, Any] = {
             "t": self.t,
             "delta_q": solution.delta_q[: self.system.n_v],  # without private rises
@@ -133,6 +141,8 @@ class Recorder(Shown):
             row |= program(step)
         if self.record == "forces":
             row["forces"] = solution.forces
+        if self.simulator.law == COULOMB:
+            row |= {name: getattr(solution, name) for name in ITERATED}
         self.alone &= solution.alone
         if step.extra.names:
             row["lam_extra"] = solution.lam_extra
@@ -163,7 +173,8 @@ class Recorder(Shown):
             Names of an extension's rows.
         """
         self.parts.append(part)
-        self.extra, self.q = extra, part["q"][-1]
+        self.extra = extra
+        self.q = part["q"][-1]
         self.steps += len(part["q"])
 
     @property
@@ -188,11 +199,12 @@ class Recorder(Shown):
         """
         parts = self.packed()
         kept = parts[0] if parts else {}
-        names = [name for name in (*PER_STEP, *PROGRAM, *FORCES, *EXTRA) if name in kept]
-        arrays = {name: _joined(parts, name) for name in names} or {
+        known = [name for name in (*PER_STEP, *PROGRAM, *FORCES, *EXTRA, *ITERATED) if name in kept]
+        arrays = {name: _joined(parts, name) for name in known} or {
             name: np.zeros(0) for name in ("t", "delta_q", "worst_residual")
         }
         full = self.steps and self.record == "full"
+        names = self.layout.contact_names
         header: dict[str, Any] = {
             "format": FORMAT,
             "version": VERSION,
@@ -212,9 +224,11 @@ class Recorder(Shown):
             "quasi_dynamic_number": None,  # the observers know
             "largest_drag_share": None,
             "largest_boundary_layer": None,
-            "contacts": [self.layout.contact_names(p) for p in arrays["point"]] if full else [],
+            "contacts": [list(names(p)) for p in arrays["point"]] if full else [],
             "findings": [],
         } | ({} if self.alone else {"alone": False})
+        if self.simulator.law != CONVEX:
+            header["law"] = self.simulator.law
         constant = {k: getattr(self.layout, k) if self.steps else np.zeros(0) for k in CONSTANT}
         q = np.concatenate([self.start[None], *(part["q"] for part in parts)])
         arrays = {"q": q + 0.0, **arrays, **constant}

@@ -103,7 +103,8 @@ class StepResult(Plain, Shown):
     def _contacts(self) -> tuple[ContactsOverSteps, Scene]:
         if self.scene is None or self.q_start is None:
             raise InputError("is not known: this result is a copy", field="scene")
-        k, points = self.step.contacts, self.points
+        k = self.step.contacts
+        points = self.points
         frame = np.stack([k.d1, k.d2, k.n], axis=1)
         arrays = self.q_start, points.alpha, points.beta, frame, self.forces
         return ContactsOverSteps(*(array[None] for array in arrays)), self.scene

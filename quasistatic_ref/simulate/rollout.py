@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,17 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.simulate.goals import (
     Force,
     Target,
     force_function,
-    needed_arguments,
     target_function,
 )
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
-from quasistatic_ref.simulate.pace import Pace
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -71,8 +68,7 @@ def rollout(
         of single contacts in their place.
     progress : bool
         Whether to show a progress bar on standard error, where that is a terminal, and to print
-        there that `fast` would save ten seconds or more, and, at the end of a run, that most of its
-        time went into proofs, and its findings
+        there that `fast` would save ten seconds or more, and, at the end of a run, its findings
         (:attr:`~quasistatic_ref.simulate.trajectory.Trajectory.findings`).
     save : str or Path, optional
         The trajectory's file, written when the run ends, also when it ends early: then next to it,
@@ -118,26 +114,18 @@ def rollout(
     pushed = force_function(simulator.system, force)
     saved = None
     if save is not None:
-        first = needed_part("runs.saved", "save").first_step(save, steps, resume)
+        given = {"target": (target, q_bar_a), "force": (force, pushed)}
         runs = needed_part("runs.resume", "save")
-        saved = runs.saved_run(save, save_every, simulator, recorder)
-        recorder.observers.append(saved)
-        if first:
-            for name, function in (("target", target), ("force", force)):
-                if callable(function) and needed_arguments(function, name) == 3:
-                    problem = "cannot be asked again: the results of saved steps are not kept"
-                    raise InputError(problem, field=name)
-            runs.resumed(saved, recorder, simulator, q_bar_a, pushed, STRETCH)
+        saved = runs.saved_run(save, save_every, resume, steps, recorder, given, STRETCH)
     left = range(recorder.steps, steps)
-    pace = Pace(simulator.fast or not progress, len(left))
+    if progress and (fast := part("fast.pace")) is not None:
+        recorder.observers.append(fast.Pace(simulator.fast, len(left)))
     bar: Any = progress_bar(left, unit="step", total=steps, done=left.start, shown=progress)
-    entries = 4 * len(simulator.layout.rows) * simulator.system.n_v
-    if (opening := pace.opening(entries)) is not None:
-        bar.write(f"quasistatic-ref: {opening}", file=sys.stderr)
     last: StepResult | None = None
     with Interrupt() as interrupt:
         for k in bar:
-            t, q = recorder.t, recorder.q
+            t = recorder.t
+            q = recorder.q
             if k % STRETCH == 0:
                 start_cold(simulator)
             try:
@@ -154,11 +142,6 @@ def rollout(
                 file = None if saved is None else saved.written
                 raise RunFailed(reason, trajectory, step, file) from failure
             recorder.add(goal, last)
-            if (advice := pace.advice(last.seconds)) is not None:
-                bar.write(f"quasistatic-ref: {advice}", file=sys.stderr)
-    certified = progress and simulator.certify == "full"
-    if certified and (closing := pace.closing()) is not None:
-        bar.write(f"quasistatic-ref: {closing}", file=sys.stderr)
     return recorder.trajectory()
 
 

@@ -18,6 +18,7 @@ from quasistatic_ref.errors import InputError, StepDataError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model.system import Kinematics, System
 from quasistatic_ref.parts import needed_part
+from quasistatic_ref.simulate.law import CONVEX, COULOMB, check_law, coulomb
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.wrenches import Scene
@@ -109,6 +110,9 @@ class Simulator(Shown):
         Wherever an answer is certified exactly, q, delta_q, A'lam and slacks have the same bits.
     cone : str
         Friction cone of every contact; see :mod:`~quasistatic_ref.step.cones`.
+    law : str
+        ``"convex"``, the model's, or ``"coulomb"``, without the rise of sliding contacts: each step
+        is then a :class:`~quasistatic_ref.optional.coulomb.fixed_point.CoulombSolution`.
     extension : callable, optional
         A function of q that returns the user's own constraints and costs for the step from q.
     limits : Limits, optional
@@ -129,7 +133,8 @@ class Simulator(Shown):
     BackendError
         If the backend is unknown or not installed, or does not take the cone.
     InputError
-        If `fast` is wanted, and its folder is not there, or the extension is no function.
+        If `fast` is wanted, and its folder is not there, or the extension is no function, or the
+        law is unknown or does not take `certify`.
 
     Examples
     --------
@@ -160,6 +165,7 @@ class Simulator(Shown):
         accuracy: float = ACCURACY,
         certify: str = "full",
         cone: str = PYRAMID,
+        law: str = CONVEX,
         extension: Callable[[Array], Extension] | None = None,
         limits: Limits | None = None,
     ) -> None:
@@ -176,6 +182,8 @@ class Simulator(Shown):
         self.accuracy = accuracy
         self.certify = certify
         self.cone = cone
+        check_law(law, certify)
+        self.law = law
         if extension is not None and not callable(extension):
             problem = "must be a function of q that returns an Extension, such as lambda q: own"
             raise InputError(problem, field="extension", value=type(extension).__name__)
@@ -200,7 +208,8 @@ class Simulator(Shown):
         self.geometry = ContactGeometry(self.layout, system.motion)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        same = ("h", "K_q", "gravity", "fast", "accuracy", "certify", "cone", "extension", "limits")
+        same = ("h", "K_q", "gravity", "fast", "accuracy", "certify", "cone", "law", "extension",
+                "limits")  # fmt: skip
         settings: dict[str, Any] = {name: getattr(self, name) for name in same}
         settings["backend"] = self.named_backend
         settings["gravity_acts"] = self.gravity_acts[: self.system.n_a]
@@ -243,8 +252,8 @@ class Simulator(Shown):
         step = self.step_data(q, q_bar_a, force, points, kinematics)
         lap("rows")
         solution = self.solution(step) if self.extension is None else self.extended(step, q)
-        step = solution.step  # an extension adds rows and private rises; Eq. (13), certified
         self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
+        step = solution.step  # an extension adds rows and private rises; Eq. (13), certified
         lap("solve", proof=solution.statistics.proof_time)
         q_next = self.system.integrate(q, solution.delta_q[: self.system.n_v])  # q (+) delta_q
         self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
@@ -276,7 +285,8 @@ class Simulator(Shown):
         StepDataError
             If the force has another shape.
         """
-        n_a, tau = self.system.n_a, self.generalised_force(q, force)
+        n_a = self.system.n_a
+        tau = self.generalised_force(q, force)
         return StepData(
             h=self.h,
             K_q=self.K_q,
@@ -310,8 +320,12 @@ class Simulator(Shown):
         return self.solver
 
     def solution(self, step: StepData) -> StepSolution:
-        """A step solved, by the solver that is kept."""
-        return solve_step(step, self.fitting(step), accuracy=self.accuracy, certify=self.certify)
+        """A step solved under the simulator's law, by the solver that is kept."""
+        solver = self.fitting(step)
+        if self.law == COULOMB:
+            found: StepSolution = coulomb().simulated_solution(step, solver, self.accuracy)
+            return found
+        return solve_step(step, solver, accuracy=self.accuracy, certify=self.certify)
 
 
 # Python would show what __new__ takes.

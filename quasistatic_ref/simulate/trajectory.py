@@ -20,7 +20,7 @@ from quasistatic_ref.formats.npz import json_array, npz_record
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding, finding_read
 from quasistatic_ref.simulate.record import CONSTANT, check_arrays
@@ -49,7 +49,8 @@ class Trajectory(Plain, Shown):
         step, or None), ``largest_drag_share`` (drag over what contacts can bear, or None) and
         ``largest_boundary_layer`` [m], see :mod:`~quasistatic_ref.optional.doctor.artifacts`,
         without which all three are None; ``alone``, false where the steps are not all that was
-        solved, see :class:`~quasistatic_ref.certify.solution.StepSolution`;
+        solved, see :class:`~quasistatic_ref.certify.solution.StepSolution`; ``law``, where that is
+        ``"coulomb"``;
         ``findings``, see :attr:`findings`; and ``failed``: the reason, or None for a complete run.
     arrays : mapping of str to ndarray
         Of the notation's shape and unit, behind a first axis, the step [-]: ``t`` (end of the
@@ -60,8 +61,10 @@ class Trajectory(Plain, Shown):
         known); ``q`` has one entry more, the start. A full record adds ``H``, ``g``, ``A``, ``b``
         and what they are made of: ``K_q``, ``M_u``, ``tau_a``, ``tau_u``, ``delta_q_bar_a``,
         ``J``. An extension's rows add ``lam_extra``, and to a full record ``extra_A`` and
-        ``extra_b``. A record of forces has ``forces``, (n_c, 4) a step. ``mu_v``, ``mu_omega`` and
-        ``rows`` are constant.
+        ``extra_b``. Coulomb's law adds ``s``, ``s_residual`` and ``s_iterations``, those of
+        :class:`~quasistatic_ref.optional.coulomb.fixed_point.CoulombSolution`; ``A`` and ``b`` are
+        then of phi + s. A record of forces has ``forces``, (n_c, 4) a step. ``mu_v``, ``mu_omega``
+        and ``rows`` are constant.
     seconds : mapping of str to ndarray
         Wall time of the parts of each step [s], shape (steps,); kept in memory only, so that equal
         runs make equal files.
@@ -128,10 +131,13 @@ class Trajectory(Plain, Shown):
     def findings(self) -> tuple[Finding, ...]:
         """What is wrong with its scene or doubtful in it: causes first, then what comes of them.
 
-        There are none without ``optional/doctor``, nor in files from before there were findings.
+        There are none without ``optional/doctor``, nor in files from before there were findings;
+        what is found of ``seconds`` is kept in memory only, as they are.
         """
         listed = enumerate(self.header.get("findings", ()))
-        return tuple(finding_read(table, f"findings[{i}]") for i, table in listed)
+        found = [finding_read(table, f"findings[{i}]") for i, table in listed]
+        doctor = part("doctor.table") if self.seconds else None
+        return tuple(found if doctor is None else [*found, *doctor.of_time(self)])
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k (from 0), bit for bit as it was solved.
@@ -147,9 +153,10 @@ class Trajectory(Plain, Shown):
             problem = f"a {self.header['record']} record has no quadratic programs"
             raise InputError(f"{problem}; run again with record = 'full'")
         a = self.arrays
-        keys = ("phi", "n", "d1", "d2", "J")
+        keys = ("n", "d1", "d2", "J")
         contacts = Contacts(
             name=tuple(self.header["contacts"][k]),
+            phi=a["phi"][k] + a["s"][k] if "s" in a else a["phi"][k],
             **{key: a[key][k] for key in keys},
             **{key: a[key] for key in CONSTANT},
         )
@@ -195,7 +202,8 @@ class Trajectory(Plain, Shown):
             raise InputError(problem)
         if not self.header.get("alone", True):
             raise InputError(UNKNOWN, field="forces")
-        step, delta_q = self.step_data(k), self["delta_q"][k]
+        step = self.step_data(k)
+        delta_q = self["delta_q"][k]
         near = (delta_q, self["wrench"][k]) if step.n_v == len(delta_q) else None
         return contact_forces(step, near=near).wrench
 
@@ -341,6 +349,7 @@ def certified(trajectory: Trajectory) -> str:
     In the ellipsoid, also how many are enclosed: ``"20 of 30 steps exact, 10 enclosed"``.
     """
     kinds = [str(kind) for kind in trajectory["certificate"]] if trajectory.steps else []
-    exact, enclosed = kinds.count("exact"), kinds.count("enclosure")
+    exact = kinds.count("exact")
+    enclosed = kinds.count("enclosure")
     rest = f", {enclosed} enclosed" if enclosed else ""
     return f"{exact} of {trajectory.steps} steps exact{rest}"

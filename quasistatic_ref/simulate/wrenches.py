@@ -66,6 +66,9 @@ class ContactsOverSteps(NamedTuple):
 
     def check(self, scene: HasScene) -> None:
         """Refuse another scene than theirs: InputError."""
+        if not (hasattr(scene, "system") and hasattr(scene, "pairs")):
+            problem = "must be a Scenario or a Simulator; pairs are the keys of what is returned"
+            raise InputError(problem, field="scene", value=scene)
         n_c = len(contact_layout(scene.pairs).names)
         if self.wrench.shape[1] != n_c or self.q.shape[1] != scene.system.n_q:
             problem = "is another one than that of the steps: numbers of contacts or of q differ"
@@ -107,7 +110,8 @@ def wrench_on(contacts: ContactsOverSteps, scene: HasScene, name: str) -> Array:
         If the contacts are not those of the scene.
     """
     contacts.check(scene)
-    system, layout = scene.system, contact_layout(scene.pairs)
+    system = scene.system
+    layout = contact_layout(scene.pairs)
     link = system.link(name)
     own = [link]
     if any(body.name == name for body in system.bodies):
@@ -119,7 +123,8 @@ def wrench_on(contacts: ContactsOverSteps, scene: HasScene, name: str) -> Array:
     sides = (1, layout.link_beta, contacts.beta), (-1, layout.link_alpha, contacts.alpha)
     for sign, links, point in sides:
         on = np.isin(links, own)
-        f, arm = contacts.force[:, on], point[:, on] - origin
+        f = contacts.force[:, on]
+        arm = point[:, on] - origin
         torque = np.cross(arm, f) + tau_n[:, on]
         total += sign * np.concatenate([f, torque], axis=2).sum(axis=1)
     return total
@@ -146,5 +151,6 @@ def pair_forces(contacts: ContactsOverSteps, scene: HasScene) -> dict[str, Array
         If the contacts are not those of the scene.
     """
     contacts.check(scene)
-    force, names = contacts.force, np.array(contact_layout(scene.pairs).names)
+    force = contacts.force
+    names = np.array(contact_layout(scene.pairs).names)
     return {pair.name: force[:, names == pair.name].sum(axis=1) for pair in scene.pairs}

@@ -2,7 +2,7 @@
 
 A backend is a solver of another project. There are three interfaces to it: through CVXPY under its
 name (``"clarabel"``); through qpsolvers (``"qpsolvers:clarabel"``), which hands over the standard
-form; and its own, where ``solve/adapters/`` has a file of its name, which ``fast`` takes.
+form, in an optional part; and its own, where ``optional/fast/adapters/`` has a file of its name.
 """
 
 from collections.abc import Callable
@@ -13,13 +13,15 @@ from typing import Any
 
 from quasistatic_ref.errors import BackendError, InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.parts import needed_part
+from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import SPARSE_FROM, SPARSE_FROM_PIQP
 
 Options = dict[str, Any]
 Attempts = tuple[Options, ...]
 QPSOLVERS = "qpsolvers:"
+THROUGH_QPSOLVERS = "qpsolvers.through_qpsolvers"
+"""The optional part that reaches backends through it."""
 
 
 @dataclass(frozen=True)
@@ -208,9 +210,9 @@ def installed(interface: str) -> tuple[str, ...]:
     if interface == "native":
         return tuple(b.name for b in BACKENDS.values() if b.adapter and find_spec(b.name))
     if interface == "qpsolvers":
-        import qpsolvers
-
-        return tuple(name for name in BACKENDS if name in qpsolvers.available_solvers)
+        through = part(THROUGH_QPSOLVERS)
+        there = () if through is None else through.available_solvers()
+        return tuple(name for name in BACKENDS if name in there)
     import cvxpy
 
     here = {name.lower() for name in cvxpy.installed_solvers()}
@@ -236,6 +238,8 @@ def backend(name: str) -> Backend:
     BackendError
         If the name is unknown, or its solver is not installed.
     """
+    if str(name).startswith(QPSOLVERS):
+        needed_part(THROUGH_QPSOLVERS, name)
     known = backend_names()
     entry = BACKENDS.get(name.removeprefix(QPSOLVERS)) if isinstance(name, str) else None
     if entry is None or not entry.steps:

@@ -156,13 +156,16 @@ def _solved(
 
 def _far_from_largest(solution: StepSolution) -> bool:
     """Whether lam, mu and 1 / h are so far from the largest float64 that wrenches are finite."""
-    mu, lam = solution.step.contacts.mu, solution.lam
+    mu = solution.step.contacts.mu
+    lam = solution.lam
     return bool(solution.step.h > 1 / LARGE and np.vdot(mu, mu) + np.vdot(lam, lam) < LARGE)
 
 
 def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolution:
     """The proved optimum; a backend that fails costs its start, not the answer."""
-    step, units, kind = scaled.step, scaled.units, cone(scaled.step.cone)
+    step = scaled.step
+    units = scaled.units
+    kind = cone(scaled.step.cone)
     answer, statistics = _attempt(scaled, solver, accuracy)
     begin = time.perf_counter()
     answered = None
@@ -181,7 +184,8 @@ def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolu
     else:
         optimum = solver.optimum(scaled, answer)
         certificate = exact_certificate
-    delta_q, lam = optimum.delta_q, optimum.lam
+    delta_q = optimum.delta_q
+    lam = optimum.lam
     if answered is not None:
         norm = solver.norm(scaled)
         error = norm.displacement(answered[0] - delta_q)

@@ -8,11 +8,8 @@ chooses among them.
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar
-
-import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum, exact_step
 from quasistatic_ref.certify.norm import Norm, energy_norm
@@ -20,21 +17,22 @@ from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.parts import needed_part
-from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
     NONE,
     QPSOLVERS,
     RESIDUAL,
+    THROUGH_QPSOLVERS,
     UNSAFE,
     Options,
     check_backend,
 )
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import StepData, differences
 from quasistatic_ref.tolerances import ALIKE
 
 RELAXED = (1.0, 1e2, 1e4)
@@ -42,19 +40,6 @@ RELAXED = (1.0, 1e2, 1e4)
 
 Second-order cones cost Clarabel digits: of 40 planted steps it solves none at 1e-12, 39 at 1e-10
 and all at 1e-9; of 40 grasp steps 37 at 1e-12 and all at 1e-11."""
-
-
-KIND: dict[str, Callable[[StepData], Any]] = {
-    "n_a": lambda step: step.n_a,
-    "n_u": lambda step: step.n_u,
-    "cone": lambda step: step.cone,
-    "rows of contacts": lambda step: step.contacts.rows,
-    "rows of the user's own": lambda step: len(step.extra.names),
-    "h": lambda step: step.h,
-    "mu_v": lambda step: step.contacts.mu_v,
-    "mu_omega": lambda step: step.contacts.mu[:, 2],  # 0 where it is not used
-}
-"""What the steps of one compiled problem may have in common."""
 
 
 @dataclass(eq=False)
@@ -111,7 +96,7 @@ class Solver(ABC):
     engine : str
         The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
-        What the steps that it solves have in common, of ``KIND``.
+        What the steps that it solves have in common, of ``KIND`` of ``step/data.py``.
     remembers : bool
         Whether its answer to a step may depend on the steps before.
     unsafe : bool
@@ -123,7 +108,8 @@ class Solver(ABC):
     remembers: ClassVar[bool] = False
 
     def __init__(self, like: StepData, name: str) -> None:
-        self.like, self.name = like, name
+        self.like = like
+        self.name = name
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
         self._attempts: dict[float, list[OptionSet]] = {}
         self._fitting: StepData | None = None
@@ -154,8 +140,7 @@ class Solver(ABC):
 
     def differences(self, step: StepData) -> list[str]:
         """In what of ``fixed`` a step is not like the one that the problem was compiled for."""
-        pairs = ((what, KIND[what](self.like), KIND[what](step)) for what in self.fixed)
-        return [what for what, made, given in pairs if not np.array_equal(made, given)]
+        return differences(self.like, step, self.fixed)
 
     def takes(self, step: StepData) -> bool:
         """Whether the numbers of a step can be written into the problem."""
@@ -237,11 +222,13 @@ class Solver(ABC):
         idle = self.write(scaled)
         cause: Exception | None = None
         for attempt in self.attempts(accuracy):
-            tried, status = attempt.accuracy, "an answer that is not finite"
+            tried = attempt.accuracy
+            status = "an answer that is not finite"
             try:
                 reply = self.reply(attempt, scaled)
             except Exception as error:  # whatever another package raises
-                status, cause = f"the solver failed: {error}", error
+                status = f"the solver failed: {error}"
+                cause = error
                 continue
             cause = None
             if not reply.solved:
@@ -321,11 +308,10 @@ def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> S
     check_backend(name, step.cone)
     if name == NONE:
         return NoSolver(step)
-    # The classes are imported where they are used: their packages take longer than a short run.
     if name.startswith(QPSOLVERS):
-        from quasistatic_ref.solve.through_qpsolvers import QpsolversSolver
-
-        return QpsolversSolver(step, name)
+        other: Solver = needed_part(THROUGH_QPSOLVERS, name).QpsolversSolver(step, name)
+        return other
+    # CVXPY takes longer to import than a short run.
     from quasistatic_ref.solve.through_cvxpy import CvxpySolver
 
     return CvxpySolver(step, name)

@@ -7,13 +7,13 @@ from typing import Protocol
 import cvxpy as cp
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.scaled import DenseStep
-from quasistatic_ref.solve.solver import KIND, OptionSet, Solver
+from quasistatic_ref.solve.solver import OptionSet, Solver
 from quasistatic_ref.solve.units import out_of_reach, within_reach
-from quasistatic_ref.step.data import Array, Mask, StepData
+from quasistatic_ref.step.data import KIND, Array, Mask, StepData
 
 CANON = cp.CPP_CANON_BACKEND
 """CVXPY's way of compiling, for problems of any size. From 1,000 parameters on it would choose
@@ -85,7 +85,8 @@ def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bo
         warnings.filterwarnings("ignore", "Solution may be inaccurate", UserWarning)
         problem.solve(solver=name.upper(), warm_start=warm, canon_backend=CANON, **options)
     seconds = perf_counter() - begin
-    status, stats = str(problem.status), problem.solver_stats
+    status = str(problem.status)
+    stats = problem.solver_stats
     own, setup = (None if t is None else float(t) for t in (stats.solve_time, stats.setup_time))
     known = all(x.value is not None for x in problem.variables() if x.size)
     return Reply(

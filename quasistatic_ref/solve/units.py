@@ -174,7 +174,9 @@ def natural_form(form: StandardForm, units: Units, H: Array | None = None) -> St
     H : ndarray, shape (n_v, n_v), optional
         In these units, where it is known [-].
     """
-    S, ell, rho = units.coordinate, units.length, units.size
+    S = units.coordinate
+    ell = units.length
+    rho = units.size
     H = form.H * np.outer(S, S) if H is None else H
     return StandardForm(H, form.g * (S / rho), form.A * (S / ell), form.b * (1 / (rho * ell)))
 
@@ -187,10 +189,15 @@ def to_natural(step: StepData, units: Units) -> StepData:
     StepDataError
         If a number leaves the range of float64.
     """
-    S, ell, rho = units.coordinate, units.length, units.size
-    S_a, S_u = S[: step.n_a], S[step.n_a :]
-    c, extra = step.contacts, step.extra
-    phi, J = c.phi / (rho * ell), c.J * (S / ell)
+    S = units.coordinate
+    ell = units.length
+    rho = units.size
+    S_a = S[: step.n_a]
+    S_u = S[step.n_a :]
+    c = step.contacts
+    extra = step.extra
+    phi = c.phi / (rho * ell)
+    J = c.J * (S / ell)
     return step.replace(
         K_q=step.K_q * np.outer(S_a, S_a),
         M_u=step.M_u * np.outer(S_u, S_u),
@@ -207,35 +214,38 @@ def within_reach(natural: StepData) -> StepData:
     far = out_of_reach(natural)
     if not far.any():
         return natural
-    near = np.where(far, _reach(natural.contacts.J), natural.contacts.phi)
+    near = np.where(far, reach(natural.contacts.J), natural.contacts.phi)
     return natural.replace(contacts=replace(natural.contacts, phi=near))
 
 
 def out_of_reach(natural: StepData) -> Mask:
     """Which contacts are too far to matter, shape (n_c,)."""
-    return np.asarray(natural.contacts.phi > _reach(natural.contacts.J))
+    return np.asarray(natural.contacts.phi > reach(natural.contacts.J))
 
 
-def _reach(J: Array) -> Array:
+def reach(J: Array) -> Array:
+    """How far a contact may be before it is out of reach, shape (n_c,), in natural units [-].
+
+    Parameters
+    ----------
+    J : ndarray, shape (n_c, 4, n_v)
+    """
     return np.asarray(FAR * np.maximum(1.0, np.sqrt(np.einsum("cij,cij->c", J, J))))
-
-
-def reach_of_rows(step: StepData, units: Units) -> Array:
-    """How far each row may be in natural units before its contact is out of reach, shape (m,)."""
-    reach = _reach(step.contacts.J * (units.coordinate / units.length))
-    own = np.full(len(step.extra.names), np.inf)  # a user's own rows are no contacts
-    return np.concatenate([np.repeat(reach, step.counts), own])
 
 
 def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
     """delta_q (n_v,) [m, rad] and lam (m,) [N s] from their values in natural units."""
-    S, ell, rho = units.coordinate, units.length, units.size
+    S = units.coordinate
+    ell = units.length
+    rho = units.size
     return delta_q * (rho * S), lam * (rho / ell)
 
 
 def in_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
     """delta_q (n_v,) and lam (m,) in natural units [-] from their values in SI units."""
-    S, ell, rho = units.coordinate, units.length, units.size
+    S = units.coordinate
+    ell = units.length
+    rho = units.size
     return delta_q / (rho * S), lam / (rho / ell)
 
 
@@ -245,7 +255,8 @@ def _typical(squares: Array) -> float:
     first = 0 if n and squares[0] > 0 else int(squares.searchsorted(0.0, side="right"))
     if first == n:
         return 1.0
-    lower, upper = (first + n - 1) // 2, (first + n) // 2
+    lower = (first + n - 1) // 2
+    upper = (first + n) // 2
     return (math.sqrt(squares[lower]) + math.sqrt(squares[upper])) / 2
 
 

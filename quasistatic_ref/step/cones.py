@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from quasistatic_ref.certify.compliance.forces import ContactForces
     from quasistatic_ref.certify.solution import Certificate
     from quasistatic_ref.certify.verdict import Verdict
-    from quasistatic_ref.solve.solver import Solver
     from quasistatic_ref.step.data import StepData
 
 Rows: TypeAlias = "tuple[Any, ...]"
@@ -46,7 +45,8 @@ ConeFunction: TypeAlias = "Callable[[Any, Any, Any, Any], Rows]"
 Violations: TypeAlias = "tuple[Array, Array, Array]"
 Judge: TypeAlias = "Callable[[Array, Array], Violations]"
 
-PYRAMID, ELLIPSOID = "pyramid", "ellipsoid"
+PYRAMID = "pyramid"
+ELLIPSOID = "ellipsoid"
 CONES = (PYRAMID, ELLIPSOID, "product", "facets-K", "frictionless")
 MOST_FACETS = 1024
 """A polygon with more sides is within 5e-6 of the circle, and makes steps of many MB."""
@@ -194,10 +194,6 @@ class CurvedCone(Cone, ABC):
     ) -> Verdict:
         """As :func:`~quasistatic_ref.certify.certificate.verify`."""
 
-    @abstractmethod
-    def native_solver(self, like: StepData, name: str) -> Solver:
-        """A solver by the own interface of a backend that takes such cones."""
-
 
 def row_violations(slack: Array, lam: Array) -> Violations:
     """How far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding, row by row.
@@ -295,7 +291,8 @@ def cone(name: str) -> Cone:
     InputError
         If it is that of an optional part whose folder is not there.
     """
-    sliding, spin = ("+d1", "+d2", "-d1", "-d2"), ("+spin", "-spin")
+    sliding = ("+d1", "+d2", "-d1", "-d2")
+    spin = ("+spin", "-spin")
     if name == PYRAMID:
         return Cone(name, sliding + spin, 4, pyramid)
     if name == "product":
@@ -361,7 +358,8 @@ def _cos_sin(half_turns: Decimal) -> tuple[float, float]:
     with localcontext() as context:
         context.prec = 55
         x = PI * half_turns
-        parts, term = [Decimal(1), x], x
+        parts = [Decimal(1), x]
+        term = x
         for k in range(2, 50):
             term = term * x / k
             parts.append(term if k % 4 < 2 else -term)

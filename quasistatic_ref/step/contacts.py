@@ -157,7 +157,8 @@ class Contacts(Plain, Shown):
         right_handed = np.linalg.det(axes.transpose(1, 0, 2)) > 0
         if n_c and not (defect.max() <= ORTHONORMAL and right_handed.all()):
             j = int((~(defect.max(axis=(1, 2)) <= ORTHONORMAL) | ~right_handed).argmax())
-            problem, field = "d1, d2, n must be a right-handed orthonormal frame", self.name[j]
+            problem = "d1, d2, n must be a right-handed orthonormal frame"
+            field = self.name[j]
             value = axes[:, j].tolist()
             raise StepDataError(problem, field=f"contacts[{field}]", value=value)
 

@@ -6,6 +6,7 @@ tangents are in the world frame; SI units. The JSON form is version 1 of ``quasi
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
@@ -162,7 +163,8 @@ class StepData(Plain, Shown):
         extra: Extra | None = None,
     ) -> None:
         cone_of(cone)  # refuses a name that it does not know
-        n_a, n_u = np.size(tau_a), np.size(tau_u)
+        n_a = np.size(tau_a)
+        n_u = np.size(tau_u)
         n_v = n_a + n_u
         extra = no_rows(n_v) if extra is None else extra
         checked = {
@@ -249,12 +251,32 @@ class StepData(Plain, Shown):
         return StepData(**(field_values(self) | changes))
 
 
+KIND: dict[str, Callable[[StepData], Any]] = {
+    "cone": lambda step: step.cone,
+    "h": lambda step: step.h,
+    "n_a": lambda step: step.n_a,
+    "n_u": lambda step: step.n_u,
+    "contacts.rows": lambda step: step.contacts.rows,
+    "contacts.mu_v": lambda step: step.contacts.mu[:, 0],
+    "contacts.mu_omega": lambda step: step.contacts.mu[:, 2],  # 0 where it is not used
+    "extra": lambda step: len(step.extra.names),
+}
+"""What the steps of one compiled problem may have in common."""
+
+
+def differences(like: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
+    """In what of those `names` of ``KIND`` a step is not like another."""
+    every = ((name, KIND[name](like), KIND[name](step)) for name in names)
+    return [name for name, own, other in every if not np.array_equal(own, other)]
+
+
 def hessian(h: float, K_q: Array, M_u: Array) -> Array:
     """H of Eq. :eq:`eq-13`, shape (n_v, n_v), from the fields of a step [s], [N/m] and [kg].
 
     StepDataError if an entry leaves the range of float64.
     """
-    n_a, n_v = len(K_q), len(K_q) + len(M_u)
+    n_a = len(K_q)
+    n_v = len(K_q) + len(M_u)
     H = np.zeros((n_v, n_v))
     H[:n_a, :n_a], H[n_a:, n_a:] = hessian_blocks(h, K_q, M_u)
     return read_only(H)

@@ -7,7 +7,7 @@ CVXPY itself is not needed to say what an extension is;
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -77,8 +77,8 @@ class Rises(Plain):
 
     loads: Array
     masses: Array
-    coordinates: Indices = ()  # type: ignore[assignment]
-    contacts: Indices = ()  # type: ignore[assignment]
+    coordinates: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    contacts: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
     def __post_init__(self) -> None:
         for name in ("coordinates", "contacts"):

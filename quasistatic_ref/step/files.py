@@ -57,7 +57,8 @@ def step_from_record(record: Any) -> StepData:
     top.check_format(STEP_FORMAT, VERSION)
     cone = top.text("cone", PYRAMID)
     h = top.number("h", above=0.0)
-    n_a, n_u = top.integer("n_a", least=0), top.integer("n_u", least=0)
+    n_a = top.integer("n_a", least=0)
+    n_u = top.integer("n_u", least=0)
     step = StepData(
         h=h,
         K_q=top.array("K_q", (n_a, n_a)),

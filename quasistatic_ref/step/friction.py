@@ -1,6 +1,5 @@
 """Rows and wrenches of contacts in their friction cone (:mod:`~quasistatic_ref.step.cones`)."""
 
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -94,50 +93,37 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
         about n.
     """
     kind = cone(name)
-    wrench: Array = _wrenches(
-        _impulses(contacts, lam, name), kind.matrix, kind.in_rows(contacts.mu)
-    )
+    of_rows = impulses(contacts, lam, name)
+    wrench: Array = wrenches(of_rows, kind.matrix, kind.in_rows(contacts.mu))
     return wrench / h
 
 
-def rounded_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAMID) -> Array:
-    """The combination of :func:`contact_wrenches`, each number rounded once, as files have it.
+def impulses(contacts: Contacts, lam: Array, name: str) -> Array:
+    """The multiplier of each row of the cone, shape (n_c, R) [N s]; 0 where a contact lacks it.
 
     Parameters
     ----------
-    contacts, lam, h, name
-        As in :func:`contact_wrenches`; lam is finite.
-
-    Returns
-    -------
-    ndarray, shape (n_c, 4)
-        (f_d1, f_d2, f_n, tau_n) [N, N m]: each the float64 nearest to the exact combination, which
-        ``contact_wrenches`` may miss by the rounding of its sums; infinite beyond float64's range.
+    contacts, lam, name
+        As in :func:`contact_wrenches`.
     """
-    kind = cone(name)
-    exact = np.frompyfunc(Fraction, 1, 1)
-    impulses, mu = _impulses(contacts, lam, name), kind.in_rows(contacts.mu)
-    wrench = _wrenches(exact(impulses), exact(kind.matrix), exact(mu)) / Fraction(h)
-    return np.array([_nearest(x) for x in wrench.ravel()]).reshape(-1, 4) + 0.0
-
-
-def _impulses(contacts: Contacts, lam: Array, name: str) -> Array:
-    """The multiplier of each row of the cone, shape (n_c, R) [N s]; 0 where a contact lacks it."""
     mask = row_layout(name, contacts.rows.tobytes()).mask
-    impulses = np.zeros(mask.shape)
-    impulses[mask] = lam
-    return impulses
+    of_rows = np.zeros(mask.shape)
+    of_rows[mask] = lam
+    return of_rows
 
 
-def _wrenches(impulses: Any, matrix: Any, mu: Any) -> Any:
-    """Wrenches times h, shape (n_c, 4) [N s, N m s], of `impulses` (n_c, R), in any numbers."""
-    f_n, f_d1, f_d2, tau_n = (impulses @ matrix).T
+def wrenches(of_rows: Any, matrix: Any, mu: Any) -> Any:
+    """Wrenches times h, shape (n_c, 4) [N s, N m s], in floats or in fractions.
+
+    Parameters
+    ----------
+    of_rows : ndarray, shape (n_c, R)
+        Impulses [N s].
+    matrix : ndarray, shape (R, 4)
+        Of the cone [-].
+    mu : ndarray, shape (n_c, 3)
+        (mu_v, mu_v, mu_omega) [-, -, m].
+    """
+    f_n, f_d1, f_d2, tau_n = (of_rows @ matrix).T
     mu_v, _, mu_omega = mu.T
     return np.array([mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n]).T
-
-
-def _nearest(x: Fraction) -> float:
-    try:
-        return float(x)
-    except OverflowError:
-        return float("inf") if x > 0 else float("-inf")

@@ -55,7 +55,8 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
     list of Group
         At least one.
     """
-    n_c, n_extra = step.contacts.n_c, len(step.extra.names)
+    n_c = step.contacts.n_c
+    n_extra = len(step.extra.names)
     own, of_row = np.nonzero(step.extra.A)
     near = np.ones(n_c, dtype=bool) if near is None else near
     contact, of_contact, _ = step.contacts.entries()
@@ -134,6 +135,7 @@ def split(step: StepData, group: Group) -> tuple[Indices, Indices]:
 
 def own_rows(step: StepData, group: Group) -> Extra:
     """The user's own rows of a group."""
-    extra, own = step.extra, group.own
+    extra = step.extra
+    own = group.own
     names = tuple(extra.names[i] for i in own)
     return Extra(names, extra.A[np.ix_(own, group.coordinates)], extra.b[own])

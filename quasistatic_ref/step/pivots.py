@@ -101,7 +101,8 @@ def exact_factor(S: Array, share: float) -> Array | None:
     common = max((q for row in fractions for _, q in row), default=1)  # a power of two
     rest = [[p * (common // q) for p, q in row[i:]] for i, row in enumerate(fractions)]
     diagonal, (part, whole) = [row[0] for row in rest], share.as_integer_ratio()
-    L, last = np.zeros(S.shape), 1
+    L = np.zeros(S.shape)
+    last = 1
     for k, entry in enumerate(diagonal):  # Bareiss: all entries are minors, all divisions exact
         row, *below = rest
         minor = row[0]  # the pivot is minor / last

@@ -9,7 +9,7 @@ import numpy as np
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.cones import PYRAMID
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import KIND, StepData, differences
 from quasistatic_ref.step.friction import frame_jacobian
 
 
@@ -52,7 +52,10 @@ class StepProblem(Shown):
     def __init__(self, like: StepData) -> None:
         self.like = like
         self.check_kind()
-        n_a, n_u, n_v, n_c = like.n_a, like.n_u, like.n_v, like.contacts.n_c
+        n_a = like.n_a
+        n_u = like.n_u
+        n_v = like.n_v
+        n_c = like.contacts.n_c
 
         # What all these steps have in common.
         h = like.h
@@ -130,24 +133,15 @@ class StepProblem(Shown):
 
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
-        like = self.like
-        for name, own, other in (
-            ("cone", like.cone, step.cone),
-            ("h", like.h, step.h),
-            ("n_a", like.n_a, step.n_a),
-            ("n_u", like.n_u, step.n_u),
-            ("contacts.rows", like.contacts.rows, step.contacts.rows),
-            ("contacts.mu_v", like.contacts.mu[:, 0], step.contacts.mu[:, 0]),
-            ("contacts.mu_omega", like.contacts.mu[:, 2], step.contacts.mu[:, 2]),
-            ("extra", len(like.extra.names), len(step.extra.names)),
-        ):
-            if not np.array_equal(own, other):
-                problem = f"is {own} in this problem; make a problem like this step"
-                raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
+        for name in differences(self.like, step):
+            own, other = KIND[name](self.like), KIND[name](step)
+            problem = f"is {own} in this problem; make a problem like this step"
+            raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
 
     def check_kind(self) -> None:
         """Refuse steps that are not the paper's, with StepDataError."""
-        cone, names = self.like.cone, list(self.like.extra.names)
+        cone = self.like.cone
+        names = list(self.like.extra.names)
         elsewhere = "solve/cvxpy_problem.py has what is not in the paper"
         if cone != PYRAMID:
             raise StepDataError(f"is not the pyramid; {elsewhere}", field="cone", value=cone)

@@ -61,7 +61,8 @@ def standard_form(step: StepData) -> StandardForm:
     A = friction_rows(step.contacts, step.cone)[step.mask]  # Eq. (8)
     b = -row_gaps(step.contacts, step.cone)[step.mask]  # Eq. (8)
     if step.extra.names:
-        A, b = np.vstack([A, step.extra.A]), np.concatenate([b, step.extra.b])
+        A = np.vstack([A, step.extra.A])
+        b = np.concatenate([b, step.extra.b])
     return StandardForm(step.H, load(step), A, b)
 
 

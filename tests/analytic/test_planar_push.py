@@ -7,7 +7,7 @@ is held against what it has to satisfy, and steps against laws that do not need 
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.scenes.slider import push, push_step, sliding_motion, sticking_motion
+from quasistatic_ref.lab.scenes.slider import push, push_step, sticking_motion
 from quasistatic_ref.solve.solve import solve_step
 from tests.tolerances import ROUNDING
 
@@ -29,16 +29,6 @@ def test_a_sticking_push_is_lynchs_formula_by_components():
     np.testing.assert_allclose(touched, MOVED, rtol=ROUNDING, atol=0.0)
 
 
-def test_a_push_without_friction_turns_by_its_arm():
-    # v along n; omega / v = (x n_y - y n_x) / c^2; the point advances by 1 along n.
-    motion = sliding_motion(POINT, MOVED, C**2)
-    arm = X_C * U_Y - Y_C * U_X
-    speed = motion[:2] @ MOVED
-    np.testing.assert_allclose(motion[:2], speed * MOVED, rtol=ROUNDING, atol=0.0)
-    np.testing.assert_allclose(motion[2] / speed, arm / C**2, rtol=ROUNDING, atol=0.0)
-    np.testing.assert_allclose(speed + arm * motion[2], 1.0, rtol=ROUNDING, atol=0.0)
-
-
 @pytest.mark.parametrize("sticks", [True, False])
 def test_the_support_moves_along_the_normal_of_its_limit_surface(sticks):
     of = push(POINT, MOVED, mu_v=0.4, c=C, Pi=0.8, lifted=0.5, sticks=sticks)
@@ -53,12 +43,3 @@ def test_the_support_moves_along_the_normal_of_its_limit_surface(sticks):
     motion = answer.delta_q[[2, 3, 5]] * [1, 1, C]
     unit = motion / np.linalg.norm(motion)
     np.testing.assert_allclose(gradient / np.linalg.norm(gradient), unit, rtol=0.0, atol=ROUNDING)
-
-
-@pytest.mark.parametrize("lifted", [0.0, 1.0])
-def test_lynchs_law_with_the_wrong_c_is_told_apart(lifted):
-    # At Pi = 0.5 and rho = 30 mm and c = 25 mm: 1.5 / (1 + 0.5 * 1.44) of Lynch's turn.
-    of = push(POINT, MOVED, mu_v=0.4, c=C, Pi=0.5, lifted=lifted, sticks=True)
-    _, _, v_x, v_y, _, omega = solve_step(push_step(of), "clarabel").delta_q
-    ratio = C**2 * omega / (X_C * v_y - Y_C * v_x)
-    np.testing.assert_allclose(ratio, 1.5 / 1.72, rtol=ROUNDING, atol=0.0)

@@ -50,11 +50,6 @@ def test_it_sticks_up_to_the_limit(run):
     np.testing.assert_allclose(moved, np.zeros((AT_LIMIT, 6)), rtol=0, atol=EXACT)
 
 
-def test_while_it_sticks_friction_balances_the_torque(run):
-    expected = [[0, 0, MASS * GRAVITY, -torque(k)] for k in range(AT_LIMIT)]
-    np.testing.assert_allclose(run["wrench"][:AT_LIMIT, 0], expected, rtol=0, atol=ROUNDING)
-
-
 def test_the_whole_run_is_the_recurrence_from_rest(run):
     phi, angle, heights, turns = 0.0, 0.0, [RADIUS], [0.0]
     for k in range(200):
@@ -68,11 +63,3 @@ def test_the_whole_run_is_the_recurrence_from_rest(run):
     assert turns[-1] > 2 * np.pi  # more than once around
     np.testing.assert_allclose(run["q"][:, 2], heights, rtol=0, atol=ROUNDING)
     np.testing.assert_allclose(run["q"][:, 5], np.sin(np.array(turns) / 2), rtol=0, atol=ROUNDING)
-
-
-def test_friction_is_at_its_limit_while_it_spins(run):
-    # The pair of forces: f_n = m g + m delta_z / h^2, tau = -mu_omega f_n.
-    for k in range(AT_LIMIT + 1, 200):
-        f_n = MASS * GRAVITY + MASS * run["delta_q"][k, 2] / H**2
-        expected = [0, 0, f_n, -MU_OMEGA * f_n]
-        np.testing.assert_allclose(run["wrench"][k, 0], expected, rtol=ROUNDING, atol=ROUNDING)

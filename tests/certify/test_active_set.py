@@ -1,14 +1,12 @@
 """The walk: which row leaves, exact ties included, and that it ends."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 
 from quasistatic_ref.certify import active_set
 from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
 from quasistatic_ref.certify.point import Point, ball_form
-from quasistatic_ref.certify.rational import exact_form_of
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 
 
 def program(A, b, g=None):
@@ -115,31 +113,6 @@ def test_exactly_tied_duplicated_and_dependent_rows_end(seed):
     x = end.point.rational
     assert [form.x_unit * v / x.denominator for v in x.x] == [10, 10, 10, 10, 0]
     assert end.walks <= form.m
-
-
-def test_each_walk_raises_the_dual_objective(monkeypatch):
-    """1/2 x'x at the ends of the walks of random programs with many ties."""
-    ends = []
-
-    def recorded(point, p):
-        after = walk(point, p)
-        if not isinstance(after, Farkas):
-            ends.append((objective(point), objective(after)))
-        return after
-
-    def objective(point):
-        x, d = point.rational.x, int(point.rational.denominator)
-        return Fraction(sum(int(v) ** 2 for v in x), d**2)
-
-    walk = active_set._walk
-    monkeypatch.setattr(active_set, "_walk", recorded)
-    rng = np.random.default_rng(3)
-    for _ in range(50):
-        rows = rng.integers(-1, 2, size=(12, 4))
-        end = dual_active_set(program(rows, rng.integers(-1, 2, size=12)))
-        assert isinstance(end, Farkas | Optimum)
-    assert len(ends) > 50
-    assert all(before < after for before, after in ends)
 
 
 def test_rows_whose_multipliers_are_zero_are_left_out(balls):

@@ -6,7 +6,7 @@ from flint import fmpq
 
 from quasistatic_ref.certify import dependence
 from quasistatic_ref.certify.dependence import SMALL, combination, implied, independent_rows
-from quasistatic_ref.certify.rational import exact_form_of
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 
 UNLUCKY = 101
 
@@ -28,14 +28,6 @@ def equation(form, i):
 def prime(request, monkeypatch):
     """The usual first prime, and one that these rows are unlucky with."""
     monkeypatch.setattr(dependence, "PRIME", request.param)
-
-
-@pytest.mark.usefixtures("prime")
-def test_rows_that_are_equal_modulo_the_prime_only_are_independent():
-    """(1, 101) is (1, 0) modulo 101."""
-    form = rows([1, 0], [1, UNLUCKY])
-    assert implied(form, [0], [equation(form, 1)]) == [False]
-    assert combination(form, [0], 1) is None
 
 
 @pytest.mark.usefixtures("prime")

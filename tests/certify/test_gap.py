@@ -12,11 +12,10 @@ from quasistatic_ref.certify.gap import (
     energy,
     fractions,
     free_energy,
-    in_joules,
-    negligible,
 )
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.tolerances import IMPULSES
 from tests.oracles.random_steps import any_step
 from tests.oracles.solution_truth import dot, program, solved

@@ -9,7 +9,6 @@ from quasistatic_ref.certify.optimality import (
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import (
-    changed,
     contact_row,
     judged,
     planted_step,
@@ -47,49 +46,6 @@ def test_a_force_too_much_is_the_stationarity_residual_and_no_other(k):
     found = optimality_residuals(standard_form(step.replace(tau_u=tau_u)), delta_q, lam)
     near(found.stationarity, SIZE)
     near([found.primal, found.dual, found.complementarity], 0.0)
-
-
-@pytest.mark.parametrize("j", range(3))
-def test_penetration_times_lam_is_the_residual_of_complementarity(j):
-    # The active row of contact j had slack 0: it is now -SIZE, and its product -SIZE lam.
-    step, delta_q, lam, _ = plant()
-    phi = step.contacts.phi.copy()
-    phi[j] -= SIZE
-    found = optimality_residuals(
-        standard_form(step.replace(contacts=changed(step.contacts, phi=phi))), delta_q, lam
-    )
-    near(found.primal, SIZE)
-    near([found.stationarity, found.dual], 0.0)
-    rows = slice(*step.offsets[j : j + 2])
-    near(found.complementarity, SIZE * lam[rows].max())
-
-
-def test_a_negative_multiplier_is_the_dual_residual():
-    # On a row of zero slack, so that (12) still holds; its force is taken back, so that (9) does.
-    step, delta_q, lam, slack = plant()
-    row = int(np.argmin(np.abs(slack)))
-    j, i = 0, row
-    while i >= step.contacts.rows[j]:
-        i -= step.contacts.rows[j]
-        j += 1
-    wrong = lam.copy()
-    wrong[row] = -SIZE
-    push = contact_row(step.contacts, j, i) * (lam[row] + SIZE) / step.h
-    step = step.replace(tau_a=step.tau_a + push[:3], tau_u=step.tau_u + push[3:])
-    found = optimality_residuals(standard_form(step), delta_q, wrong)
-    near(found.dual, SIZE)
-    near([found.stationarity, found.primal, found.complementarity], 0.0)
-
-
-def test_a_force_without_touch_is_the_complementarity_residual():
-    # On a row of positive slack s the multiplier SIZE / s makes the product size.
-    step, delta_q, lam, slack = plant()
-    row = int(np.argmax(slack))
-    wrong = lam.copy()
-    wrong[row] = SIZE / slack[row]
-    found = optimality_residuals(standard_form(step), delta_q, wrong)
-    np.testing.assert_allclose(found.complementarity, SIZE, rtol=ROUNDING, atol=0.0)
-    near([found.primal, found.dual], 0.0)
 
 
 def test_the_user_s_own_rows_are_judged_with_the_others():

@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.warm import warm_rows
-from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_exact import resting_point
 
@@ -33,18 +31,3 @@ def test_sticking_contact_keeps_independent_rows_of_the_same_impulse():
     lam = np.linalg.lstsq(A[rows].T, A.T @ pressed)[0]
     assert (lam > 0).all()
     assert np.abs(A[rows].T @ lam - A.T @ pressed).max() < 1e-12
-
-
-def test_optimal_multipliers_that_are_not_basic_need_no_walk():
-    """The mean of several optimal multipliers is one, and presses on more rows than it needs."""
-    rng = np.random.default_rng(5)
-    surplus = 0
-    for _ in range(10):
-        step = grasp_step(rng)
-        starts = [rng.permutation(80)[:40].tolist() for _ in range(5)]
-        optima = [exact_step(step, rows) for rows in starts]
-        lam = np.mean([o.lam for o in optima], axis=0)
-        surplus += np.count_nonzero(lam) > len(optima[0].working_set)
-        start = warm_rows(standard_form(step).A, lam, optima[0].slack)
-        assert exact_step(step, start).walks == 0
-    assert surplus >= 5

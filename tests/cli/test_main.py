@@ -91,7 +91,7 @@ def test_help_does_not_pay_for_heavy_imports(arguments):
 @pytest.mark.parametrize(
     "words",
     [[name] for name in COMMANDS if name not in ("study", "vectors")]
-    + [["study", "report"], ["study", "pack"], ["study", "export"]]
+    + [["study", "report"], ["study", "pack"]]
     + [["vectors", name] for name in ("check", "report", "pack", "challenge")],
     ids=" ".join,
 )

@@ -61,27 +61,6 @@ def test_a_run_of_no_steps_is_good(scene, out, capsys):
     assert capsys.readouterr().out.startswith("0 steps of 8 variables x 0 rows")
 
 
-def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(swing, out, capsys):
-    assert main(["run", swing, "--out", str(out)]) == 3
-    captured = capsys.readouterr()
-    assert captured.out == ""
-    *warned, said = [line.removeprefix("quasistatic-ref: ") for line in captured.err.splitlines()]
-    assert said.startswith("step 3: the step has no solution: floor(floor, post/club#0)/0 ")
-    step_file = out / "swing_failed_step.json"
-    assert f"the first 3 steps are in {out / 'swing.npz'}" in said
-    assert f"the failing step in {step_file}" in said
-    trajectory = trajectory_read(out / "swing.npz")
-    assert trajectory.steps == 3
-    assert trajectory.failed is not None
-    assert warned == [str(finding) for finding in trajectory.findings]
-    assert any("turns by 270 degrees, in step 2" in sentence for sentence in warned)
-    assert main(["run", swing, "--out", str(out), "--quiet"]) == 3
-    assert capsys.readouterr().err == captured.err
-    np.testing.assert_allclose(step_read(step_file).contacts.phi, [-0.11], rtol=MULTIPLIERS)
-    assert main(["solve", str(step_file)]) == 3  # replayed by itself, it fails again
-    assert one_sentence(capsys.readouterr().err).startswith("the step has no solution")
-
-
 def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
     honest, calls = simulator.Simulator.step, []
 

@@ -9,7 +9,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
 from tests.tolerances import ROUNDING
 from validation.make.aligned_poses import FLAT, HALF, UP
-from validation.make.forces_by_hand import Scene, slab, wrong
+from validation.make.forces_by_hand import Scene, wrong
 
 ORIGIN, STRAIGHT = np.zeros(3), np.eye(3)
 CUBE, HULL = FLAT["box"](HALF), FLAT["hull"](HALF)
@@ -47,15 +47,6 @@ def test_a_body_whose_centre_is_over_what_touches_rests(name):
     for normals in ({(1, 0): UP}, {(0, 1): -UP}):
         scene = Scene(bodies, normals, np.zeros((1, 3)))
         assert [wrong(scene, k, 0.5) for k in (least, least + 1, 12)] == [""] * 3
-
-
-@pytest.mark.parametrize("k", [4, 8, 12])
-def test_three_cubes_with_offsets_of_10_and_20_mm_stand_still(k):
-    """The centre of the upper two is (15, 30) mm off that of the lowest."""
-    places = [np.array([0.01 * i, 0.02 * i, (2 * i + 1) * HALF]) for i in range(3)]
-    bodies = [*((CUBE, STRAIGHT, place) for place in places), slab()]
-    normals = {(3, 0): UP, (0, 1): UP, (1, 2): UP}
-    assert wrong(Scene(bodies, normals, np.zeros((3, 3))), k, 0.5) == ""
 
 
 def found(low, top, R, place, nearest):

@@ -82,15 +82,6 @@ def test_on_a_slope_the_middle_of_an_edge_takes_no_corners_place() -> None:
         np.testing.assert_allclose(points.phi, 0, rtol=EXACT, atol=CLOSED_FORM)
 
 
-def test_crossings_are_kept_where_no_corner_faces_the_other_body() -> None:
-    # Two beams crossed at right angles, 0.01 m apart, have a square of 0.04 m in common.
-    beam, across = Box(np.array([0.5, 0.02, 0.02])), Box(np.array([0.02, 0.5, 0.02]))
-    points = found(beam, across, np.eye(3), np.array([0.0, 0.0, 0.05]), 4)
-    np.testing.assert_allclose(points.phi, 0.01, rtol=EXACT, atol=CLOSED_FORM)
-    np.testing.assert_allclose(np.abs(points.beta[:, :2]), 0.02, rtol=EXACT, atol=CLOSED_FORM)
-    assert len({tuple(np.sign(xy)) for xy in points.beta[:, :2]}) == 4
-
-
 def test_a_capsule_lies_on_its_two_caps_and_a_cylinder_on_its_rims() -> None:
     floor = HalfSpace(np.eye(3)[2], 0.0)
     lying = Rotation.from_rotvec([0, np.pi / 2, 0]).as_matrix()

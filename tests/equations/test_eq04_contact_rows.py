@@ -59,9 +59,3 @@ def test_the_cvxpy_constraints_are_the_printed_left_hand_sides(rng):
         constraint = problem.contact_rows[i]
         # CVXPY keeps a >= 0 as 0 - a <= 0.
         np.testing.assert_allclose(-constraint.expr.value, expected, rtol=ROUNDING, atol=ROUNDING)
-
-
-def test_no_contact_without_torsion_gets_a_torsional_constraint(rng):
-    problem = StepProblem(random_step(rng, rows=(4, 4)))
-    assert len(problem.contact_rows) == 4
-    assert [c.shape for c in problem.contact_rows] == [(2,)] * 4

@@ -1,14 +1,14 @@
 """A good scenario, step and solution as plain dictionaries, to be spoilt one field at a time."""
 
 import copy
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import collision, joint, link, robot, written
+from tests.oracles.records import toml_text
+from tests.scenes import BALL
 
-BALL = robot(link("ball", collision('<sphere radius="0.05"/>'), inertial("0.3", ("3e-4",) * 3)))
 RAIL = robot(
     link("rail"),
     link("plate", collision('<box size="0.02 0.2 0.2"/>')),
@@ -57,21 +57,6 @@ SCENE: dict[str, Any] = {
 """A plate pushes a ball over the floor: n_a = 1, n_u = 6, 10 rows."""
 SUNK = ("bodies/ball/pose/xyz", [0.065, 0.0, -0.03])
 """A change that makes the first step fail: 0.08 m deep, where 0.05 m is the limit."""
-
-
-def toml_text(table: dict[str, Any]) -> str:
-    """A dictionary as TOML, each of its fields one line."""
-    return "".join(f"{key} = {_toml(value)}\n" for key, value in table.items())
-
-
-def _toml(value: Any) -> str:
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{json.dumps(k)} = {_toml(v)}" for k, v in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(_toml(v) for v in value) + "]"
-    if isinstance(value, bool | str):
-        return json.dumps(value)
-    return str(value)
 
 
 def changed(record: dict[str, Any], *changes: tuple[str, Any]) -> dict[str, Any]:
@@ -123,7 +108,7 @@ def scene_written(folder: Path, scene: dict[str, Any] = SCENE) -> Path:
     written(folder, BALL, "ball.urdf")
     written(folder, RAIL, "rail.urdf")
     written(folder, CLOUD, "cloud.xyz")
-    return written(folder, toml_text(scene), "scene.toml")
+    return written(folder, toml_text(scene).decode(), "scene.toml")
 
 
 def contents(folder: Path) -> dict[Path, bytes]:

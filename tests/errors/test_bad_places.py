@@ -1,6 +1,5 @@
 """Paths that leave their folder, outputs that cannot be written, options that mean nothing."""
 
-import json
 import os
 import resource
 import subprocess
@@ -12,9 +11,10 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.step.files import step_written
-from tests.errors.scene import BALL, SCENE, changed, scene_written
+from tests.errors.scene import SCENE, changed, scene_written
 from tests.helpers import planted_step
 from tests.model.urdf.urdf_texts import written
+from tests.scenes import BALL
 
 LEAVES = "leaves the scenario's folder; put the file there, or give the path on the command line"
 
@@ -200,17 +200,6 @@ def test_a_step_that_cannot_be_written_is_refused(tmp_path, refused, path):
     in_the_way(tmp_path)
     (tmp_path / "x").mkdir()
     assert "cannot be written: " in refused("solve", step, "-o", path.replace("{}", str(tmp_path)))
-
-
-def test_a_device_is_written_into_and_never_replaced(tmp_path, capsys):
-    step = step_written(tmp_path / "step.json", planted_step(np.random.default_rng(0))[0])
-    assert main(["solve", str(step), "-o", "/dev/null"]) == 0
-    assert not os.path.isfile("/dev/null")
-    target, link = tmp_path / "there.json", tmp_path / "link.json"
-    link.symlink_to(target)
-    assert main(["solve", str(step), "-o", str(link)]) == 0
-    assert link.is_symlink()
-    assert json.loads(target.read_text())["status"] == "optimal"
 
 
 def test_standard_output_that_is_full_is_one_sentence(tmp_path):

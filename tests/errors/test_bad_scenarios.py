@@ -4,7 +4,8 @@ import pytest
 
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.scenario.scenario import load_scenario
-from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written, toml_text
+from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written
+from tests.oracles.records import toml_text
 
 BALL = "bodies/ball/"
 RAIL = "bodies/rail/"
@@ -31,9 +32,6 @@ CAUSES = {
     "a body without its table": (
         ("ball", {"base": "fixed"}), "ball", "is unknown; did you mean 'bodies.ball'?",
     ),
-    "a vector in words": (
-        ("gravity", "0, 0, -9.81"), "gravity", "numbers, with commas between them and brackets",
-    ),
     "accuracy by another name": (
         ("solver/tol", 1e-9), "solver.tol", "is unknown; did you mean 'accuracy'?",
     ),
@@ -57,11 +55,6 @@ CAUSES = {
         ("shapes/wall/pose/xyz/0", 1e154), "shapes.wall.pose.xyz", "must be at most 1e+15 (got 1e",
     ),
     "bodies a list": (("bodies", [1]), "bodies", "must be a table of named fields (got [1])"),
-    "a body called world": (("bodies/world", {"urdf": "ball.urdf"}), "body.name", "than 'world'"),
-    "a body with a slash": (
-        ("bodies", {"a/b": {"urdf": "ball.urdf", "base": "floating"}}),
-        "body.name", "must not contain '/', '#', '*' or white space (got 'a/b')",
-    ),
     "nothing that moves": (
         ("bodies/rail", ...), ("bodies/ball", {"urdf": "ball.urdf"}), ("contacts", {}),
         "bodies", "nothing here can move",
@@ -175,7 +168,7 @@ NO_NUMBERS = ("nan", "-inf", "2020-01-01", hex(16**5000))
 
 @pytest.mark.parametrize("field", list(numeric_fields(SCENE)))
 def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field):
-    text = toml_text(changed(SCENE, (field, "MARK")))
+    text = toml_text(changed(SCENE, (field, "MARK"))).decode()
     path = scene_written(tmp_path)
     for number in NO_NUMBERS:
         path.write_text(text.replace('"MARK"', number))
@@ -203,7 +196,7 @@ def test_numbers_at_the_ends_of_the_range_run_or_are_refused_in_a_sentence(tmp_p
     path, refusals = scene_written(tmp_path), []
     for size in AT_THE_ENDS:
         for number in (size, -size):
-            path.write_text(toml_text(changed(ROUND, ("steps", 1), (field, number))))
+            path.write_bytes(toml_text(changed(ROUND, ("steps", 1), (field, number))))
             try:
                 load_scenario(path).run(progress=False)
             except QuasistaticError as error:

@@ -2,10 +2,7 @@
 
 import os
 import signal
-import subprocess
-import sys
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -18,7 +15,7 @@ from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.step.files import step_read
 from tests.errors.scene import SCENE, changed, scene_written
-from tests.tolerances import EXACT, ROUNDING
+from tests.tolerances import ROUNDING
 
 WEDGE = (
     # The ball between two boxes, each 1 mm into it: no displacement opens both.
@@ -127,37 +124,6 @@ def test_a_position_that_is_no_number_is_out_of_the_scene():
     said = Limits().out_of_reach(("world", "ball"), np.array([[0.0, 0.0, 0.0], [0.0, np.nan, 1.0]]))
     assert said is not None
     assert said.startswith("link ball is nan m from the origin")
-
-
-def test_ctrl_c_leaves_a_trajectory_of_whole_steps(tmp_path):
-    path, out = scene_written(tmp_path, changed(SCENE, ("steps", 1_000_000))), tmp_path / "out"
-    run = subprocess.Popen(
-        [sys.executable, "-m", "quasistatic_ref.cli.main", "run", str(path), "--fast",
-         "--out", str(out)],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
-    )  # fmt: skip
-    while not out.exists():  # the folder is made just before the first step
-        time.sleep(0.05)
-    time.sleep(3.0)  # the first step takes one, the others a hundredth
-    run.send_signal(signal.SIGINT)
-    said, complained = run.communicate(timeout=30)
-    assert run.returncode == 130
-    assert said == ""
-    trajectory = trajectory_read(out / "scene.npz")
-    n = trajectory.steps
-    assert n > 0
-    assert trajectory.failed == f"step {n}: interrupted"
-    ended = f"step {n}: interrupted; the first {n} steps are in {out / 'scene.npz'}"
-    sentences = (*trajectory.findings, ended)
-    assert complained.splitlines() == [f"quasistatic-ref: {sentence}" for sentence in sentences]
-    assert os.listdir(out) == ["scene.npz"]
-    # The same steps as of a run that was set to end there, bit for bit.
-    short = load_scenario(path, [f"steps={min(n, 3)}"], fast=True).run(progress=False)
-    for name in ("q", "delta_q", "lam"):
-        length = len(short[name])
-        np.testing.assert_allclose(trajectory[name][:length], short[name], rtol=EXACT, atol=EXACT)
 
 
 @pytest.fixture

@@ -2,10 +2,6 @@
 
 import contextlib
 import json
-import signal
-import subprocess
-import sys
-import time
 
 import numpy as np
 import pytest
@@ -21,8 +17,6 @@ from quasistatic_ref.step.extension import Extension
 from tests.errors.scene import SCENE, SUNK, changed, contents, scene_written
 
 STEPS, STRETCH = 9, 4
-PATIENCE = 120.0
-"""For a process to take its first steps, on a machine that is busy with others [s]."""
 
 
 class Killed(BaseException):
@@ -66,6 +60,7 @@ KINDS = {
     "by splitting": ({"solver.backend": "osqp", "solver.certify": "off", "record": "light"}, None),
     "on the plain path": ({"solver.backend": "osqp", "solver.certify": "off", "fast": False}, None),
     "with an extension": ({}, above_the_floor),
+    "under Coulomb's law": ({"law": "coulomb"}, above_the_floor),
     "without a backend": ({"solver.backend": "none"}, None),
 }  # fmt: skip
 
@@ -87,43 +82,24 @@ def test_a_run_that_was_ended_twice_ends_with_the_bits_of_one_that_was_not(tmp_p
     )
 
 
-def test_what_the_solver_keeps_of_earlier_steps_decides_bits(tmp_path, scene, monkeypatch):
-    """So that the test above would fail if a resumed run did not ask the solver again."""
-    scenario = load_scenario(scene, {**KINDS["by splitting"][0], "steps": STEPS}, fast=True)
-    ran(scenario, tmp_path / "whole.npz")
-    monkeypatch.setattr(module, "STRETCH", 1)  # cold at each step
-    ran(scenario, tmp_path / "cold.npz")
-    assert (tmp_path / "cold.npz").read_bytes() != (tmp_path / "whole.npz").read_bytes()
-
-
-def test_a_killed_process_is_resumed_from_the_command_line(tmp_path, scene, capsys, monkeypatch):
-    monkeypatch.setattr(module, "STRETCH", 1000)  # as in the other process
-    arguments = ["run", str(scene), "--fast", "--set", "steps=200"]
-    once, again = tmp_path / "once", tmp_path / "again"
-    command = [sys.executable, "-m", "quasistatic_ref.cli.main", *arguments, "--save-every", "0"]
-    process = subprocess.Popen([*command, "--out", str(again)], stderr=subprocess.DEVNULL)
-    deadline = time.monotonic() + PATIENCE
-    while saved_steps(again / "scene.npz") < 20 and time.monotonic() < deadline:
-        time.sleep(0.02)
-    process.kill()
-    assert process.wait() == -signal.SIGKILL
-    assert not (again / "scene.npz").exists()
-
-    taken = saved_steps(again / "scene.npz")
-    assert 20 <= taken < 200
-    assert main([*arguments, "--out", str(again)]) == 2  # nothing is lost for want of an option
+def test_a_killed_run_is_resumed_from_the_command_line(tmp_path, scene, capsys):
+    arguments = ["run", str(scene), "--fast", "--set", f"steps={STEPS}"]
+    path, once = tmp_path / "again" / "scene.npz", tmp_path / "once" / "scene.npz"
+    path.parent.mkdir()
+    ran(load_scenario(scene, {"steps": STEPS}, fast=True), path, killed_at=5)
+    assert main([*arguments, "--out", str(path.parent)]) == 2  # nothing is lost for want of a word
     said = capsys.readouterr().err
-    assert f"holds the first {taken} steps of a run that did not end; go on from there" in said
-    assert main([*arguments, "--out", str(again), "--resume", "--json"]) == 0
+    assert "holds the first 5 steps of a run that did not end; go on from there" in said
+    assert main([*arguments, "--out", str(path.parent), "--resume", "--json"]) == 0
     captured = capsys.readouterr()
-    assert captured.err.splitlines()[0] == f"goes on from step {taken}"
+    assert captured.err.splitlines()[0] == "goes on from step 5"
     summary = json.loads(captured.out)
-    assert (summary["steps"], summary["certified"]) == (200, "200 of 200 steps exact")
+    assert (summary["steps"], summary["certified"]) == (STEPS, f"{STEPS} of {STEPS} steps exact")
 
-    assert main([*arguments, "--out", str(once), "--resume", "--quiet"]) == 0
+    assert main([*arguments, "--out", str(once.parent), "--resume", "--quiet"]) == 0
     assert "nothing is saved" not in capsys.readouterr().err
-    assert (again / "scene.npz").read_bytes() == (once / "scene.npz").read_bytes()
-    assert not saved_folder(again / "scene.npz").exists()
+    assert path.read_bytes() == once.read_bytes()
+    assert not saved_folder(path).exists()
 
 
 WEIGHT = {"bodies.ball.wrenches": [{"t": 0.0, "force": [0.0, 0.2, 0.0]}]}

@@ -8,9 +8,8 @@ import stat
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError, StepDataError
-from quasistatic_ref.formats import files
-from quasistatic_ref.formats.files import bytes_read, json_read, json_text, text_of, text_written
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import json_text, text_of, text_written
 from quasistatic_ref.formats.files import written_whole as whole
 
 
@@ -79,13 +78,6 @@ def test_a_folder_that_cannot_be_made_is_a_plain_error(tmp_path):
     assert os.listdir(tmp_path) == ["file"]
 
 
-def test_a_folder_in_the_way_is_a_plain_error(tmp_path):
-    (tmp_path / "t.txt").mkdir()
-    with pytest.raises(InputError, match="cannot be written"):
-        text_written(tmp_path / "t.txt", "x")
-    assert os.listdir(tmp_path) == ["t.txt"]
-
-
 def test_an_open_stream_is_written_into_behind_what_it_holds(tmp_path):
     """As by the shell's ``-o /dev/stdout >> log``: the name leads to a regular file."""
     log, link = tmp_path / "log", tmp_path / "link"
@@ -126,32 +118,6 @@ def test_a_writer_that_fails_sends_nothing_down_a_pipe(error):
     os.close(one)
 
 
-READS = {
-    "missing": (lambda folder: folder / "none", "no such file"),
-    "a folder": (lambda folder: folder, "cannot be read"),
-    "a NUL in its name": (lambda folder: folder / "a\0b", "cannot be read"),
-    "a file as a folder": (lambda folder: folder / "file" / "x", "cannot be read"),
-}
-
-
-@pytest.mark.parametrize(("path", "says"), READS.values(), ids=READS)
-def test_what_cannot_be_read_is_a_plain_error(tmp_path, path, says):
-    (tmp_path / "file").write_text("x")
-    with pytest.raises(StepDataError, match=says) as caught:
-        bytes_read(path(tmp_path), StepDataError)
-    assert caught.value.file == path(tmp_path)
-
-
-def test_a_file_larger_than_any_input_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(files, "LARGEST", 2**20)
-    path = tmp_path / "big"
-    path.write_bytes(bytes(2**20 + 1))
-    with pytest.raises(InputError, match="is larger than 1 MiB"):
-        bytes_read(path)
-    path.write_bytes(bytes(2**20))
-    assert len(bytes_read(path)) == 2**20
-
-
 def test_a_byte_order_mark_is_dropped():
     assert text_of(b"\xef\xbb\xbfabc", "t") == "abc"
 
@@ -159,22 +125,6 @@ def test_a_byte_order_mark_is_dropped():
 def test_what_is_not_utf_8_names_its_line():
     with pytest.raises(InputError, match=r"^t: line 3: is not UTF-8 text$"):
         text_of(b"one\ntwo\n\xff", "t")
-
-
-JSON = {
-    "broken": ('{"a": ', "is not JSON"),
-    "empty": ("", "is not JSON"),
-    "nested too deeply": ("[" * 100_000 + "]" * 100_000, "is not usable JSON"),
-    "a number of too many digits": ("1" * 5000, "is not usable JSON"),
-}
-
-
-@pytest.mark.parametrize(("text", "says"), JSON.values(), ids=JSON)
-def test_what_is_not_json_is_a_plain_error(tmp_path, text, says):
-    path = text_written(tmp_path / "t.json", text)
-    with pytest.raises(InputError, match=says) as caught:
-        json_read(path)
-    assert caught.value.file == path
 
 
 def test_minus_zero_is_written_zero_at_any_depth():

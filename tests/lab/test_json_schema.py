@@ -14,7 +14,8 @@ from quasistatic_ref.lab.commands.schema import scenario_schema
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.scenario.scenario_table import TABLES
 from quasistatic_ref.scenario.world_solids import SOLIDS
-from tests.errors.scene import SCENE, changed, scene_written, toml_text
+from tests.errors.scene import SCENE, changed, scene_written
+from tests.oracles.records import toml_text
 
 RICH = changed(
     SCENE,
@@ -41,7 +42,7 @@ def test_every_scenario_that_comes_along_is_valid(validator, name):
 
 @pytest.mark.parametrize("scene", [SCENE, RICH])
 def test_other_scenes_are_valid(validator, scene):
-    tables = tomllib.loads(toml_text(scene))
+    tables = tomllib.loads(toml_text(scene).decode())
     assert [error.message for error in validator.iter_errors(tables)] == []
 
 
@@ -113,7 +114,7 @@ def test_a_mistake_is_refused_by_the_loader_and_by_the_schema(validator, tmp_pat
     bad = changed(SCENE, MISTAKES[name])
     with pytest.raises(InputError):
         load_scenario(scene_written(tmp_path, bad))
-    assert not validator.is_valid(tomllib.loads(toml_text(bad)))
+    assert not validator.is_valid(tomllib.loads(toml_text(bad).decode()))
 
 
 def test_the_defaults_that_the_table_states_are_those_of_the_loader(tmp_path):

@@ -19,12 +19,16 @@ CORE = (
 # Each folder of `optional` imports the core, and no other folder of `optional`.
 OPTIONAL = (
     "optional/coulomb",
+    "optional/curved",
     "optional/derivatives",
     "optional/doctor",
     "optional/ellipsoid",
     "optional/extensions",
     "optional/fast",
     "optional/large",
+    "optional/mjcf",
+    "optional/qpsolvers",
+    "optional/readers",
     "optional/runs",
     "optional/show",
 )
@@ -38,6 +42,7 @@ LAB = (
     "lab/measures",
     "lab/json_schema",
     "lab/digits",
+    "lab/folders",
     "lab/parallel",
     "lab/processes",
     "lab/supervised",
@@ -74,9 +79,9 @@ WALLS = {
     ),
     # A QP assembled by hand, to check ours: it must not go through our own way to a solver.
     # And the loop that people write first, to compare its time.
-    "qpsolvers": ("solve", "lab/claims/engines/by_hand.py", "lab/study/bench/by_hand.py"),
+    "qpsolvers": ("optional/qpsolvers", "lab/claims/engines/by_hand.py"),
     "pinocchio": ("model", "optional/derivatives/model"),
-    "coal": ("shapes", "model", "contact", "optional/derivatives/contact"),
+    "coal": ("shapes", "model", "optional/curved"),
     "matplotlib": ("optional/show/figures", "lab/figures"),
     "meshcat": ("optional/show/figures",),
     "jax": ("optional/derivatives/step_jax.py",),

@@ -61,7 +61,6 @@ PLANTED = {
         "points : ndarray, shape (N, 3)", "points : ndarray", GOOD, "points without its shape",
     ),
     "no unit of a number": ("By how much [-]", "By how much", GOOD, "factor without its unit"),
-    "an argument that is none": ("path : Path", "file : Path", GOOD, "file is no argument"),
     "no shape of the result": ("apart, shape (N, 3)", "apart", GOOD, "no shape of what is"),
     "an error left out": (
         "    InputError\n", "    OtherError\n", GOOD, "does not say when it raises InputError",

@@ -4,11 +4,9 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import random_contacts, random_step
 from quasistatic_ref.solve.backends import NONE, UNSAFE
-from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.tolerances import ALIKE
-from tests.tolerances import ROUNDING
 from validation.make.hostile_steps import names
 from validation.tools.fuzz import outcomes
 
@@ -30,11 +28,6 @@ def unlike_step(ratio):
     frame = {"d1": [1.0, 0.0, 0.0], "d2": [0.0, 1.0, 0.0], "n": [0.0, 0.0, 1.0]}
     contacts = random_contacts(rng, 4, 6, phi=1e-3, rows=4, mu_v=0.0, J=J, **frame)
     return random_step(rng, 0, 6, contacts).replace(M_u=np.eye(6))
-
-
-def test_how_unlike_rows_are_is_the_ratio_of_their_lengths():
-    for ratio in (1.0, 100.0, 1e6):
-        np.testing.assert_allclose(DenseStep(unlike_step(ratio)).unlike, ratio, rtol=ROUNDING)
 
 
 def test_a_backend_that_may_not_return_is_asked_only_where_rows_are_alike():

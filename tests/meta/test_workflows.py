@@ -1,7 +1,6 @@
 """The workflow files call the parts of .ci/run, all of them, on every Python that is declared."""
 
 import re
-import subprocess
 import tomllib
 from pathlib import Path
 
@@ -47,10 +46,3 @@ def test_the_tests_run_on_linux_and_macos_with_every_python():
     assert {name.partition("-")[0] for name in matrix["os"]} == {"ubuntu", "macos"}
     (setup,) = (step for step in job["steps"] if "setup-python" in step.get("uses", ""))
     assert setup["with"]["python-version"] == "${{ matrix.python }}"
-
-
-def test_a_part_that_does_not_exist_is_refused_before_any_runs():
-    done = subprocess.run([RUN, "lint", "linnt"], capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stderr == f"linnt is no part; there are: {' '.join(parts())}\n"
-    assert done.stdout == ""

@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from quasistatic_ref.model.configuration import configuration, normalised
+from quasistatic_ref.model.configuration import configuration
 from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.optional.derivatives.step_jax import normalised
 
 JOINTS = (
     Joint("box/base", "floating", False, slice(0, 7), slice(0, 6)),

@@ -10,15 +10,6 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.system import Body, System
 from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, written
 
-
-def test_a_configuration_keeps_its_bits_when_checked(
-    scene: System, q: np.ndarray, rng: np.random.Generator
-) -> None:
-    for _ in range(100):
-        q = scene.integrate(q, rng.normal(size=scene.n_v))
-        assert np.array_equal(scene.checked(q), q)
-
-
 BAD_Q: dict[str, tuple[str, int, float, str]] = {
     "nan": ("arm/swing", 0, np.nan, r"q\[arm/swing\]: must be finite"),
     "inf": ("box/base", 1, np.inf, r"q\[box/base\]: must be finite"),

@@ -7,7 +7,7 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import in_words
+from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.errors import QuasistaticError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import no_contacts

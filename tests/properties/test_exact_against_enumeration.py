@@ -13,7 +13,7 @@ import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import exact_optimum
-from quasistatic_ref.certify.rational import exact_form_of
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 
 PROBLEMS = 320
 

@@ -11,12 +11,11 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.solids.faces import kinks
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.formats.declared import Field
+from quasistatic_ref.optional.curved.faces import kinks
 from quasistatic_ref.optional.derivatives.contact.features import feature
 from quasistatic_ref.optional.show.figures import draw_scene, moment, panels
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -43,10 +42,6 @@ class Pad(Rounded):
         """Of the parent, which knows distances and farthest points by it."""
         return self.half_extents, self.radius
 
-    def surface(self, around, up):
-        """The corners of the box around it."""
-        return Box(self.half_extents + self.radius).surface(around, up)
-
     def words(self):
         """Kind and sizes [m]."""
         return f"pad {lengths(2 * self.half_extents)}, rounded by {self.radius:g} m"
@@ -64,7 +59,7 @@ def scene(tmp_path, monkeypatch):
         {"size": size, "radius": rounding}, lambda _, __, size, radius: Pad(size / 2, radius)
     )
     monkeypatch.setitem(SOLIDS, "pad", row)
-    pad = {"pad": SIZES, "pose": {"xyz": [0.0, 0.0, -HALF[2] - RADIUS]}}
+    pad = {"pad": SIZES, "pose": {"xyz": [0.0, 0.0, float(-HALF[2] - RADIUS)]}}
     with_pad = changed(
         SCENE, ("shapes/pad", pad), ("contacts/floor/alpha", "pad"), ("contacts/push", ...)
     )
@@ -74,7 +69,7 @@ def scene(tmp_path, monkeypatch):
 def test_its_distances_of_points_are_those_of_the_formula():
     corner, beyond = HALF, np.array([0.02, 0.03, 0.06])
     points = np.array([[0.0, 0.1, HALF[2] + 0.05], [0.0, 0.0, 0.03], corner + beyond])
-    phi, normal = signed_distance(PAD, points)
+    phi, normal = PAD.signed_distance(points)
     away = np.sqrt(beyond @ beyond)
     np.testing.assert_allclose(phi, [0.05 - RADIUS, -0.01 - RADIUS, away - RADIUS], rtol=ROUNDING)
     np.testing.assert_allclose(normal, [[0, 0, 1], [0, 0, 1], beyond / away], atol=ROUNDING)
@@ -93,7 +88,7 @@ def test_its_distance_to_other_solids_is_that_of_the_faces(other):
 
 def test_what_it_has_not_said_is_refused_in_a_sentence():
     box = ShapeInWorld(Box(np.full(3, 0.05)), np.eye(3), np.zeros(3))
-    with pytest.raises(ContactError, match="shape: has no coal object of another size"):
+    with pytest.raises(ContactError, match="shape: has no closest points with this solid"):
         solid_pair("pad", ShapeInWorld(PAD, np.eye(3), np.zeros(3)), box)
     with pytest.raises(ContactError, match="shape: has no known faces"):
         kinks(PAD)

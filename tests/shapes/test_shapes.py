@@ -12,9 +12,7 @@ from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
     Capsule,
-    Cone,
     Cylinder,
-    Ellipsoid,
     HalfSpace,
     PlacedShape,
     PointCloud,
@@ -118,34 +116,6 @@ def test_a_repeated_point_of_a_cloud_counts_once() -> None:
     thrice = np.concatenate([corners, corners[::-1] + 0.0, corners])
     assert PointCloud(thrice).points.tolist() == corners.tolist()
     assert PointCloud(corners).points.tolist() == corners.tolist()
-
-
-# Four points of the unit circle, the first again, and five of each of three levels of the sphere.
-CIRCLE = np.array([[1.0, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [1, 0, 0]])
-POLE = np.tile([0.0, 0.0, 1.0], (5, 1))
-BALL = np.concatenate([-POLE, CIRCLE, POLE])
-UP = np.array([0.0, 0.0, 0.4])
-AXES = np.array([0.1, 0.2, 0.3])
-SURFACES = {
-    "sphere": (Sphere(0.1), 0.1 * BALL),
-    "ellipsoid": (Ellipsoid(AXES), BALL * AXES),
-    "capsule": (Capsule(0.1, 0.4), np.concatenate([0.1 * BALL + UP, 0.1 * BALL - UP])),
-    "cylinder": (Cylinder(0.1, 0.4), np.concatenate([0.1 * CIRCLE - UP, 0.1 * CIRCLE + UP])),
-    "cone": (Cone(0.1, 0.4), np.concatenate([0.1 * CIRCLE - UP, UP[None]])),
-}
-
-
-@pytest.mark.parametrize("name", SURFACES)
-def test_the_surface_that_is_drawn_is_that_of_the_solid(name: str) -> None:
-    shape, expected = SURFACES[name]
-    np.testing.assert_allclose(shape.surface(5, 3), expected, rtol=0, atol=ROUNDING)
-
-
-def test_the_corners_of_a_box_are_drawn_each_once() -> None:
-    expected = {(x, y, z) for x in (-0.1, 0.1) for y in (-0.2, 0.2) for z in (-0.3, 0.3)}
-    points = Box(AXES).surface(5, 3)
-    assert len(points) == len(expected)
-    assert {tuple(point) for point in points.tolist()} == expected
 
 
 def test_words_say_the_box_about_points_and_no_zero_is_negative() -> None:

@@ -86,21 +86,6 @@ def test_a_target_of_t_and_q_is_asked_where_the_step_starts(scenario, run):
     np.testing.assert_allclose(done["q_bar_a"], done["q"][:STEPS, :3], rtol=EXACT, atol=EXACT)
 
 
-def test_a_closed_loop_is_the_open_loop_with_its_own_targets(run):
-    closed = run(lambda t, q: [q[0] + 0.001, q[1], q[2]])
-    opened = run(closed["q_bar_a"])
-    for name in ("q", "lam", "wrench", "delta_q"):
-        np.testing.assert_allclose(opened[name], closed[name], rtol=EXACT, atol=EXACT)
-    assert np.ptp(closed["q_bar_a"][:, 0]) > 0
-
-
-def test_a_force_may_be_a_function_of_time_alone(run):
-    of_t = run(goal, force=lambda t: np.full(8, t))
-    of_t_and_q = run(goal, force=lambda t, q: np.full(8, t))
-    np.testing.assert_allclose(of_t["q"], of_t_and_q["q"], rtol=EXACT, atol=EXACT)
-    assert not np.array_equal(of_t["q"], run(goal)["q"])
-
-
 OTHER = {
     "none": lambda: goal(0.0),
     "q alone": lambda q: goal(0.0),

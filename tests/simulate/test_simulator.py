@@ -1,7 +1,5 @@
 """The simulator: its step is the hand-assembled one, its targets and forces at the right times."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -159,14 +157,3 @@ def test_an_uncompensated_joint_sags_by_its_weight_over_its_stiffness(lift):
     sag = 2 * GRAVITY / 400
     np.testing.assert_allclose(run["tau_a"], [[-2 * GRAVITY]] * 3, rtol=ROUNDING)
     np.testing.assert_allclose(run["q"][:, 0], [0, -sag, -sag, -sag], rtol=STICKING, atol=ROUNDING)
-
-
-def test_the_problem_is_compiled_once(scenario):
-    simulator, q = replace(scenario, fast=False).simulator(), scenario.system.q_start
-    compiled = []
-    for k in range(4):
-        result = simulator.step(q, scenario.targets(0.01 * (k + 1)))
-        compiled.append(simulator.solver.problem.problem._cache.param_prog)
-        q = result.q
-    assert compiled[0] is not None
-    assert all(program is compiled[0] for program in compiled)

@@ -67,13 +67,6 @@ def test_a_base_follows_the_screw_between_its_waypoints(system, rng):
         )
 
 
-def test_a_base_is_at_its_waypoints_and_held_at_both_ends(system, rng):
-    values = np.array([placed(rng), placed(rng), placed(rng)])
-    track = JointTrack(system, system.joint("arm/base"), TIMES, values)
-    for t, value in ((0.0, 0), (1.0, 0), (2.0, 1), (4.0, 2), (5.0, 2)):
-        np.testing.assert_allclose(track.at(t), values[value], rtol=EXACT)
-
-
 def test_joints_without_a_track_keep_their_start(system):
     start = system.q_start[: system.n_q_a]
     slide = system.joint("desk/slide")

@@ -1,7 +1,6 @@
 """Trajectories: the same bits in and out, without pickles; failed runs keep what succeeded."""
 
 import dataclasses
-import json
 
 import numpy as np
 import pytest
@@ -71,12 +70,12 @@ def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
 
 def test_a_file_read_back_is_the_same_bits(tmp_path, run):
     back = trajectory_read(run.save(tmp_path / "run.npz"))
+    assert back == run
     assert set(back.arrays) == FULL
     for name, array in run.arrays.items():
         assert back[name].dtype == array.dtype
         np.testing.assert_array_equal(back[name], array)
         assert back[name].tobytes() == np.ascontiguousarray(array).tobytes()
-    assert back.header == json.loads(json.dumps(run.header))
     for k in range(run.steps):
         assert back.step_data(k) == run.step_data(k)
 
@@ -114,7 +113,7 @@ def test_the_header_says_what_the_run_was(run):
         "slots": ["floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0"],
         "steps": 5,
         "failed": None,
-        "contacts": [("floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0")] * 5,
+        "contacts": [["floor(floor, ball/ball#0)/0", "push(rail/plate#0, ball/ball#0)/0"]] * 5,
     }  # fmt: skip
 
 
@@ -131,21 +130,6 @@ def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
     np.testing.assert_allclose(back["q"], run["q"], rtol=EXACT, atol=EXACT)
     with pytest.raises(InputError, match="a light record has no quadratic programs"):
         back.step_data(0)
-
-
-@pytest.mark.parametrize("k", [-1, 5, 1000])
-def test_a_step_that_does_not_exist_is_refused(run, k):
-    with pytest.raises(InputError, match=rf"^step: must be 0 to 4 \(got {k}\)$"):
-        run.step_data(k)
-
-
-def test_the_worst_residual_is_that_of_all_steps(tmp_path, run, folder):
-    assert worst_residual(run) == max(run["worst_residual"])
-    settings = ["solver.certify=off"]
-    uncertified = load_scenario(folder / "scene.toml", settings, fast=True).run(progress=False)
-    assert worst_residual(uncertified) is None
-    back = trajectory_read(uncertified.save(tmp_path / "off.npz"))
-    assert np.isnan(back["digits"]).all()
 
 
 def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):

@@ -50,40 +50,6 @@ def test_a_wrench_does_to_the_coordinates_what_the_rows_did(scenario, run):
         np.testing.assert_allclose(both, generalised(run, k), rtol=ROUNDING, atol=ROUNDING)
 
 
-def test_so_does_the_sum_over_the_links_of_a_body(pinch):
-    scenario, run = pinch
-    system = scenario.system
-    links = ["near/palm", "near/left", "near/right", "held"]
-    wrenches = {link: run.wrench_on(link) for link in links}
-    own = [i for i, c in enumerate(system.coordinates) if c.name.startswith(("near/", "held/"))]
-    for k in range(run.steps):
-        J = system.kinematics(run["q"][k]).J
-        total = sum(J[system.link(link)].T @ wrenches[link][k] for link in links)
-        expected = generalised(run, k)[own]
-        np.testing.assert_allclose(total[own], expected, rtol=ROUNDING, atol=ROUNDING)
-    assert np.abs(wrenches["held"]).max() > 1  # N
-
-
-def test_both_sides_together_are_the_couple_of_the_gaps(scenario, run):
-    """About one point, the wrenches on all bodies sum to phi n x f; their forces to nothing."""
-    total, couple = np.zeros((run.steps, 6)), np.zeros((run.steps, 3))
-    for name in ("world", "rail", "ball"):
-        wrench = run.wrench_on(name)
-        link = scenario.system.link(name)
-        at = np.array([scenario.system.kinematics(q).t[link] for q in run["q"][:-1]])
-        total[:, :3] += wrench[:, :3]
-        total[:, 3:] += wrench[:, 3:] + np.cross(at, wrench[:, :3])
-    for k in range(run.steps):
-        for j in range(2):
-            f_d1, f_d2, _, _ = run["wrench"][k, j]
-            # n x n = 0, n x d1 = d2, n x d2 = -d1
-            n_x_f = f_d1 * run["d2"][k, j] - f_d2 * run["d1"][k, j]
-            couple[k] += run["phi"][k, j] * n_x_f
-    np.testing.assert_allclose(total[:, :3], 0, atol=ROUNDING)
-    np.testing.assert_allclose(total[:, 3:], couple, rtol=ROUNDING, atol=ROUNDING)
-    assert np.abs(couple).max() > 1e3 * ROUNDING  # such a couple there was
-
-
 def test_forces_of_pairs_add_up_to_those_of_the_body(scenario, run):
     forces = run.pair_forces()
     assert list(forces) == [pair.name for pair in scenario.pairs]
@@ -143,6 +109,8 @@ def test_a_trajectory_from_a_file_or_a_pickle_is_given_its_scene(scenario, run, 
 def test_other_names_and_scenes_are_refused(scenario, run, pinch, tmp_path):
     with pytest.raises(ModelError, match="link: is not a link; did you mean 'ball'"):
         run.wrench_on("bal")
+    with pytest.raises(InputError, match=r"scene: must be a Scenario or a Simulator; .*'floor'"):
+        run.pair_forces("floor")
     with pytest.raises(InputError, match="scene: is another one than that of the steps"):
         run.wrench_on("held", pinch[0])
     swing = load_scenario(written_scenario(tmp_path, SWING), fast=True)

@@ -9,13 +9,13 @@ import pytest
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast.adapters.clarabel import Clarabel
+from quasistatic_ref.optional.fast.adapters.daqp import Daqp
+from quasistatic_ref.optional.fast.adapters.piqp import Piqp
 from quasistatic_ref.optional.fast.backends import default_backend, sparse_from
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.adapters.clarabel import Clarabel
-from quasistatic_ref.solve.adapters.daqp import Daqp
-from quasistatic_ref.solve.adapters.piqp import Piqp
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.tolerances import DENSE_BELOW, DENSE_BELOW_PROOFS, SPARSE_FROM_PIQP

@@ -8,6 +8,7 @@ import pytest
 from quasistatic_ref.errors import (
     InputError,
     LimitExceeded,
+    NoFixedPoint,
     NotDifferentiable,
     RunFailed,
     StepDataError,
@@ -15,6 +16,7 @@ from quasistatic_ref.errors import (
     StepNotSolved,
 )
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.reason import Reason
@@ -71,6 +73,7 @@ def public_data(folder):
         "Blocks": sparse_step().contacts.blocks,
         "Extra": extra,
         "StepSolution": solution,
+        "CoulombSolution": coulomb_step(step),
         "Certificate": solution.certificate,
         "StepResult": result,
         "Derivatives": derivatives(simulator, system.q_start, scenario.targets(scenario.h)),
@@ -98,6 +101,7 @@ def public_data(folder):
         "StepNotSolved": StepNotSolved("osqp", "user_limit", step, 1e-9),
         "StepInfeasible": infeasible,
         "LimitExceeded": LimitExceeded("is too deep", step),
+        "NoFixedPoint": NoFixedPoint(step, 200, 1e-6),
         "NotDifferentiable": NotDifferentiable((Reason("a tie", ("c/0",), ("dq_dq",), "ties"),)),
         "RunFailed": RunFailed("step 3: is too deep", run, step),
     }

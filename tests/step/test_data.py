@@ -121,17 +121,6 @@ def test_the_caller_s_own_array_is_copied_not_locked():
     np.testing.assert_allclose(step.tau_a, [1.0, 2.0], rtol=EXACT, atol=EXACT)
 
 
-def test_counts_are_those_of_the_arrays():
-    assert (STEP.n_a, STEP.n_u, STEP.n_v, CONTACTS.n_c) == (2, 3, 5, 2)
-    assert STEP.offsets.tolist() == [0, 6, 10]
-    assert STEP.mask.tolist() == [[True] * 6, [True] * 4 + [False] * 2]
-
-
-def test_empty_blocks_and_no_contacts_are_steps_too(rng):
-    assert random_step(rng, n_a=0, n_u=2, rows=()).n_v == 2
-    assert random_step(rng, n_a=2, n_u=0, rows=()).n_v == 2
-
-
 def test_equality_sees_every_bit():
     assert STEP.replace() == STEP
     tau_u = STEP.tau_u.copy()

@@ -3,10 +3,15 @@
 import numpy as np
 import pytest
 
+from quasistatic_ref.cli.solution_files import rounded_wrenches
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.step.cones import pyramid
-from quasistatic_ref.step.friction import contact_wrenches, friction_rows, row_gaps
-from tests.helpers import changed, random_step
+from quasistatic_ref.step.friction import (
+    contact_wrenches,
+    friction_rows,
+    row_gaps,
+)
+from tests.helpers import point_on_floor, random_step
 from tests.tolerances import EXACT, ROUNDING
 
 
@@ -33,13 +38,6 @@ def test_the_directions_of_a_contact_add_up_to_nothing(rng):
     np.testing.assert_allclose(total, 0.0, rtol=0.0, atol=ROUNDING)
 
 
-def test_without_friction_all_six_rows_are_the_normal_row(rng):
-    contacts = changed(random_step(rng, rows=(6,)).contacts, mu_v=[0.0], mu_omega=[0.0])
-    normal = contacts.n[0] @ contacts.J[0, :3]
-    expected = [[normal] * 6]
-    np.testing.assert_allclose(friction_rows(contacts), expected, rtol=ROUNDING, atol=ROUNDING)
-
-
 def test_no_contacts_make_no_rows_and_no_wrenches():
     assert friction_rows(no_contacts(5)).shape == (0, 6, 5)
     assert contact_wrenches(no_contacts(5), np.zeros(0), h=0.01).shape == (0, 4)
@@ -51,3 +49,11 @@ def test_the_gap_adds_to_the_motion_along_the_normal_of_an_ellipsoid(rng):
     expected = [[phi, 0.0, 0.0, 0.0] for phi in contacts.phi]
     actual = row_gaps(contacts, "ellipsoid")
     np.testing.assert_allclose(actual, expected, rtol=EXACT, atol=EXACT)
+
+
+def test_a_wrench_that_is_rounded_to_zero_has_no_sign():
+    """Of -d2 a quarter of the least float64, over h = 1."""
+    contacts = point_on_floor(mu_v=0.25).contacts
+    wrench = rounded_wrenches(contacts, np.array([0.0, 0.0, 0.0, 5e-324]), 1.0)
+    assert wrench[0].tolist() == [0.0, 0.0, 5e-324, 0.0]
+    assert not np.signbit(wrench).any()

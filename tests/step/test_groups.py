@@ -13,7 +13,6 @@ from quasistatic_ref.lab.scenes.contacts import X, contacts_of
 from quasistatic_ref.lab.scenes.piles import SIDE, pile
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.groups import groups, parts
 from quasistatic_ref.tolerances import ILL_POSED
@@ -39,12 +38,6 @@ def test_random_steps_without_some_couplings_have_the_optimum_of_their_groups():
         assert faults(step) == [], seed
         several += len(groups(step)) > 1
     assert several > 12
-
-
-@pytest.mark.parametrize("name", ["stack", "two_finger_pinch"])
-def test_scenarios_have_the_optimum_of_their_groups(name):
-    run = load_scenario(name, ["steps=2"], fast=True).run(progress=False)
-    assert faults(run.step_data(1)) == []
 
 
 def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():

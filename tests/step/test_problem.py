@@ -18,7 +18,6 @@ from tests.helpers import (
     error,
     planted_step,
     random_step,
-    unconstrained,
 )
 from tests.tolerances import MULTIPLIERS, OPTIMUM
 
@@ -72,18 +71,6 @@ def test_nothing_is_compiled_after_the_first_solve(monkeypatch):
         assert kept.problem.problem._cache.param_prog is compiled
 
 
-def test_every_matrix_and_vector_of_a_new_step_reaches_the_solver():
-    # A parameter that kept its old value would show: all of them differ between the two steps.
-    # (But mu, a constant of the problem.)
-    first, second = (planted_step(np.random.default_rng(seed), 3, 4)[0] for seed in (1, 2))
-    second = with_mu_of(first, second)
-    solver = CvxpySolver(first, JUDGE)
-    for step in (first, second, first):
-        fresh = solve_step(step, "none").delta_q
-        kept = solve_step(step, solver, certify="off").delta_q
-        np.testing.assert_allclose(error(step, kept, fresh), 0.0, rtol=0.0, atol=OPTIMUM)
-
-
 @pytest.mark.parametrize(
     ("n_a", "n_u", "rows"), [(0, 4, (6, 4)), (3, 0, (4, 6)), (3, 4, (4, 4)), (1, 0, (6,))]
 )
@@ -92,15 +79,6 @@ def test_empty_blocks_are_left_out(n_a, n_u, rows, rng):
     answer = solve_step(step, JUDGE, certify="off")
     np.testing.assert_allclose(error(step, answer.delta_q, delta_q), 0.0, rtol=0.0, atol=OPTIMUM)
     assert answer.lam.shape == lam.shape
-
-
-def test_without_contacts_the_step_is_unconstrained(rng):
-    step = random_step(rng, 3, 4, rows=())
-    answer = solve_step(step, JUDGE, certify="off")
-    gap = error(step, answer.delta_q, unconstrained(step))
-    np.testing.assert_allclose(gap, 0.0, rtol=0.0, atol=OPTIMUM)
-    assert answer.lam.shape == (0,)
-    assert answer.wrench.shape == (0, 4)
 
 
 def test_a_row_of_the_user_s_own_holds_a_coordinate_back(rng):
@@ -208,30 +186,3 @@ def test_further_constraints_come_after_all_rows_of_the_step(rng):
     problem = CvxpyProblem(step, constraints=lambda own: [own.delta_q <= 1.0])
     # Four row indices of two contacts, one row of the step, one bound for each coordinate.
     assert [constraint.size for constraint in problem.problem.constraints] == [2] * 4 + [1, 7]
-
-
-def test_constraints_and_costs_are_added_to_the_problem(rng):
-    # h K / 2 x^2 - h tau x + c x^2 is least at x = h tau / (h K + 2 c), which x <= limit may stop.
-    step = random_step(rng, 1, 0, rows=()).replace(K_q=[[100.0]], tau_a=[2.0], delta_q_bar_a=[0.0])
-    c = 0.25
-    free = step.h * 2.0 / (step.h * 100.0 + 2 * c)
-    for limit, expected in ((2 * free, free), (free / 2, free / 2)):
-        problem = CvxpyProblem(
-            step,
-            constraints=lambda own, limit=limit: [own.delta_q_a <= limit],
-            costs=lambda own: [c * cp.sum_squares(own.delta_q)],
-        )
-        problem.fill(step)
-        problem.problem.solve(solver=cp.DAQP)  # exact enough without natural units
-        np.testing.assert_allclose(problem.primal(), [expected], rtol=OPTIMUM, atol=0.0)
-
-
-def test_the_problem_is_an_ordinary_cvxpy_problem_that_can_be_extended(rng):
-    step, _, _ = planted_step(rng)
-    problem = filled(step)
-    low = -1e-5
-    extended = cp.Problem(
-        problem.problem.objective, [*problem.problem.constraints, problem.delta_q[0] <= low]
-    )
-    extended.solve(solver=cp.CLARABEL)
-    assert problem.delta_q.value[0] <= low * (1 - OPTIMUM)

@@ -84,62 +84,6 @@ def test_cone_and_extra_may_be_left_out():
     assert step_from_record(record) == PLAIN
 
 
-MISSING = (["h"], ["contacts"], ["contacts", 1, "rows"], ["extra", "b"])
-
-
-@pytest.mark.parametrize("path", MISSING, ids=[".".join(map(str, p)) for p in MISSING])
-def test_a_missing_field_is_named(path):
-    record = record_changed(record_of(STEPS["with rows of one's own"]), path)
-    name = ".".join(str(p) for p in path).replace(".1.", "[1].")
-    with pytest.raises(StepDataError) as caught:
-        step_from_record(record)
-    assert str(caught.value) == f"{name}: is missing"
-
-
-UNKNOWN = {
-    "at the top": (["stiffness"], "stiffness: is unknown"),
-    "nearly K_q": (["K_Q"], "K_Q: is unknown; did you mean 'K_q'?"),
-    "in a contact": (["contacts", 0, "mu"], "contacts[0].mu: is unknown; did you mean 'mu_v'?"),
-    "in extra": (["extra", "c"], "extra.c: is unknown"),
-}
-
-
-@pytest.mark.parametrize(("path", "says"), UNKNOWN.values(), ids=UNKNOWN)
-def test_an_unknown_field_is_refused_by_name(path, says):
-    record = record_changed(record_of(STEPS["with rows of one's own"]), path, 1.5)
-    with pytest.raises(StepDataError) as caught:
-        step_from_record(record)
-    assert str(caught.value).startswith(says)
-    assert caught.value.value == 1.5
-
-
-REFUSED = {
-    "another format": (["format"], "ref/solution", "format: must be 'quasistatic-ref/step' (got "),
-    "a later version": (["version"], 2, "version: is not known here; this program reads 1 (got 2)"),
-    "a version in words": (["version"], "1", "version: must be a whole number"),
-    "h a word": (["h"], "0.01", "h: must be a number (got '0.01')"),
-    "n_a negative": (["n_a"], -1, "n_a: must be at least 0"),
-    "n_a wrong": (["n_a"], 3, "K_q: must be 3 x 3 numbers"),
-    "n_u wrong": (["n_u"], 2, "M_u: must be 2 x 2 numbers"),
-    "K_q flat": (["K_q"], [1.0, 2.0, 3.0, 4.0], "K_q: must be 2 x 2 numbers"),
-    "tau_a true": (["tau_a"], [True, 0.0], "tau_a: must contain numbers only"),
-    "contacts a table": (["contacts"], {"a": 1}, "contacts: must be a list"),
-    "a contact a list": (["contacts", 1], [1], "contacts[1]: must be a table of named fields"),
-    "name a number": (["contacts", 0, "name"], 3, "contacts[0].name: must be a string"),
-    "J too narrow": (["contacts", 0, "J"], [[0.0] * 4] * 4, "contacts[0].J: must be 4 x 5"),
-    "extra a list": (["extra"], [1], "extra: must be a table"),
-    "extra names a number": (["extra", "names"], [1, 2], "extra.names: must be a list of strings"),
-}
-
-
-@pytest.mark.parametrize(("path", "value", "says"), REFUSED.values(), ids=REFUSED)
-def test_a_wrong_value_is_refused_with_its_field(path, value, says):
-    record = record_changed(record_of(STEPS["with rows of one's own"]), path, value)
-    with pytest.raises(StepDataError) as caught:
-        step_from_record(record)
-    assert str(caught.value).startswith(says)
-
-
 @pytest.mark.parametrize("record", [None, [], "step", 3.0, True])
 def test_what_is_no_table_is_no_step(record):
     with pytest.raises(StepDataError, match="must be a table of named fields"):

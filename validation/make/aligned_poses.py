@@ -10,7 +10,6 @@ nothing.
 
 from __future__ import annotations
 
-import argparse
 import itertools
 from collections import Counter
 from collections.abc import Callable, Iterable
@@ -38,6 +37,7 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
+from validation.tools.scripts import asked, shown
 
 Array = np.ndarray
 PAGE = Path(__file__).parents[1] / "results" / "aligned_poses.md"
@@ -274,18 +274,13 @@ def tries(scenes: Iterable[int]) -> tuple[Counter[str], list[tuple[str, str]]]:
 
 def main() -> None:
     """Try all families and write the page."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, help="scenes in all; nothing is written")
-    count = parser.parse_args().count
+    count = asked(__doc__, count=int).count
     tried, wrong = tries(range(count or COUNT))
     broke = Counter(name for name, _ in wrong)
     rows = [(name, tried[name], broke[name]) for name in sorted(tried)]
     total = ("all", sum(tried.values()), len(wrong))
     table = markdown_table(("family", "scenes", "wrong"), [*rows, total])
-    page = "\n".join([INTRODUCTION, *table, ""])
-    print(page)
-    if count is None:
-        PAGE.write_text(page, encoding="utf-8")
+    shown("\n".join([INTRODUCTION, *table]), PAGE if count is None else None)
 
 
 if __name__ == "__main__":

@@ -12,14 +12,14 @@
 
 Nothing that is expected comes from the package: see :mod:`tests.oracles.solution_truth`. Its exact
 method only names working sets, whose optimality is proved here. Prints a table, and exits with
-status 1 if anything is wrong. With ``--log FILE`` each batch is kept as it ends, and the same
-command goes on from there. All counts take some 15 minutes of one core; with ``--seconds`` the
-table has what was tried by then, of all families alike.
+status 1 if anything is wrong. ``--count`` is that of exact answers of each family, 500 unless it is
+said, with the others in proportion; ``--jobs`` that of processes. With ``--log FILE`` each batch
+is kept as it ends, and the same command goes on from there. All counts take some 15 minutes of one
+core; with ``--seconds`` the table has what was tried by then, of all families alike.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 import time
@@ -38,7 +38,6 @@ from tqdm import tqdm
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.parallel import Log, Record, results, workers
 from quasistatic_ref.solve.backends import NONE
@@ -62,6 +61,7 @@ from tests.oracles.solution_truth import (
     wrenches,
 )
 from validation.tools.check_verifier import verdicts
+from validation.tools.scripts import asked, shown
 from validation.tools.verifier_files import Case
 
 Json = Any
@@ -128,7 +128,7 @@ class Attack:
         """Keep two texts for ``verify.js``, whose reason has to begin so."""
         self.cases.append(Case(self.name, step, solution, None, reason=begins))
 
-    def asked(self) -> None:
+    def by_javascript(self) -> None:
         """Ask ``verify.js`` about all texts that were kept."""
         for case, said in zip(self.cases, verdicts(self.cases), strict=True):
             agrees = said["reason"].startswith(case.reason)
@@ -276,7 +276,7 @@ def attacked(kind: str, family: str, number: int, first: int) -> Record:
     with TemporaryDirectory() as folder:
         attack = Attack(f"{kind}, {family}", folder)
         ATTACKS[kind](attack, family, number, first)
-        attack.asked()
+        attack.by_javascript()
     counts = dict(attack.counts)
     return {"family": attack.name, "first": first, "counts": counts, "wrong": attack.wrong}
 
@@ -290,13 +290,7 @@ def batches(kind: str, family: str, number: int) -> Iterator[tuple[str, str, int
 
 def main() -> int:
     """Print the table; exit status 1 if anything is wrong."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=500, help="exact answers of each family")
-    parser.add_argument("--seconds", type=float, default=float("inf"), help="no batch after that")
-    parser.add_argument("--jobs", type=int, default=1, help="processes")
-    parser.add_argument("--log", type=Path, help="batches, from which the same command goes on")
-    parser.add_argument("--out", type=Path, help="write the table here too")
-    options = parser.parse_args()
+    options = asked(__doc__, count=500, seconds=float("inf"), jobs=1, log=Path, out=Path)
     count, kinds = options.count, dict.fromkeys(kind for kind, _ in scenes(every=True))
     families = [("exact answers", family, count) for family in FAMILIES]
     families += [("bounds", family, 2 * count) for family in FAMILIES]
@@ -320,11 +314,10 @@ def main() -> int:
     lines = markdown_table(
         ("what", "what came of it", "cases"), [(*row[:2], f"{row[2]:,}") for row in rows], left=2
     )
-    asked = f"{len(log.found)} of the {len(tasks)} batches of {BATCH} that were asked for"
-    lines.append(f"\nTried were {asked}; {len(wrong)} cases are wrong.")
-    print(*lines, *wrong[:20], sep="\n")
-    if options.out:
-        text_written(options.out, HEAD + "\n".join(lines) + "\n")
+    tried = f"{len(log.found)} of the {len(tasks)} batches of {BATCH} that were asked for"
+    lines.append(f"\nTried were {tried}; {len(wrong)} cases are wrong.")
+    shown(HEAD + "\n".join(lines), options.out)
+    print(*wrong[:20], sep="\n")
     return int(bool(wrong))
 
 

@@ -1,29 +1,26 @@
 """Both runners challenged with 20,000 cases each, in all layers that they answer.
 
-Run ``python -m validation.make.challenges --work FOLDER --out FILE`` (some hours on two cores; name
-a runner to challenge only that one). A challenge goes in pieces of 2,000 cases, with the seeds 1,
-2, 3, ..., until 20,000 answers were judged: what a runner says it does not support is no answer.
-Each piece is kept in the folder, and one that is there is not made again, so that a run can be
-resumed.
+Run ``python -m validation.make.challenges --log FILE --out FILE`` (some hours on two cores; name a
+runner to challenge only that one). A challenge goes in pieces of 2,000 cases, with the seeds 1, 2,
+3, ..., until 20,000 answers were judged: what a runner says it does not support is no answer. Each
+piece is a line of the log, from which the same command goes on; what is found is kept next to it.
 
 Exit status 1 if anything was found.
 """
 
-import argparse
-import json
 import sys
-import tempfile
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from operator import itemgetter
 from pathlib import Path
 
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from validation.make.planted_bugs import COMMANDS
+from validation.tools.scripts import asked, shown
 
 ANSWERS = 20_000
 """That are judged of each runner."""
@@ -31,28 +28,21 @@ PIECE = 2_000
 """Cases of a seed."""
 
 
-def piece(runner: str, seed: int, work: Path, jobs: int) -> Json:
-    """What one seed came to: made, or read again."""
-    path = work / f"{runner}_{seed}.json"
-    if not path.exists():
-        program = Program(COMMANDS[runner], timeout=60.0)
-        found = challenge(program, cases=PIECE, seed=seed, jobs=jobs)
-        for finding in found.findings:
-            finding.written(work / f"{runner}_{seed}", COMMANDS[runner])
-        verdicts = {layer: {} for layer in LAYERS if found.sent[layer]}
-        for (layer, verdict), count in sorted(found.verdicts.items()):
-            verdicts[layer][verdict] = count
-        record = {
-            "verdicts": verdicts,
-            "findings": [finding.title for finding in found.findings],
-            "remarks": found.remarks,
-        }
-        text_written(path, json.dumps(record, indent=1) + "\n")
-        print(f"{runner}, seed {seed}: {found.seconds:.0f} s", file=sys.stderr, flush=True)
-    return json.loads(path.read_text(encoding="utf-8"))
+def piece(runner: str, seed: int, jobs: int, kept: Path | None) -> Record:
+    """What one seed came to; findings are written to a folder, if there is one."""
+    program = Program(COMMANDS[runner], timeout=60.0)
+    found = challenge(program, cases=PIECE, seed=seed, jobs=jobs)
+    for finding in found.findings if kept else ():
+        finding.written(kept / f"{runner}_{seed}", COMMANDS[runner])
+    verdicts = {layer: {} for layer in LAYERS if found.sent[layer]}
+    for (layer, verdict), count in sorted(found.verdicts.items()):
+        verdicts[layer][verdict] = count
+    titles = [finding.title for finding in found.findings]
+    return {"runner": runner, "seed": seed, "verdicts": verdicts, "findings": titles,
+            "remarks": found.remarks}  # fmt: skip
 
 
-def counted(pieces: list[Json]) -> dict[str, Counter[str]]:
+def counted(pieces: list[Record]) -> dict[str, Counter[str]]:
     """Verdicts by layer of all pieces."""
     found = {layer: Counter() for layer in LAYERS}
     for one in pieces:
@@ -61,17 +51,20 @@ def counted(pieces: list[Json]) -> dict[str, Counter[str]]:
     return {layer: verdicts for layer, verdicts in found.items() if verdicts}
 
 
-def judged(pieces: list[Json]) -> int:
+def judged(pieces: list[Record]) -> int:
     """How many answers were judged."""
     verdicts = counted(pieces).values()
     return sum(one.total() - one["unsupported"] for one in verdicts)
 
 
-def challenged(runner: str, work: Path, jobs: int) -> list[Json]:
+def challenged(runner: str, log: Log, jobs: int, kept: Path | None) -> list[Record]:
     """The pieces of a runner."""
-    pieces: list[Json] = []
+    pieces: list[Record] = []
     while judged(pieces) < ANSWERS:
-        pieces.append(piece(runner, len(pieces) + 1, work, jobs))
+        key = runner, len(pieces) + 1
+        if key not in log.found:
+            log.add(piece(*key, jobs, kept))
+        pieces.append(log.found[key])
     return pieces
 
 
@@ -86,7 +79,7 @@ shapes alone, within its steps.
 KINDS = ("passed", "acceptable", "failed", "unsupported")
 
 
-def page(found: dict[str, list[Json]]) -> Iterator[str]:
+def page(found: Mapping[str, list[Record]]) -> Iterator[str]:
     """The committed page."""
     yield HEAD
     names = ("runner", "layer", "cases", "passed", "acceptable", "failed", "not supported", "other")
@@ -109,17 +102,12 @@ def page(found: dict[str, list[Json]]) -> Iterator[str]:
 
 def main() -> int:
     """Challenge both, or those that are named; write the page."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("runners", nargs="*", choices=[[], *COMMANDS], help="all by default")
-    parser.add_argument("--work", type=Path, metavar="FOLDER", help="where pieces are kept")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write the page here")
-    parser.add_argument("--jobs", type=int, default=1)
-    options = parser.parse_args()
-    with tempfile.TemporaryDirectory() as temporary:
-        work = options.work or Path(temporary)
-        found = {name: challenged(name, work, options.jobs) for name in options.runners or COMMANDS}
-    text = "\n".join(page(found)) + "\n"
-    print(text) if options.out is None else text_written(options.out, text)
+    options = asked(__doc__, COMMANDS, log=Path, out=Path, jobs=1)
+    log = Log(options.log, itemgetter("runner", "seed"))
+    kept = options.log and options.log.parent
+    names = options.names or COMMANDS
+    found = {name: challenged(name, log, options.jobs, kept) for name in names}
+    shown("\n".join(page(found)), options.out)
     return int(any(one["findings"] for pieces in found.values() for one in pieces))
 
 

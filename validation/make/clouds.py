@@ -8,22 +8,20 @@ on. ``--count N`` takes the first seeds only and prints the rows; nothing is wri
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 from tqdm import tqdm
 
 from quasistatic_ref.lab.clouds.study import Cell, cells, grid, row
 from quasistatic_ref.lab.parallel import Log
+from validation.tools.scripts import asked
 
 RESULTS = Path(__file__).parents[1] / "results" / "clouds.jsonl"
 
 
 def main() -> None:
     """Grasp what was not yet grasped."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, help="seeds of each cell; prints, writes nothing")
-    options = parser.parse_args()
+    options = asked(__doc__, count=int)
     names = list(Cell.__dataclass_fields__)
     path = None if options.count else RESULTS
     log = Log(path, key=lambda one: Cell(*(one[name] for name in names)), head=grid())

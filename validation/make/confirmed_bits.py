@@ -14,7 +14,6 @@ Prints a table, and exits with status 1 if a bit differs.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -30,7 +29,6 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.norm import float_inverse
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
@@ -39,6 +37,7 @@ from quasistatic_ref.solve.units import Units, natural_units, to_natural
 from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from tests.oracles.random_steps import mixed_step
+from validation.tools.scripts import asked, shown
 
 CONES = ("pyramid", "product", "facets-6", "facets-8", "frictionless")
 COLUMNS = (
@@ -114,7 +113,7 @@ def nearby_answer(
     """What is proved on a guess or near it, in balls or by compiled code."""
     rows = np.array(sorted(set(guess)), dtype=np.int64)
     prove = partial(proof, step) if by_code else BallStep(step, hessian).confirmed
-    return proved_nearby(prove, rows, standard_form(step), float_inverse(step.H))
+    return proved_nearby(prove, rows, standard_form(step), float_inverse(step.H))[0]
 
 
 def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
@@ -156,10 +155,7 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
 
 def main() -> int:
     """Check, print and write the table; exit status 1 if a bit differs."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--random", type=int, default=5000, metavar="STEPS")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write the table here, too")
-    options = parser.parse_args()
+    options = asked(__doc__, random=5000, out=Path)
     found: dict[str, Counter[str]] = {}
     faults: list[str] = []
     with ProcessPoolExecutor() as pool:
@@ -172,9 +168,7 @@ def main() -> int:
     for kind in sorted(found, key=lambda kind: (kind == "all", kind)):
         lines.append(f"{kind:24}" + "".join(f"{found[kind][name]:>12}" for name in COLUMNS))
     lines += faults or ["What was confirmed has the bits of the exact method, in every field."]
-    print(text := "\n".join(lines))
-    if options.out is not None:
-        text_written(options.out, text + "\n")
+    shown("\n".join(lines), options.out)
     return int(bool(faults))
 
 

@@ -24,19 +24,20 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import spsolve
 
 from quasistatic_ref.certify.digits import digits_of_error
-from quasistatic_ref.formats.resources import problem_set_folder
 from quasistatic_ref.lab.figures.line_styles import pens
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.calling.calls import tried
 from quasistatic_ref.lab.study.calling.native import Native
 from quasistatic_ref.lab.study.calling.options import options_at
 from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 from quasistatic_ref.lab.study.problems.problem import SOCP, SPARSE, Problem
+from quasistatic_ref.optional.fast.adapters.clarabel import Clarabel
+from quasistatic_ref.optional.fast.adapters.program import Program
+from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import PAGE
-from quasistatic_ref.solve.adapters.clarabel import Clarabel
-from quasistatic_ref.solve.adapters.program import Program, Reply
-from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
 ROOT = Path(__file__).parents[2]

@@ -6,14 +6,13 @@ a wrong number, or one at a kink; where the package refuses a step, or says that
 claims no number.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.layers import layer
+from validation.tools.scripts import asked, shown
 
 LAYERS = ("derivative",)
 NO_CLAIM = ("LimitExceeded", "the answer says it has none")
@@ -46,15 +45,11 @@ def page(verdicts: dict[str, int], titles: list[str]) -> str:
 
 def main() -> int:
     """Challenge, and write the page."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=1000, help="cases")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write the page here")
-    options = parser.parse_args()
+    options = asked(__doc__, count=1000, out=Path)
     found = challenged(options.count)
     verdicts = {verdict: count for (_, verdict), count in sorted(found.verdicts.items())}
     titles = [finding.title for finding in found.findings]
-    text = page(verdicts, titles)
-    print(text) if options.out is None else text_written(options.out, text)
+    shown(page(verdicts, titles), options.out)
     return int(not all(any(words in title for words in NO_CLAIM) for title in titles))
 
 

@@ -4,7 +4,8 @@ For each engine of engines.toml, or those named: makes an environment with its p
 temporary folder (``--environments`` keeps them in a folder of yours, and takes what is there), asks
 its adapter for the phenomena, writes ``NAME.json`` in the folder ``--out``
 (validation/results/engines unless it is said), and runs the engine's reproductions in its
-environment. At the end the page, phenomena.md, is written again from all results that are there.
+environment. At the end the page, phenomena.md, is written again from all results that are there:
+with ``--tables`` only that. ``--resume`` keeps settings that have results.
 
 Settings that are named as causes of a red cell are changed, and the cell is measured again
 (``tried``). It takes an hour on two busy cores, seven minutes of it computing, and three
@@ -14,7 +15,6 @@ number, or if a reproduction ended with an error.
 
 from __future__ import annotations
 
-import argparse
 import json
 import tempfile
 from pathlib import Path
@@ -23,17 +23,12 @@ from quasistatic_ref.formats.files import text_written
 from validation.programs.engines.judge import ENGINES, RESULTS, judged, python_of
 from validation.programs.engines.reproduce import missing, reproduced, unlike
 from validation.programs.engines.tables import phenomena_page
+from validation.tools.scripts import asked
 
 
 def main() -> int:
     """Judge, and write the tables."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("names", nargs="*", metavar="NAME", choices=[[], *ENGINES], default=[])
-    parser.add_argument("--out", type=Path, default=RESULTS)
-    parser.add_argument("--environments", type=Path)
-    parser.add_argument("--tables", action="store_true", help="write the tables only")
-    parser.add_argument("--resume", action="store_true", help="keep settings that have results")
-    given = parser.parse_args()
+    given = asked(__doc__, ENGINES, out=RESULTS, environments=Path, tables=False, resume=False)
     results: Path = given.out
     results.mkdir(parents=True, exist_ok=True)
     wrong = 0

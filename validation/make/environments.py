@@ -2,13 +2,13 @@
 
 Modes of the processor, threads, compilers and caches, each tried in a process of its own. Every
 call must end with the bits that it has in an ordinary process, or be refused in a sentence. Takes a
-quarter of an hour, most of it in compilers. The compilers and caches that are tried stand in
+quarter of an hour, most of it in compilers; ``--count`` is that of steps, or trials, of each, and
+``--one`` tries one alone, in this process. The compilers and caches that are tried stand in
 ``validation/make/broken_compilers.py``.
 """
 
 from __future__ import annotations
 
-import argparse
 import ctypes
 import json
 import platform
@@ -26,7 +26,6 @@ from typing import Any
 from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.errors import QuasistaticError, StepInfeasible
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
@@ -36,6 +35,7 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from tests.oracles.random_steps import mixed_step
 from validation.make.broken_compilers import compiler_lines
+from validation.tools.scripts import asked, shown
 
 ROOT = Path(__file__).parents[2]
 PAGE = """# What surrounds a proof, made hostile
@@ -276,11 +276,7 @@ def tried(name: str, count: int) -> Counter[str]:
 
 def main() -> int:
     """Try all, or one; exit status 1 if anything broke."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=COUNT, help="steps, or trials, of each")
-    parser.add_argument("--one", choices=TRIED, help="this one alone, in this process")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write the page here")
-    options = parser.parse_args()
+    options = asked(__doc__, count=COUNT, one=str, out=Path)
     if options.one:
         print(json.dumps(TRIED[options.one](options.count)))
         return 0
@@ -290,10 +286,7 @@ def main() -> int:
         print(name, dict(counts[name]), file=sys.stderr, flush=True)
     lines = [count_line(*one) for one in counts.items()]
     page = PAGE.format(counts="\n".join(lines), compilers="\n".join(compiler_lines()))
-    if options.out:
-        text_written(options.out, page)
-    else:
-        print(page)
+    shown(page, options.out)
     broke = any(key not in COLUMNS for words in counts.values() for key in words)
     return int(broke or "BROKE" in page)
 

@@ -13,7 +13,6 @@ Prints a table, and exits with status 1 if anything of this fails.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -31,13 +30,13 @@ from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.grasp import CASES
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 from tests.oracles.random_steps import mixed_step
+from validation.tools.scripts import asked, shown
 
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", NONE)
 OPTIMAL, INFEASIBLE, ILL_POSED = "optimal", "infeasible", "ill-posed"
@@ -182,31 +181,23 @@ def family_checked(
 
 def main() -> int:
     """Print the table; exit status 1 if anything fails."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--every", type=int, default=1, help="take every so many step of the runs")
-    parser.add_argument("--random", type=int, default=1000, help="random steps with an optimum")
-    parser.add_argument("--out", type=Path, help="write the table here too")
-    options = parser.parse_args()
+    options = asked(__doc__, every=1, random=1000, out=Path)
     families: dict[str, Iterable[StepData]] = {
         f"bunny_grasp {case}": run_steps("bunny_grasp", own, options.every)
         for case, own in CASES.items()
     }
     families["sphere_spin"] = run_steps("sphere_spin", [], options.every)
     families[f"random, until {options.random} are optimal"] = map(mixed_step, count())
-    title = f"warm starts from {', '.join(BACKENDS[:-1])}, and from a cold start"
-    report, faults = [title], 0
-    print(title, flush=True)
+    report = [f"warm starts from {', '.join(BACKENDS[:-1])}, and from a cold start"]
+    faults = 0
     with ProcessPoolExecutor(2) as pool:
         for name, steps in families.items():
             wanted = len(steps) if isinstance(steps, list) else options.random
             lines, found = family_checked(name, iter(steps), wanted, pool)
             report.append(lines)
             faults += found
-            print(lines, flush=True)
     report.append("all bits equal" if not faults else f"{faults} faults")
-    print(report[-1])
-    if options.out:
-        text_written(options.out, "\n".join(report) + "\n")
+    shown("\n".join(report), options.out)
     return int(faults > 0)
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from scipy.sparse import csc_matrix, triu
 
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.calling.calls import call_of, tried
 from quasistatic_ref.lab.study.calling.claims import HIDDEN, INFEASIBLE, NEITHER, OPTIMAL, hides
@@ -206,7 +206,7 @@ def claims_of(solver: str, interface: str, some: Sequence[Problem]) -> list[str]
     call = call_of(one)
     options = one.settings_of(HIGH, SECONDS) if one.takes(HIGH) else {}
     options |= INNER if one.label == "native:proxqp" else {}
-    replies = [tried(call, p.natural.form, options, None, SECONDS) for p in some]
+    replies = [tried(call, p.natural.form, options, None) for p in some]
     return [one.claim(reply.status) for reply in replies]
 
 

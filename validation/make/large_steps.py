@@ -16,7 +16,6 @@ import numpy as np
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.study.bench.large import CHAINS
 from quasistatic_ref.lab.study.measuring.environment import machine
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import constants
@@ -31,6 +30,8 @@ WAYS = {
     "clarabel sparse": 1000, "osqp dense": 8, "osqp sparse": 8,
 }  # fmt: skip
 """Backends, and up to how many bodies each is tried: beyond, it takes a multiple of the others."""
+CHAINS = (10, 20, 40, 80, 160)
+"""Bodies in a row."""
 STEPS, MANY = 12, 100
 HEAP_LIMIT = 60.0
 """Of the largest heap, nothing certified [ms]."""
@@ -65,7 +66,7 @@ class Cost:
 
     @property
     def first(self) -> float:
-        """The median of the third to the seventh step, which `bench` measures [ms]."""
+        """The median of the third to the seventh step [ms]."""
         return float(np.median(self.milliseconds[1:6]))
 
     @property
@@ -169,7 +170,7 @@ def main() -> int:
         f"\nWritten by `python -m validation.make.large_steps` on {m['processor']}, {m['cores']} "
         f"cores, Python {m['python']}: processor time, medians of {STEPS} steps or more after the "
         "first, natively, accuracy 1e-12, no row compiled. Boxes are pulled over a floor, four "
-        "contacts a pair. The first are the third to the seventh step, which `bench` takes: as a "
+        "contacts a pair. The first are the third to the seventh step: as a "
         "heap spreads, its steps take more iterations."
     )
     by_way()

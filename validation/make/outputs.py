@@ -5,7 +5,6 @@ and looks at bytes alone: it shares no code with the package. It writes
 ``validation/results/outputs.md``, and ends with status 1 if anything was lost.
 """
 
-import argparse
 import itertools
 import json
 import random
@@ -16,6 +15,8 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+from validation.tools.scripts import asked
 
 RESULT = Path(__file__).parents[1] / "results" / "outputs.md"
 PAGE = """# What commands write
@@ -289,9 +290,7 @@ def page(tried: list[Found], count: int) -> str:
 
 def main() -> int:
     """Write the page; 1 if something was lost."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=COUNT, help="of the choices")
-    count = parser.parse_args().count
+    count = asked(__doc__, count=COUNT).count
     tried = list(found(count))
     RESULT.write_text(page(tried, count), encoding="utf-8")
     return int(any(lost for _, _, lost in tried))

@@ -1,6 +1,6 @@
 """Signed distance, witness points and normal of every pair of shapes, on 1,000 poses each.
 
-    python -m validation.make.pair_distances [POSES]
+    python -m validation.make.pair_distances [--count POSES]
 
 The reference is computed another way (tests/oracles/closest.py). For each pair, the largest of:
 - phi: |phi - reference| [m], where there is an exact one;
@@ -15,18 +15,15 @@ from __future__ import annotations
 
 import sys
 import time
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).parents[2]))
-
-from quasistatic_ref.contact import cloud
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape
 from tests.oracles import closest
+from validation.tools.scripts import asked
 
 COLUMNS = ("phi", "inside", "normal", "points", "moved")
 STEP = 1e-3
@@ -39,8 +36,8 @@ are upper bounds: the machine did other work meanwhile.
 
 def points_off(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, found: Witness) -> float:
     """How far closest points are off the surfaces, or apart by another vector than phi n [m]."""
-    on_a = cloud.signed_distance(a, found.alpha[None])[0][0]
-    on_b = cloud.signed_distance(b, ((found.beta - t) @ R)[None])[0][0]
+    on_a = a.signed_distance(found.alpha[None])[0][0]
+    on_b = b.signed_distance(((found.beta - t) @ R)[None])[0][0]
     apart = np.abs(found.beta - found.alpha - found.phi * found.n).max()
     return float(max(abs(on_a), abs(on_b), apart))
 
@@ -84,7 +81,7 @@ def pair_errors(a: Shape, b: Shape, count: int, seed: int = 0) -> tuple[dict[str
 
 def main() -> int:
     """Print the table."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
+    count = asked(__doc__, count=1000).count
     solids = closest.solids()
     print(f"{count} poses a pair, half of them degenerate; errors in metres, sizes of 0.1 m.\n")
     print(WORDS)

@@ -8,7 +8,6 @@ how small the counterexample is.
 Exit status 1 if a bug is not found, or one is named wrong.
 """
 
-import argparse
 import shutil
 import statistics
 import sys
@@ -23,6 +22,7 @@ from quasistatic_ref.lab.vectors.challenge.findings import Finding
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.expected import Json
+from validation.tools.scripts import asked, shown
 
 ROOT = Path(__file__).parents[2]
 RUNNERS = ROOT / "validation" / "programs" / "runners"
@@ -170,19 +170,14 @@ def page(trials: list[Trial]) -> Iterator[str]:
 
 def main() -> int:
     """Try all bugs, or those that are named; print the table."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("names", nargs="*", help="bugs; all by default")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write the table here")
-    parser.add_argument("--jobs", type=int, default=1)
-    options = parser.parse_args()
+    options = asked(__doc__, [bug["name"] for bug in bugs()], out=Path, jobs=1)
     trials = []
     for bug in bugs():
         if not options.names or bug["name"] in options.names:
             one = trial(bug, options.jobs)
             trials.append(one)
             print(f"{one.seconds:5.1f} s {one.row}", file=sys.stderr, flush=True)
-    text = "\n".join(page(trials)) + "\n"
-    print(text) if options.out is None else text_written(options.out, text)
+    shown("\n".join(page(trials)), options.out)
     return int(any(one.verdict in ("not found", "named wrong") for one in trials))
 
 

@@ -7,7 +7,6 @@ The reference, tests/oracles/mechanisms.py, shares no code with the package.
 
 from __future__ import annotations
 
-import argparse
 from collections import Counter
 
 import numpy as np
@@ -28,6 +27,7 @@ from tests.oracles.mechanisms import (
     turned,
     urdf,
 )
+from validation.tools.scripts import asked
 
 CALLS = 10
 QUANTITIES = ("R, t", "J", "gravity", "wrench", "M_u")
@@ -188,9 +188,7 @@ def report(count: int) -> str:
 
 def main() -> None:
     """Print the result."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=1000)
-    print(report(parser.parse_args().count))
+    print(report(asked(__doc__, count=1000).count))
 
 
 if __name__ == "__main__":

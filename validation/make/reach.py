@@ -4,10 +4,10 @@ In settled scenes, where the reach along a random direction of q, targets and fo
 natural units, a central difference over a tenth of it is compared with the derivatives.
 Along random forces, of which a step is a piecewise linear function, the rows that touch in the
 exact steps just before and just after the next kink are to differ by the rows that are named.
-Exit status 1 if a difference is off, or other rows are named.
+Exit status 1 if a difference is off, or other rows are named. ``--count`` is that of states a
+scene; records are kept in ``--log FILE``, from which the same command goes on.
 """
 
-import argparse
 import sys
 from functools import cache
 from pathlib import Path
@@ -16,7 +16,6 @@ import numpy as np
 
 from quasistatic_ref import load_scenario
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.lab.scenes.systems import on_link, world_plane
@@ -33,6 +32,7 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
 from tests.oracles.differences import after, rate
 from tests.oracles.pushes import SHAPES, pushed
+from validation.tools.scripts import asked, shown
 
 SCENES = {
     "allegro_turn": 100, "block_incline": 100, "block_push": 100, "bunny_grasp": 80, "door": 100,
@@ -203,16 +203,12 @@ def table(head: tuple[str, ...], rows: list[tuple[object, ...]]) -> str:
 
 def main() -> int:
     """Compare, and write the page."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=75, help="states a scene")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write the page here")
-    parser.add_argument("--log", type=Path, metavar="FILE", help="keep records here, to go on")
-    options = parser.parse_args()
+    options = asked(__doc__, count=75, out=Path, log=Path)
     states, kinks = keys(options.count)
     log = Log(options.log, lambda record: record["key"])
     found = [*log.records(states, state), *log.records(kinks, kink)]
     text, good = page(found)
-    print(text) if options.out is None else text_written(options.out, text)
+    shown(text, options.out)
     return int(not good)
 
 

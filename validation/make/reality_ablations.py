@@ -2,21 +2,20 @@
 
 Run ``python -m validation.make.reality_ablations``.
 
-Every tenth push of each pair is predicted with one thing changed at a time. Rows are kept in a work
-folder, so that a run that was ended goes on; the summary has the mean errors and, push by push, the
-change against the base, each with its 95 % interval.
+Every tenth push (``--every``) of each pair is predicted with one thing changed at a time. Rows are
+kept in the folder ``--work``, so that a run that was ended goes on; the summary has the mean errors
+and, push by push, the change against the base, each with its 95 % interval.
 """
 
-import argparse
-import json
+from collections import Counter
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.formats.files import json_text, text_written
-from quasistatic_ref.formats.resources import reality_folder
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import bootstrapped, errors_of
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import loads_read
@@ -24,6 +23,7 @@ from quasistatic_ref.lab.reality.pairs import pairs_read
 from quasistatic_ref.lab.reality.predictions import poses, predicted_pushes
 from quasistatic_ref.lab.reality.pushes import pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
+from validation.tools.scripts import asked, record_written
 
 OUT = Path(__file__).parents[1] / "results" / "reality_ablations.json"
 PYRAMID = {"cone": "pyramid"}
@@ -96,10 +96,9 @@ def predictions(every: int, work: Path, jobs: int) -> Iterator[tuple[str, dict[s
         errors = [errors_of(poses(rows[pair.name]), pushes[pair.name]) for pair in pairs]
         if not base:
             base = {pair.name: e.model for pair, e in zip(pairs, errors, strict=True)}
-        kinds: dict[str, int] = {}
-        for row in (row for own_rows in rows.values() for row in own_rows):
-            for kind, count in row["steps"].items():
-                kinds[kind] = kinds.get(kind, 0) + count
+        kinds = Counter[str]()
+        for row in chain(*rows.values()):
+            kinds.update(row["steps"])
         more = [e.model - base[pair.name] for pair, e in zip(pairs, errors, strict=True)]
         yield (
             name,
@@ -144,19 +143,13 @@ def summary(found: dict[str, dict[str, Any]], every: int) -> dict[str, Any]:
 
 def main() -> None:
     """Predict what is left, and write the summary."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--work", type=Path, default=Path("reality_work"))
-    parser.add_argument("--every", type=int, default=10)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--out", type=Path, default=OUT)
-    options = parser.parse_args()
+    options = asked(__doc__, work=Path("reality_work"), every=10, jobs=2, out=OUT)
     found: dict[str, dict[str, Any]] = {}
     for name, entry in predictions(options.every, options.work, options.jobs):
         found[name] = entry
         mean = entry["error"]["mean"]
         print(f"{name}: {mean[0]:.2f} mm, {mean[1]:.2f} deg, {entry['steps']}", flush=True)
-        record = summary(found, options.every)
-        text_written(options.out, json.dumps(json.loads(json_text(record)), indent=1) + "\n")
+        record_written(options.out, summary(found, options.every))
 
 
 if __name__ == "__main__":

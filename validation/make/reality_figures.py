@@ -1,6 +1,5 @@
-"""Figures of docs/md from its results: ``python -m validation.make.reality_figures``."""
+"""Figures of docs/reality.md from its results: ``python -m validation.make.reality_figures``."""
 
-import argparse
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -13,6 +12,7 @@ from matplotlib.figure import Figure
 from quasistatic_ref.lab.examples.gallery import figure_of
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.optional.show.figures.style import figure_style, figure_written, panels, scaled
+from validation.tools.scripts import asked
 
 Record = Mapping[str, Any]
 
@@ -140,9 +140,7 @@ def result(name: str) -> Any:
 
 def main() -> None:
     """Draw all."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=Path("reality_figures"))
-    options = parser.parse_args()
+    options = asked(__doc__, out=Path("reality_figures"))
     identified, variants = result("reality_identified"), result("reality_ablations")
     shown = [name for name in SHOWN if name in variants["variants"]]
     with figure_style():

@@ -3,18 +3,16 @@
 Loads are read, and no pushes.
 """
 
-import argparse
-import json
 from pathlib import Path
 
 import numpy as np
 
-from quasistatic_ref.formats.files import json_text, text_written
-from quasistatic_ref.formats.resources import reality_folder
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import Loads, loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read
 from quasistatic_ref.lab.reality.report import identified_record
+from validation.tools.scripts import asked, record_written
 
 OUT = Path(__file__).parents[1] / "results" / "reality_identified.json"
 CONES = ("ellipsoid", "pyramid", "product", "facets-8", "facets-16")
@@ -29,9 +27,7 @@ def best_axes(loads: Loads, rho: float) -> float:
 
 def main() -> None:
     """Identify, and write the summary."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=OUT)
-    options = parser.parse_args()
+    options = asked(__doc__, out=OUT)
     folder = reality_folder()
     pairs = pairs_read(folder)
     loads = loads_read(folder, pairs)
@@ -49,7 +45,7 @@ def main() -> None:
         }
         for pair in pairs
     }
-    text_written(options.out, json.dumps(json.loads(json_text(record)), indent=1) + "\n")
+    record_written(options.out, record)
 
 
 if __name__ == "__main__":

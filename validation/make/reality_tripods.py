@@ -4,8 +4,7 @@ The first set calibrates frame and finger, by where the finger is at the ends of
 these all five sets are predicted. The other cones and frictions of the finger are sensitivities.
 """
 
-import argparse
-import json
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,8 +14,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import json_text, text_written
-from quasistatic_ref.formats.resources import reality_folder
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import bootstrapped, pose_errors
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.predict import Prediction, predicted, rotation
@@ -25,6 +23,7 @@ from quasistatic_ref.lab.reality.settings import ADVANCE
 from quasistatic_ref.lab.reality.tables import table_read
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array
+from validation.tools.scripts import asked, record_written
 
 LEG, MASS = 0.15, 1.518
 """Of the right triangle, the corner at the origin of its frame [m], [kg]."""
@@ -225,9 +224,7 @@ def medians(values: np.ndarray, seed: int = 0) -> list[float]:
 
 def main() -> None:
     """Predict all sets, and write the summary."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=OUT)
-    options = parser.parse_args()
+    options = asked(__doc__, out=OUT)
     sets = tripods_read(reality_folder())
     frozen = calibration(sets[0])
     record: dict[str, Any] = {
@@ -242,13 +239,12 @@ def main() -> None:
     for name, changes in VARIANTS.items():
         entry: dict[str, Any] = {}
         for own in sets:
-            scene, kinds, ends = tripod(own, frozen, **changes), {}, []
+            scene, kinds, ends = tripod(own, frozen, **changes), Counter[str](), []
             certify = "off" if changes else "full"
             for before, path in zip(own.before, own.path, strict=True):
                 end, found = tripod_prediction(scene, frozen, before, path, certify)
                 ends.append(end)
-                for kind, count in found.kinds.items():
-                    kinds[kind] = kinds.get(kind, 0) + count
+                kinds.update(found.kinds)
             units = [1e3, np.degrees(1.0)]
             errors = units * pose_errors(np.array(ends), own.after)
             moved = units * pose_errors(own.before, own.after)
@@ -267,8 +263,7 @@ def main() -> None:
             }
             print(name, own.name, entry[own.name]["median error over median turn"], flush=True)
         record["variants"][name] = entry
-    text = json.dumps(json.loads(json_text(record)), indent=1)
-    text_written(options.out, text + "\n")
+    record_written(options.out, record)
 
 
 if __name__ == "__main__":

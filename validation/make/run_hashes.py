@@ -13,7 +13,6 @@ if a hash differs.
 
 from __future__ import annotations
 
-import argparse
 import hashlib
 import os
 import platform
@@ -34,6 +33,7 @@ from tqdm import tqdm
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.scenario.scenario import load_scenario
+from validation.tools.scripts import asked
 
 ROOT = Path(__file__).parents[2]
 KERNELS = ("SkylakeX", "Haswell", "Nehalem")
@@ -159,11 +159,7 @@ def report(steps: int | None, python: str | None, path: Path | None) -> tuple[st
 
 def main() -> int:
     """Print the result."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--steps", type=int, help="of each run, in place of all")
-    parser.add_argument("--python", help="another Python, with the newest of all packages")
-    parser.add_argument("--log", type=Path, help="what was found, from which the command goes on")
-    options = parser.parse_args()
+    options = asked(__doc__, steps=int, python=str, log=Path)
     text, equal = report(options.steps, options.python, options.log)
     print(text)
     return int(not equal)

@@ -29,10 +29,11 @@ import numpy as np
 
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.formats.resources import scenario_names, vectors_folder
+from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.claim import finding
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.claims.report import finding_record
+from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.vectors.generate import generated
 from quasistatic_ref.scenario.scenario import load_scenario
 

@@ -22,13 +22,17 @@ import numpy as np
 ROOT = Path(__file__).parents[2]
 SCENARIO, STEPS = "bunny_grasp", 40
 PARTS: dict[str, tuple[list[str], str]] = {
-    "coulomb": ([], ""),
+    "coulomb": (["--law", "coulomb"], 'law = "coulomb"'),
+    "curved": ([], ""),
     "derivatives": ([], ""),
     "doctor": (["--strict"], "strict"),
     "ellipsoid": (["--cone", "ellipsoid"], 'cone = "ellipsoid"'),
     "extensions": ([], ""),
     "fast": (["--fast"], "fast"),
     "large": (["--certify", "residual"], 'certify = "residual"'),
+    "mjcf": ([], ""),
+    "qpsolvers": (["--backend", "qpsolvers:clarabel"], "qpsolvers:clarabel"),
+    "readers": (["--set", "bodies.bunny.cloud=bunny.ply"], "a .ply cloud"),
     "runs": (["--resume"], "resume"),
     "show": (["--view"], "view"),
 }

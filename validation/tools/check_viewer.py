@@ -17,8 +17,9 @@ import numpy as np
 from PIL import Image
 
 from quasistatic_ref.cli.main import main as command
+from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.moments import Moment, focus, frames
-from quasistatic_ref.optional.show.figures.viewer import FRAMES_PER_SECOND, metres_per_newton
+from quasistatic_ref.optional.show.figures.viewer import FRAMES_PER_SECOND, LONGEST
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from validation.tools.browser import Browser
@@ -68,7 +69,7 @@ def check_scene(name: str, settings: list[str], folder: Path) -> None:
     run = trajectory_read(folder / f"{name}.npz")
     moments, fps = frames(scenario, run, FRAMES_PER_SECOND)
     half = float(np.ptp(focus(moments), axis=0).max()) / 2
-    scale = metres_per_newton(moments, half)
+    scale = force_scale(moments, None, half, LONGEST)
     with Browser() as browser:
         browser.ask(
             "Network.emulateNetworkConditions", offline=True, latency=0,

@@ -59,10 +59,10 @@ STUDY: Final = (
     "quasistatic-ref study run default --quick --out study",
     "quasistatic-ref study report study --out report",
     "quasistatic-ref study pack study",
-    "quasistatic-ref study export study --every 20 --out qpbenchmark",
+    "quasistatic-ref study problems export study/problems --to parquet --out qpbenchmark",
     "quasistatic-ref study problems check",
     "quasistatic-ref study problems export --to npz --families wedge --every 20 --out problems",
-    "quasistatic-ref study sequences daqp --scenario sphere_spin --repetitions 1 --out sequences",
+    "quasistatic-ref study run sequences --quick --out sequences",
 )
 
 COMMANDS: Final[dict[str, tuple[str, ...]]] = {
@@ -104,8 +104,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
     "jax": JAX,
     "study": STUDY,
     "notebooks": (
-        "checkout:python -m validation.tools.notebooks --only door robot_push "
-        "--out {out}/notebooks",
+        "checkout:python -m validation.tools.notebooks door robot_push --out {out}/notebooks",
     ),
     "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
     "fuzz": ("checkout:python -m validation.tools.fuzz --inputs 600 --out {out}/fuzz",),

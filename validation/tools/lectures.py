@@ -7,13 +7,13 @@ executed with its answers; exit status 1 if one fails, gives less than all marks
 of the processor.
 """
 
-import argparse
 import ast
 import re
 import sys
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
+
+from validation.tools.scripts import asked
 
 FOLDER = Path(__file__).parents[2] / "docs" / "lectures"
 LECTURES = (
@@ -35,6 +35,7 @@ def check(task, right):
         print(f"{type(error).__name__}: {error}")
     print(f"{task}: {'right' if marks[task] else 'not yet'}")
 '''
+SPENT = "import time; print(time.process_time())"
 TOTAL = 'print(f"{sum(marks.values())} of {len(marks)} right")'
 
 
@@ -62,39 +63,30 @@ def marks(name: str, answers: bool) -> dict[str, bool]:
     return dict(space["marks"])
 
 
-def notebook(name: str, answers: bool) -> Any:
-    """A lecture as a notebook."""
-    import nbformat
+def notebook(name: str, answers: bool, *last: str) -> Any:
+    """A lecture as a notebook, with more code at its end."""
+    from validation.tools.notebooks import book
 
     text, parts = cells(name)
     title, _, body = text.partition("\n")
-    book = nbformat.v4.new_notebook()
-    new, say = nbformat.v4.new_code_cell, nbformat.v4.new_markdown_cell
-    book.cells = [say(f"# {title}\n{body}"), new(GRADES)]
+    made = [("text", f"# {title}\n{body}"), ("code", GRADES)]
     for kind, code in parts:
         if kind == "task":
             question = ast.get_docstring(ast.parse(code)) or ""
-            book.cells.append(say(f"**Task.** {question}"))
+            made.append(("text", f"**Task.** {question}"))
             code = re.sub(r'\A""".*?"""\s*', "", code, count=1, flags=re.S)
         if kind != ("task" if answers else "answer"):
-            book.cells.append(new(code))
-    book.cells.append(new(TOTAL))
-    for k, cell in enumerate(book.cells):
-        cell["id"] = f"cell-{k}"  # the same every time
-    return book
+            made.append(("code", code))
+    return book([*made, *(("code", code) for code in (TOTAL, *last))])
 
 
-def fault(name: str, book: Any) -> str:
+def fault(name: str) -> str:
     """What is wrong with a notebook that has its answers, or nothing."""
-    import nbformat
-    from nbclient import NotebookClient
-    from traitlets.config import Config
+    from validation.tools.notebooks import executed
 
-    book.cells.append(nbformat.v4.new_code_cell("import time; print(time.process_time())"))
-    with TemporaryDirectory() as folder:  # spoken to through files: no ports
-        config = Config({"KernelManager": {"transport": "ipc", "ip": f"{folder}/kernel"}})
-        NotebookClient(book, timeout=600, config=config).execute()
-    said, seconds = (cell.outputs[0]["text"].strip() for cell in book.cells[-2:])
+    made = notebook(name, True, SPENT)
+    executed(made)
+    said, seconds = (cell.outputs[0]["text"].strip() for cell in made.cells[-2:])
     took = float(seconds)
     print(f"{name}: {said}, {took:.1f} s", flush=True)
     right, _, whole, _ = said.split()
@@ -105,16 +97,12 @@ def main() -> int:
     """Write, and run."""
     import nbformat
 
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=Path("lectures"))
-    parser.add_argument("--answers", action="store_true")
-    parser.add_argument("--run", action="store_true")
-    options = parser.parse_args()
+    options = asked(__doc__, out=Path("lectures"), answers=False, run=False)
     options.out.mkdir(parents=True, exist_ok=True)
     for name in LECTURES:
         nbformat.write(notebook(name, options.answers), options.out / f"{name}.ipynb")
     print(f"wrote {len(LECTURES)} notebooks to {options.out}")
-    wrong = [fault(name, notebook(name, True)) for name in LECTURES] if options.run else []
+    wrong = [fault(name) for name in LECTURES] if options.run else []
     print("\n".join(filter(None, wrong)), end="")
     return 1 if any(wrong) else 0
 

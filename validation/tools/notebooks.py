@@ -1,20 +1,21 @@
 """Make a Jupyter notebook of every example, and run it.
 
-Run ``python -m validation.tools.notebooks [--out FOLDER] [--only NAME ...] [--no-run]``, with the
-extra ``notebooks``. Exit status 1 if a notebook fails, or ends without its numbers or its figure.
+Run ``python -m validation.tools.notebooks [NAME ...] [--out FOLDER]``, with the extra
+``notebooks``. Exit status 1 if a notebook fails, or ends without its numbers or its figure.
 """
 
 from __future__ import annotations
 
-import argparse
 import ast
 import sys
 import time
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
+from validation.tools.scripts import asked
 
 try:
     import nbformat
@@ -24,6 +25,7 @@ try:
 except ModuleNotFoundError as error:
     sys.exit(f"needs {error.name}: pip install 'quasistatic-ref[notebooks]'")
 
+KERNEL = {"name": "python3", "display_name": "Python 3", "language": "python"}
 KERNELS = 2
 """Notebooks that run at the same time."""
 PATIENCE = 600
@@ -35,24 +37,36 @@ def notebook(name: str) -> nbformat.NotebookNode:
     path = Path(example(name).__file__)
     text, code = parts(path.read_text(encoding="utf-8"))
     title, _, body = text.partition("\n")
+    return book([
+        ("text", f"# {title}\n{body}".rstrip()),
+        ("code", code),
+        ("code", "main()"),
+        ("code", DRAWN),
+    ])  # fmt: skip
+
+
+DRAWN = """from quasistatic_ref.optional.show.figures import figure_style
+
+with figure_style():
+    page = figure()"""
+CELLS = {"text": nbformat.v4.new_markdown_cell, "code": nbformat.v4.new_code_cell}
+
+
+def book(cells: Iterable[tuple[str, str]]) -> nbformat.NotebookNode:
+    """A notebook of cells: ``"text"`` or ``"code"``, and what stands in it."""
     made = nbformat.v4.new_notebook()
-    made.cells = [
-        nbformat.v4.new_markdown_cell(f"# {title}\n{body}".rstrip()),
-        nbformat.v4.new_code_cell(code),
-        nbformat.v4.new_code_cell("main()"),
-        nbformat.v4.new_code_cell(
-            "from quasistatic_ref.optional.show.figures import figure_style\n\n"
-            "with figure_style():\n    page = figure()"
-        ),
-    ]
+    made.cells = [CELLS[kind](source) for kind, source in cells]
     for k, cell in enumerate(made.cells):
         cell["id"] = f"cell-{k}"  # the same every time
-    made.metadata["kernelspec"] = {
-        "name": "python3",
-        "display_name": "Python 3",
-        "language": "python",
-    }
+    made.metadata["kernelspec"] = KERNEL
     return made
+
+
+def executed(made: nbformat.NotebookNode) -> None:
+    """Run a notebook in place, spoken to through files of its own: no ports."""
+    with TemporaryDirectory() as folder:
+        config = Config({"KernelManager": {"transport": "ipc", "ip": f"{folder}/kernel"}})
+        NotebookClient(made, timeout=PATIENCE, config=config).execute()
 
 
 def parts(source: str) -> tuple[str, str]:
@@ -67,19 +81,11 @@ def parts(source: str) -> tuple[str, str]:
 def run(name: str, made: nbformat.NotebookNode) -> str:
     """Run a notebook in place; what is wrong with it, or nothing."""
     start = time.perf_counter()
-    with TemporaryDirectory() as folder:
-        # Spoken to through files of its own: no ports, and no other kernel's messages.
-        config = Config({"KernelManager": {"transport": "ipc", "ip": f"{folder}/kernel"}})
-        fault = _fault(name, NotebookClient(made, timeout=PATIENCE, config=config))
-    print(f"{name}: {time.perf_counter() - start:.1f} s", flush=True)
-    return fault
-
-
-def _fault(name: str, client: NotebookClient) -> str:
     try:
-        made = client.execute()
+        executed(made)
     except CellExecutionError as error:
         return f"{name}: {error}"
+    print(f"{name}: {time.perf_counter() - start:.1f} s", flush=True)
     numbers, drawn = (cell.outputs for cell in made.cells[2:])
     results = [output for output in numbers if output.output_type == "execute_result"]
     seen = [output for output in drawn if "image/png" in output.get("data", {})]
@@ -90,17 +96,11 @@ def _fault(name: str, client: NotebookClient) -> str:
 
 def main() -> int:
     """Every notebook, or those that are named."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path, default=Path("notebooks"))
-    parser.add_argument("--only", nargs="+", default=EXAMPLES, choices=EXAMPLES, metavar="NAME")
-    parser.add_argument("--no-run", action="store_true")
-    options = parser.parse_args()
+    options = asked(__doc__, EXAMPLES, out=Path("notebooks"))
     options.out.mkdir(parents=True, exist_ok=True)
-    made = {name: notebook(name) for name in options.only}
-    wrong: list[str] = []
-    if not options.no_run:
-        with ThreadPoolExecutor(KERNELS) as pool:
-            wrong = [fault for fault in pool.map(run, made, made.values()) if fault]
+    made = {name: notebook(name) for name in options.names or EXAMPLES}
+    with ThreadPoolExecutor(KERNELS) as pool:
+        wrong = [fault for fault in pool.map(run, made, made.values()) if fault]
     for name, content in made.items():
         nbformat.write(content, options.out / f"{name}.ipynb")
     print(f"wrote {len(made)} notebooks to {options.out}")

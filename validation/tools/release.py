@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[2]
 CLI = "quasistatic_ref.cli.main"
 FIGURES = (
     "grasp cone_surfaces pinch_threshold gradient_of_a_push where_no_gradient_is "
-    "what_smoothing_does plan_a_push"
+    "what_smoothing_does plan_a_push both_laws"
 )
 """Of README and docs, by ``quasistatic-ref figures``."""
 REALITY = ("pushes", "identified", "loads", "errors", "ablations", "tripods")
@@ -80,7 +80,6 @@ def fuzzed(name: str, options: str = "") -> Result:
 RESULTS = (
     Result("vectors", f"{CLI} vectors generate --out validation/vectors", ("validation/vectors",)),
     to_file("planted_bugs", "planted_bugs.md"),
-    script("partial_ports", "md"),
     to_file("challenges", "challenges.md"),
     Result("engines", "validation.make.engines", ("validation/results/engines",)),
     Result(
@@ -100,7 +99,6 @@ RESULTS = (
         "validation.make.digits_of_backends",
         ("validation/results/digits_of_backends.csv", "docs/figures/digits_of_backends.png"),
     ),
-    printed("options_of_backends", "options_of_backends.csv"),
     printed("large_steps", "large_steps.md"),
     printed("grouped_proofs", "grouped_proofs.md"),
     Result(
@@ -111,12 +109,6 @@ RESULTS = (
             "validation/results/contact_qp.md",
             "docs/figures/contact_qp.png",
         ),
-    ),
-    printed(
-        "sequences",
-        "sequences.txt",
-        f"{CLI} study sequences daqp osqp clarabel piqp quadprog qpsolvers:daqp "
-        "--repetitions 1 --quiet",
     ),
     printed("pair_distances", "pair_distances.md"),
     printed("step_profile", "step_profile.md"),
@@ -129,7 +121,9 @@ RESULTS = (
     to_file("same_bits", "same_bits.json"),
     to_file("derivatives", "derivatives.md"),
     script("clouds", "jsonl"),
+    script("second_order", "jsonl", "md"),
     to_file("reach", "reach.md"),
+    script("mjcf", "md"),
     to_file("environments", "environments.md"),
     fuzzed("fuzzing"),
     fuzzed("hostile_steps", "--readers validation.make.hostile_steps --inputs 105000"),
@@ -160,14 +154,13 @@ RESULTS = (
     ),
     to_file("installs", "installs.md", "validation.tools.check_installs"),
     script("exit_codes", "md"),
-    script("option_search", "jsonl", "md"),
     *(
         Result(
             f"study_{name}",
             f"validation.make.study_reports {name}",
             (f"validation/studies/{name}",),
         )
-        for name in ("default", "bunny_torsion")
+        for name in ("default", "sequences", "bunny_torsion")
     ),
 )
 

@@ -1,46 +1,66 @@
-"""Every figure in the styles of a paper in two columns, of slides and of posters, and in a grid.
+"""Every figure in every style and in a grid, read for what is not legible.
 
-Run ``python -m validation.tools.restyled [--out FOLDER] [--only NAME ...]`` (about a minute and a
-half). Each figure of an example and of the tour is drawn in ``docs/styles/two_columns.mplstyle``
-(3.4 inches, 8 pt), in slides and on a poster, and into one cell of a user's own grid of 2 x 2 axes,
-a page wide. Exit status 1 if any of them has a fault; with --out, each is kept as a PNG.
+Run ``python -m validation.tools.restyled [NAME ...] [--out FOLDER]`` (some three minutes). These
+are the figures of the examples, of the tour and of the claims, and what is drawn from committed
+results, in the style of paper. Those of examples and the tour are also drawn in
+``docs/styles/two_columns.mplstyle`` (3.4 inches, 8 pt), in slides, on a poster, and into one cell
+of a user's own grid of 2 x 2 axes, a page wide. Exit status 1 if any of them has a fault; with
+--out each is kept as a PNG, and those on paper stand on one sheet, in colour and in grey: look at
+it for what no program sees.
 """
 
-import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
-from typing import Any
 
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
+from PIL import Image
 
 from docs.six_figures import corner_loads, the_program
+from quasistatic_ref.lab.claims.claim import finding
+from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
+from quasistatic_ref.lab.figures.digits import digits_of_backends
+from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import PAGE
 from tests.legible import faults
+from validation.make.digits_of_backends import SUBJECT, records_read
+from validation.tools.scripts import asked
 
 ROOT = Path(__file__).parents[2]
 COLUMN = ROOT / "docs" / "styles" / "two_columns.mplstyle"
 GRID = (PAGE, 6.3)
 """Size of the grid [in]."""
+COLUMNS, CELL = 4, (640, 480)
+"""Of the sheet [pixels]."""
 
 FIGURES: dict[str, Callable[..., Figure]] = {
     "corner_loads": corner_loads.figure,
     "the_program": the_program.figure,
 }
+"""Those of the tour."""
 
 
 def drawer(name: str) -> Callable[..., Figure]:
-    """The function that draws a figure."""
+    """The function that draws a figure of an example or of the tour."""
     return FIGURES[name] if name in FIGURES else example(name).figure
+
+
+def on_paper() -> Iterator[tuple[str, Figure]]:
+    """The figures of claims, each measured again, and what is drawn from committed results."""
+    for name, draw in PICTURES.items():
+        evidence = finding(BY_NAME[name]).evidence
+        assert evidence is not None, f"the claim {name} could not be measured"
+        yield f"claim_{name}", draw(evidence.picture)
+    yield "digits_of_backends", digits_of_backends(records_read(), SUBJECT)
 
 
 def in_styles(name: str) -> dict[str, tuple[Figure, list[str]]]:
     """A figure in each style, and in a cell of a grid: what it is -> the figure, its faults."""
     made: dict[str, tuple[Figure, list[str]]] = {}
-    for style in (COLUMN, "slides", "poster"):
+    for style in ("paper", COLUMN, "slides", "poster"):
         with figure_style(style):
             page = drawer(name)()
             made[Path(style).stem] = page, faults(page, style)
@@ -58,23 +78,45 @@ def _fits(page: Figure) -> bool:
     return tuple(page.get_size_inches()) == GRID
 
 
+def every_figure(names: Collection[str]) -> Iterator[tuple[str, str, Figure, list[str]]]:
+    """Name, style, figure and faults of the figures that are named, or of all."""
+    for name in names or (*EXAMPLES, *FIGURES):
+        for style, (page, found) in in_styles(name).items():
+            yield name, style, page, found
+    if not names:
+        with figure_style("paper"):
+            for name, page in on_paper():
+                yield name, "paper", page, faults(page, "paper")
+
+
+def sheet(files: list[Path]) -> Image.Image:
+    """Pictures next to each other, each in a cell."""
+    rows = -(-len(files) // COLUMNS)
+    made = Image.new("RGB", (COLUMNS * CELL[0], rows * CELL[1]), "white")
+    for k, file in enumerate(files):
+        picture = Image.open(file).convert("RGB")
+        picture.thumbnail(CELL)
+        made.paste(picture, (k % COLUMNS * CELL[0], k // COLUMNS * CELL[1]))
+    return made
+
+
 def main() -> int:
     """Draw, read, keep."""
-    names = (*EXAMPLES, *FIGURES)
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--out", type=Path)
-    parser.add_argument("--only", nargs="+", default=names, choices=names, metavar="NAME")
-    options: Any = parser.parse_args()
-    wrong = []
-    for name in options.only:
-        for what, (page, found) in in_styles(name).items():
-            wrong += [f"{name}, {what}: {fault}" for fault in found]
-            if options.out:
-                options.out.mkdir(parents=True, exist_ok=True)
-                page.savefig(options.out / f"{name}_{what}.png", bbox_inches=None, dpi=110)
-            plt.close(page)
-        print(name, flush=True)
-    print("\n".join(wrong) or f"{len(options.only)} figures are legible in every style")
+    options = asked(__doc__, (*EXAMPLES, *FIGURES), out=Path)
+    wrong, kept = [], []
+    for name, style, page, found in every_figure(options.names):
+        wrong += [f"{name}, {style}: {fault}" for fault in found]
+        if options.out:
+            options.out.mkdir(parents=True, exist_ok=True)
+            kept.append(options.out / f"{name}_{style}.png")
+            page.savefig(kept[-1], bbox_inches=None, dpi=110)
+        plt.close(page)
+        print(f"{name}, {style}", flush=True)
+    if kept:
+        printed = sheet([file for file in kept if file.stem.endswith("_paper")])
+        printed.save(options.out / "sheet.png")
+        printed.convert("L").save(options.out / "sheet_grey.png")
+    print("\n".join(wrong) or "every figure is legible in every style")
     return 1 if wrong else 0
 
 

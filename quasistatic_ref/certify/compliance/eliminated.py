@@ -76,9 +76,13 @@ class EliminatedStep:
     """
 
     def __init__(self, step: StepData, compliance: float) -> None:
-        contacts, c = step.contacts, dyadic(compliance)
-        self.step, self.h, self.compliance = step, dyadic(step.h), fraction(compliance)
-        self.H, self.g = c * h_times_hessian(step), c * h_times_load(step)  # times h c
+        contacts = step.contacts
+        c = dyadic(compliance)
+        self.step = step
+        self.h = dyadic(step.h)
+        self.compliance = fraction(compliance)
+        self.H = c * h_times_hessian(step)  # times h c
+        self.g = c * h_times_load(step)  # times h c
         self.mu = dyadic(scaled_by(contacts).reshape(-1, 1))
         mu = Dyadic(self.mu.m.reshape(-1, 4, 1), self.mu.e)
         gap = np.zeros((contacts.n_c, 4, 1))
@@ -96,7 +100,9 @@ class EliminatedStep:
         StepDataError
             If H, formed without rounding, is not positive definite.
         """
-        step, n, z = self.step, self.step.n_v, self.z
+        step = self.step
+        n = step.n_v
+        z = self.z
         counts = step.counts.tolist()
         on = [face(step.cone, count, rows) for count, rows in zip(counts, faces, strict=True)]
         scale = lcm(*(f.denominator for f in on))
@@ -143,7 +149,8 @@ class EliminatedStep:
 
     def numbers(self, found: Candidate) -> tuple[Array, Array]:
         """The p, scaled to forces, shape (n_c, 4) [N, N m], and delta_q of a candidate, rounded."""
-        point, n_c = found.point, self.step.contacts.n_c
+        point = found.point
+        n_c = self.step.contacts.n_c
         entries = range(found.own - 4 * n_c, found.own)
         p = nearest_numbers(point, lambda at: at.slack, found.s_unit / self.compliance, entries)
         x = nearest_numbers(point, lambda at: at.x, point.form.x_unit, range(self.step.n_v))
@@ -177,15 +184,16 @@ def eliminated_optimum(
     StepDataError, StepInfeasible
         As :meth:`EliminatedStep.candidate`.
     """
-    program, C = EliminatedStep(step, compliance), exact_numbers(cone(step.cone).matrix)
+    program = EliminatedStep(step, compliance)
     for _ in range(PROOFS):
         found = program.candidate(faces, held)
         wrong = program.wrong_faces(found)
         if not wrong:
             return program.numbers(found)
         for j in wrong:
+            C = exact_numbers(cone(step.cone).matrix[: step.counts[j]])
             z = np.array(program.motion(found, j))
-            faces[j] = nearest_face(C[: step.counts[j]], z, exact_multipliers)
+            faces[j] = nearest_face(C, z, exact_multipliers)
     return None
 
 

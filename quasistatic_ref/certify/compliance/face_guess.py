@@ -72,20 +72,27 @@ class FloatStep:
     def __init__(self, step: StepData, compliance: float) -> None:
         contacts = step.contacts
         motion = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
-        self.step, self.compliance = step, compliance
-        self.C, self.counts = cone(step.cone).matrix, step.counts.tolist()
+        self.step = step
+        self.compliance = compliance
+        self.C = cone(step.cone).matrix
+        self.counts = step.counts.tolist()
         self.B = scaled_by(contacts)[:, :, None] * motion
         self.gap = np.zeros(self.B.shape[:2])
         self.gap[:, 0] = contacts.phi
-        self.H, self.g = step.H, load(step)
+        self.H = step.H
+        self.g = load(step)
         self.stiffness = step.h / compliance
 
     def place(self, x: Array, faces: list[Rows], held: Mask, more: Array | float = 0.0) -> Place:
         """Where x is, from faces that may be right for z + `more`, shape (n_c, 4) [m]."""
-        H, g, k, own = self.H, self.g, self.stiffness, self.step.extra
+        H = self.H
+        g = self.g
+        k = self.stiffness
+        own = self.step.extra
         z = self.B @ x + self.gap + more
         noise = ROUNDING * (np.abs(self.B) @ np.abs(x) + np.abs(self.gap) + np.abs(more))
-        before, faces = faces, list(faces)
+        before = faces
+        faces = list(faces)
         wrong = [j for j, M in enumerate(self.linear(faces)) if outside(M[:-4], z[j], noise[j])]
         for j in wrong:
             C = self.C[: self.counts[j]]
@@ -111,8 +118,11 @@ class FloatStep:
 
         NaN where the sum of H and contacts this stiff is singular in float64.
         """
-        k, E, b = self.stiffness, self.step.extra.A[at.held], self.step.extra.b[at.held]
-        n, lengths = len(self.g), self.gap.size
+        k = self.stiffness
+        E = self.step.extra.A[at.held]
+        b = self.step.extra.b[at.held]
+        n = len(self.g)
+        lengths = self.gap.size
         push = np.einsum("cav,cab->vcb", self.B, at.S).reshape(n, lengths)
         H = self.H - k * (push @ self.B.reshape(lengths, n) - STIFF * E.T @ E)
         g = self.g + k * (push @ self.gap.ravel() + STIFF * E.T @ b)
@@ -149,7 +159,9 @@ def guessed_faces(
     list of tuple of int, length n_c
     list of int
     """
-    program, mu, (x, wrench) = FloatStep(step, compliance), scaled_by(step.contacts), near
+    program = FloatStep(step, compliance)
+    mu = scaled_by(step.contacts)
+    x, wrench = near
     give = np.divide(-compliance * wrench[:, P_OF_WRENCH], mu, out=0.0 * mu, where=mu > 0)
     here = program.place(x, [()] * len(mu), step.extra.A @ x < step.extra.b, give)
     for _ in range(GUESSES):
@@ -159,7 +171,8 @@ def guessed_faces(
         there = program.place(here.x + way, here.faces, here.held)
         if there.settled:
             return there.faces, np.flatnonzero(there.held).tolist()
-        share, slope = 1.0, here.gradient @ way
+        share = 1.0
+        slope = here.gradient @ way
         while share > LEAST and there.energy > here.energy + DESCENT * share * slope:
             share /= 2
             there = program.place(here.x + share * way, here.faces, here.held)

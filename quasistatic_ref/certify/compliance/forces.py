@@ -43,7 +43,7 @@ from quasistatic_ref.certify.rational import (
     in_integers,
     joined,
 )
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.step.arrays import QUIET, read_only
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
@@ -122,11 +122,19 @@ def contact_forces(
         rigid = exact_step(step)
         lam = rigid.lam[: step.offsets[-1]]
         near = rigid.delta_q, contact_wrenches(step.contacts, lam, step.h, step.cone)
-    wrench, delta_q = np.zeros((step.contacts.n_c, 4)), np.zeros(step.n_v)
+    wrench = np.zeros((step.contacts.n_c, 4))
+    delta_q = np.zeros(step.n_v)
     for group, part in parts(step):
-        x, f = group.coordinates, group.contacts
-        found = _of_group(part, compliance, None if near is None else (near[0][x], near[1][f]))
-        delta_q[x], wrench[f] = found.delta_q, found.wrench
+        x = group.coordinates
+        f = group.contacts
+        start = None if near is None else (near[0][x], near[1][f])
+        try:
+            found = _of_group(part, compliance, start)
+        except StepInfeasible:
+            exact_step(step)  # says so of the whole step
+            raise
+        delta_q[x] = found.delta_q
+        wrench[f] = found.wrench
     return ContactForces(wrench, delta_q)
 
 
@@ -157,7 +165,9 @@ def compliant_form(step: StepData, compliance: float) -> ExactForm:
     ExactForm
         Rows as of :func:`~quasistatic_ref.certify.rational.exact_form`.
     """
-    h, c, n_c = dyadic(step.h), dyadic(compliance), step.contacts.n_c
+    h = dyadic(step.h)
+    c = dyadic(compliance)
+    n_c = step.contacts.n_c
     # Eq. (13) with the energy |s|^2 / (2c), times h c
     H = block_diagonal(c * h_times_hessian(step), h * h * dyadic(np.eye(4 * n_c)))
     g = joined([c * h_times_load(step), dyadic(np.zeros(4 * n_c))])

@@ -9,7 +9,6 @@ from functools import lru_cache
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Shape
 from quasistatic_ref.shapes.rounded import distance_to_rounded_box
@@ -51,7 +50,8 @@ class Polytope:
 
     def moved(self, R: Array, t: Array) -> "Polytope":
         """The polytope in another frame, x' = R x + t (`shape` stays in its own)."""
-        normals, vertices = rotated(R, self.normals), rotated(R, self.vertices) + t
+        normals = rotated(R, self.normals)
+        vertices = rotated(R, self.vertices) + t
         offsets = self.offsets + dot(normals, t)
         return replace(self, vertices=vertices, normals=normals, offsets=offsets)
 
@@ -59,7 +59,7 @@ class Polytope:
         """Signed distance and normal of points, in the shape's own frame, to the core."""
         if isinstance(self.shape, Capsule):
             return distance_to_rounded_box(points, self.shape.core[0])
-        return signed_distance(self.shape, points)
+        return self.shape.signed_distance(points)
 
 
 @lru_cache(maxsize=256)
@@ -68,7 +68,8 @@ def polytope(shape: Shape) -> Polytope | None:
     match shape:
         case Capsule():
             ends, radius = shape.corners(UP)
-            x, y = -0.5, math.sqrt(0.75)  # of a third of a turn
+            x = -0.5
+            y = math.sqrt(0.75)  # of a third of a turn
             around = np.array([[1.0, 0.0, 0.0], [x, y, 0.0], [x, -y, 0.0]])
             sides = np.array([[0, 1], [1, 2], [2, 0]])
             edges = np.array([[0, 1]] * 3)
@@ -84,9 +85,11 @@ def polytope(shape: Shape) -> Polytope | None:
 def _box(box: Box) -> Polytope:
     bits = (np.arange(8)[:, None] >> np.array([0, 1, 2])) & 1
     normals = np.concatenate([np.eye(3), -np.eye(3)])
-    edges, sides = [], []
+    edges = []
+    sides = []
     for axis in range(3):
-        first, second = (axis + 1) % 3, (axis + 2) % 3
+        first = (axis + 1) % 3
+        second = (axis + 2) % 3
         for corner in np.flatnonzero(bits[:, axis] == 0):
             edges.append((corner, corner | 1 << axis))
             sides.append([a if bits[corner, a] else a + 3 for a in (first, second)])

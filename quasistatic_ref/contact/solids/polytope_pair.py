@@ -34,14 +34,16 @@ def polytope_pair(
     if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
         return _capsule_pair(a, b.moved(R, t))
     best = int(gaps[0].argmax())
-    gap, n = float(gaps[0][best]), gaps[1][best]
+    gap = float(gaps[0][best])
+    n = gaps[1][best]
     size = float(max(np.abs(a.vertices).max(), np.abs(b.vertices).max(), np.abs(t).max()))
     if gap > 0:
         on_a, on_b, miss = _nearest(a, b, R, t, gap * n, size)
         between = on_b - on_a
         distance = float(norm(between))
         if miss > OUTSIDE_FACE * size and distance > ON_SURFACE * size:
-            gap, n = distance, between / distance
+            gap = distance
+            n = between / distance
     else:
         # Parted along n, they touch: where they do is where they are deepest now.
         on_a, _, _ = _nearest(a, b, R, t - gap * n, 0 * n, size)
@@ -55,12 +57,16 @@ def _with_margins(a: Polytope, b: Polytope, gap: float, on_a: Array, n: Array) -
 
 def _capsule_pair(a: Polytope, b: Polytope) -> Witness:
     """Two segments have no volume: the distance is never negative, but may be without direction."""
-    tail_a, tail_b = a.vertices[:1], b.vertices[:1]
-    way_a, way_b = a.vertices[1:] - tail_a, b.vertices[1:] - tail_b
+    tail_a = a.vertices[:1]
+    tail_b = b.vertices[:1]
+    way_a = a.vertices[1:] - tail_a
+    way_b = b.vertices[1:] - tail_b
     s, r = nearest_on_segments(tail_a, way_a, tail_b, way_b)
-    on_a, on_b = tail_a + s * way_a, tail_b + r * way_b
+    on_a = tail_a + s * way_a
+    on_b = tail_b + r * way_b
     apart = (on_b - on_a)[0]
-    gap, size = float(norm(apart)), float(np.abs([a.vertices, b.vertices]).max())
+    gap = float(norm(apart))
+    size = float(np.abs([a.vertices, b.vertices]).max())
     across = np.cross(way_a, way_b)[0]
     steepness = float(np.sqrt(dot(across, across) / (dot(way_a, way_a) * dot(way_b, way_b))[0]))
     inside = 0 < s[0] < 1 and 0 < r[0] < 1
@@ -105,9 +111,12 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     """
     way_a = a.vertices[a.edges[:, 1]] - a.vertices[a.edges[:, 0]]
     way_b = b.vertices[b.edges[:, 1]] - b.vertices[b.edges[:, 0]]
-    b_on_a, a_on_b = product(-way_a, b.normals.T), product(way_b, a.normals.T)
-    c, d = b_on_a[:, b.sides[:, 0]], b_on_a[:, b.sides[:, 1]]
-    e, f = a_on_b[:, a.sides[:, 0]].T, a_on_b[:, a.sides[:, 1]].T
+    b_on_a = product(-way_a, b.normals.T)
+    a_on_b = product(way_b, a.normals.T)
+    c = b_on_a[:, b.sides[:, 0]]
+    d = b_on_a[:, b.sides[:, 1]]
+    e = a_on_b[:, a.sides[:, 0]].T
+    f = a_on_b[:, a.sides[:, 1]].T
     # Each arc has its ends on different sides of the plane of the other ...
     i, j = np.nonzero((c * d < 0) & (e * f < 0))
     if not len(i):
@@ -116,13 +125,18 @@ def _crossing_edges(a: Polytope, b: Polytope) -> tuple[Array, Array]:
     length = norm(n)
     scale = np.sqrt(dot(way_a[i], way_a[i]) * dot(way_b[j], way_b[j]))
     keep = length > ON_SURFACE * scale
-    i, j, n = i[keep], j[keep], n[keep] / length[keep, None]
+    i = i[keep]
+    j = j[keep]
+    n = n[keep] / length[keep, None]
     # ... and they are on the same hemisphere: n is on the side of a's normals and of -b's.
     middle_a = a.normals[a.sides[i, 0]] + a.normals[a.sides[i, 1]]
     middle_b = -(b.normals[b.sides[j, 0]] + b.normals[b.sides[j, 1]])
-    side_a, side_b = dot(n, middle_a), dot(n, middle_b)
+    side_a = dot(n, middle_a)
+    side_b = dot(n, middle_b)
     same = side_a * side_b > 0
-    i, j, n = i[same], j[same], n[same] * np.sign(side_a[same])[:, None]
+    i = i[same]
+    j = j[same]
+    n = n[same] * np.sign(side_a[same])[:, None]
     apart = b.vertices[b.edges[j, 0]] - a.vertices[a.edges[i, 0]]
     return n, dot(n, apart)
 
@@ -138,14 +152,17 @@ def _nearest(
     moved = b.moved(R, t)
     phi_b, normal = a.core_distance(moved.vertices)
     i = int(phi_b.argmin())
-    tip_b, foot_a = moved.vertices[i], moved.vertices[i] - phi_b[i] * normal[i]
+    tip_b = moved.vertices[i]
+    foot_a = moved.vertices[i] - phi_b[i] * normal[i]
     phi_a, normal = b.core_distance(product(a.vertices - t, R))
     j = int(phi_a.argmin())
-    tip_a, foot_b = a.vertices[j], a.vertices[j] - phi_a[j] * product(R, normal[j])
+    tip_a = a.vertices[j]
+    foot_b = a.vertices[j] - phi_a[j] * product(R, normal[j])
     least = float(min(phi_a[j], phi_b[i]))
     distance, on_a, on_b = _edge_distances(a, moved, max(least, 0.0))
     distance = np.concatenate([[phi_b[i], phi_a[j]], distance])
-    on_a, on_b = np.concatenate([[foot_a, tip_a], on_a]), np.concatenate([[tip_b, foot_b], on_b])
+    on_a = np.concatenate([[foot_a, tip_a], on_a])
+    on_b = np.concatenate([[tip_b, foot_b], on_b])
     miss = norm(on_b - on_a - way)
     best = int(distance.argmin())
     as_near = (distance <= distance[best] + OUTSIDE_FACE * size) & (miss <= OUTSIDE_FACE * size)
@@ -156,16 +173,20 @@ def _nearest(
 
 def _edge_distances(a: Polytope, b: Polytope, bound: float) -> tuple[Array, Array, Array]:
     """Distances (N,) and closest points (N, 3) of pairs of edges, of those within a bound."""
-    tail_a, tail_b = a.vertices[a.edges[:, 0]], b.vertices[b.edges[:, 0]]
-    way_a, way_b = a.vertices[a.edges[:, 1]] - tail_a, b.vertices[b.edges[:, 1]] - tail_b
-    middle_a, middle_b = tail_a + way_a / 2, tail_b + way_b / 2
+    tail_a = a.vertices[a.edges[:, 0]]
+    tail_b = b.vertices[b.edges[:, 0]]
+    way_a = a.vertices[a.edges[:, 1]] - tail_a
+    way_b = b.vertices[b.edges[:, 1]] - tail_b
+    middle_a = tail_a + way_a / 2
+    middle_b = tail_b + way_b / 2
     reach_a, reach_b = (norm(w) / 2 for w in (way_a, way_b))
     # Only edges whose surrounding balls come within the bound.
     apart = middle_a[:, None] - middle_b
     apart2 = dot(apart, apart)
     i, j = np.nonzero(apart2 <= (reach_a[:, None] + reach_b + bound) ** 2)
     s, r = nearest_on_segments(tail_a[i], way_a[i], tail_b[j], way_b[j])
-    on_a, on_b = tail_a[i] + s[:, None] * way_a[i], tail_b[j] + r[:, None] * way_b[j]
+    on_a = tail_a[i] + s[:, None] * way_a[i]
+    on_b = tail_b[j] + r[:, None] * way_b[j]
     return norm(on_b - on_a), on_a, on_b
 
 
@@ -179,7 +200,8 @@ def nearest_on_segments(p: Array, u: Array, q: Array, v: Array) -> tuple[Array, 
     """
     w = p - q
     uu, vv, uv = (dot(x, y) for x, y in ((u, u), (v, v), (u, v)))
-    uw, vw = dot(u, w), dot(v, w)
+    uw = dot(u, w)
+    vw = dot(v, w)
     cross = np.cross(u, v)
     det = dot(cross, cross)
     parallel = det <= (ON_SURFACE**2) * uu * vv

@@ -2,17 +2,16 @@
 
 A sphere on anything, anything on a half-space, and every pair of box, convex mesh and capsule
 have closed forms, right to rounding (a sphere on an ellipsoid: Newton's method, as accurate). For
-all others, a cylinder, cone or ellipsoid and any of these or of those, coal's answer is refined,
-and then checked.
+all others, a cylinder, cone or ellipsoid and any of these or of those, ``optional/curved`` refines
+and checks coal's answer.
 """
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
-from quasistatic_ref.contact.solids.by_coal import coal_witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between, polytope_pair
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import dot, product, rotated
@@ -43,10 +42,12 @@ def pair_and_gaps(
     name: str, a: ShapeInWorld, b: ShapeInWorld
 ) -> tuple[Witness, tuple[Array, Array] | None]:
     """The same, and of two polytopes the gaps (N,) [m] along all their normals (N, 3) [-]."""
-    P, Q = polytope(a.shape), polytope(b.shape)
+    P = polytope(a.shape)
+    Q = polytope(b.shape)
     if P is None or Q is None:
         return _curved_pair(name, a, b), None
-    R, t = product(a.R.T, b.R), product(a.R.T, b.t - a.t)
+    R = product(a.R.T, b.R)
+    t = product(a.R.T, b.t - a.t)
     every, normals = gaps_between(P, Q.moved(R, t))
     found = polytope_pair(P, Q, R, t, (every, normals))
     alpha, beta, n = rotated(a.R, np.array([found.alpha, found.beta, found.n]))
@@ -63,11 +64,15 @@ def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
         return _solid_on_plane(a, a.shape, b)
     if isinstance(b.shape, HalfSpace):
         return _solid_on_plane(b, b.shape, a).swapped()
-    return coal_witness(name, a, b)
+    kinds = " and ".join(type(solid.shape).__name__.lower() for solid in (a, b))
+    found: Witness = needed_part("curved.by_coal", f"{name}: contact of {kinds}").coal_witness(
+        name, a, b
+    )
+    return found
 
 
 def _sphere_on_solid(solid: ShapeInWorld, sphere: ShapeInWorld, radius: float) -> Witness:
-    distance, normal = signed_distance(solid.shape, product(sphere.t - solid.t, solid.R)[None])
+    distance, normal = solid.shape.signed_distance(product(sphere.t - solid.t, solid.R)[None])
     n = product(solid.R, normal[0])
     phi = float(distance[0])
     return Witness(phi - radius, sphere.t - phi * n, sphere.t - radius * n, n)

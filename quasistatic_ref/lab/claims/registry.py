@@ -28,6 +28,7 @@ MODULES: Final = {
         "closed_forms.flat_patch",
         "closed_forms.peg",
         "closed_forms.locked_guide",
+        "closed_forms.lift",
         "closed_forms.couple",
         "closed_forms.planar_push",
     ),

@@ -139,7 +139,9 @@ def row(cell: Cell, cloud: Array | None = None) -> Record:
     }
     if found.grip is not None:
         numbers |= vars(found.grip)
-    written = {name: float(f"{value:.6g}") for name, value in numbers.items()}
-    if np.isinf(written.get("needed", 0.0)):
-        written["needed"] = None  # type: ignore[assignment]  # JSON has no infinity
+    written: dict[str, float | None] = {
+        name: float(f"{value:.6g}") for name, value in numbers.items()
+    }
+    if numbers.get("needed") == np.inf:
+        written["needed"] = None  # JSON has no infinity
     return vars(cell) | {"failed": found.failed} | written

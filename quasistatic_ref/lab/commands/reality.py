@@ -7,7 +7,7 @@ from pathlib import Path
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, text_written, writable_folder
-from quasistatic_ref.formats.resources import reality_folder
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 
 NAME = "reality"

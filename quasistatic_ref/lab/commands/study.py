@@ -11,7 +11,7 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.lab.commands import study_ask, study_problems, study_sequences
+from quasistatic_ref.lab.commands import study_ask, study_problems
 from quasistatic_ref.lab.commands.study_report import run_merge, run_pack, run_report
 from quasistatic_ref.lab.study.measuring.grade import OUTCOMES
 from quasistatic_ref.lab.study.store.rows import Row, label_of
@@ -19,11 +19,9 @@ from quasistatic_ref.lab.study.store.store import STORE, contents
 
 ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
-    "export": "write a study's problems as a test set of qpbenchmark (parquet)",
     "report": "write what a study says: a self-contained HTML page, Markdown, figures",
     "ask": "run one solver on one problem, in a process of its own, and grade the answer",
     "problems": "sets of problems with exact answers: list, export, check, make",
-    "sequences": "run solvers on steps in order, from cold and from what the step before left",
     "merge": "join the results of several machines into one store",
     "pack": "write a study's rows compressed, their numbers shortened, to be kept",
 }
@@ -32,11 +30,11 @@ ACTIONS = {
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the commands below this one, and their options."""
     parsers = parsers_of(parser, "action", ACTIONS)
-    run_, export = parsers["run"], parsers["export"]
     study_problems.add_options(parsers["problems"])
-    study_sequences.add_options(parsers["sequences"])
     study_ask.add_options(parsers["ask"])
-    study = run_.add_argument("study", metavar="STUDY", help="a TOML file, or the name 'default'")
+    run_ = parsers["run"]
+    words = "a TOML file, or a name such as 'default'"
+    study = run_.add_argument("study", metavar="STUDY", help=words)
     shared.completed(study, _studies, ".toml")
     shared.add(run_, "--out", default="study")
     run_.add_argument("--quick", action="store_true", help="a twentieth of the problems")
@@ -47,16 +45,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--scheduler", metavar="ADDRESS", help="a Dask scheduler, in place of this machine's cores"
     )
     shared.add(run_, "--json")
-    for name in ("export", "report", "pack"):
-        words = "of a study that was run"
-        parsers[name].add_argument("store", type=Path, metavar="FOLDER", help=words)
-    shared.add(export, "--out", default="qpbenchmark")
-    export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
     words = "results of a machine, and its name; else the folder's"
     merge = parsers["merge"]
     merge.add_argument("parts", nargs="+", metavar="[NAME=]FOLDER", help=words)
     shared.add(merge, "--out", default=Path("merged"))
     for name, folder in (("report", "report"), ("pack", "packed")):
+        words = "of a study that was run"
+        parsers[name].add_argument("store", type=Path, metavar="FOLDER", help=words)
         words = f"folder for the results (default: {folder}, in that of the study)"
         parsers[name].add_argument("--out", type=Path, metavar="FOLDER", help=words)
 
@@ -71,10 +66,8 @@ def run(options: argparse.Namespace) -> int:
     """Run the action that was named."""
     actions: dict[str, Callable[[argparse.Namespace], int]] = {
         "run": _run,
-        "export": _export,
         "ask": study_ask.run_ask,
         "problems": study_problems.run_problems,
-        "sequences": study_sequences.run_sequences,
         "report": run_report,
         "merge": run_merge,
         "pack": run_pack,
@@ -160,17 +153,4 @@ def _swept(rows: list[Row], options: argparse.Namespace) -> int:
     print(
         f"{len(rows)} runs (fast path), {failed} of which ended early; wrote {options.out / STORE}"
     )
-    return 0
-
-
-def _export(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.problems.exports import PARQUET, exported
-    from quasistatic_ref.lab.study.problems.folder import set_read
-    from quasistatic_ref.lab.study.problems.for_study import FOLDER
-
-    shared.check_at_least_one(options, "every")
-    raw = set_read(options.store / FOLDER)[:: options.every]
-    for name, problems in {"raw": raw, "natural": [one.natural for one in raw]}.items():
-        for path in exported(f"contact_{name}", problems, PARQUET, options.out):
-            print(f"wrote {path}")
     return 0

@@ -7,16 +7,16 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.folders import problem_set_folder
 
 ACTIONS = {
     "list": "the families of a set, their dials, and how many problems they have",
-    "export": "write problems as npz, parquet (qpbenchmark), mat (MATLAB) or json",
+    "export": "write problems as npz, parquet (qpbenchmark), mat (MATLAB), json or qps",
     "check": "compare a set's files with its hashes; with --exact prove every answer again",
     "make": "make a set from scenes, with exact answers; an interrupted one goes on",
 }
 UNITS = ("raw", "natural")
-FORMATS = ("npz", "parquet", "mat", "json")
+FORMATS = ("npz", "parquet", "mat", "json", "qps")
 """As in lab/study/problems/exports.py, which takes a while to import; a test holds them equal."""
 
 
@@ -74,7 +74,7 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _export(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.problems.exports import exported, for_qpbenchmark
+    from quasistatic_ref.lab.study.problems.exports import exported, has_place
     from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 
     shared.check_at_least_one(options, "every")
@@ -86,11 +86,10 @@ def _export(options: argparse.Namespace) -> int:
     natural = options.units == "natural"
     problems = [one.natural for one in found] if natural else found
     name = manifest(folder)["name"] + ("-natural" if natural else "")
-    for path in exported(name, problems, options.to, options.out):
-        print(f"wrote {path}")
-    left = 0 if options.to != "parquet" else sum(not for_qpbenchmark(one) for one in found)
-    if left:
-        words = "sparse, conic or infeasible, for which qpbenchmark has no place"
+    paths = exported(name, problems, options.to, options.out)
+    print(f"wrote {len(paths)} files to {options.out}, README.md among them")
+    if left := sum(not has_place(one, options.to) for one in found):
+        words = "the format has no place for their cones, sparse matrices or missing solutions"
         print(f"quasistatic-ref: left out {left} problems: {words}", file=sys.stderr)
     return 0
 

@@ -1,17 +1,14 @@
 """``study report``, ``study pack``, ``study merge``: what is done with a store that was run."""
 
 import argparse
-import sys
 
 
 def run_report(options: argparse.Namespace) -> int:
-    """Write ``report.html``, ``report.md``, ``report.csv``, ``report.parquet`` and ``figures``."""
-    from quasistatic_ref.errors import InputError
+    """Write ``report.html``, ``report.md`` and ``figures``."""
     from quasistatic_ref.formats.files import bytes_written, text_written, writable_folder
     from quasistatic_ref.lab.figures.study_images import images
     from quasistatic_ref.lab.page.html import html_page, sorting
     from quasistatic_ref.lab.page.markdown import markdown_page
-    from quasistatic_ref.lab.page.numbers import csv_text, parquet_bytes
     from quasistatic_ref.lab.study.report.report import study_report
 
     report = study_report(options.store)
@@ -25,14 +22,9 @@ def run_report(options: argparse.Namespace) -> int:
     pages = {
         "report.md": markdown_page(report),
         "report.html": html_page(report, inside, sorting()),
-        "report.csv": csv_text(report),
     }
     for name, text in pages.items():
         print(f"wrote {text_written(out / name, text)}")
-    try:
-        print(f"wrote {bytes_written(out / 'report.parquet', parquet_bytes(report))}")
-    except InputError as error:
-        print(f"quasistatic-ref: {error}", file=sys.stderr)
     return 0
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.formats.files import json_read
-from quasistatic_ref.formats.resources import vectors_folder
+from quasistatic_ref.lab.folders import vectors_folder
 
 
 def vectors_given(options: argparse.Namespace) -> Path:

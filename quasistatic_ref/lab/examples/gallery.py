@@ -21,7 +21,7 @@ EXAMPLES: Final = (
     "slip_margins",
     "pushed_block",
     "drag_against_h",
-    "coulomb_against_convex_slip",
+    "both_laws",
     "planar_pushing",
     "flat_patch",
     "which_cone_is_real",

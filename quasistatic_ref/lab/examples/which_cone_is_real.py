@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import loads_read
 from quasistatic_ref.lab.reality.pairs import Pair, pairs_read
-from quasistatic_ref.lab.reality.predict import predicted, rotation
+from quasistatic_ref.lab.reality.predict import predicted
 from quasistatic_ref.lab.reality.pushes import Pushes, pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.optional.show.figures import Figure, panels
@@ -78,22 +78,13 @@ def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) ->
     moved = pose_errors(pushes.before, pushes.after)[:, 0]
     chosen = np.sort(np.argsort(-moved, kind="stable")[:SHOWN])
     for k, one in zip(chosen, axes, strict=False):
-        corners = 1e3 * own.outline.vertices
-        origin = 1e3 * pushes.before[k, :2]
-
-        def placed(pose: Array, corners: Array = corners, origin: Array = origin) -> Array:
-            """The outline at a pose, closed, shape (2, n) [mm]."""
-            points = corners @ rotation(pose[2]).T + 1e3 * pose[:2] - origin
-            closed: Array = np.vstack([points, points[:1]]).T
-            return closed
-
-        one.plot(*placed(pushes.before[k]), color="0.6", linewidth=0.8, linestyle=":",
-                 label="before")  # fmt: skip
-        one.fill(*placed(pushes.after[k]), color="0.85", label="after, measured")
+        origin, drawn = pushes.before[k], own.outline.drawn
+        one.plot(*drawn(origin, origin), color="0.6", linewidth=0.8, linestyle=":", label="before")
+        one.fill(*drawn(pushes.after[k], origin), color="0.85", label="after, measured")
         for cone, style in zip(cones, ("-", "--"), strict=False):
-            one.plot(*placed(ends[cone][k]), color="black", linewidth=0.9, linestyle=style,
-                     label=f"after, {cone}")  # fmt: skip
-        path = 1e3 * pushes.path[k] - origin
+            end = drawn(ends[cone][k], origin)
+            one.plot(*end, color="black", linewidth=0.9, linestyle=style, label=f"after, {cone}")
+        path = 1e3 * (pushes.path[k] - origin[:2])
         one.annotate("", path[1], xytext=path[0], arrowprops={"arrowstyle": "->"})
         one.set_aspect("equal", adjustable="datalim")
         first = k == chosen[0]

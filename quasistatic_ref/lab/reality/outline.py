@@ -107,6 +107,14 @@ class Outline:
             normal = gaps[i] / (distance if inside else -distance)
         return -distance if inside else distance, feet[i], normal
 
+    def drawn(self, pose: Array, origin: Array) -> Array:
+        """The closed line at a pose, (3,) [m, rad], from an origin, (2,) [m], shape (2, n) [mm]."""
+        cos, sin = np.cos(pose[2]), np.sin(pose[2])
+        R = np.array([[cos, -sin], [sin, cos]])
+        points = 1e3 * (self.vertices @ R.T + pose[:2] - origin[:2])
+        closed: Array = np.vstack([points, points[:1]]).T
+        return closed
+
     @cached_property
     def _squares(self) -> Array:
         squares: Array = np.einsum("ij,ij->i", self.edges, self.edges)

@@ -14,6 +14,7 @@ import numpy as np
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
 from quasistatic_ref.lab.scenes.slider import turned
+from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array, StepData
 
@@ -49,6 +50,10 @@ class Pushed:
         over mu_v m g [-].
     m, gyration : float
         Mass [kg], radius of gyration [m].
+    rise : float
+        Mass that a rise lifts, over m [-]: 1, or 1e-6 as of a planar base with `support`.
+    law : str
+        ``"convex"``, or ``"coulomb"`` for steps without a rise.
     mu_v, h, stiffness : float
         [-], [s], of the finger [N/m].
     """
@@ -68,6 +73,8 @@ class Pushed:
     mu_v: float = 0.3
     h: float = 0.5
     stiffness: float = 1e6
+    rise: float = 1.0
+    law: str = CONVEX
 
     @property
     def n_u(self) -> int:
@@ -120,7 +127,8 @@ class Pushed:
         extra = friction * self.nudge
         tau = np.zeros(n_u)
         tau[:4] = extra[0], extra[1], -weight, extra[2]
-        M = np.array([self.m] * 3 + [inertia] * (n_u - 3))
+        lifted = self.m * self.rise
+        M = np.array([self.m, self.m, lifted] + [inertia] * (n_u - 3))
         rows = np.array([6] * count + [4])
         torsion = [self.mu_v * self.ratio] * count + [0.0]
         mu_v = [self.mu_v] * count + [self.mu_finger]

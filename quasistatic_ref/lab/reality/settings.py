@@ -9,6 +9,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.reality.cloud import support_points
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.push import PATCH, Pushed
+from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.step.cones import ELLIPSOID, cone
 
 ADVANCE: Final = 1e-3
@@ -41,6 +42,10 @@ class Settings:
         Of the finger in a step [m].
     nudge : tuple of float
         As of :class:`~quasistatic_ref.lab.reality.push.Pushed` [-].
+    law : str
+        As there.
+    rise : float
+        As there [-].
     m, gyration, mu_v, h, stiffness : float
         As there [kg], [m], [-], [s], [N/m]. They cancel in the quasi-static limit.
     """
@@ -57,6 +62,8 @@ class Settings:
     mu_v: float = 0.3
     h: float = 0.5
     stiffness: float = 1e6
+    rise: float = 1.0
+    law: str = CONVEX
 
     def record(self) -> dict[str, Any]:
         """The same as plain data."""
@@ -79,7 +86,7 @@ class Settings:
             (ratio * self.torsion or NO_TORSION) if one else 0.0, self.cone,
             PATCH if one else support_points(pair.outline, self.points),
             self.advance, radians, self.nudge, self.m, self.gyration, self.mu_v, self.h,
-            self.stiffness,
+            self.stiffness, self.rise, self.law,
         )  # fmt: skip
         if not pushed.quasi_dynamic_number <= SLOWEST:
             problem = f"makes the quasi-dynamic number more than {SLOWEST:g}; take a longer step"

@@ -7,18 +7,14 @@ written, in metres. A line or a vertex that cannot be read is an error, never le
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, ModelError, about_field, about_file
 from quasistatic_ref.formats.files import bytes_read, text_of
-from quasistatic_ref.formats.npz import npy_array, npz_arrays
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.model.readers.pcd import pcd_points
-from quasistatic_ref.model.readers.ply import ply_points
 from quasistatic_ref.model.readers.text import decimal
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LARGE
@@ -109,7 +105,8 @@ def _csv(lines: Lines) -> Iterator[Point]:
             columns = [0, 1, 2]
             header = [word.lower() for word in words]
             if any(name in header for name in "xyz"):
-                columns, width = [_column(header, name, number) for name in "xyz"], len(words)
+                columns = [_column(header, name, number) for name in "xyz"]
+                width = len(words)
                 continue
         if len(words) != width:
             raise ModelError(f"must have {width} columns", field=f"line {number}", value=line)
@@ -133,29 +130,18 @@ def _obj(lines: Lines) -> Iterator[Point]:
             yield number, words[1:4]
 
 
-def _npz(path: Path) -> Array:
-    arrays = npz_arrays(path, "a file of NumPy's arrays")
-    name = "points" if "points" in arrays else next(iter(arrays), "")
-    if name != "points" and len(arrays) != 1:
-        problem = "must contain one array, or one that is named points"
-        raise ModelError(problem, field="its arrays", value=list(arrays))
-    return _of_array(arrays[name], name)
-
-
-def _of_array(array: NDArray[Any], name: str) -> Array:
-    if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
-        given = f"{array.dtype} of shape {array.shape}"
-        raise ModelError("must contain numbers of shape (N, 3)", field=name, value=given)
-    return array.astype(np.float64)
+def _of_part(kind: str, path: Path) -> Array:
+    points: Array = needed_part("readers.points", f"a {kind} cloud").POINTS[kind](path)
+    return points
 
 
 KINDS: dict[str, Callable[[Path], list[list[float]] | Array]] = {
     ".xyz": partial(_of_lines, _xyz),
     ".csv": partial(_of_lines, _csv),
-    ".ply": lambda path: ply_points(bytes_read(path, ModelError)),
+    ".ply": partial(_of_part, ".ply"),
     ".obj": partial(_of_lines, _obj),
-    ".pcd": lambda path: pcd_points(bytes_read(path, ModelError)),
-    ".npy": lambda path: _of_array(npy_array(path), "its array"),
-    ".npz": _npz,
+    ".pcd": partial(_of_part, ".pcd"),
+    ".npy": partial(_of_part, ".npy"),
+    ".npz": partial(_of_part, ".npz"),
 }
 """Extension -> the points of such a file, x, y and z one after the other."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_file
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.model.readers.dae import check_dae
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh, hull_of_mesh
 from quasistatic_ref.step.arrays import Array, Indices
 
@@ -64,7 +64,7 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Pat
         )
         raise ModelError(problem, value=uri)
     if found.suffix.lower() == ".dae":
-        check_dae(found)
+        needed_part("readers.dae", "a .dae mesh").check_dae(found)
     return found
 
 
@@ -77,28 +77,11 @@ def mesh_hull(path: Path, scale: Array) -> ConvexMesh:
         If coal cannot read the file, or its vertices have no volume.
     """
     with about_file(path):
-        return hull_of_loaded(_loaded(path, scale))
+        return hull_of_loaded(loaded_mesh(path, scale))
 
 
-def mesh_corners(path: Path, scale: Array) -> Array:
-    """The triangles of a mesh file, three corners each, shape (3T, 3) [m].
-
-    Parameters
-    ----------
-    path : Path
-    scale : ndarray, shape (3,)
-        Of each coordinate [-].
-
-    Raises
-    ------
-    ModelError
-        If coal cannot read the file.
-    """
-    loaded = _loaded(path, scale)
-    return np.asarray(np.array(loaded.vertices())[_triangles(loaded).ravel()])
-
-
-def _loaded(path: Path, scale: Array) -> Any:
+def loaded_mesh(path: Path, scale: Array) -> Any:
+    """A mesh file as coal loads it, coordinates times `scale`, (3,) [-]; or ModelError."""
     try:
         return coal.MeshLoader().load(str(path), scale)
     except (ValueError, RuntimeError) as error:
@@ -107,7 +90,8 @@ def _loaded(path: Path, scale: Array) -> Any:
         raise ModelError(f"cannot be read as a mesh: {reason}", file=path) from None
 
 
-def _triangles(geometry: Any) -> Indices:
+def triangles_of(geometry: Any) -> Indices:
+    """Numbers of the vertices of its triangles, shape (T, 3)."""
     corners = (geometry.tri_indices(i) for i in range(geometry.num_tris))
     return np.array([(c[0], c[1], c[2]) for c in corners], dtype=np.int64)
 
@@ -117,7 +101,7 @@ def hull_of_loaded(geometry: Any) -> ConvexMesh:
     if geometry.num_vertices < 4 or geometry.num_tris < 1:
         problem = "must be at least four vertices, and triangles"
         raise ModelError(problem, field="vertices", value=int(geometry.num_vertices))
-    return hull_of_mesh(np.array(geometry.vertices()), _triangles(geometry))
+    return hull_of_mesh(np.array(geometry.vertices()), triangles_of(geometry))
 
 
 def hull_note(name: str, mesh: ConvexMesh) -> str:

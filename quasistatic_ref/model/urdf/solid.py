@@ -57,7 +57,8 @@ def solid_inertia(shape: Homogeneous, mass: float) -> Array:
         a, b, c = shape.half_extents**2
         return np.asarray(mass / 3 * np.array([b + c, a + c, a + b]))
     # A cylinder, and at the ends of a capsule two half balls, each by its share of the volume.
-    r, half = shape.radius, shape.half_length
+    r = shape.radius
+    half = shape.half_length
     ends = 4 / 3 * r if isinstance(shape, Capsule) else 0.0
     balls = mass * ends / (2 * half + ends)
     cylinder = mass - balls

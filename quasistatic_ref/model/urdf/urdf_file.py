@@ -112,7 +112,8 @@ def urdf_file(given: str | Path) -> UrdfFile:
         has no place for; the message names the file, the element and the value.
     """
     if isinstance(given, str) and given.lstrip().startswith("<"):
-        path, text = Path("<robot>"), given
+        path = Path("<robot>")
+        text = given
     else:
         path = Path(given)
         text = text_of(bytes_read(path, ModelError, LARGEST_FILE), path, ModelError)
@@ -123,7 +124,8 @@ def urdf_file(given: str | Path) -> UrdfFile:
 def _content(path: Path, text: str) -> UrdfFile:
     robot = xml_root(text)
     if robot.tag != "robot":
-        raise ModelError("must be <robot>", field="root element", value=robot.tag)
+        remedy = '; give an MJCF model as mjcf = "FILE"' if robot.tag == "mujoco" else ""
+        raise ModelError(f"must be <robot>{remedy}", field="root element", value=robot.tag)
     version = robot.get("version", "1.0")
     if version not in _VERSIONS:
         problem = f"must be one of {', '.join(_VERSIONS)}"
@@ -203,7 +205,8 @@ def written_shape(collision: Tag) -> Shape | FileMesh:
     tags = [child.tag for child in geometry.element]
     if len(tags) != 1:
         raise ModelError("must contain exactly one shape", field=geometry.where, value=tags)
-    kind, shape = tags[0], Tag(geometry.element[0], f"{collision.where}.{tags[0]}")
+    kind = tags[0]
+    shape = Tag(geometry.element[0], f"{collision.where}.{tags[0]}")
     if kind not in _GEOMETRIES:
         raise ModelError(f"is not a shape{suggestion(kind, _GEOMETRIES)}", field=shape.where)
     shape.only(*_GEOMETRIES[kind])
@@ -223,7 +226,8 @@ def written_shape(collision: Tag) -> Shape | FileMesh:
         written = {"half_extents": "size", "radius": "radius", "half_length": "length"}
         if error.field in written:  # about a size: name it as the file does
             name = written[error.field]
-            error.field, error.value = f"{shape.where}.{name}", shape.element.get(name)
+            error.field = f"{shape.where}.{name}"
+            error.value = shape.element.get(name)
         raise
 
 
@@ -271,5 +275,6 @@ def _mimic(joint: Tag) -> Mimic | None:
     mimic = joint.perhaps("mimic", "joint", "multiplier", "offset")
     if mimic is None:
         return None
-    multiplier, offset = mimic.number("multiplier", 1.0), mimic.number("offset", 0.0)
+    multiplier = mimic.number("multiplier", 1.0)
+    offset = mimic.number("offset", 0.0)
     return Mimic(mimic.text("joint"), multiplier, offset)

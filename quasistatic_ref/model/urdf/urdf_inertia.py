@@ -49,7 +49,9 @@ def checked_inertias(file: UrdfFile, free: Collection[str], base: str) -> tuple[
     ModelError
         If an un-actuated joint moves a group of links whose inertia no rigid body can have.
     """
-    group, mover, notes = rigid_groups(file.root, file.joints), _movers(file, free, base), []
+    group = rigid_groups(file.root, file.joints)
+    mover = _movers(file, free, base)
+    notes = []
     poses = link_poses(file.root, file.joints, {joint.name: 0.0 for joint in file.joints})
     for first in dict.fromkeys(group.values()):
         links = [link for link in group if group[link] == first]
@@ -110,6 +112,8 @@ def _whole(file: UrdfFile, links: Sequence[str], poses: Mapping[str, Pose]) -> F
 
 def _spatial_inertia(link: FileLink) -> Array:
     """(6, 6) about the link's frame, linear part first."""
-    m, c = link.mass, pin.skew(link.com)
-    top, bottom = np.hstack([m * np.eye(3), -m * c]), np.hstack([m * c, link.inertia - m * c @ c])
+    m = link.mass
+    c = pin.skew(link.com)
+    top = np.hstack([m * np.eye(3), -m * c])
+    bottom = np.hstack([m * c, link.inertia - m * c @ c])
     return np.vstack([top, bottom])

@@ -50,7 +50,8 @@ def checked_shapes(
     ModelError
         If shapes are missing, or differ from what the file says.
     """
-    shapes, notes = [], []
+    shapes = []
+    notes = []
     every = [name for link in file.links.values() for name in (link.name, *link.named)]
     for number, (link, frame) in enumerate(zip(links, frames, strict=True)):
         collisions = file.links[link].collisions

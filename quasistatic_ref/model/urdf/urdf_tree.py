@@ -81,7 +81,8 @@ def checked_tree(
     children: dict[str, list[FileJoint]] = {}
     for joint in joints:
         children.setdefault(joint.parent, []).append(joint)
-    ordered, front = [], [roots[0]]
+    ordered = []
+    front = [roots[0]]
     while front:
         here = children.get(front.pop(), [])
         ordered += here
@@ -97,7 +98,8 @@ def checked_tree(
 def _check_mimic(joint: FileJoint, named: Mapping[str, FileJoint]) -> None:
     if joint.mimic is None:
         return
-    field, of = f"joint[{joint.name}].mimic", joint.mimic.of
+    field = f"joint[{joint.name}].mimic"
+    of = joint.mimic.of
     if of not in named:
         raise ModelError(f"is not a joint{suggestion(of, named)}", field=field, value=of)
     leader = named[of]

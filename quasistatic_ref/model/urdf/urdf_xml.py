@@ -55,7 +55,8 @@ def xml_root(text: str) -> Element:
         depth -= 1
         builder.end(name)
 
-    parser.StartElementHandler, parser.EndElementHandler = start, end
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
     parser.CharacterDataHandler = builder.data
     try:
         parser.Parse(text, True)
@@ -109,7 +110,8 @@ class Tag:
         """
         if default is not None and name not in self.element.attrib:
             return np.full(count, default)
-        text, field = self.text(name), f"{self.where}.{name}"
+        text = self.text(name)
+        field = f"{self.where}.{name}"
         if len(text.split()) != count:
             problem = f"must be {count} number{'s' if count > 1 else ''}"
             raise ModelError(problem, field=field, value=text)
@@ -144,7 +146,8 @@ class Tag:
 
         Two are a ModelError, since urdfdom reads the first only.
         """
-        found, where = self.element.findall(tag), f"{self.where}.{tag}"
+        found = self.element.findall(tag)
+        where = f"{self.where}.{tag}"
         if len(found) > 1:
             raise ModelError("is given more than once", field=where, value=len(found))
         child = Tag(found[0], where) if found else None

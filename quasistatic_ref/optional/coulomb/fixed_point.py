@@ -14,49 +14,45 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.errors import InputError
+from quasistatic_ref.errors import InputError, NoFixedPoint
+from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import Array, finite, largest, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.tolerances import COULOMB
+from quasistatic_ref.tolerances import ACCURACY, COULOMB
 
 MOST = 200
 """Iterates after which no solution is claimed."""
 
 
-@dataclass(frozen=True, eq=False)
-class CoulombSolution:
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class CoulombSolution(StepSolution):
     """What the iteration of :func:`coulomb_step` ended at.
+
+    It is its last iterate, the exact optimum of the step with phi + s, which is its `step` and that
+    of its certificate.
 
     Parameters
     ----------
     found : bool
-        Whether s is its own, to within 1e-12 of the longest motion of a contact. If not, the
-        numbers are those of the last iterate, and nothing is claimed of them.
-    solution : StepSolution
-        The last iterate: the exact optimum, with its certificate, of the step with phi + s.
+        Whether s is its own, to within 1e-12 of the longest motion of a contact. If not, nothing is
+        claimed of the step under Coulomb's law.
     s : ndarray, shape (n_c,)
         By how much phi was raised [m].
-    residual : float
+    s_residual : float
         Largest difference of s from that of the solution's own slip [m]. The certificate
         proves all other conditions of the complementarity problem, for phi + s in float64.
-    iterations : int
+    s_iterations : int
         Number of convex steps that were solved.
     """
 
     found: bool
-    solution: StepSolution
     s: Array
-    residual: float
-    iterations: int
-
-    @property
-    def delta_q(self) -> Array:
-        """Displacement of the last iterate, shape (n_v,) [m, rad]."""
-        return self.solution.delta_q
+    s_residual: float
+    s_iterations: int
 
 
 def coulomb_step(
@@ -64,6 +60,7 @@ def coulomb_step(
     solver: str | Solver | None = None,
     *,
     fast: bool = False,
+    accuracy: float = ACCURACY,
     start: ArrayLike | None = None,
     most: int = MOST,
 ) -> CoulombSolution:
@@ -73,7 +70,7 @@ def coulomb_step(
     ----------
     step : StepData
         SI units.
-    solver, fast
+    solver, fast, accuracy
         As of :func:`~quasistatic_ref.solve.solve.solve_step`; each iterate is certified.
     start : array_like, shape (n_c,), optional
         The first s [m], >= 0; by default 0, with which the first iterate is the convex step. There
@@ -112,11 +109,38 @@ def coulomb_step(
         iterations += 1
         s = own
         raised = step.replace(contacts=replace(contacts, phi=contacts.phi + s))
-        solution = solve_step(raised, solver)
+        solution = solve_step(raised, solver, accuracy=accuracy)
         own = slip_norms(step, solution.delta_q)
         residual = largest(np.abs(own - s))
         found = residual <= COULOMB * largest(longest_slips(step, solution.delta_q))
-    return CoulombSolution(found, solution, read_only(s), residual, iterations)
+    return CoulombSolution(
+        **field_values(solution),
+        found=found,
+        s=read_only(s),
+        s_residual=residual,
+        s_iterations=iterations,
+    )
+
+
+def simulated_solution(step: StepData, solver: Solver, accuracy: float) -> CoulombSolution:
+    """The step of a simulator under Coulomb's law, from s = 0.
+
+    Parameters
+    ----------
+    step : StepData
+        SI units.
+    solver, accuracy
+        As of :func:`coulomb_step`; the accuracy in natural units [-].
+
+    Raises
+    ------
+    NoFixedPoint
+        If no solution is found.
+    """
+    solution = coulomb_step(step, solver, accuracy=accuracy)
+    if not solution.found:
+        raise NoFixedPoint(step, solution.s_iterations, solution.s_residual)
+    return solution
 
 
 def slip_norms(step: StepData, delta_q: Array) -> Array:

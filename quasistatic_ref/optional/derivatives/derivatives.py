@@ -25,6 +25,7 @@ from quasistatic_ref.optional.derivatives.step.optimum_rates import Equations
 from quasistatic_ref.optional.derivatives.step.reach import Reach
 from quasistatic_ref.optional.derivatives.step.touching import touching_rows
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
+from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
@@ -115,10 +116,13 @@ def check_derivable(simulator: Simulator) -> None:
     Raises
     ------
     InputError
-        If the cone is no polyhedron, or the simulator has an extension.
+        If the cone is no polyhedron, the law not convex, or the simulator has an extension.
     """
     if not cone(simulator.cone).polyhedral:
         raise InputError("must be a polyhedron for derivatives", field="cone", value=simulator.cone)
+    if simulator.law != CONVEX:
+        problem = f'must be "{CONVEX}" for derivatives, which are those of one convex step'
+        raise InputError(problem, field="law", value=simulator.law)
     if simulator.extension is not None:
         raise InputError("has no derivative: its rows may be any function of q", field="extension")
 

@@ -104,9 +104,9 @@ def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
     phi = np.array([couple.phi for couple in kept])
     motion, turn = np.zeros(len(kept)), np.zeros(len(kept))
     for side in (0, 1):
-        link = [(couple.pair.alpha, couple.pair.beta)[side].link for couple in kept]
+        link = [(couple.of.pair.alpha, couple.of.pair.beta)[side].link for couple in kept]
         end = np.array([couple.points[side] for couple in kept]).reshape(-1, 3)
-        extents = np.array([couple.extents[side] for couple in kept])
+        extents = np.array([couple.of.extents[side] for couple in kept])
         v = twist[link, :3] + crossed(twist[link, 3:], end)
         turn += spin[link]
         motion += np.sqrt(np.sum(v * v, axis=1))

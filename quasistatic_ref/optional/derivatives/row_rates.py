@@ -10,6 +10,7 @@ by the product rule, with everything that a contact is.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -55,7 +56,7 @@ class RowRates:
             )
             turn += sign * omega
             d_turn += sign * d_omega
-        d_d1, d_d2 = tangent_rates(c.n, r.n)
+        d_d1, d_d2 = self.tangents
         found = np.empty((c.n_c, 4, len(x)))
         found[:, 0] = r.phi + _along(u, r.n) + _along(c.n, d_u)
         found[:, 1] = _along(u, d_d1) + _along(c.d1, d_u)
@@ -63,6 +64,11 @@ class RowRates:
         found[:, 3] = _along(turn, r.n) + _along(c.n, d_turn)
         found[:, 1:] *= c.mu[:, :, None]
         return found
+
+    @cached_property
+    def tangents(self) -> tuple[Array, Array]:
+        """Derivatives of d1 and d2, each of shape (n_c, 3, n_v)."""
+        return tangent_rates(self.contacts.n, self.rates.n)
 
     @property
     def terms(self) -> Array:
@@ -73,7 +79,7 @@ class RowRates:
     def pull(self, y: Array) -> Array:
         """Derivative by q of what multipliers y (n_c, 4) exert, (n_v, n_v) [N s]."""
         c, r = self.contacts, self.rates
-        d_d1, d_d2 = tangent_rates(c.n, r.n)
+        d_d1, d_d2 = self.tangents
         y0, y1, y2 = y[:, 0, None], (c.mu[:, 0] * y[:, 1])[:, None], (c.mu[:, 1] * y[:, 2])[:, None]
         force = y0 * c.n + y1 * c.d1 + y2 * c.d2
         d_force = y0[:, None] * r.n + y1[:, None] * d_d1 + y2[:, None] * d_d2

@@ -129,15 +129,16 @@ def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: floa
     return None if v is None else _quotient(v, float(rough.min()) * g * step.h)
 
 
-def gap_after(solution: StepSolution, n_v: int) -> Array:
+def gap_after(phi: Array, solution: StepSolution, n_v: int) -> Array:
     """Gap phi + n'J delta_q [m] of each contact after the step, to first order, shape (n_c,).
 
-    Of delta_q count the first n_v coordinates: private rises are not in the gap.
+    Of delta_q count the first n_v coordinates: private rises are not in the gap. phi, shape (n_c,),
+    is the distance [m], which Coulomb's law raises in the step.
     """
     contacts, delta_q = solution.step.contacts, solution.delta_q.copy()
     delta_q[n_v:] = 0.0
     motion = contacts.motion(delta_q)[:, :3]
-    return np.asarray(contacts.phi + np.sum(contacts.n * motion, axis=1))
+    return np.asarray(phi + np.sum(contacts.n * motion, axis=1))
 
 
 def boundary_layer(gap: Array, solution: StepSolution) -> float:

@@ -1,6 +1,7 @@
 """Masses, inertias and sizes that contradict each other."""
 
 from collections.abc import Iterator
+from itertools import product
 
 import numpy as np
 
@@ -13,6 +14,8 @@ DENSITIES = 10.0, 25_000.0
 GYRATION = 1e-3, 10.0
 """Largest moment of inertia over m r^2, where r is the farthest point from the centre of mass [-]:
 at most 1, but for what has no collision shape; of a homogeneous ball 0.4."""
+WAYS = [np.array(way) / np.linalg.norm(way) for way in product((-1, 0, 1), repeat=3) if any(way)]
+"""To the faces, edges and corners of a cube [-]."""
 RATIO = 1000.0
 """Of the largest and the smallest body or shape of a scene [-]."""
 
@@ -82,4 +85,5 @@ def _free_links(start: Start) -> Iterator[tuple[int, str, list[PlacedShape]]]:
 
 
 def _points(placed: PlacedShape) -> Array:
-    return placed.shape.surface(16, 8) @ placed.R.T + placed.t
+    farthest = np.array([placed.shape.support_point(way) for way in WAYS])
+    return farthest @ placed.R.T + placed.t

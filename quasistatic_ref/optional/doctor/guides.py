@@ -9,16 +9,19 @@ import numpy as np
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import Said, Start, contacts_of
+from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.tolerances import BEARS, CRAWL, LOCKED, REPEATED, SAME_NORMAL
 
 TINY = 1e-9
 """Entries of J, relative to the contact's largest [-], that are rounding."""
+SIDES = 9
+"""Decimals to which normals are those of one side."""
 
 
 class Guide(NamedTuple):
-    """A contact, or two opposite ones, that let a body slide by little.
+    """A contact, or contacts that face each other, which let a body slide by little.
 
     Parameters
     ----------
@@ -28,7 +31,7 @@ class Guide(NamedTuple):
     clearance : float
         How far the contacts may rise, together [m].
     mu : float
-        mu_v [-], or mu_omega [m] where it only turns; of both together.
+        mu_v [-], or mu_omega [m] where it only turns; of all together.
     turns : bool
     """
 
@@ -40,7 +43,11 @@ class Guide(NamedTuple):
 
 
 def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
-    """Contacts whose gap no coordinate opens, and opposite contacts of a body with what stands."""
+    """Contacts whose gap no coordinate opens, and contacts of a body between what stands.
+
+    Between are contacts on two or three sides, whose normals are such that sum w n = 0 with w > 0:
+    for a slip x along all of them sum w (phi - mu |x|) >= 0.
+    """
     J_n = np.einsum("ci,civ->cv", contacts.n, contacts.J[:, :3])
     J_t = np.linalg.norm(contacts.J[:, :3] - contacts.n[:, :, None] * J_n[:, None], axis=1)
     J_w = np.abs(contacts.J[:, 3])
@@ -63,10 +70,29 @@ def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
     near = (standing.sum(axis=1) == 1) & (mu_v > 0) & (clearance < CRAWL * start.h * 2 * mu_v)
     body = np.where(standing[:, 0], links[:, 1], links[:, 0])
     n = np.where(standing[:, :1], contacts.n, -contacts.n)
-    for i, j in combinations(np.flatnonzero(near & ~fixed).tolist(), 2):
-        if body[i] == body[j] and np.abs(n[i] + n[j]).max() <= SAME_NORMAL:
-            both = float(clearance[i] + clearance[j]), float(mu_v[i] + mu_v[j])
-            yield Guide((i, j), slides[i] | slides[j], *both, False)
+    for link in np.unique(body[near & ~fixed]).tolist():
+        for sides, w in _between(n, np.flatnonzero(near & ~fixed & (body == link))):
+            nearest = [side[clearance[side].argmin()] for side in sides]
+            own = np.concatenate(sides)
+            together = float(w @ clearance[nearest]), float(w @ mu_v[nearest])
+            yield Guide(tuple(own.tolist()), slides[own].any(axis=0), *together, False)
+
+
+def _between(n: Array, contacts: Indices) -> Iterator[tuple[tuple[Indices, ...], Array]]:
+    """Two or three sides, each with the numbers of its contacts, with w > 0 and sum w n = 0.
+
+    n, shape (n_c, 3), holds the normals, and w, shape (2,) or (3,) [-], is 1 at most.
+    """
+    rounded = n[contacts].round(SIDES)
+    _, first, side = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
+    for count in (2, 3):
+        choices = np.reshape([*combinations(range(len(first)), count)], (-1, count)).astype(int)
+        normals = n[contacts[first[choices]]]
+        least = np.linalg.svd(normals.swapaxes(1, 2))[2][:, -1]  # of all |w| = 1, |sum w n|
+        weights = least * np.sign(least[:, :1])
+        left = np.abs(np.einsum("is,isx->ix", weights, normals)).max(axis=1, initial=0.0)
+        for i in np.flatnonzero((weights.min(axis=1) > TINY) & (left <= SAME_NORMAL)):
+            yield tuple(contacts[side == k] for k in choices[i]), weights[i] / weights[i].max()
 
 
 def guided(start: Start) -> Iterator[Said]:
@@ -79,15 +105,25 @@ def guided(start: Start) -> Iterator[Said]:
         fastest = guide.clearance / (guide.mu * start.h)
         names = sorted({start.simulator.layout.names[j] for j in guide.contacts})
         key = (*names, *_joints(start, guide))
-        if fastest >= CRAWL or key in said:
+        under_coulomb = start.simulator.law == COULOMB
+        if fastest >= CRAWL or key in said or (under_coulomb and guide.clearance):
             continue
         said.add(key)
         unit = "rad" if guide.turns else "m"
+        cause = (
+            f"{' and '.join(_joints(start, guide))} cannot open the gap of {' and '.join(names)}, "
+            f"{1e3 * guide.clearance:.3g} mm, "
+        )
+        if under_coulomb:
+            cause += "where Coulomb's law has many solutions, and a run takes the locked one"
+        else:
+            cause += (
+                f"and a contact that slides has to rise: it moves by at most {fastest:.3g} "
+                f"{unit}/s, whatever the force"
+            )
         yield Said(
             _remedy(start, guide),
-            f"{' and '.join(_joints(start, guide))} cannot open the gap of {' and '.join(names)}, "
-            f"{1e3 * guide.clearance:.3g} mm, and a contact that slides has to rise: it moves by "
-            f"at most {fastest:.3g} {unit}/s, whatever the force",
+            cause,
             {"clearance_mm": 1e3 * guide.clearance, f"fastest_{unit}_per_s": fastest},
         )
 

@@ -44,7 +44,7 @@ class Doctor(Observer):
         """
         step, solution, system = result.step, result.solution, recorder.system
         g = float(np.linalg.norm(recorder.simulator.gravity))
-        gap = gap_after(solution, system.n_v)
+        gap = gap_after(result.points.phi, solution, system.n_v)
         found = drags(system, step, solution.delta_q, solution.wrench, g)
         return {
             "gap": gap,
@@ -68,7 +68,8 @@ class Doctor(Observer):
             "largest_boundary_layer": largest(recorder.noted("layer")) or 0.0,
             "findings": [asdict(finding) for finding in found],
         }
+        trajectory = replace(trajectory, header=header)
         if self.printed:
-            for finding in found:
+            for finding in trajectory.findings:
                 print(f"quasistatic-ref: {finding}", file=sys.stderr)
-        return replace(trajectory, header=header)
+        return trajectory

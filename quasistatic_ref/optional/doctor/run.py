@@ -10,6 +10,7 @@ from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.doctor.start import Start, contacts_of
+from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
@@ -45,8 +46,9 @@ class Run(Start):
 
     @property
     def searched(self) -> bool:
-        """Whether a step of it may be solved once more."""
-        return self.small and self.simulator.extension is None
+        """Whether a step of it may be solved once more, as a convex step without an extension."""
+        convex = self.simulator.law == CONVEX
+        return self.small and convex and self.simulator.extension is None
 
     def contacts(self, k: int) -> Contacts:
         """The contacts of step k."""

@@ -11,6 +11,7 @@ from quasistatic_ref.optional.doctor import (
     leaps,
     left_out,
     penetration,
+    proofs,
     sunk,
     targets,
     units,
@@ -20,6 +21,7 @@ from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Said, Start
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
 
@@ -32,7 +34,7 @@ class Kind(NamedTuple):
     grave : bool
         Whether such a run is not what was meant.
     found : callable
-        A scene at its start, or a run at its end -> what there is to say of it.
+        A scene at its start, a run at its end or its trajectory -> what there is to say of it.
     """
 
     name: str
@@ -63,6 +65,8 @@ AFTER = (
     Kind("border of k", False, left_out.border),
     Kind("exchanged points", False, left_out.exchanged),
 )
+OF_TIME = (Kind("time of proof", False, proofs.proofs),)
+"""Of wall time, which is no part of a trajectory's file."""
 
 
 def scene_findings(simulator: Simulator, q: Array) -> list[Finding]:
@@ -78,6 +82,11 @@ def before(start: Start) -> list[Finding]:
 def after(run: Run) -> list[Finding]:
     """The findings on a run at its end."""
     return [_finding(kind, said) for kind in AFTER for said in kind.found(run)]
+
+
+def of_time(trajectory: Trajectory) -> list[Finding]:
+    """The findings on the wall time of a run that has steps."""
+    return [_finding(kind, said) for kind in OF_TIME for said in kind.found(trajectory)]
 
 
 def _finding(kind: Kind, said: Said) -> Finding:

@@ -12,7 +12,7 @@ import numpy as np
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.compliance.forces import ContactForces
-from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
+from quasistatic_ref.certify.gap import duality_gap, fractions
 from quasistatic_ref.certify.point import rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows
@@ -29,6 +29,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
     point,
 )
 from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
+from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.step.arrays import Array, Mask, largest
 from quasistatic_ref.step.cones import ELLIPSOID, CurvedCone, Judge, Rows, Violations
@@ -37,7 +38,7 @@ from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
 
 if TYPE_CHECKING:
-    from quasistatic_ref.solve.solver import Solver
+    pass
 
 Active = tuple[tuple[int, int], ...]
 LARGEST = float(np.finfo(np.float64).max)
@@ -189,12 +190,6 @@ class EllipsoidCone(CurvedCone):
         x, reason = judge(step, form, delta_q, tuple(active), lam, claims)
         reason = reason or _not_multipliers(step, form, x, lam, claims.gap)
         return Verdict(not reason, reason)
-
-    def native_solver(self, like: StepData, name: str) -> Solver:
-        """A :class:`~quasistatic_ref.optional.ellipsoid.second_order.ConeSolver`."""
-        from quasistatic_ref.optional.ellipsoid.second_order import ConeSolver  # above certify
-
-        return ConeSolver(like, name)
 
 
 def motion(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:

@@ -16,7 +16,7 @@ from typing import Final, TypeAlias
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
-from quasistatic_ref.certify.gap import duality_gap, fractions, in_joules, negligible
+from quasistatic_ref.certify.gap import duality_gap, fractions
 from quasistatic_ref.certify.point import (
     BallForm,
     ball_form,
@@ -27,6 +27,7 @@ from quasistatic_ref.certify.point import (
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_above, nearest_in
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
+from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.optional.ellipsoid.impulses import raised
 from quasistatic_ref.optional.ellipsoid.interior import Pair, Vector, interior_point
 from quasistatic_ref.optional.ellipsoid.newton import OPEN, STICKS, contact_states, newton_pair

@@ -98,8 +98,10 @@ class CompliantStep:
     """
 
     def __init__(self, step: StepData, compliance: float) -> None:
-        contacts, h = step.contacts, arb(step.h)
-        self.H, self.g = in_balls(h_times_hessian(step)) / h, in_balls(h_times_load(step)) / h
+        contacts = step.contacts
+        h = arb(step.h)
+        self.H = in_balls(h_times_hessian(step)) / h
+        self.g = in_balls(h_times_load(step)) / h
         self.k = h / arb(compliance)
         mu = dyadic(scaled_by(contacts)[:, :, None])
         B = mu * contact_motion(contacts)
@@ -133,12 +135,15 @@ class CompliantStep:
 
         Rows that are `held` are equations. Shape (n_v + held, 1); without radius.
         """
-        n, k = x.nrows(), len(held)
+        n = x.nrows()
+        k = len(held)
         H = self.H
         for B, one in zip(self.B, give, strict=True):
             H = H - B.transpose() * one.by_z * B * self.k
-        K, right = arb_mat(n + k, n + k), arb_mat(n + k, 1)
-        off, short = self.gradient(x, give), self.e - self.E * x
+        K = arb_mat(n + k, n + k)
+        right = arb_mat(n + k, 1)
+        off = self.gradient(x, give)
+        short = self.e - self.E * x
         inside = INSIDE * max((abs(gap[0, 0]) for gap in self.gap), default=arb(1))
         for i in range(n):
             right[i, 0] = -off[i, 0]
@@ -155,14 +160,18 @@ class CompliantStep:
         self, x: arb_mat, give: list[Pushed], held: Sequence[int]
     ) -> tuple[arb_mat, list[arb]]:
         """The minimiser of the energy where the rows `held` are equations; and multipliers."""
-        n, first = x.nrows(), True  # the first step starts from a guess, and off the rows
+        n = x.nrows()
+        first = True  # the first step starts from a guess, and off the rows
         for _ in range(ITERATIONS):
             found = self.newton(x, give, held).entries()
-            way, y = arb_mat(n, 1, found[:n]), found[n:]
-            length, whole = self.squared(way), self.squared(x) + self.squared(way)
+            way = arb_mat(n, 1, found[:n])
+            y = found[n:]
+            length = self.squared(way)
+            whole = self.squared(x) + self.squared(way)
             if not first and length > ROUGH * whole:
                 way = way * self.share(x, give, way)
-            x, first = (x + way).mid(), False
+            x = (x + way).mid()
+            first = False
             if not length > NEAR * whole:
                 break
             give = self.pushed(x)
@@ -238,7 +247,8 @@ def compliant_forces(step: StepData, compliance: float, near: tuple[Array, Array
     StepNotSolved
         If no enclosure is found.
     """
-    n, mu = step.n_v, scaled_by(step.contacts)
+    n = step.n_v
+    mu = scaled_by(step.contacts)
     delta_q, wrench = near
     p = np.divide(wrench[:, P_OF_WRENCH], mu, out=np.zeros_like(mu), where=mu > 0)
     numbers: list[list[float]] = []

@@ -23,6 +23,7 @@ from quasistatic_ref.certify.solution import (
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
 from quasistatic_ref.optional.extensions.rises import with_rises
+from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.backends import DEFAULT, backend, cone_backend
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
@@ -128,10 +129,22 @@ def extended_step(
 
 
 def simulated_solution(simulator: Simulator, step: StepData, extension: Extension) -> StepSolution:
-    """The solution of a step of a simulator, whose solver serves all steps with linear rows."""
+    """The solution of a step of a simulator, whose solver serves all steps with linear rows.
+
+    Raises
+    ------
+    InputError
+        Under Coulomb's law, if the extension holds more than linear constraints.
+    """
     step, whole = posed(step, extension)
     if whole:
         return simulator.solution(step)
+    if simulator.law != CONVEX:
+        problem = (
+            f'holds costs or nonlinear constraints, which law = "{simulator.law}" does not take; '
+            "say them as linear constraints"
+        )
+        raise InputError(problem, field="extension")
     name = simulator.named_backend or DEFAULT
     return extended_solution(step, extension, name, simulator.accuracy, simulator.certify)
 

@@ -94,12 +94,12 @@ def private_rises(
             raise InputError(f"is no coordinate{known}", field="joint_friction", value=name)
     coordinates = [numbers[name] for name in friction]
     heavy = np.concatenate([h**2 * np.diag(K_q), np.diag(whole(system.M_u(system.q_start)))])
+    supports = tuple(_support(system, name, *rubs) for name, rubs in support.items())
     bodies = [system.mass(name) for name in support]
     weights = [-mass * gravity[2] for mass in bodies]
     if any(weight <= 0 for weight in weights):
         problem = "needs a body with a mass, and gravity that presses it down"
         raise InputError(problem, field="support", value=list(support))
-    supports = tuple(_support(system, name, *rubs) for name, rubs in support.items())
     first = sum(pair.n_c for pair in pairs)
     rises = Rises(
         loads=np.array([*friction.values(), *weights]),
@@ -112,8 +112,10 @@ def private_rises(
 
 def _support(system: System, name: str, mu_v: float, mu_omega: float) -> ContactPair:
     """The contact of a planar base with the horizontal plane through its origin."""
-    body = next((body for body in system.bodies if body.name == name), None)
-    if body is None or body.base != "planar":
+    bases = {body.name: body.base for body in system.bodies}
+    if name not in bases:
+        raise InputError(f"is no body{suggestion(name, bases)}", field="support", value=name)
+    if bases[name] != "planar":
         problem = 'is for a body with base = "planar"'
         raise InputError(problem, field="support", value=name)
     root, at = system.link(name), system.kinematics(system.q_start)

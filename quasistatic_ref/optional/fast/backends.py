@@ -2,13 +2,13 @@
 
 from importlib.util import find_spec
 
+from quasistatic_ref.optional.fast.native import native_backends
 from quasistatic_ref.solve.backends import (
     BACKENDS,
     DEFAULT,
     check_backend,
     check_certify,
 )
-from quasistatic_ref.solve.native import native_backends
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import DENSE_BELOW, DENSE_BELOW_PROOFS, SPARSE_FROM_PIQP
 

@@ -1,18 +1,19 @@
 """Proofs of steps, group by group, with what is kept while groups and H stay."""
 
+import math
 from dataclasses import dataclass
-from functools import partial
+from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined
-from quasistatic_ref.certify.norm import EnergyNorm, GroupNorm, Norm
+from quasistatic_ref.certify.norm import EnergyNorm, Norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
-from quasistatic_ref.optional.fast.guess.exchange import proved_nearby
+from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
 from quasistatic_ref.optional.fast.guess.far import Solved, far_slacks, with_far
 from quasistatic_ref.optional.fast.kept_step import KeptStep
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep, constants
@@ -30,6 +31,27 @@ TOUCHING = 1e-6
 """Slack of a row, in natural units, up to which its contact may touch [-]."""
 
 
+@dataclass(frozen=True, eq=False)
+class GroupNorm:
+    """The norm of a step of several groups, from that of each.
+
+    Parameters
+    ----------
+    parts : list of (ndarray of int, EnergyNorm)
+        Coordinates of each group, and its norm.
+    """
+
+    parts: list[tuple[Indices, EnergyNorm]]
+
+    def displacement(self, v: Array) -> float:
+        """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
+        return math.hypot(*(norm.displacement(v[own]) for own, norm in self.parts))
+
+    def impulse(self, p: Array) -> float:
+        """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
+        return math.hypot(*(norm.impulse(p[own]) for own, norm in self.parts))
+
+
 class Kept:
     """What proofs of steps keep while H, and the rows of contacts, stay."""
 
@@ -44,7 +66,7 @@ class Kept:
         Raises
         ------
         StepDataError
-            If H is not positive definite without rounding.
+            If M_u is not positive definite.
         """
         if self.hessian is None or not self.hessian.fits(step):
             self.hessian = BallHessian(step)
@@ -56,7 +78,9 @@ class Kept:
         assert self.hessian is not None
         return self.hessian.norm
 
-    def proved(self, scaled: DenseStep, lam: Array, slack: Array) -> ExactOptimum | None:
+    def proved(
+        self, scaled: DenseStep, lam: Array, slack: Array
+    ) -> tuple[ExactOptimum | None, list[int]]:
         """The optimum of a step, proved on the rows that an answer presses: in C, or in balls.
 
         Parameters
@@ -69,18 +93,26 @@ class Kept:
         -------
         ExactOptimum or None
             None where neither decides everything.
+        list of int
+            Where the exact method is then to start.
         """
         step, hessian = scaled.step, self.hessian_of(scaled.step)
         in_c = compiled("certificate")
         if in_c is not None:
             self.prover = in_c.prover(step, scaled.units.coordinate, self.prover)
-        nearby = partial(proved_nearby, form=scaled.form, inverse=scaled.metric.inverse)
-        guess, found = _guess(scaled, lam, slack), None
-        if self.prover is not None:
-            found = nearby(partial(self.prover.optimum, step, units=scaled.units), guess)
-        if found is None:
-            found = nearby(BallStep(step, hessian).confirmed, guess)
-        return found
+        in_balls = cache(lambda: BallStep(step, hessian))
+
+        def proof(guess: Indices) -> Proof:
+            found: Proof = None
+            if self.prover is not None:
+                found = self.prover.optimum(step, guess, scaled.units)
+            return in_balls().confirmed(guess) if found is None else found
+
+        guess = _guess(scaled, lam, slack)
+        found, last = proved_nearby(proof, guess, scaled.form, scaled.metric.inverse)
+        if found is None and last is guess:
+            return None, warm_rows(scaled.natural_form.A, lam, slack)
+        return found, last.tolist()
 
 
 def _guess(scaled: DenseStep, lam: Array, slack: Array) -> Indices:
@@ -171,10 +203,9 @@ class Proofs:
             optima, points, long = list[ExactOptimum](), list[Solved](), False
             for part in self.divided(step, near):
                 own, rows = part.scaled(scaled), part.group.rows
-                found = part.kept.proved(own, lam[rows], slack[rows]) if answer else None
+                found, start = part.kept.proved(own, lam[rows], slack[rows])
                 if found is None:
-                    warm = warm_rows(own.natural_form.A, lam[rows], slack[rows])
-                    found = group_optimum(step, part.group, own.step, warm)
+                    found = group_optimum(step, part.group, own.step, start)
                 hessian = part.kept.hessian_of(own.step)
                 # Of three loads' steps the longest is at least a third of their sum's.
                 most = ILL_POSED / 4 * hessian.norm.impulse(own.form.g)

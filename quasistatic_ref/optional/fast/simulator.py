@@ -12,6 +12,7 @@ from quasistatic_ref.optional.fast.geometry import posed_geometry
 from quasistatic_ref.optional.fast.posed import constants
 from quasistatic_ref.optional.fast.spare import Spare
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
+from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, by_one_thread
 from quasistatic_ref.step.data import Array, StepData
@@ -43,7 +44,8 @@ class FastSimulator(Simulator):
 
     def entries(self) -> int:
         """Entries of a step's dense J, 4 n_c n_v, where its contacts may be in blocks; else 0."""
-        blocks = self.extension is None and self.system.constant_mass_matrix
+        plain = self.extension is None and self.law == CONVEX
+        blocks = plain and self.system.constant_mass_matrix
         return 4 * len(self.layout.rows) * self.system.n_v if blocks else 0
 
     def prepare(self) -> None:

@@ -9,10 +9,12 @@ from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.norm import Norm
 from quasistatic_ref.optional.fast.backends import fast_backend
 from quasistatic_ref.optional.fast.kept_step import KeptStep
+from quasistatic_ref.optional.fast.native import NativeSolver, native_backends
 from quasistatic_ref.optional.fast.proofs import Kept, Proofs
+from quasistatic_ref.optional.fast.second_order import ConeSolver
+from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.backends import RESIDUAL
-from quasistatic_ref.solve.native import NativeSolver, native_backends
 from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import Units, in_natural
@@ -37,14 +39,11 @@ def fast_solver(step: StepData, name: str | None = None) -> Solver:
     name = fast_backend(name, step.cone)
     if name not in native_backends(step.cone):
         return solver_for(step, name)
-    of_cone = cone(step.cone)
-    if isinstance(of_cone, CurvedCone):
-        return of_cone.native_solver(step, name)
+    if isinstance(cone(step.cone), CurvedCone):
+        return ConeSolver(step, name)
     large = part("large.sparse_contacts")
     if large is not None and isinstance(step.contacts, large.SparseContacts):
-        kind = needed_part("large.sparse", "a step in blocks").SparseSolver
-        sparse: Solver = kind(step, name, proofs=Proofs())
-        return sparse
+        return SparseSolver(step, name)
     return FastSolver(step, name)
 
 
@@ -57,8 +56,6 @@ class FastSolver(NativeSolver):
         A step of the kind that is to be solved, in a polyhedral cone.
     name : str
         Of a backend with an adapter.
-    warm : bool
-        Whether to start from the answer to the step before, where the backend can.
 
     Attributes
     ----------
@@ -72,8 +69,8 @@ class FastSolver(NativeSolver):
         Natural units of the step whose g, A and b compiled code has written into the program.
     """
 
-    def __init__(self, like: StepData, name: str, warm: bool = True) -> None:
-        super().__init__(like, name, warm)
+    def __init__(self, like: StepData, name: str) -> None:
+        super().__init__(like, name)
         self.proofs, self.whole = Proofs(), Kept()
         self.bound: Any = None
         self.written: Units | None = None

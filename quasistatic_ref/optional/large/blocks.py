@@ -27,7 +27,7 @@ class Blocks(Plain):
     Raises
     ------
     StepDataError
-        If a shape is wrong, or a number is not finite.
+        If a shape is wrong, columns do not ascend, or a number is not finite.
     """
 
     column: Indices
@@ -39,6 +39,10 @@ class Blocks(Plain):
         if column.ndim != 2 or column.dtype.kind != "i":
             problem = "must contain whole numbers, w for each contact"
             raise StepDataError(problem, field="blocks.column", value=column.shape)
+        rises = (np.diff(column) > 0) | (column[:, 1:] == self.n_v)
+        if not rises.all() or column.min(initial=0) < 0 or column.max(initial=0) > self.n_v:
+            problem = f"must ascend in each row, from 0 to n_v = {self.n_v}, which alone repeats"
+            raise StepDataError(problem, field="blocks.column", value=column.tolist())
         if column.flags.writeable:
             column = column.astype(np.int64)
             column.setflags(write=False)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError, StepNotSolved
-from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, run_settings
+from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, first_step, run_settings
 from quasistatic_ref.parts import needed_part
+from quasistatic_ref.simulate.goals import needed_arguments
+from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.recorder import Part, Recorder, program
 from quasistatic_ref.simulate.rollout import start_cold
 from quasistatic_ref.solve.backends import NONE
@@ -24,9 +27,17 @@ if TYPE_CHECKING:
 
 
 def saved_run(
-    path: str | Path, every: float | None, simulator: Simulator, recorder: Recorder
+    path: str | Path,
+    every: float | None,
+    resume: bool,
+    steps: int,
+    recorder: Recorder,
+    given: Mapping[str, tuple[Any, Checked]],
+    stretch: int,
 ) -> SavedRun:
-    """The observer that saves a run.
+    """The observer that saves a run, which the recorder has then; and perhaps its saved steps.
+
+    Those are handed to the recorder, and those since the solver last started cold to the solver.
 
     Parameters
     ----------
@@ -34,51 +45,42 @@ def saved_run(
         Of its trajectory.
     every : float or None
         Time between two saves [s].
-    simulator : Simulator
+    resume : bool
+        Whether the run goes on from the saved steps.
+    steps : int
+        Of the whole run.
     recorder : Recorder
-        With all other observers.
-
-    Raises
-    ------
-    InputError
-        If the time is no number of seconds.
-    """
-    settings = run_settings(simulator, recorder.start, recorder.record)
-    return SavedRun(path, settings, recorder.notes, EVERY if every is None else every)
-
-
-def resumed(
-    saved: SavedRun,
-    recorder: Recorder,
-    simulator: Simulator,
-    target: Checked,
-    force: Checked,
-    stretch: int,
-) -> None:
-    """Hand the saved steps to the recorder, and to the solver those since it last started cold.
-
-    Parameters
-    ----------
-    saved : SavedRun
-    recorder : Recorder
-        At the start of the run.
-    simulator : Simulator
-    target, force : callable
-        Of (t, q, last), of which `last` is not used; shapes (n_q_a,) and (n_v,) of their results.
+        At the start of the run, with all other observers.
+    given : mapping of str to (object, callable)
+        ``"target"`` and ``"force"``, as they were given, and as functions of (t, q, last).
     stretch : int
         Steps after which the solver starts cold.
 
     Raises
     ------
     InputError
-        If the saved steps are of another run.
+        If the time is no number of seconds, steps that are there would be lost or are of another
+        run, or a target or force cannot be asked again.
     """
+    first = first_step(path, steps, resume)
+    simulator = recorder.simulator
+    settings = run_settings(simulator, recorder.start, recorder.record)
+    saved = SavedRun(path, settings, recorder.notes, EVERY if every is None else every)
+    recorder.observers.append(saved)
+    if not first:
+        return saved
+    for name, (function, _) in given.items():
+        if callable(function) and needed_arguments(function, name) == 3:
+            problem = "cannot be asked again: the results of saved steps are not kept"
+            raise InputError(problem, field=name)
+    target, force = given["target"][1], given["force"][1]
     parts = list(saved.parts())
     taken = sum(len(part["t"]) for part, _ in parts)
     start_cold(simulator)
     for part, extra in parts:
         again = _Again(simulator, target, force, recorder.record, taken // stretch * stretch)
         recorder.take(part | again.posed(part, recorder), extra)
+    return saved
 
 
 @dataclass(frozen=True)
@@ -105,9 +107,12 @@ class _Again:
                 step, linear = self._step(q, goal, pushed)
                 _check("scene", k, part["phi"][i], step.contacts.phi)
                 recorder.alone &= linear
-                rows.append(program(step) if self.record == "full" else {})
                 if k >= self.cold:
                     self._ask(step, linear)
+                if "s" in part:
+                    raised = step.contacts.phi + part["s"][i]
+                    step = step.replace(contacts=replace(step.contacts, phi=raised))
+                rows.append(program(step) if self.record == "full" else {})
         return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
 
     def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, bool]:
@@ -124,10 +129,13 @@ class _Again:
     def _ask(self, step: StepData, linear: bool) -> None:
         """Ask the solver as the step did, for what it keeps; nothing else is done with it."""
         simulator, solver = self.simulator, self.simulator.solver
-        if linear and (solver is None or solver.remembers) and simulator.backend != NONE:
-            solver = simulator.fitting(step)
-            with suppress(StepNotSolved):
-                solve_step(step, solver, accuracy=simulator.accuracy, certify="off")
+        if not linear or not (solver is None or solver.remembers) or simulator.backend == NONE:
+            return
+        if simulator.law == COULOMB:  # it was asked for each iterate
+            simulator.solution(step)
+            return
+        with suppress(StepNotSolved):
+            solve_step(step, simulator.fitting(step), accuracy=simulator.accuracy, certify="off")
 
 
 def _check(what: str, k: int, then: Array, now: Array) -> None:

@@ -23,7 +23,7 @@ from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, about_file
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import is_stream, written_whole
-from quasistatic_ref.formats.npz import json_array, npz_header, npz_record
+from quasistatic_ref.formats.npz import header_of, json_array, npz_arrays, npz_record
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.simulate import trajectory as whole_run
 from quasistatic_ref.simulate.observer import Observer
@@ -61,6 +61,7 @@ def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, s
         "h": repr(simulator.h),
         "gravity": repr(simulator.gravity),
         "cone": simulator.cone,
+        "law": simulator.law,
         "record": record,
         "certify": simulator.certify,
         "backend": simulator.backend,
@@ -270,6 +271,11 @@ def first_step(path: str | Path, steps: int, resume: bool) -> int:
     return saved
 
 
+def _npz_header(path: str | Path, what: str) -> Any:
+    """The header alone, as :func:`npz_record` reads it."""
+    return header_of(path, what, npz_arrays(path, what, only="header").get("header"))
+
+
 def saved_folder(path: str | Path) -> Path:
     """The folder of the saved steps of a run whose trajectory's file is `path`."""
     return Path(f"{path}.part")
@@ -286,7 +292,7 @@ def saved_steps(path: str | Path) -> int:
     files = _files(saved_folder(path))
     if not files:
         return 0
-    header = npz_header(files[-1], WHAT)
+    header = _npz_header(files[-1], WHAT)
     with about_file(files[-1]):
         top = Fields(header)
         return top.integer("first", least=0) + top.integer("steps", least=0)
@@ -308,7 +314,7 @@ def steps_in(path: str | Path) -> int:
     if not os.path.isfile(path) or is_stream(path) or not path.stat().st_size:
         return 0
     try:
-        top = Fields(npz_header(path, whole_run.WHAT))
+        top = Fields(_npz_header(path, whole_run.WHAT))
         top.check_format(whole_run.FORMAT, whole_run.VERSION)
         return top.integer("steps", least=0)
     except InputError as error:

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from numbers import Real
 
+from quasistatic_ref.formats import quoting
 from quasistatic_ref.formats.quoting import aligned, one_line
 
 WIDTH, LINES = 100, 20
@@ -21,16 +22,10 @@ Page = tuple[str, Sequence[str], Row, Sequence[Row]]
 """A title, facts, and a table: its header and its rows."""
 
 
-def clipped(text: str, width: int = WIDTH) -> str:
-    """Text on one line of at most that many columns."""
+def clipped(text: str) -> str:
+    """Text on one line of at most WIDTH columns."""
     line = one_line(text)
-    return line if len(line) <= width else f"{line[: width - 3]}..."
-
-
-def shortened(name: str, width: int = NAME) -> str:
-    """A name on one line of at most `width` columns; its end, by which names differ, is kept."""
-    line, head = one_line(name), (width - 3) // 2
-    return line if len(line) <= width else f"{line[:head]}...{line[head + 3 - width :]}"
+    return line if len(line) <= WIDTH else f"{line[: WIDTH - 3]}..."
 
 
 def number(x: object) -> str:
@@ -60,7 +55,10 @@ def text_page(page: Page, *hidden: str) -> str:
     lines = [title, *(f"  {fact}" for fact in facts)][: LINES - MOST - 2]
     if rows:
         kept = [i for i, name in enumerate(header) if name not in hidden]
-        cells = [[shortened(row[i]) for i in kept] for row in [header, *rows[:MOST]]]
+        cells = [
+            [quoting.clipped(one_line(row[i]), NAME) for i in kept]
+            for row in [header, *rows[:MOST]]
+        ]
         lines += [f"  {line}" for line in aligned(cells)]
         if len(rows) > MOST:
             lines.append(f"  ... and {len(rows) - MOST} more")

@@ -68,18 +68,15 @@ FEATURES = {
 OTHERS = Ellipsoid(np.array([0.03, 0.05, 0.08])), Cone(0.05, 0.08)
 
 
-def put(
-    feature: str, other: Shape, distance: float, scale: float = 1.0
-) -> tuple[ShapeInWorld, ...]:
+def put(feature: str, other: Shape, distance: float) -> tuple[ShapeInWorld, ...]:
     """A solid and another next to one of its features."""
     solid, point, own = FEATURES[feature]
     R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix()
-    t, n = scale * np.array([0.1, 0.2, 0.3]), R @ own
-    alpha = scale * R @ point + t
+    t, n = np.array([0.1, 0.2, 0.3]), R @ own
+    alpha = R @ point + t
     beta = alpha + distance * n
-    there = ShapeInWorld(enlarged(other, scale), S, np.zeros(3))
-    there = there._replace(t=beta - S @ there.shape.support_point(S.T @ -n))
-    return ShapeInWorld(enlarged(solid, scale), R, t), there, Witness(distance, alpha, beta, n)
+    there = ShapeInWorld(other, S, beta - S @ other.support_point(S.T @ -n))
+    return ShapeInWorld(solid, R, t), there, Witness(distance, alpha, beta, n)
 
 
 @pytest.mark.parametrize("other", OTHERS, ids=["ellipsoid", "cone"])

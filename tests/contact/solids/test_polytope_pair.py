@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.shapes.convex_mesh import convex_hull
@@ -106,7 +105,7 @@ def test_points_above_a_face_of_a_mesh_have_its_normal_on_the_diagonal_too(scale
     for up in (1e-9, 1e-5):
         for sign in (1, -1):
             diagonal = np.column_stack([across, sign * across, np.ones(101)]) * HALF + up * Z
-            phi, n = signed_distance(hull, scale * diagonal @ R.T)
+            phi, n = hull.signed_distance(scale * diagonal @ R.T)
             np.testing.assert_allclose(phi / scale, up, rtol=EXACT, atol=CLOSED_FORM)
             expected = np.tile(R[:, 2], (101, 1))
             np.testing.assert_allclose(n, expected, rtol=EXACT, atol=CLOSED_FORM)
@@ -120,6 +119,6 @@ def test_points_off_an_edge_or_a_corner_of_a_mesh_have_the_way_from_it(off, scal
     feet = HALF * [[1, 0.2, 1], [1, -1, 0.3], [-0.4, 1, -1], [1, 1, 1], [-1, 1, -1]]
     ways = np.array([[3, 0, 4], [4, -3, 0], [0, 3, -4], [1, 2, 2], [-2, 1, -2]])
     ways = ways / np.sqrt(np.sum(ways * ways, axis=1))[:, None]
-    phi, n = signed_distance(hull, scale * (feet + off * ways) @ R.T)
+    phi, n = hull.signed_distance(scale * (feet + off * ways) @ R.T)
     np.testing.assert_allclose(phi / scale, off, rtol=EXACT, atol=CLOSED_FORM)
     np.testing.assert_allclose(n, ways @ R.T, rtol=EXACT, atol=OF_DIFFERENCE / off)

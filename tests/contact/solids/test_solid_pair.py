@@ -1,12 +1,11 @@
 """Every pair of solids against an independent computation, on a sample of poses.
 
-The whole table, 1,000 poses a pair, is printed by validation/pair_distances.py.
+The whole table, 1,000 poses a pair, is printed by validation/make/pair_distances.py.
 """
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
@@ -48,8 +47,8 @@ def test_a_pair_is_as_far_apart_as_another_computation_says(names: tuple[str, st
         if answered == 1:
             back = solid_pair("p", ShapeInWorld(b, R, t), here).phi
             np.testing.assert_allclose(back, phi, rtol=EXACT, atol=2 * atol)
-        on_a = signed_distance(a, alpha[None])[0]
-        on_b = signed_distance(b, ((beta - t) @ R)[None])[0]
+        on_a = a.signed_distance(alpha[None])[0]
+        on_b = b.signed_distance(((beta - t) @ R)[None])[0]
         np.testing.assert_allclose(n @ n, 1, rtol=EXACT, atol=CLOSED_FORM)
         np.testing.assert_allclose([on_a, on_b], 0, rtol=EXACT, atol=max(atol, WAY_OUT))
         np.testing.assert_allclose(beta - alpha, phi * n, rtol=EXACT, atol=CLOSED_FORM)
@@ -73,7 +72,7 @@ def test_just_beyond_a_face_the_normal_leans_away_from_its_edge(off: float) -> N
     corners = np.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.3, 0.3) for z in (-0.2, 0.2)])
     point = np.array([0.1 + off, 0.05, 0.2 + up])
     for shape in (convex_hull(corners), Box(np.array([0.1, 0.3, 0.2]))):
-        phi, n = signed_distance(shape, point[None])
+        phi, n = shape.signed_distance(point[None])
         np.testing.assert_allclose(n[0], lean, rtol=0, atol=NORMAL_BESIDE)
         np.testing.assert_allclose(phi[0], np.hypot(off, up), rtol=0, atol=CLOSED_FORM)
 

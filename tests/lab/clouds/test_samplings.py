@@ -72,16 +72,25 @@ def test_vertices_are_those_of_a_mesh_that_is_subdivided_until_it_has_enough():
 
 
 def test_a_scan_misses_what_no_view_sees():
-    """The normal of a point of a sphere is its direction: the views are the first numbers drawn."""
+    """The normal of a vertex of a sphere is its direction; the views are the first numbers drawn.
+
+    The normal of a face has a cosine of GRAZING at least with a view that sees its points. Their
+    directions are within the angle between that normal and the face's corners, and within what the
+    noise turns a point by.
+    """
     directions = Rotation.random(400, random_state=0).as_matrix()[:, 0]
     hull = ConvexHull(directions)
     outwards = np.einsum("ti,ti->t", hull.equations[:, :3], np.cross(
         *np.diff(directions[hull.simplices], axis=1).transpose(1, 0, 2)
     ))  # fmt: skip
     faces = np.where(outwards[:, None] > 0, hull.simplices, hull.simplices[:, ::-1])
-    points = scan(Mesh(directions, faces), 500, np.random.default_rng(3))
+    sphere = Mesh(directions, faces)
+    points = scan(sphere, 500, np.random.default_rng(3))
     views = np.random.default_rng(3).normal(size=(VIEWS, 3))
     views /= np.linalg.norm(views, axis=1, keepdims=True)
-    seen = (points @ views.T).max(axis=1)
-    assert seen.min() > GRAZING - 0.15  # faces are not the sphere's own tangent planes
+    lengths = np.linalg.norm(points, axis=1)
+    seen = (points @ views.T).max(axis=1) / lengths
+    off = np.arccos(np.einsum("ti,tci->tc", sphere.normals, directions[faces])).max()
+    turned = 5 * NOISE / lengths.min()
+    assert seen.min() > np.cos(np.arccos(GRAZING) + off + turned)
     assert (directions @ views.T).max(axis=1).min() < 0.0

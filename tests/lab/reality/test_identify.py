@@ -5,7 +5,7 @@ import shutil
 import numpy as np
 import pytest
 
-from quasistatic_ref.formats.resources import reality_folder
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.identify import (
     concentration,
     cosines,

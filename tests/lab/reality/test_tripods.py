@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.formats.resources import reality_folder
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.predict import rotation
 from validation.make.reality_tripods import (
     TRIANGLE,

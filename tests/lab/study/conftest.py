@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import solver_study
 from quasistatic_ref.lab.study.measuring.keeper import Keeper

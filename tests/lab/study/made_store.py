@@ -49,6 +49,7 @@ def measurement(chance, problem, solver, setting, units, warm, repetition=0):
         "clock_agrees": chance.random() < 0.99,
         "memory": int(1e8 * chance.random()),
         "iterations": chance.choice([None, 7, 12]),
+        "repeats": None,
     }  # fmt: skip
 
 

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import solver_study, study_path
@@ -27,8 +29,9 @@ def test_the_report_on_solvers_is_what_the_rows_beside_it_give(committed):
     is_kept(DEFAULT, solver_report(committed))
 
 
-def test_the_report_on_the_grip_is_what_the_rows_beside_it_give():
-    is_kept(STUDIES / "bunny_torsion", study_report(STUDIES / "bunny_torsion"))
+@pytest.mark.parametrize("name", ["sequences", "bunny_torsion"])
+def test_other_reports_are_what_the_rows_beside_them_give(name):
+    is_kept(STUDIES / name, study_report(STUDIES / name))
 
 
 def test_the_default_study_selects_from_every_family_with_dense_rows(members):

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
-from quasistatic_ref.certify.rational import exact_form, exact_form_of
+from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.study.problems.families.dials import DIALS, one_turned, turned
 from quasistatic_ref.lab.study.problems.making import family_problems, problem_of
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.step.standard_form import standard_form
 
 SHORT = [name for name in DIALS if name not in ("sparse", "ellipsoid", "near_copies", "condition")]

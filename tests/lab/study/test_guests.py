@@ -48,10 +48,10 @@ def float64():
 def test_the_exact_method_answers_or_says_that_there_is_no_solution():
     """The slacks of x >= b and -x >= 1 - b add up to -1, so that one of them is negative."""
     call = call_of(Solver("exact", "native", "exact"))
-    found = call(FORM, {}, None, 1.0)
+    found = call(FORM, {}, None)
     assert (found.solved, list(found.x), list(found.lam)) == (True, [X], [LAM])
     rows = np.array([[1.0], [-1.0]])
-    none = call(FORM._replace(A=rows, b=np.array([B, 1.0 - B])), {}, None, 1.0)
+    none = call(FORM._replace(A=rows, b=np.array([B, 1.0 - B])), {}, None)
     assert not none.solved
     assert claim("native", "exact", none.status) == INFEASIBLE
 
@@ -173,7 +173,7 @@ def test_a_native_guest_gets_the_program_with_its_signs_and_its_options(planted,
     """Each stand-in claims to have solved it at a tight accuracy, and at its default does not."""
     call = call_of(Solver(name, "native", name))
     for options, claimed in (({}, False), (options_at(name, "native", 1e-9), True)):
-        reply = call(FORM, options, None, 1.0)
+        reply = call(FORM, options, None)
         assert reply.solved == claimed, reply.status
         assert list(reply.x) == [X]
         assert list(reply.lam) == [LAM]

@@ -11,8 +11,8 @@ import pytest
 
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.problems.making import problem_of
+from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.through_cvxpy import CANON
-from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, planted_step

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.study.calling.plain_programs import PlainPrograms
+from quasistatic_ref.optional.qpsolvers.through_qpsolvers import _account, _status, qpsolvers_reply
 from quasistatic_ref.solve.backends import BACKENDS
-from quasistatic_ref.solve.through_qpsolvers import _account, _status, qpsolvers_reply
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.tolerances import OPTIMUM
 

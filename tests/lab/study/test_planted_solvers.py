@@ -107,7 +107,7 @@ def test_a_process_that_ends_before_its_first_call_is_a_crash(tmp_path, problem)
 
 EXECUTABLE = """#!{python}
 import json, os, sys
-qp = json.load(sys.stdin)
+qp = json.loads(sys.stdin.readline())
 assert sorted(qp) == ["A", "H", "b", "g"]
 {body}
 """
@@ -124,7 +124,7 @@ BODIES = {
     "writes no JSON": ('print("hello")', ("failed", "no usable JSON", False, False)),
     "fails": ('sys.exit("no licence")', ("failed", "exit status 1: no licence", False, False)),
     "crashes": ("os.abort()", ("crashed", "signal 6", False, False)),
-    "hangs": ("import time; time.sleep(60)", ("timeout", "no answer in 1 s", False, False)),
+    "hangs": ("import time; time.sleep(60)", ("timeout", "killed after 1 s", False, False)),
 }
 
 
@@ -152,6 +152,27 @@ def test_an_executable_reads_and_writes_json(name, executable):
     assert claimed in row["claimed"]
     if name == "writes":
         assert (row["iterations"], row["seconds"]["solver"]) == (4, 0.25)
+
+
+SERVER = """#!{python}
+import json, sys
+for count, line in enumerate(sys.stdin, 1):
+    qp = json.loads(line)
+    print(json.dumps(dict(delta_q=[0.0] * len(qp["g"]), iterations=count)), flush=True)
+"""
+
+
+def test_one_process_of_a_program_serves_many_problems(tmp_path, problem):
+    """A call that warms up, one that is graded, and one exchange of two: its count goes on."""
+    path = tmp_path / "server"
+    path.touch(stat.S_IRWXU)
+    path.write_text(SERVER.format(python=sys.executable))
+    with Keeper(Solver("mine", "executable", ("./server",)), tmp_path) as keeper:
+        rows = [measured(keeper, problem, DEFAULT, units, False, Limits(30.0, 30.0, 2))
+                for units in ("natural", "raw")]  # fmt: skip
+    counts = [row["iterations"] for row in rows]
+    assert counts[0] >= 2
+    assert counts[1] >= counts[0] + rows[0]["calls"] + 2
 
 
 def test_an_executable_gets_the_numbers_of_the_problem_to_the_last_bit(executable, problem):

@@ -1,17 +1,21 @@
 """A set in the formats of others: each read back by its own reader, and qpbenchmark's command."""
 
 import csv
+import re
 import runpy
 import subprocess
 import sys
 from pathlib import Path
 
+import highspy
 import numpy as np
 import pytest
 from scipy.io import loadmat
-from scipy.sparse import csr_matrix
+from scipy.sparse import csc_matrix, csr_matrix
 
 from quasistatic_ref.cli.main import main
+from quasistatic_ref.lab.commands import study_problems
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.study.problems import exports
 
 
@@ -49,6 +53,54 @@ def test_matlabs_file_has_every_number_of_the_problems(few, tmp_path):
         A = row["A"].toarray() if "sparse" in one.facts["tags"] else row["A"]
         np.testing.assert_array_equal(A, one.A.toarray())
         np.testing.assert_array_equal(row["x"].ravel(), one.answer.x)
+
+
+def lines_of_the_readme(folder):
+    """Its one program."""
+    page = (folder / "README.md").read_text("utf-8")
+    (program,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    return program
+
+
+def by_highs(path):
+    """H, g, A, b as HiGHS reads them."""
+    solver = highspy.Highs()
+    solver.silent()
+    solver.setOptionValue("small_matrix_value", 1e-12)
+    assert solver.readModel(str(path)) == highspy.HighsStatus.kOk
+    model = solver.getModel()
+    lp, Q, n = model.lp_, model.hessian_, model.lp_.num_col_
+    lower = csc_matrix((Q.value_, Q.index_, Q.start_), (n, n)).toarray()
+    A = lp.a_matrix_
+    rows = csc_matrix((A.value_, A.index_, A.start_), (lp.num_row_, n)).toarray()
+    return lower + np.tril(lower, -1).T, -np.array(lp.col_cost_), rows, np.array(lp.row_lower_)
+
+
+def test_files_in_qps_are_read_by_highs_and_by_the_lines_of_the_readme(few, tmp_path):
+    """Bit for bit by the lines; HiGHS takes entries of A up to 1e-12 as zero."""
+    export("qps", tmp_path, few)
+    names = {}
+    exec(lines_of_the_readme(tmp_path), names)
+    kept = [one for one in few if one.facts["kind"] == "qp"]
+    assert {one.feasible for one in kept} == {True, False}
+    assert len(list((tmp_path / "qps").iterdir())) == len(kept) < len(few)
+    for one in kept:
+        path = tmp_path / "qps" / f"{one.id.replace('/', '_')}.mps"
+        for found, again, wanted in zip(names["read_qps"](path), by_highs(path), one.form,
+                                        strict=True):  # fmt: skip
+            np.testing.assert_array_equal(found, wanted)
+            np.testing.assert_allclose(again, wanted, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("to", exports.FORMATS)
+def test_every_export_says_what_it_is_and_how_to_cite_it(to, few, tmp_path):
+    assert set(exports.FORMATS) == set(study_problems.FORMATS)
+    export(to, tmp_path, few[:1])
+    text = (tmp_path / "README.md").read_text("utf-8")
+    assert text.startswith(f"# contact-qp-1, as {to}\n")
+    assert "{" not in text.partition("```")[0]
+    licences = {path.name for path in problem_set_folder().glob("LICENSE*")}
+    assert licences | {"CITATION.cff"} <= {path.name for path in tmp_path.iterdir()}
 
 
 def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(

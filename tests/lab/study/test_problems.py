@@ -65,9 +65,10 @@ def test_the_condition_number_is_that_of_the_hessian_and_no_less_than_the_mass_r
 
 def test_the_exported_bundle_holds_the_exact_answers(folder, tmp_path):
     """In natural units as in raw ones, A delta_q >= b and H delta_q - g is in the rows' cone."""
-    assert main(["study", "export", str(folder), "--out", str(tmp_path)]) == 0
-    for units in ("raw", "natural"):
-        with np.load(tmp_path / f"contact_{units}.npz") as bundle:
+    export = ["study", "problems", "export", str(folder / FOLDER), "--to", "parquet"]
+    for units, name in (("raw", "problems"), ("natural", "problems_natural")):
+        assert main([*export, "--units", units, "--out", str(tmp_path)]) == 0
+        with np.load(tmp_path / f"{name}.npz") as bundle:
             for k in range(len(bundle["name"])):
                 A, b, x = (bundle[f"{k}/{key}"] for key in ("A", "b", "delta_q"))
                 scale = np.abs(A) @ np.abs(x) + np.abs(b)

@@ -101,6 +101,22 @@ def test_the_ten_lines_of_the_report_make_its_first_table_again(store, tmp_path,
         assert agrees(shown[mean], 1e3 * own["mean"])
 
 
+def test_the_first_table_has_eight_columns_at_most_and_the_numbers_of_the_next(tables):
+    (_, _, columns, body), (_, _, wide, lines), *_ = tables
+    assert len(columns) <= 8
+    every = [dict(zip(wide, line, strict=True)) for line in lines]
+    for line in body:
+        shown = dict(zip(columns, line, strict=True))
+        (own,) = (one for one in every if (one["solver"], one["interface"]) ==
+                  (shown["solver"], shown["interface"]))  # fmt: skip
+        false = sum(int(own[f"said {claim}, was wrong"]) for claim in ("optimal", "infeasible"))
+        assert list(shown.values())[2:] == [
+            f"{own['>= 6 digits [%]']} ({own['95 % of bootstraps, 6 digits']})",
+            own["repeated, median [ms]"], own["first call, median [ms]"], str(false),
+            own["calls not made"],
+        ]  # fmt: skip
+
+
 def test_calls_that_a_budget_did_not_reach_are_left_out_and_counted(tables, rows):
     """Of cat's 12 problems the budget reached 9: what is not in the table is counted there."""
     _, _, columns, body = next(table for table in tables if "its own options" in table[2])
@@ -117,12 +133,12 @@ def test_calls_that_a_budget_did_not_reach_are_left_out_and_counted(tables, rows
 
 
 def headline(folder, rows, **changes):
-    """The first table of a report on other rows."""
+    """A report on other rows, and the table of every interface in it."""
     folder.mkdir()
     with Store(folder, made_store.STUDY | changes, made_store.facts(12)) as store:
         store.add(*rows)
     page = markdown_page(study_report(folder))
-    _, _, columns, body = plain_report.parsed(page)[0]
+    _, _, columns, body = next(t for t in plain_report.parsed(page) if "its own options" in t[2])
     return page, [dict(zip(columns, line, strict=True)) for line in body]
 
 
@@ -134,9 +150,12 @@ def test_solvers_that_remember_or_have_the_answers_are_named(store, tmp_path):
             row["seconds"]["first"] = 100 * row["seconds"]["call"]
         if row["solver"] == "bee" and row["outcome"] == "solved":
             row["digits"]["delta_q"] = 16.0
-    _, lines = headline(tmp_path / "tricks", rows)
-    said = {line["solver"]: line["looks as if it"] for line in lines}
-    assert said == {"ant": "remembers the last problem", "bee": "has the exact answers", "cat": "-"}
+    page, lines = headline(tmp_path / "tricks", rows)
+    tricks = {"ant": "remembers the last problem", "bee": "has the exact answers", "cat": "-"}
+    assert {line["solver"]: line["looks as if it"] for line in lines} == tricks
+    screen = page[: page.index("| solver")]
+    assert screen.count("looks as if it") == 3  # ant by two interfaces, and bee
+    assert "qpsolvers:bee looks as if it has the exact answers." in screen
 
 
 def test_times_are_ranked_on_a_quiet_machine_only(store, tmp_path):
@@ -183,8 +202,9 @@ def test_profiles_are_shares_of_problems_right_in_time(report, tables, rows):
     """rho_s(tau): how many problems s has right within tau times the least time, over all."""
     (picture,) = (p for p in report.pictures if p.kind == "profiles")
     (panel,) = picture.data["panels"]
-    _, _, columns, body = tables[0]
-    at = {f"{line[1]}:{line[0]}": line[columns.index("setting")] for line in body}
+    _, _, columns, body = next(table for table in tables if "its own options" in table[2])
+    at = {f"{line[1]}:{line[0]}": line[columns.index("setting")] for line in body
+          if f"{line[1]}:{line[0]}" in panel["labels"]}  # fmt: skip
     own = [r for r in picked(rows, "units = natural, warm = false")
            if at.get(plain_report.said(r, "label")) == r["setting"]]  # fmt: skip
     own = plain_report.shared(own, ["label"])
@@ -273,7 +293,7 @@ def written(store, tmp_path_factory):
 def test_a_report_is_written_with_its_figures(written):
     files = sorted(p.relative_to(written).as_posix() for p in written.rglob("*.*"))
     figures = ["digits_time", "profiles"]
-    pages = [f"report.{ending}" for ending in ("csv", "html", "md", "parquet")]
+    pages = [f"report.{ending}" for ending in ("html", "md")]
     assert files == [*(f"figures/{f}.png" for f in figures), *pages]
     text = (written / "report.md").read_text()
     assert sorted(re.findall(r"\]\((.*?)\)", text)) == files[:2]

@@ -1,14 +1,11 @@
 """Sequences solved in order: what each solver starts from, and modes that are not possible."""
 
-import csv
 import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.commands import study_sequences
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.calling import sessions
 from quasistatic_ref.lab.study.measuring.ask import solver_named
@@ -40,14 +37,15 @@ def counted(state=[0]):
     state[0] += 1
     return state[0]
 
-def hangs(P, q, G, h, start=None):
+def hangs(P, q, G, h):
     """Its sixth call never ends; after each start it is right five times."""
     while counted() > 5:
         time.sleep(1)
     return solved(P, q, G, h)
 
-def broken(P, q, G, h):
-    raise RuntimeError("no")
+def late(P, q, G, h, before=[]):
+    before.append(solved(P, q, G, h))
+    return before[max(len(before) - 2, 0)]
 '''
 
 
@@ -76,27 +74,28 @@ def test_what_a_callable_can_start_from_its_own_process_finds_out(own):
     assert modes_of_solver(solver_named(f"{own}:warm")) == ("cold", "primal-dual")
 
 
-@pytest.mark.parametrize(("more", "words"), [
-    (["nobody"], "holds no solver of native"),
-    (["daqp", "--modes", "hot"], "is none of cold"),
-    (["clarabel", "--modes", "primal-dual"], "is no mode of native:clarabel"),
-    (["daqp", "--scenario", "nowhere"], "have no such sequence"),
-    (["daqp", "--repetitions", "0"], "must be at least 1"),
-    (["daqp", "--time-limit", "0"], "--time-limit: must be above 0"),
-])  # fmt: skip
-def test_what_cannot_be_run_is_refused(more, words, capsys):
-    assert main(["study", "sequences", *more]) == 2
-    assert words in capsys.readouterr().err
+ORDERED = """
+repetitions = 1
+{limits}
+[problems]
+set = "contact-qp-1"
+families.sequences = {{ count = 12, most = {stride} }}
+[solvers.own]
+callable = "sequence_solvers:{own}"
+options.high = {{}}
+[[runs]]
+solvers = [{solvers}]
+settings = ["high"]
+modes = ["cold", "updates", "primal-dual", "active set"]
+"""
 
 
-def test_solvers_keep_their_digits_in_every_mode_and_a_callable_starts_from_its_answer(own, capsys):
+def test_solvers_keep_their_digits_in_every_mode_and_a_callable_starts_from_its_answer(own, run):
     """12 steps in 3, 3 and 2 modes; the callable writes down what it was given and returned."""
-    command = ["study", "sequences", "daqp", "osqp", f"{own}:warm", "--scenario", "bunny_grasp",
-               "--stride", "4", "--repetitions", "1", "--json", "--quiet"]  # fmt: skip
-    assert main(command) == 0
-    rows = json.loads(capsys.readouterr().out)
+    listed = '"native:daqp", "native:osqp", "own"'
+    rows = run(ORDERED.format(limits="", stride=1, own="warm", solvers=listed))
     assert len(rows) == 12 * (3 + 3 + 2)
-    assert all(row["digits"]["delta_q"] > 4 for row in [*of(rows, "daqp"), *of(rows, "warm")])
+    assert all(row["digits"]["delta_q"] > 4 for row in [*of(rows, "daqp"), *of(rows, "own")])
     assert sum(row["outcome"] == "solved" for row in of(rows, "osqp")) > 30
     first = min(row["problem"] for row in rows)
     found = {
@@ -112,23 +111,25 @@ def test_solvers_keep_their_digits_in_every_mode_and_a_callable_starts_from_its_
         np.testing.assert_array_equal(start, starts[starts.index([start, _]) - 1][1])
 
 
-def test_a_solver_that_hangs_or_raises_costs_itself_only(own, tmp_path, capsys, monkeypatch):
-    """After each start of its process one is right five times: of 12 steps 10, 2 ended."""
-    monkeypatch.setattr(study_sequences, "WARM_UP", 0.5)
-    command = ["study", "sequences", f"{own}:hangs", f"{own}:broken", "--modes", "cold",
-               "--scenario", "door", "--stride", "4", "--repetitions", "1", "--out", str(tmp_path),
-               "--time-limit", "0.5"]  # fmt: skip
-    assert main(command) == 0
-    assert "callable:hangs, cold: 2 timeout" in capsys.readouterr().out
-    rows = contents(tmp_path).rows
-    ends = sorted(of(rows, "hangs"), key=lambda row: row["problem"])
+def test_a_solver_that_hangs_costs_itself_only(own, run):
+    """After each start of its process it is right five times: of 12 steps 10, 2 ended; cold."""
+    limits = "time_limit = 0.5\nwarm_up = 0.5"
+    rows = run(ORDERED.format(limits=limits, stride=1, own="hangs", solvers='"own"'))
+    ends = sorted((row for row in rows if row["mode"] == "cold"), key=lambda row: row["problem"])
     assert [row["outcome"] for row in ends] == [*["solved"] * 5, "timeout"] * 2
     for row in ends:
         solved = row["outcome"] == "solved"
         assert row["digits"]["delta_q"] > 12 if solved else "killed after 0.5 s" in row["claimed"]
-    assert [row["outcome"] for row in of(rows, "broken")] == ["failed"] * 12
-    with (tmp_path / "sequences.csv").open() as file:
-        assert len(list(csv.DictReader(file))) == 2 * 12
+
+
+def test_a_solver_that_returns_its_last_answer_again_is_named(own, run, tmp_path):
+    """It solves each step after it has answered with what it found before."""
+    rows = run(ORDERED.format(limits="", stride=16, own="late", solvers='"own", "native:daqp"'))
+    assert any(row["repeats"] for row in of(rows, "own"))
+    assert not any(row["repeats"] for row in of(rows, "daqp"))
+    page = markdown_page(study_report(tmp_path / "store"))
+    assert page.count("looks as if it") == 1
+    assert "callable:own (cold) looks as if it returns its last answer again." in page
 
 
 STUDY = """

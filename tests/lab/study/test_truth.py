@@ -10,7 +10,7 @@ from quasistatic_ref.lab.study.measuring.grade import grades, prepared
 from quasistatic_ref.lab.study.problems import answers
 from quasistatic_ref.lab.study.problems.answers import dense_answer, step_of
 from quasistatic_ref.optional.large.bound import enclosed_answer
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from tests.lab.study.planted import ANY
 

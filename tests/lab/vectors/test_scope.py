@@ -8,12 +8,11 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.check.case import judged
 from quasistatic_ref.lab.vectors.check.patched import program
-from quasistatic_ref.lab.vectors.check.scope import scope_read
+from quasistatic_ref.lab.vectors.check.scope import Scope, scope_read
 from quasistatic_ref.lab.vectors.conformance.badge import AMBER, GREEN, RED, colour
 from quasistatic_ref.lab.vectors.conformance.files import conformance
 from quasistatic_ref.lab.vectors.files import answers_written
 from tests.lab.vectors.material import VECTORS, cases, expected, in_float32, right_answers
-from validation.make import partial_ports
 
 HEAD = 'format = "quasistatic-ref/scope"\nversion = 1\n'
 BOXES = f"""{HEAD}name = "boxes and half-spaces"
@@ -125,11 +124,10 @@ def test_the_seconds_of_a_challenge_are_kept_with_a_slow_program():
 
 
 def test_a_mistake_of_a_partial_program_is_found_and_named():
-    bugs = {name: partial_ports.BUGS[name] for name in ("size of phi in b",)}
-    text, good = partial_ports.written(bugs, partial_ports.CASES)
-    assert good, text
-
-
-def test_the_committed_page_of_partial_programs_keeps_its_promises():
-    text = partial_ports.RESULTS.read_text()
-    assert "10 of 10 mistakes are found, and 10 named" in text
+    layers = ("jacobian", "rows", "wrench", "integrate", "step")
+    scope = Scope("some", layers, shapes=("box", "halfspace"), cones=("pyramid",), farkas=False)
+    size_of_phi = """rows.py:
+- b.extend([-c["phi"]] * len(found))
++ b.extend([-abs(c["phi"])] * len(found))"""
+    outcome = challenge(program(size_of_phi), scope=scope, cases=96, first=True)
+    assert any("size of phi in b" in finding.mistakes for finding in outcome.findings)

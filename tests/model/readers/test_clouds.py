@@ -224,14 +224,3 @@ def test_a_defect_is_one_sentence_that_names_the_file(
     with pytest.raises(ModelError, match=words) as caught:
         point_cloud(path)
     assert str(caught.value).startswith(f"{path}: ")
-
-
-def test_a_missing_file_is_named(tmp_path: Path) -> None:
-    with pytest.raises(ModelError, match=r"nowhere\.xyz: no such file"):
-        point_cloud(tmp_path / "nowhere.xyz")
-
-
-def test_a_folder_is_no_cloud(tmp_path: Path) -> None:
-    (tmp_path / "folder.xyz").mkdir()
-    with pytest.raises(ModelError, match=r"folder\.xyz: cannot be read"):
-        point_cloud(tmp_path / "folder.xyz")

@@ -57,15 +57,15 @@ def test_point_and_sphere_converge_at_their_rates_to_coulombs_slip(scene, mu):
     for k in (1, 2, 5):
         iterate = coulomb_step(step, fast=True, most=k)
         assert not iterate.found
-        assert iterate.iterations == k
+        assert iterate.s_iterations == k
         assert iterate.delta_q[sliding] == pytest.approx((1 - r**k) * X, rel=CLOSED_FORM)
-        assert iterate.residual == pytest.approx(mu * X * r ** (k - 1) * (1 - r), rel=1e-10)
+        assert iterate.s_residual == pytest.approx(mu * X * r ** (k - 1) * (1 - r), rel=1e-10)
     at_end = coulomb_step(step, fast=True)
     assert at_end.found
     assert at_end.delta_q[sliding] == pytest.approx(X, rel=1e-11)
     # At iterate k the residual over mu X is r^(k - 1) (1 - r), and 1e-12 ends it.
     expected = 1 + np.log(1e-12 / (1 - r)) / np.log(r)
-    assert abs(at_end.iterations - expected) < 2
+    assert abs(at_end.s_iterations - expected) < 2
     assert at_end.delta_q[2] == pytest.approx(0.0, abs=1e-11 * mu * X)
 
 
@@ -78,12 +78,12 @@ def test_a_solution_has_coulombs_law_and_nothing_that_bears_lifts_off(cone):
         step = random_step(rng).replace(cone=cone)
         at_end = coulomb_step(step, fast=cone != "ellipsoid")
         assert at_end.found
-        last = at_end.solution
-        assert verify(last.step, last.delta_q, last.certificate.active, last.lam, last.certificate)
+        certificate = at_end.certificate
+        assert verify(at_end.step, at_end.delta_q, certificate.active, at_end.lam, certificate)
         J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)
         gap = step.contacts.phi + J_n @ at_end.delta_q
         slips = np.stack([J @ at_end.delta_q for J in (J_1, J_2, J_w)], axis=1)
-        f_1, f_2, f_n, tau_n = last.wrench.T
+        f_1, f_2, f_n, tau_n = at_end.wrench.T
         forces = np.stack([f_1, f_2, tau_n], axis=1)
         longest = np.abs(at_end.delta_q).max()
         s = slip_norms(step, at_end.delta_q)
@@ -104,7 +104,7 @@ def test_a_guide_slides_as_far_as_the_start_says(s):
     x = min(s / mu, H**2 * F / M)
     assert at_end.found
     assert at_end.delta_q == pytest.approx([x, 0.0, 0.0], rel=CLOSED_FORM, abs=1e-18)
-    along, _, normal, _ = at_end.solution.wrench.T
+    along, _, normal, _ = at_end.wrench.T
     friction = F - M * x / H**2
     assert -along.sum() == pytest.approx(friction, abs=1e-10 * F)
     assert mu * normal.sum() >= (1 - 1e-10) * friction

@@ -40,6 +40,11 @@ def free(shape, xyz, *fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="flo
     return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
 
 
+def reaching(gap=0.0):
+    """(simulator, q) of a ball that falls as far as the floor in a step, but for a gap [m]."""
+    return free(Sphere(0.05), (0, 0, 0.05 + H**2 * G + gap), (FLOOR, (0, 0, 0)))
+
+
 def verdict(simulator, q, force=0.0):
     found = derivatives(simulator, q, np.zeros(0), force)
     return found, {why.kind for why in found.reasons}

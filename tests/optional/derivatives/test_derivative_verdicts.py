@@ -139,14 +139,6 @@ def test_a_normal_along_an_axis_is_no_kink_of_the_pyramid():
     assert verdict(simulator, q, np.array([1.0, 0.2, 0, 0, 0, 0]))[1] == set()
 
 
-def test_friction_of_zero_has_one_side_only():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.0499), (FLOOR, (0, 0, 0)), mu=(0.0, 0.0))
-    found, kinds = verdict(simulator, q)
-    assert kinds == {reason.ZERO_FRICTION}
-    assert np.isnan(found.dq_dmu_v).all()
-    assert np.isfinite(found.dq_dq).all()
-
-
 def test_a_target_half_a_turn_away_is_named(tmp_path):
     system = System([Body("rail", WHEEL, actuated=("turn",))])
     simulator = Simulator(system, [], h=H, K_q=np.eye(1), fast=True)

@@ -10,7 +10,6 @@ import pytest
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
-from quasistatic_ref.optional.derivatives.step.sensitivity import sensitivity
 from quasistatic_ref.step.extension import Extension
 from tests.lab.vectors.material import cases, report_on
 from tests.oracles.pushes import pushed
@@ -26,18 +25,6 @@ def test_the_package_meets_half_of_the_vectors(part):
     )
     assert report.ok, report.trouble
     assert report.count("passed") == len(some)
-
-
-def test_dq_dh_agrees_with_the_exact_sensitivity_of_the_step():
-    simulator, q, q_bar_a = pushed(np.random.default_rng(5), "box", "mesh", k=4)
-    found = derivatives(simulator, q, q_bar_a)
-    step, solution = found.result.step, found.result.solution
-    exact = sensitivity(step, solution.certificate)
-    onward = np.linalg.lstsq(
-        np.concatenate([exact.tau_a, exact.tau_u], axis=1).T, found.dq_dtau.T, rcond=None
-    )[0]
-    by_h = onward.T @ exact.h[:, 0]
-    assert np.abs(by_h - found.dq_dh).max() <= DIFFERENCE_OF_STEPS * np.abs(found.dq_dh).max()
 
 
 def test_derivatives_do_not_move_the_simulator():

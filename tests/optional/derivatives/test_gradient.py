@@ -9,13 +9,13 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
+from quasistatic_ref.shapes.placed_shape import Sphere
 from tests.optional.derivatives.free_bodies import (
     FLOOR,
     NONE,
-    G,
     H,
     free,
+    reaching,
     sided,
     verdict,
 )
@@ -25,7 +25,7 @@ from tests.tolerances import DIFFERENCE_OF_STEPS
 
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (0, 0, -1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
 def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
-    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    simulator, q = reaching()
     found, _ = verdict(simulator, q)
     e, move = np.array(way), simulator.system.integrate
     there = sided(lambda t: after(simulator, found.result.q, move(q, t * e), np.zeros(0)))
@@ -36,7 +36,7 @@ def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
 
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
 def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
-    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    simulator, q = reaching()
     e, down = np.array(way), np.array([0.0, 0, -1, 0, 0, 0])
     found = derivatives(simulator, q, NONE, towards={"q": e})
     assert found.differentiable
@@ -51,18 +51,8 @@ def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
     assert {why.kind for why in along.reasons} == {reason.WEAK}
 
 
-def test_just_beyond_the_limit_of_friction_the_point_slides():
-    simulator, q = free(PointCloud(np.zeros((1, 3))), (0, 0, 0), (FLOOR, (0, 0, 0)), mu=(0.5, 0.0))
-    force = np.array([0.5 * 0.3 * G, 0, 0, 0, 0, 0])
-    sticks = derivatives(simulator, q, NONE, force, {"tau": -np.eye(6)[0]})
-    slides = derivatives(simulator, q, NONE, force, {"tau": np.eye(6)[0]})
-    assert sticks.dq_dtau[0, 0] == pytest.approx(0.0, abs=1e-12)
-    # It rises by mu_v x: h^2 F = m (1 + mu_v^2) x.
-    assert slides.dq_dtau[0, 0] == pytest.approx(H**2 / (0.3 * (1 + 0.5**2)), rel=1e-9)
-
-
 def test_a_copy_has_the_same_one_sided_derivatives():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    simulator, q = reaching()
     for found in (derivatives(simulator, q, NONE), smoothed(simulator, q, NONE, 1e-6)):
         again = pickle.loads(pickle.dumps(found))
         assert (again.along(q=np.eye(6)[2]) == found.along(q=np.eye(6)[2])).all()

@@ -7,7 +7,7 @@ from quasistatic_ref import load_scenario
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
+from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.solve.units import natural_units
 from quasistatic_ref.tolerances import BEARING, NEARLY
 from tests.optional.derivatives.free_bodies import (
@@ -17,6 +17,7 @@ from tests.optional.derivatives.free_bodies import (
     G,
     H,
     free,
+    reaching,
     sided,
     verdict,
 )
@@ -55,7 +56,7 @@ def test_a_block_on_four_corners_slides_only_when_all_of_its_load_does():
 
 @pytest.mark.parametrize("gap", [3e-14, -3e-14])
 def test_a_ball_that_nearly_reaches_the_floor_has_derivatives_on_both_sides(gap):
-    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G + gap), (FLOOR, (0, 0, 0)))
+    simulator, q = reaching(gap)
     found, kinds = verdict(simulator, q)
     assert BEARING < abs(gap) / (H**2 * G) < NEARLY
     assert kinds == {reason.NEARLY}
@@ -95,7 +96,7 @@ def test_a_grasp_that_has_settled_says_at_which_rows():
 
 
 def test_at_a_kink_the_reach_is_zero_and_a_smoothed_step_has_none():
-    simulator, q = free(Sphere(0.05), (0, 0, 0.05 + H**2 * G), (FLOOR, (0, 0, 0)))
+    simulator, q = reaching()
     found, _ = verdict(simulator, q)
     assert found.reach == found.reaches["dq_dq"][2].distance == 0
     assert found.reaches["dq_dq"][0].distance == np.inf

@@ -150,13 +150,6 @@ def test_one_sided_gradients_are_those_of_the_side_that_is_named(way, slope):
     np.testing.assert_allclose(by_q[2], slope, atol=1e-12)
 
 
-def test_a_tie_of_points_has_no_side():
-    simulator, q = resting(points((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0)), 0.0)
-    step = step_jax(simulator, "one-sided", towards={"q": UP})
-    with pytest.raises(NotDifferentiable, match="as near as each other"):
-        jax.grad(lambda q: step(q, NONE)[0][2])(q)
-
-
 def test_smoothed_gradients_at_kinks_leave_the_step_exact():
     simulator, q = kink()
     step = step_jax(simulator, "smoothed", kappa=1e-9)

@@ -128,14 +128,19 @@ def test_the_layer_of_a_spun_sphere_is_mu_omega_times_its_turn():
     solution = solve_step(step)
     expected = mu * solution.delta_q[5]
     assert expected > 1e-5
-    found = boundary_layer(gap_after(solution, solution.step.n_v), solution)
+    found = boundary_layer(
+        gap_after(solution.step.contacts.phi, solution, solution.step.n_v), solution
+    )
     np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=0.0)
 
 
 def test_a_contact_without_load_has_no_layer_however_far_it_is():
     step = point_on_floor(phi=1.0, force=(0, 0, -0.3 * G))
     solution = solve_step(step)
-    assert boundary_layer(gap_after(solution, solution.step.n_v), solution) == 0.0
+    assert (
+        boundary_layer(gap_after(solution.step.contacts.phi, solution, solution.step.n_v), solution)
+        == 0.0
+    )
 
 
 def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, capsys):

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.optional.doctor.table import AFTER, BEFORE
+from quasistatic_ref.optional.doctor.table import AFTER, BEFORE, OF_TIME
 
 PAGE = (Path(__file__).parents[3] / "docs" / "findings.md").read_text("utf-8")
 WORDS, *SCENES = re.findall(r"^```python\n(.*?)^```", PAGE, re.M | re.S)
-GRAVE = {kind.name: kind.grave for kind in (*BEFORE, *AFTER)}
+GRAVE = {kind.name: kind.grave for kind in (*BEFORE, *AFTER, *OF_TIME)}
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +38,7 @@ def test_a_scene_of_the_page_is_named_with_its_cause(words, scene):
 def test_the_page_has_every_kind_with_its_weight_and_scenes_enough():
     sections = dict(re.findall(r"^## (.*)\n\n(\*.*?\.\*)", PAGE, re.M))
     assert set(sections) == set(GRAVE)
-    for kind in (*BEFORE, *AFTER):
+    for kind in (*BEFORE, *AFTER, *OF_TIME):
         when = "Before" if kind in BEFORE else "After"
         assert sections[kind.name] == f"*{when} a run{', grave' * kind.grave}.*"
     wanted = [scene.partition(":")[0][2:] for scene in SCENES]
@@ -59,3 +59,13 @@ def test_the_table_is_named_on_whose_points_a_body_lies(words):
 def test_a_body_far_above_a_floor_does_not_lie_on_it(words):
     (found,) = words["findings"]([words["box"](xyz=(0, 0, 1))], [("floor", "box", 0.5, 1)])
     assert found.name == "free fall"
+
+
+@pytest.mark.parametrize(
+    ("solve", "proof", "certify"), [(2.0, 7.9, "full"), (3.0, 9.0, "full"), (1.0, 11.0, "off")]
+)
+def test_a_shorter_run_or_one_with_less_proof_is_not_named(words, solve, proof, certify):
+    """9.9 s are not long enough, 9 of 12 s are 75 %, and nothing is proved with off."""
+    seconds = {"solve": solve, "proof": proof}
+    tables = [("floor", "box", 0.5, 4)]
+    assert words["findings"]([words["box"]()], tables, seconds=seconds, certify=certify) == ()

@@ -120,12 +120,6 @@ def test_both_methods_project_on_a_cone(push, x, y, state):
         np.testing.assert_allclose(floats(pair.s[0]), x, rtol=0, atol=tolerance)
 
 
-def test_without_contacts_the_free_motion_is_the_answer():
-    problem = Blocks(arb_mat([[arb(4)]]), column([2.0]), [], [])
-    pair = interior_point(problem, arb(2) ** -60)
-    assert (floats(pair.x.entries()), pair.s, pair.y) == ([0.5], [], [])
-
-
 @pytest.mark.parametrize(
     ("s", "y", "state"),
     [

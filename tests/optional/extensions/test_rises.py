@@ -6,13 +6,12 @@ import pytest
 
 from docs.examples.joint_limits import joint_limits
 from quasistatic_ref.errors import InputError, StepDataError
-from quasistatic_ref.lab.scenes.slider import GYRATION, M, push, push_step
 from quasistatic_ref.optional.extensions.rises import private_rises, with_rises
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension, Rises
-from tests.helpers import changed, random_step
+from tests.helpers import random_step
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
 from tests.tolerances import ROUNDING
 
@@ -146,22 +145,6 @@ def test_a_support_holds_and_turns_as_a_sphere_does(tmp_path):
     np.testing.assert_allclose(found[:3], angle * turn, rtol=ROUNDING, atol=0.0)
 
 
-def test_a_support_follows_lynchs_law_from_its_first_step():
-    """(R28) in steady motion, N = m g: what a slider that has to lift itself comes to only then."""
-    of = push(np.array([0.03, -0.02]), np.array([0.6, 0.8]), mu_v=0.4, c=0.025, Pi=0.5,
-              lifted=1.0, sticks=True)  # fmt: skip
-    lifting = push_step(of)
-    level = [0, 1, 2, 3, 5]
-    contacts = changed(lifting.contacts, phi=[0.0, 0.0], J=lifting.contacts.J[:, :, level])
-    planar = lifting.replace(
-        M_u=np.diag([M, M, M * GYRATION**2]), tau_u=np.zeros(3), contacts=contacts, extra=None
-    )
-    rises = Rises([M * G], [1e-6 * M], contacts=[0])
-    answer = solve_step(planar, extension=Extension(rises=rises))
-    assert answer.certificate.kind == "enclosure"
-    np.testing.assert_allclose(answer.delta_q[2:5], of.motion, rtol=1e-6, atol=0.0)
-
-
 def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):
     system = scene(tmp_path, DRAWN).system
     one = random_step(np.random.default_rng(0))
@@ -175,6 +158,8 @@ def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):
         private_rises(system, [], **given, friction={"cabinet/slid": 1.0})
     with pytest.raises(InputError, match=r'support: is for a body with base = "planar"'):
         private_rises(system, [], **given, support={"cabinet": (0.5, 0.0)})
+    with pytest.raises(InputError, match=r"support: is no body; .*cabinet"):
+        private_rises(system, [], **given, support={"none": (0.5, 0.0)})
 
 
 REFUSED = {
@@ -188,6 +173,13 @@ REFUSED = {
 def test_a_friction_that_means_nothing_is_refused_by_name(tmp_path, change, says):
     with pytest.raises(InputError, match=says):
         scene(tmp_path, DRAWN.replace(*change))
+
+
+def test_a_tilted_planar_base_is_refused_with_its_field_and_a_remedy(tmp_path):
+    tilted = PUSHED.replace("support =", "pose = { rpy = [0.1, 0, 0] }\nsupport =")
+    says = r'^.*: bodies.l.pose.rpy: must be \[0, 0, yaw\].*or take base = "floating"'
+    with pytest.raises(InputError, match=says):
+        scene(tmp_path, tilted)
 
 
 def test_a_support_without_a_weight_is_refused(tmp_path):

@@ -5,18 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import (
-    StepDataError,
-)
-from quasistatic_ref.optional.fast.posed import PosedStep
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.optional.fast.posed import PosedContacts, PosedStep
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from tests.helpers import changed, changed_blocks
+from tests.helpers import changed_blocks, random_step
 from tests.scenes import chain_scene
 from tests.step.public_data import public_data
+from tests.tolerances import EXACT
 
 NAN = np.nan
 
@@ -51,17 +49,6 @@ def test_whatever_is_made_of_a_posed_step_is_checked(things, name, like):
         step.replace(contacts=like(step.contacts, n=2 * step.contacts.n))
 
 
-def test_steps_of_one_simulator_share_what_does_not_change():
-    scenario = load_scenario("bunny_grasp", ["solver.certify=off"], fast=True)  # its bunny is rigid
-    simulator, q, results = scenario.simulator(), scenario.system.q_start, []
-    for k in range(2):
-        results.append(simulator.step(q, scenario.targets(0.01 * (k + 1))))
-        q = results[-1].q
-    one, two = (result.step for result in results)
-    assert one.H is two.H
-    assert one.counts is two.counts
-
-
 def test_the_mass_matrix_of_a_mechanism_is_that_of_its_configuration(tmp_path):
     system, h = chain_scene(tmp_path), 0.01
     n_a, K_q = system.n_a, 500.0 * np.eye(system.n_a)
@@ -76,19 +63,6 @@ def test_the_mass_matrix_of_a_mechanism_is_that_of_its_configuration(tmp_path):
         np.testing.assert_array_equal(step.H, expected)
         matrices.append(step.M_u)
     assert (matrices[0] != matrices[1]).any()  # its un-actuated joints bend the arm
-
-
-def test_sparse_contacts_are_read_like_contacts_and_keep_no_dense_jacobian(things):
-    sparse = things["SparseContacts"]
-    public = {name for name in dir(Contacts) if not name.startswith("_")}
-    assert {*public, "J", "phi", "n", "d1", "d2", "name", "rows"} <= set(dir(sparse)) | set(
-        vars(sparse)
-    )
-    assert sparse.J.shape == (sparse.n_c, 4, sparse.n_v)
-    assert "J" not in vars(sparse)
-    delta_q = np.sin(np.arange(sparse.n_v))
-    dense = changed(sparse)
-    np.testing.assert_allclose(dense.motion(delta_q), sparse.motion(delta_q), atol=1e-15)
 
 
 REFUSED = {
@@ -113,3 +87,18 @@ def test_a_force_of_another_shape_is_refused(things, shape):
     simulator, q, goal = scenario.simulator(), scenario.system.q_start, scenario.targets(0.01)
     with pytest.raises(StepDataError, match=r"force: must have shape \(8,\)"):
         simulator.step(q, goal, np.ones(shape))
+
+
+def posed(c, mu):
+    """Contacts as a simulator poses them."""
+    arrays = (array.copy() for array in (c.phi, c.n, c.d1, c.d2, c.J))
+    return PosedContacts(c.name, *arrays, c.mu_v, c.mu_omega, c.rows, mu)
+
+
+def test_posed_contacts_have_the_friction_that_they_are_given_or_make_it(rng):
+    """(mu_v, mu_v, mu_omega) of each contact; the second has four rows, and no mu_omega."""
+    c = random_step(rng, rows=(6, 4)).contacts
+    assert posed(c, c.mu).mu is c.mu
+    (v, w), omega = c.mu_v, c.mu_omega[0]
+    expected = [[v, v, omega], [w, w, 0.0]]
+    np.testing.assert_allclose(posed(c, None).mu, expected, rtol=EXACT, atol=EXACT)

@@ -1,18 +1,14 @@
 """M_u and H of many bodies, kept in diagonal blocks: the same bits as whole, and never whole."""
 
 import numpy as np
-import pinocchio as pin
 import pytest
-from scipy.sparse import csc_matrix
 
-from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.errors import ModelError, StepDataError
 from quasistatic_ref.lab.scenes.piles import BOX, pile
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model import system as of_system
 from quasistatic_ref.optional.fast import posed
-from quasistatic_ref.optional.fast.posed import BlockStep, PosedStep, constants
-from quasistatic_ref.optional.large.sparse_form import Pattern, kept_M_u
+from quasistatic_ref.optional.fast.posed import PosedStep, constants
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.rollout import rollout
@@ -20,7 +16,6 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.arrays import whole
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.files import step_text
 from tests.helpers import always_in_blocks
 from tests.tolerances import ROUNDING
 
@@ -57,30 +52,6 @@ def step_of(name):
 
 
 @pytest.mark.parametrize("name", ["pile", "grasp"])
-def test_M_u_H_and_P_have_the_bits_of_the_whole_mass_matrix(name):
-    """H is blockdiag(h K_q, M_u / h), M_u pinocchio's matrix in the paper's order."""
-    simulator, step = step_of(name)
-    system, n_a = simulator.system, step.n_a
-    M = pin.crba(system._model, system._model.createData(), system._order.model_q(system.q_start))
-    v = system._order.v[n_a:]
-    expected = M[np.ix_(v, v)] + 0.0
-    H = np.zeros((step.n_v, step.n_v))
-    H[:n_a, :n_a], H[n_a:, n_a:] = step.h * step.K_q, expected / step.h
-    P = csc_matrix(np.triu(H))
-    found = Pattern(step).P
-    assert type(step) is BlockStep
-    assert kept_M_u(step).shape == (step.n_u // 6, 6, 6)
-    for one, two in (
-        (step.M_u, expected), (system.M_u(system.q_start), expected), (step.H, H),
-        (found.data, P.data), (found.indices, P.indices), (found.indptr, P.indptr),
-    ):  # fmt: skip
-        assert one.dtype == two.dtype
-        assert one.shape == two.shape
-        assert one.tobytes() == two.tobytes()
-    assert not step.M_u.flags.writeable
-
-
-@pytest.mark.parametrize("name", ["pile", "grasp"])
 def test_a_run_has_the_bits_of_the_run_that_keeps_all_of_M_u(name, monkeypatch):
     blocks = run(name)
     monkeypatch.setattr(BlockGeometry, "in_blocks", False)
@@ -92,22 +63,6 @@ def test_a_run_has_the_bits_of_the_run_that_keeps_all_of_M_u(name, monkeypatch):
     apart = {largest: 0, "findings": 0}  # in blocks, the doctor solves no step once more
     assert blocks.header | apart == dense.header | apart
     np.testing.assert_allclose(blocks.header[largest], dense.header[largest], rtol=ROUNDING)
-
-
-def test_a_certificate_and_its_file_are_those_of_whole_matrices(monkeypatch):
-    def solved():
-        simulator, target, force = scene("pile")
-        return simulator.step(simulator.system.q_start, target, force)
-
-    one = solved()
-    monkeypatch.setattr(BlockGeometry, "in_blocks", False)
-    two = solved()
-    assert one.solution.certificate == two.solution.certificate
-    assert one.solution.certificate.error_bound > 0
-    assert one == two
-    assert step_text(one.step) == step_text(two.step)
-    said = [solution_text(some.solution) for some in (one, two)]
-    assert said[0] == said[1]
 
 
 def test_a_light_record_of_a_sparse_run_never_forms_M_u_or_H(monkeypatch):

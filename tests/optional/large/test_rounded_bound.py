@@ -1,15 +1,12 @@
 """The bound in float64 is never below the error, and each of its constants is needed."""
 
 import numpy as np
-import pytest
 from flint import fmpq_mat
 
 from quasistatic_ref.certify.gap import fractions, free_energy
 from quasistatic_ref.certify.rational import exact_form, fraction
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
-from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian
 from quasistatic_ref.optional.large import rounded_bound
 from quasistatic_ref.optional.large.bound import error_bound
@@ -117,68 +114,6 @@ def test_no_answer_of_random_steps_has_a_false_bound():
             assert bound_verdict(step, delta_q, lam, judged.error)
             bounded += 1
     assert bounded > FUZZED / 3
-
-
-def one_contact(rng, **others):
-    """A point of one coordinate on a tilted plane: products just above one, where roundings weigh.
-
-    All but nothing of the row is the motion along the first axis.
-    """
-    n = np.array([1.0, *rng.uniform(0.01, 0.02, 2)])
-    n /= np.linalg.norm(n)
-    d1 = np.cross(n, [0.0, 0.0, 1.0])
-    d1 /= np.linalg.norm(d1)
-    J = np.zeros((1, 4, 1))
-    J[0, :3, 0] = rng.uniform(1, 1.05), *rng.uniform(0.01, 0.02, 2)
-    contacts = contacts_of(0.0, np.array([[d1, np.cross(n, d1), n]]), J, 1e-6, rows=4)
-    mass, force, h = rng.uniform(1, 1.05, (1, 1)), rng.uniform(1, 1.05, 1), rng.uniform(1, 1.05)
-    return free_step(mass, others.get("force", force), contacts, float(h))
-
-
-def slack_of_one(rng):
-    return Judged(one_contact(rng), rng.uniform(1, 1.05, 1), np.zeros(4))
-
-
-def balance_of_one(rng):
-    """What is pushed moves nearly as it is pushed: the rounding of both is left."""
-    return Judged(one_contact(rng), rng.uniform(1, 1.05, 1), np.zeros(4))
-
-
-def work_of_one(rng):
-    step = one_contact(rng, force=np.zeros(1))
-    return Judged(step, np.zeros(1), np.array([rng.uniform(1, 1.05), 0.0, 0.0, 0.0]))
-
-
-def energy_of_one(rng):
-    return Judged(one_contact(rng), np.zeros(1), np.zeros(4))
-
-
-def underflow_of_one(rng):
-    return Judged(one_contact(rng), np.full(1, 5e-324), np.zeros(4))
-
-
-SLACK, BALANCE, ENERGY = 0, 1, 2
-"""The places in ``Judged.within``."""
-
-
-@pytest.mark.parametrize(
-    ("constant", "smaller", "which", "make"),
-    [
-        ("EXTRA_SLACK", 2, SLACK, slack_of_one),
-        ("EXTRA_BALANCE", 0, BALANCE, balance_of_one),
-        ("EXTRA_TRANSPOSE", 2, BALANCE, work_of_one),
-        ("EXTRA_ENERGY", -1, ENERGY, energy_of_one),
-        ("U", 2.0**-55, SLACK, slack_of_one),
-        ("UNDERFLOW", 0.0, SLACK, underflow_of_one),
-    ],
-)
-def test_each_count_of_roundings_is_needed(monkeypatch, constant, smaller, which, make):
-    def claims(seeds):
-        return (make(np.random.default_rng(seed)).within()[which] for seed in range(seeds))
-
-    assert all(claims(100))
-    monkeypatch.setattr(rounded_bound, constant, smaller)
-    assert not all(claims(8000))
 
 
 def test_units_out_of_range_are_left_to_balls():

@@ -7,19 +7,18 @@ import pytest
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
-from quasistatic_ref.errors import BackendError, StepNotSolved
+from quasistatic_ref.errors import BackendError, StepDataError
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast.sparse_solver import MOST_ITERATIONS, SparseSolver, reachable
 from quasistatic_ref.optional.large.blocks import Blocks
-from quasistatic_ref.optional.large.sparse import MOST_ITERATIONS, SparseSolver, reachable
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import always_in_blocks, changed_blocks
+from tests.helpers import always_in_blocks
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
 
 BOXES = (2, 1, 2)
@@ -109,43 +108,16 @@ def test_size_decides_whether_a_step_is_sparse(monkeypatch):
         assert isinstance(step.contacts, SparseContacts) == sparse
 
 
-def test_a_light_record_of_a_sparse_run_never_forms_the_dense_jacobian(always_sparse, monkeypatch):
-    some, formed, dense = pile(BOXES), [], Blocks.dense
-    monkeypatch.setattr(Blocks, "dense", lambda blocks: formed.append(blocks) or dense(blocks))
-    run = rollout(
-        some.simulator,
-        some.q,
-        NO_TARGET,
-        3,
-        force=lambda t, q: some.force,
-        record="light",
-        progress=False,
-    )
-    assert run.steps == 3
-    assert not formed
-    assert step_after(some, 1).step.contacts.J.shape[1:] == (4, 24)
-    assert len(formed) == 1  # read, it is
-
-
 def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always_sparse):
     step = step_after(pile(BOXES), 1).step
     with pytest.raises(BackendError, match=r"takes no sparse matrices; .* clarabel, osqp, piqp"):
         SparseSolver(step, "daqp")
 
 
-def test_a_large_step_without_solution_is_no_answer(always_sparse):
-    step = step_after(pile(BOXES), 1).step
-    solver = SparseSolver(step, "clarabel")
-    # Every second contact is the one before with its normal turned round, both 1 mm deep.
-    at, J = step.contacts, step.contacts.blocks.J.copy()
-    J[1::2] = J[::2]
-    n, d1, d2 = (np.repeat(vectors[::2], 2, axis=0) for vectors in (at.n, at.d1, at.d2))
-    n[1::2], d2[1::2] = -n[1::2], -d2[1::2]
-    phi, blocks = np.full(at.n_c, -1e-3), replace(at.blocks, J=J)
-    torn = changed_blocks(at, phi=phi, n=n, d1=d1, d2=d2, blocks=blocks)
-    stuck = step.replace(contacts=torn)
-    with pytest.raises(StepNotSolved, match="clarabel did not solve"):
-        solve_step(stuck, solver, certify="off")
+@pytest.mark.parametrize("column", [[1, 0], [1, 1], [-1, 0], [2, 4], [3, 2]])
+def test_columns_that_do_not_ascend_are_refused(column):
+    with pytest.raises(StepDataError, match=r"blocks.column: must ascend .* n_v = 3"):
+        Blocks(np.array([[0, 3], column]), np.zeros((2, 4, 2)), 3)
 
 
 def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():

@@ -35,13 +35,6 @@ def test_arrays_are_attributes_by_the_names_of_the_format(run):
     assert not hasattr(run, "lam_extra")
 
 
-def test_the_length_is_that_in_steps_and_an_empty_run_is_a_run(run):
-    assert len(run) == run.steps == 5
-    empty = Trajectory(run.header, {"t": np.zeros(0)})
-    assert len(empty) == 0
-    assert empty
-
-
 def test_the_wide_table_has_a_row_a_step_and_a_column_a_number_by_name_and_unit(run):
     table = run.to_pandas()
     np.testing.assert_array_equal(table.index, run.t)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -67,8 +68,26 @@ def rotation(quaternion: Any) -> np.ndarray:
     return np.eye(3) + 2 * w * V + 2 * V @ V
 
 
-def run(scene: Any, h: float, step: Callable[[dict[str, Any]], None], pose: Any) -> Any:
-    """Poses at the times of a scene, of an engine that takes steps of h.
+def aims(scene: Any, t: float) -> dict[str, Any]:
+    """Targets of a scene's servos at a time: body -> (displacement [m], velocity [m/s])."""
+    found = {}
+    for name, corners in scene.get("targets", {}).items():
+        times, *places = np.array(corners).T
+        k = min(max(int(np.searchsorted(times, t - 1e-9)), 1), len(times) - 1)
+        slope = [(at[k] - at[k - 1]) / (times[k] - times[k - 1]) for at in places]
+        velocity = np.array(slope) if t < times[-1] + 1e-9 else np.zeros(3)
+        found[name] = np.array([np.interp(t, times, at) for at in places]), velocity
+    return found
+
+
+def run(
+    scene: Any,
+    h: float,
+    step: Callable[[dict[str, Any]], None],
+    pose: Any,
+    aim: Callable[[dict[str, Any]], None] | None = None,
+) -> Any:
+    """Poses at the times of a scene, of an engine that takes steps of h, and its processor time.
 
     Parameters
     ----------
@@ -79,17 +98,24 @@ def run(scene: Any, h: float, step: Callable[[dict[str, Any]], None], pose: Any)
         One step under loads {body: (force, torque)} at the centres of mass, in world axes.
     pose : callable
         Body -> [x, y, z, qx, qy, qz, qw].
+    aim : callable, optional
+        Sets the targets of servos at the end of the next step, as :func:`aims` has them.
     """
     found: dict[str, list[Any]] = {body["name"]: [] for body in scene["bodies"]}
     done = 0
-    for time in scene["times"]:
-        while done < round(time / h):
+    seconds = 0.0
+    for instant in scene["times"]:
+        while done < round(instant / h):
             loads = {body["name"]: np.zeros((2, 3)) for body in scene["bodies"]}
             for load in scene["loads"]:
                 if done >= round(load["from"] / h):
                     loads[load["body"]] += [load["force"], load["torque"]]
+            if aim:
+                aim(aims(scene, (done + 1) * h))
+            start = time.process_time()
             step(loads)
+            seconds += time.process_time() - start
             done += 1
         for name, poses in found.items():
             poses.append([float(x) for x in pose(name)])
-    return {"poses": found}
+    return {"poses": found, "seconds": seconds}

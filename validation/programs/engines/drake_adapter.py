@@ -47,7 +47,7 @@ def plant_of(scene: Any, setting: Any) -> tuple[Any, Any]:
             body["mass"], np.zeros(3),
             drake.UnitInertia(*(np.array(body["inertia"]) / body["mass"])),
         )  # fmt: skip
-        added = plant.AddRigidBody(body["name"], inertia)
+        added = plant.AddRigidBody(body["name"], plant.AddModelInstance(body["name"]), inertia)
         for k, shape in enumerate(body["shapes"]):
             solid = SOLIDS[shape["kind"]](shape)
             inside = drake.RigidTransform(shape["xyz"])
@@ -60,10 +60,29 @@ def plant_of(scene: Any, setting: Any) -> tuple[Any, Any]:
                 drake.FixedOffsetFrame(body["name"] + "_rail", plant.world_frame(), at)
             )
             plant.AddJoint(drake.PrismaticJoint(body["name"], frame, added.body_frame(), [1, 0, 0]))
+        elif body["joint"] == "servo":
+            add_servo(plant, body, added)
         else:
             plant.SetDefaultFloatingBaseBodyPose(added, at)
     plant.Finalize()
     return plant, builder.Build()
+
+
+def add_servo(plant: Any, body: Any, added: Any) -> None:
+    """Rails along x, y and z, each with a spring to its target and critical damping."""
+    gains = drake.PdControllerGains(p=body["K"], d=2 * float(np.sqrt(body["K"] * body["mass"])))
+    instance = added.model_instance()
+    at = drake.RigidTransform(body["xyz"])
+    frame = plant.AddFrame(drake.FixedOffsetFrame(f"{body['name']}_rail", plant.world_frame(), at))
+    for axis, direction in zip("xyz", np.eye(3), strict=True):
+        name = f"{body['name']}/{axis}"
+        light = drake.SpatialInertia.SolidSphereWithMass(1e-6, 0.01)
+        moved = added if axis == "z" else plant.AddRigidBody(name, instance, light)
+        joint = drake.PrismaticJoint(name, frame, moved.body_frame(), direction)
+        actuator = plant.AddJointActuator(name, plant.AddJoint(joint))
+        actuator.set_controller_gains(gains)
+        frame = moved.body_frame()
+    plant.set_gravity_enabled(instance, False)
 
 
 def phenomena(case: Any) -> Any:
@@ -86,12 +105,19 @@ def phenomena(case: Any) -> Any:
         port.FixValue(within, forces)
         simulator.AdvanceTo(context.get_time() + setting["h"])
 
+    servos = [body["name"] for body in scene["bodies"] if body["joint"] == "servo"]
+
+    def aim(targets: Any) -> None:
+        for name in servos:
+            instance = plant.GetModelInstanceByName(name)
+            plant.get_desired_state_input_port(instance).FixValue(within, np.ravel(targets[name]))
+
     def pose(name: str) -> Any:
         X = plant.EvalBodyPoseInWorld(within, bodies[name])
         w, x, y, z = X.rotation().ToQuaternion().wxyz()
         return [*X.translation(), x, y, z, w]
 
-    return run(scene, setting["h"], step, pose)
+    return run(scene, setting["h"], step, pose, aim if servos else None)
 
 
 if __name__ == "__main__":

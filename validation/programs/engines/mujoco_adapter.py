@@ -12,6 +12,10 @@ JOINT = {
     "free": "<freejoint/>",
     "fixed": "",
     "rail_x": '<joint type="slide" axis="1 0 0"/>',
+    "servo": "".join(
+        f'<joint name="{{name}}/{x}" type="slide" axis="{axis}"/>'
+        for x, axis in (("x", "1 0 0"), ("y", "0 1 0"), ("z", "0 0 1"))
+    ),
 }
 
 
@@ -26,24 +30,42 @@ def geom(shape: Any) -> str:
     return f'<geom type="{shape["kind"]}" size="{words(size)}" pos="{words(shape["xyz"])}"/>'
 
 
+def servo(body: Any) -> str:
+    """Actuators of a servo's axes: a spring to the target, and critical damping."""
+    damping = 2 * float(np.sqrt(body["K"] * body["mass"]))
+    return "".join(
+        f'<position joint="{body["name"]}/{axis}" kp="{body["K"]!r}"/>'
+        f'<velocity joint="{body["name"]}/{axis}" kv="{damping!r}"/>'
+        for axis in "xyz"
+    )
+
+
 def mjcf(scene: Any, setting: Any) -> str:
     """The scene."""
-    friction = f'condim="4" friction="{scene["mu_v"]!r} {scene["mu_omega"]!r} 0.0001"'
+    condim = 4 if scene["mu_omega"] else 3
+    friction = f'condim="{condim}" friction="{scene["mu_v"]!r} {scene["mu_omega"]!r} 0.0001"'
     bodies = ['<geom type="plane" size="1 1 1"/>'] if scene["floor"] else []
     for body in scene["bodies"]:
         geoms = "".join(geom(shape) for shape in body["shapes"])
+        joint = JOINT[body["joint"]].format(**body)
+        floats = "1" if body["joint"] == "servo" else "0"
         bodies.append(
-            f'<body name="{body["name"]}" pos="{words(body["xyz"])}">{JOINT[body["joint"]]}'
+            f'<body name="{body["name"]}" pos="{words(body["xyz"])}" gravcomp="{floats}">{joint}'
             f'<inertial pos="0 0 0" mass="{body["mass"]!r}" '
             f'diaginertia="{words(body["inertia"])}"/>{geoms}</body>'
         )
+    servos = "".join(servo(body) for body in scene["bodies"] if body["joint"] == "servo")
     option = {"timestep": setting["h"], **setting.get("option", {})}
     return (
         f'<mujoco><option gravity="{words(scene["gravity"])}" '
         f"{' '.join(f'{key}={chr(34)}{value}{chr(34)}' for key, value in option.items())}/>"
         f"<default><geom {friction} {setting.get('geom', '')}/></default>"
-        f"<worldbody>{''.join(bodies)}</worldbody></mujoco>"
+        f"<worldbody>{''.join(bodies)}</worldbody>"
+        f"<actuator>{servos}</actuator></mujoco>"
     )
+
+
+mujoco.set_mju_user_warning(lambda _: None)  # else a file MUJOCO_LOG.TXT is written
 
 
 def phenomena(case: Any) -> Any:
@@ -57,12 +79,18 @@ def phenomena(case: Any) -> Any:
             data.body(name).xfrc_applied[:] = load.ravel()
         mujoco.mj_step(model, data)
 
+    servos = [body["name"] for body in scene["bodies"] if body["joint"] == "servo"]
+
+    def aim(targets: Any) -> None:
+        # Each servo has six controls: place and velocity along x, then y, then z.
+        data.ctrl[:] = np.array([np.transpose(targets[name]) for name in servos]).ravel()
+
     def pose(name: str) -> Any:
         mujoco.mj_kinematics(model, data)
         w, x, y, z = data.body(name).xquat
         return [*data.body(name).xpos, x, y, z, w]
 
-    return run(scene, setting["h"], step, pose)
+    return run(scene, setting["h"], step, pose, aim if servos else None)
 
 
 if __name__ == "__main__":

@@ -27,15 +27,31 @@ def robot(body: Any) -> tuple[str, dict[str, Any]]:
     if body["joint"] == "free":
         return body_text(body["mass"], body["inertia"]), {"xyz": tuple(body["xyz"])}
     link = link_text("body", body["mass"], body["inertia"])
+    if body["joint"] == "servo":
+        return servo_text(link), {"base": "fixed", "actuated": "all", "xyz": tuple(body["xyz"])}
     kind = {"fixed": "fixed", "rail_x": "prismatic"}[body["joint"]]
     joint = joint_text("joint", kind, "base", "body")
     text = robot_text(link_text("base", 1.0, (1, 1, 1)), link, joint)
     return text, {"base": "fixed", "xyz": tuple(body["xyz"])}
 
 
+def servo_text(link: str) -> str:
+    """URDF of a link that moves along x, y and z."""
+    light = (1e-9, 1e-9, 1e-9)
+    return robot_text(
+        link_text("base", 1.0, (1, 1, 1)),
+        link_text("at_x", 1e-6, light),
+        link_text("at_y", 1e-6, light),
+        link,
+        joint_text("x", "prismatic", "base", "at_x", "1 0 0"),
+        joint_text("y", "prismatic", "at_x", "at_y", "0 1 0"),
+        joint_text("z", "prismatic", "at_y", "body", "0 0 1"),
+    )
+
+
 def solid(shape: Any) -> Any:
     """A shape."""
-    return Sphere(shape["radius"]) if shape["kind"] == "sphere" else Box(np.array(shape["size"]))
+    return Sphere(shape["radius"]) if shape["kind"] == "sphere" else Box(size=shape["size"])
 
 
 def phenomena(case: Any) -> Any:
@@ -60,30 +76,36 @@ def phenomena(case: Any) -> Any:
         ]  # fmt: skip
     pairs = [
         ContactPair(f"{a.name}, {b.name}", a, b, scene["mu_v"], scene["mu_omega"], 6, 1)
-        for first, second in scene["contacts"]
+        for first, second, *shapes in scene["contacts"]
         for a in placed[first]
-        for b in placed[second]
+        for b in (placed[second][k] for k in (shapes[0] if shapes else range(len(placed[second]))))
     ]
+    servos = [name for name, body in bodies.items() if body["joint"] == "servo"]
+    K_q = np.diag([bodies[name]["K"] for name in servos for _ in "xyz"])
     simulator = Simulator(
-        system, pairs, h=setting["h"], K_q=np.zeros((0, 0)), cone=setting["cone"],
-        gravity=np.array(scene["gravity"]),
+        system, pairs, h=setting["h"], K_q=K_q,
+        gravity=np.array(scene["gravity"]), **setting.get("simulator", {}),
     )  # fmt: skip
-    state = {"q": system.q_start}
+    state = {"q": system.q_start, "target": np.zeros(system.n_a)}
+
+    def aim(targets: Any) -> None:
+        if servos:
+            state["target"] = np.concatenate([targets[name][0] for name in servos])
 
     def step(loads: Any) -> None:
         force = np.zeros(system.n_v)
-        for name, load in loads.items():
+        for name, load in loads.items() if scene["loads"] else ():
             if bodies[name]["joint"] == "free":
                 force += system.centre_of_mass_force(state["q"], name, *load)
             elif bodies[name]["joint"] == "rail_x":
                 force[system.joint(f"{name}/joint").v] += load[0, 0]
-        state["q"] = simulator.step(state["q"], np.zeros(0), force).q
+        state["q"] = simulator.step(state["q"], state["target"], force).q
 
     def pose(name: str) -> Any:
         at, k = system.kinematics(state["q"]), system.link(link(name))
         return [*at.t[k], *quaternion(at.R[k])]
 
-    return run(scene, setting["h"], step, pose)
+    return run(scene, setting["h"], step, pose, aim)
 
 
 def quaternion(R: Any) -> Any:

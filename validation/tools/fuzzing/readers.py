@@ -14,7 +14,8 @@ from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, s
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, toml_read
-from quasistatic_ref.formats.resources import models_folder, vectors_folder
+from quasistatic_ref.formats.resources import models_folder
+from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import solver_study, study_kind
 from quasistatic_ref.lab.study.file.sweeps import sweep_study

@@ -29,11 +29,11 @@ SETS = {
     ),
     "SOLIDS": "corners patch polytope_pair solid_pair contact/distance curved_pair",
     "CURVED": "curved_pair settle faces by_coal contact/distance",
-    "PAIRS": "patch contact/distance pairs jacobian",
-    "SPARSE": "kept_and_shown mass_in_blocks sparse solver",
+    "PAIRS": "cloud patch contact/distance pairs jacobian",
+    "SPARSE": "mass_in_blocks sparse solver",
     "CLOUDS": "clouds cloud_headers mesh_files",
-    "URDF": "urdf urdf_refusals urdf_file mesh_files bad_urdfs",
-    "DATA": "arrays kept_and_shown data plain_data step_files",
+    "URDF": "urdf urdf_refusals urdf_file mesh_files",
+    "DATA": "arrays posed_data data plain_data step_files",
     "SYSTEM": "system system_forces system_refusals",
     "SCENES": "scenario simulator words",
     "FOLLOWED": "tracker_bound tracker",
@@ -44,14 +44,14 @@ TABLE = """
 step/problem.py
     standard_form PAGE problem
 step/friction.py
-    PAGE cones kept_and_shown wrenches
+    PAGE cones wrenches
 step/cones.py
     PAGE JUDGE completion
 step/groups.py
     own
 step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
-certify/digits.py model/angles.py step/ordered.py model/rotation.py contact/cloud.py
-model/readers/mesh_files.py simulate/pace.py
+certify/digits.py model/angles.py step/ordered.py model/rotation.py
+model/readers/mesh_files.py optional/fast/pace.py
     own
 step/standard_form.py
     PAGE
@@ -67,7 +67,7 @@ certify/rational.py certify/dependence.py certify/active_set.py certify/degenera
 certify/rounding.py cli/decimals.py certify/exact.py certify/warm.py certify/certificate.py
     EXACT
 certify/point.py
-    balls EXACT
+    EXACT
 optional/large/bound.py certify/gap.py optional/ellipsoid/impulses.py optional/large/judged.py
 optional/ellipsoid/apex.py optional/extensions/conic.py
     FORGED
@@ -101,7 +101,7 @@ contact/pairs.py
 optional/fast/tracker/tracker.py optional/fast/tracker/tracker_bound.py
 optional/fast/tracker/ball_tree.py
     FOLLOWED
-contact/solids/settle.py contact/solids/faces.py contact/solids/by_coal.py
+optional/curved/settle.py optional/curved/faces.py optional/curved/by_coal.py
     CURVED
 optional/ellipsoid/enclosure.py optional/ellipsoid/interior.py optional/ellipsoid/newton.py
 optional/ellipsoid/scaled_blocks.py
@@ -112,8 +112,10 @@ contact/patch.py
     flat_on_flat PAIRS
 contact/crossings.py
     own
+optional/curved/rims.py
+    crossings
 contact/shape_in_world.py contact/solids/polytope.py contact/solids/polytope_pair.py
-contact/solids/ways_out.py shapes/hull.py shapes/round.py
+optional/curved/ways_out.py shapes/hull.py shapes/round.py
     SOLIDS
 contact/separations.py
     flat_on_flat depth_ties
@@ -123,14 +125,15 @@ optional/large/sparse_jacobian.py optional/large/blocks.py optional/large/sparse
 optional/large/sparse_form.py
     SPARSE
 model/body.py
-    solid planar SCENES
-model/readers/clouds.py model/readers/pcd.py model/readers/ply.py model/readers/point_table.py
+    solid SCENES
+model/readers/clouds.py optional/readers/pcd.py optional/readers/ply.py
+optional/readers/point_table.py optional/readers/points.py
     CLOUDS
 model/configuration.py
     system_refusals SCENES
 shapes/convex_mesh.py
     mesh_files shapes SOLIDS
-model/readers/dae.py
+optional/readers/dae.py
     mesh_files
 shapes/frozen.py
     shapes plain_data SYSTEM
@@ -166,9 +169,10 @@ optional/show/model_words.py
 model/workspace.py
     world SYSTEM mass_in_blocks memory
 model/world.py
-    planar SYSTEM sparse
-solve/adapters/clarabel.py solve/adapters/daqp.py solve/adapters/osqp.py solve/adapters/piqp.py
-solve/adapters/program.py solve/adapters/quadprog.py solve/backends.py
+    SYSTEM sparse
+optional/fast/adapters/clarabel.py optional/fast/adapters/daqp.py optional/fast/adapters/osqp.py
+optional/fast/adapters/piqp.py optional/fast/adapters/program.py optional/fast/adapters/quadprog.py
+solve/backends.py
 optional/extensions/extended.py solve/scaled.py solve/units.py
     SOLVERS
 solve/cvxpy_problem.py
@@ -177,15 +181,15 @@ optional/fast/backends.py
     defaults SOLVERS
 optional/fast/solver.py
     SOLVED native defaults
-solve/native.py
+optional/fast/native.py
     units
-optional/ellipsoid/second_order.py
+optional/fast/second_order.py
     native cones
 solve/solve.py
     SOLVED native rounded_bound
-solve/solver.py solve/through_cvxpy.py solve/through_qpsolvers.py
+solve/solver.py solve/through_cvxpy.py optional/qpsolvers/through_qpsolvers.py
     SOLVED
-optional/large/sparse.py
+optional/large/sparse.py optional/fast/sparse_solver.py
     SPARSE sparse_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA
@@ -200,9 +204,9 @@ step/files.py
 optional/show/show.py optional/show/step_words.py
     words DATA
 certify/solution.py
-    kept_and_shown certificate newton
+    certificate newton
 cli/solution_files.py
-    kept_and_shown solution_files solutions_of_version_1 FORGED
+    certify/solution solution_files solutions_of_version_1 FORGED
 optional/derivatives/step/optimum_rates.py optional/derivatives/step/reason.py
 optional/derivatives/step/touching.py optional/derivatives/contact/couples.py
 optional/derivatives/contact/depth_ties.py optional/derivatives/contact/features.py

@@ -4,8 +4,8 @@ from functools import cache
 
 import numpy as np
 
-from quasistatic_ref.formats.resources import reality_folder
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
+from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import loads_read

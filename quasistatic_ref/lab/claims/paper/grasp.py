@@ -16,7 +16,7 @@ HELD, SWUNG, LIFTED = 1.0, 30.0, 0.030
 FIRM = 1.5
 """mu_omega over the one that the closed grip needs by (R14), from which on a bunny is held [-]."""
 SEEDS = 1
-"""Clouds of each of two samplings that are grasped anew; all others are the committed rows."""
+"""Clouds of each of two samplings that are grasped again; all others are the committed rows."""
 
 
 def evidence() -> Evidence:
@@ -30,10 +30,10 @@ def evidence() -> Evidence:
         exact.append(np.mean(grasp(case)[1]["certificate"] == "exact"))
     h = float(grasp("with torsion")[0].h)
     picture = {"times": times, "angles": angles, "h": h}
-    anew = [row(cell) for cell in _cells()]
+    again = [row(cell) for cell in _cells()]
     known = {Cell(**{name: one[name] for name in vars(_PATTERN)}): one for one in rows()}
     before = [known[cell] for cell in _cells()]
-    grasps = [one for one in (*rows(), *anew) if one["change"] == NONE]
+    grasps = [one for one in (*rows(), *again) if one["change"] == NONE]
     firm = [one["rotation"] for one in grasps if one["mu_omega"] and margin(one) >= FIRM]
     weak = [held(one) for one in grasps if margin(one) < 1.0 and one["mu_omega"]]
     loose = [held(one) for one in grasps if not one["mu_omega"]]
@@ -45,8 +45,8 @@ def evidence() -> Evidence:
         within("rotation of any cloud with a firm grip [deg]", max(firm), 0.0, HELD),
         within("share held of clouds with a weak grip [-]", float(np.mean(weak)), 0.0, 0.0),
         within("share held of clouds without torsion [-]", float(np.mean(loose)), 0.0, 0.01),
-        comparison("rotations of clouds grasped anew [deg]",
-                   [one["rotation"] for one in anew], [one["rotation"] for one in before], 1e-5),
+        comparison("rotations of clouds grasped again [deg]",
+                   [one["rotation"] for one in again], [one["rotation"] for one in before], 1e-5),
         **picture,
     )  # fmt: skip
 
@@ -70,7 +70,7 @@ CLAIM = Claim(
     sweep="bunny_grasp, 300 steps, with and without mu_omega on the fingers; the largest rotation "
     f"from the closed grip, t = {CLOSED:g} s, to the end of the lift, t = {TOP:g} s. Then 480 "
     "other clouds of the same bunny, 200 to 100,000 points drawn in four ways (docs/clouds.md): "
-    f"committed rows, of which {4 * SEEDS} are measured anew",
+    f"committed rows, of which {4 * SEEDS} are measured again",
     reason="The paper gives no numbers and the scene is ours, its lift too: 1 degree and 30 "
     "degrees are what an eye would call no rotation and rotation. Of the other clouds without "
     "torsion 1 in 100 may be held, by points that happen to be far apart.",

@@ -20,12 +20,6 @@ BOUNDED = 1.5
 """What a step with residuals and a bound of its error may cost in steps that claim nothing; both
 by NumPy."""
 
-PUSH = {"native, off": 1.0, "native, full": 10.0}
-"""The median step of two contacts in the ellipsoid, uncertified and enclosed [ms]."""
-
-HEAP = 60.0
-"""The median step of the heap of 1,040 contacts, nothing certified [ms]."""
-
 COMPILED = (
     ("compiled step over the bare solver", "over_solver", 4.0),
     ("compiled step [us]", "step", PAPER),
@@ -39,35 +33,20 @@ STRETCH = {
     "step over the bare solver": 8.0,
     "compiled step over the bare solver": 2.5,
     "compiled step, certified [us]": 150.0,
-    "1e6 points over 992": 3.0,
 }
 
 
 def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Each promise that the tables speak of: what, measured, limit and whether it holds."""
-    interfaces, exponents = tables["interfaces"], tables.get("exponents", {})
+    interfaces = tables["interfaces"]
     measured = [
         ("step over the bare solver", interfaces["over_solver"], AT_MOST, OVER_SOLVER),
         ("through CVXPY over native", interfaces["cvxpy_over_native"], AT_LEAST, THROUGH_CVXPY),
         ("rebuilt each step over native", interfaces["rebuilt_over_native"], AT_LEAST, 25.0),
-        ("hand-written loop over native", interfaces["by_hand_over_native"], AT_LEAST, 1.0),
         ("bounded step over the same without", tables.get("residual_over_off"), AT_MOST, BOUNDED),
     ]
     compiled = tables.get("compiled") or {}
     measured += [(what, compiled.get(key), AT_MOST, limit) for what, key, limit in COMPILED]
-    for row in tables.get("clouds", []):
-        if row["points"] == 1_000_000:
-            measured.append(("1e6 points over 992", row["over_992"], AT_MOST, 6.0))
-            measured.append(("tree of 1e6 points [s]", row["tree_seconds"], AT_MOST, 5.0))
-    for row in tables.get("push", []):
-        if row["how"] in PUSH:
-            what = f"planar push in the ellipsoid, {row['how']} [ms]"
-            measured.append((what, 1e-3 * row["median"], AT_MOST, PUSH[row["how"]]))
-    for row in tables.get("heaps", []):
-        if row["contacts"] == 1_040:
-            measured.append(("heap of 1,040 contacts [ms]", 1e3 * row["seconds"], AT_MOST, HEAP))
-    for name in ("bodies", "contacts"):
-        measured.append((f"exponent in {name}, chains", exponents.get(name), AT_MOST, 1.15))
     return [
         {
             "what": what,

@@ -1,4 +1,4 @@
-"""The 13 x 80 step of the bunny: native, through CVXPY, rebuilt, by hand; and the solver alone."""
+"""The 13 x 80 step of the bunny: native, through CVXPY, rebuilt; and the solver alone."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -8,10 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import closest
-from quasistatic_ref.contact.distance import closest_points, in_world, relative_pose
+from quasistatic_ref.contact.distance import closest, closest_points, in_world, relative_pose
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.lab.study.bench.by_hand import hand_step
 from quasistatic_ref.lab.study.bench.timing import (
     INTERFACES,
     Job,
@@ -20,16 +18,17 @@ from quasistatic_ref.lab.study.bench.timing import (
     ratio,
     seconds,
 )
+from quasistatic_ref.optional.fast.adapters.program import Program
+from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, installed, installed_backends
-from quasistatic_ref.solve.native import NativeSolver
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
 PLAIN = "full, plain"
+FORCES = "full, and the forces of its contacts"
 SETTINGS = ["solver.certify=off", "record=light"]
 PARTS = ("distances", "selection", "rows", "solve", "integrate")
 
@@ -80,7 +79,6 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
         "DAQP alone": lambda q, goal: alone_call,
         "step, through CVXPY": lambda q, goal: partial(through.step, q, goal),
         "step, CVXPY rebuilt each time": lambda q, goal: partial(_rebuilt, through, q, goal),
-        "hand-written qpsolvers loop": lambda q, goal: partial(hand_step, at.scenario, q, goal),
         "all distances, brute force": lambda q, goal: partial(brute_force, at.scenario, q),
     }
     before = min(BEFORE, len(at.q) - 1)
@@ -102,7 +100,6 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
         "over_solver": 1 / ratios["DAQP alone"],
         "cvxpy_over_native": ratios["step, through CVXPY"],
         "rebuilt_over_native": ratios["step, CVXPY rebuilt each time"],
-        "by_hand_over_native": ratios["hand-written qpsolvers loop"],
     }
 
 
@@ -233,12 +230,14 @@ def brute_force(scenario: Scenario, q: Array) -> None:
 
 
 def certification(at: Places, repeat: int) -> Mapping[str, Any]:
-    """The fast step with each kind of certificate, and the plain one with the first [us]."""
+    """The fast step with each certificate; with the first also plain, and with forces [us]."""
     simulators = {kind: replace(at.scenario, certify=kind).simulator() for kind in CERTIFY}
     plain = replace(at.scenario, certify=CERTIFY[0], fast=False, backend=DEFAULT)
     simulators[PLAIN] = plain.simulator()
+    proved = simulators[CERTIFY[0]]
     rounds = [
         {kind: partial(simulator.step, q, g) for kind, simulator in simulators.items()}
+        | {FORCES: lambda q=q, g=g: proved.step(q, g).forces}
         for q, g in zip(at.q, at.goals, strict=True)
     ]
     times = in_turn(rounds, repeat, time.thread_time)

@@ -12,12 +12,13 @@ import numpy as np
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.lab.study.bench.grasp import by_numpy
 from quasistatic_ref.lab.study.bench.timing import seconds
+from quasistatic_ref.optional.fast.adapters.program import Adapter
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.shapes.placed_shape import PointCloud
-from quasistatic_ref.solve.adapters.program import Adapter, Reply
 from quasistatic_ref.solve.backends import DEFAULT, installed
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 
 BACKENDS: Final = ("clarabel", "piqp", "osqp", "daqp")

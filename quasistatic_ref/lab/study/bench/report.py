@@ -6,7 +6,6 @@ from typing import Any
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.bench.acceptance import PAPER, STRETCH
 from quasistatic_ref.lab.study.bench.grasp import PARTS, PLAIN
-from quasistatic_ref.lab.study.bench.large import LargeStep, table
 from quasistatic_ref.solve.backends import CERTIFY
 
 Rows = list[tuple[str, ...]]
@@ -16,16 +15,6 @@ BY_PART = {
     "backend": "{backend}",
     **{name: f"{{{name}:.1f}}" for name in (*PARTS, "step")},
     "unsolved": "{unsolved}",
-}
-BY_PUSH = {"interface, certify": "{how}", "median [us]": "{median:.0f}", "p99 [us]": "{p99:.0f}"}
-BY_SLOPE = {"in the pyramid": "{what}", "median [us]": "{median:.0f}", "over step": "{over:.1f}"}
-BY_POINTS = {
-    "points": "{points}",
-    "step, mean [us]": "{mean:.0f}",
-    "step, median [us]": "{median:.0f}",
-    "over 992": "{over_992:.2f}",
-    "brute force [us]": "{brute_force_distances:.0f}",
-    "tree, once [s]": "{tree_seconds:.2g}",
 }
 
 
@@ -83,12 +72,6 @@ def page(tables: Mapping[str, Any]) -> str:
             "With a certificate, fast; and on the plain path [us]",
             certified,
         ),
-        *_section("A planar push in the ellipsoid", _formatted(BY_PUSH, tables.get("push", []))),
-        *_section("Derivatives of the push", _formatted(BY_SLOPE, tables.get("slopes", []))),
-        *_section("Points of the cloud", _formatted(BY_POINTS, tables["clouds"])),
-        *_titled("Rows of boxes, four contacts a pair", _sizes(tables["chains"])),
-        *_titled("A row of boxes, other numbers of contacts", _sizes(tables["contacts"])),
-        *_titled("Heaps", _sizes(tables["heaps"])),
     ]
     return "\n".join(lines) + "\n"
 
@@ -97,12 +80,7 @@ def _interfaces(tables: Mapping[str, Any]) -> Rows:
     times = tables["interfaces"]["microseconds"]
     rows: Rows = [("interface", "median [us]", "over native")]
     rows += [(k, f"{us:.1f}", f"{us / times['step, native']:.2f}") for k, us in times.items()]
-    mujoco = tables["mujoco"]
-    if "not run" in mujoco:
-        return [*rows, ("MuJoCo, a comparable grasp", "not run", mujoco["not run"])]
-    name = f"MuJoCo, a comparable grasp ({mujoco['contacts']} contacts, {mujoco['rows']} rows)"
-    us = mujoco["microseconds"]
-    return [*rows, (name, f"{us:.1f}", f"{us / times['step, native']:.2f}")]
+    return rows
 
 
 def _formatted(columns: Mapping[str, str], records: Sequence[Mapping[str, Any]]) -> Rows:
@@ -110,13 +88,5 @@ def _formatted(columns: Mapping[str, str], records: Sequence[Mapping[str, Any]])
     return [tuple(columns), *(tuple(f.format(**r) for f in columns.values()) for r in records)]
 
 
-def _sizes(sizes: Sequence[Mapping[str, Any]]) -> list[str]:
-    return table("bodies", [LargeStep(**row) for row in sizes]) if sizes else []
-
-
 def _section(title: str, rows: Rows) -> list[str]:
-    return _titled(title, markdown_table(rows[0], rows[1:])) if len(rows) > 1 else []
-
-
-def _titled(title: str, lines: list[str]) -> list[str]:
-    return ["", f"## {title}", "", *lines] if lines else []
+    return ["", f"## {title}", "", *markdown_table(rows[0], rows[1:])]

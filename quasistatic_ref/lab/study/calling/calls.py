@@ -1,11 +1,13 @@
 """Six interfaces to a solver: CVXPY, qpsolvers, its own, a package, a callable, an executable."""
 
+import contextlib
 import importlib
 import inspect
 import json
 import shutil
 import subprocess
 import sys
+import tempfile
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -20,15 +22,16 @@ from quasistatic_ref.lab.study.calling.guests import NATIVELY, natively
 from quasistatic_ref.lab.study.calling.native import Native
 from quasistatic_ref.lab.study.calling.packages import loaded
 from quasistatic_ref.lab.study.calling.solvers import Solver
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
 Options = dict[str, Any]
-Call = Callable[[StandardForm, Options, Reply | None, float], Reply]
-"""(problem, options, reply to start from or None, time limit [s]) -> reply: to start from it is of
-a solver that can; others look only at the problem."""
+Call = Callable[[StandardForm, Options, Reply | None], Reply]
+"""(problem, options, reply to start from or None) -> reply: to start from it is of a solver that
+can; others look only at the problem."""
 
+NO_LINE = "no usable JSON: the program ended without a line"
 NEAR = 0.01
 """How far the neighbour's g is from the problem's, entry by entry and relative: a warm start comes
 from the answer to the neighbour, as it does from the step before."""
@@ -75,7 +78,7 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
         return _guest(name) if name in NATIVELY else Native(name)
     if solver.interface in ("package", "callable"):
         return _function(function_of(solver))
-    return _running(_command(tuple(solver.target), folder), folder)
+    return Executable(_command(tuple(solver.target), folder), folder)
 
 
 def imported(target: str) -> Callable[..., Any]:
@@ -110,13 +113,13 @@ def tried(call: Callable[..., Reply], *given: Any) -> Reply:
 
     Raises
     ------
-    Crashed, subprocess.TimeoutExpired
-        If an executable was ended.
+    Crashed
+        If an executable was ended by a signal.
     """
     begin = perf_counter()
     try:
         return call(*given)
-    except (Crashed, subprocess.TimeoutExpired):
+    except Crashed:
         raise
     except Exception as error:  # whatever another package raises
         return _failed(words_of(error), perf_counter() - begin)
@@ -130,27 +133,27 @@ def _by_cvxpy(name: str) -> Call:
     from quasistatic_ref.lab.study.calling.plain_programs import PlainPrograms  # heavy: CVXPY
 
     programs = PlainPrograms(name)
-    return lambda form, options, before, _: programs.reply(form, options, warm=before is not None)
+    return lambda form, options, before: programs.reply(form, options, warm=before is not None)
 
 
 def _directly(name: str) -> Call:
-    from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
+    from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 
-    return lambda form, options, before, _: qpsolvers_reply(
+    return lambda form, options, before: qpsolvers_reply(
         form, name, options, None if before is None else before.x
     )
 
 
 def _guest(name: str) -> Call:
     native = natively(name)
-    return lambda form, options, before, limit: native(form, options)
+    return lambda form, options, before: native(form, options)
 
 
 def _function(function: Callable[..., Any]) -> Call:
     """A function, which starts from its own answer where it takes one."""
     starts = takes_start(function)
 
-    def call(form: StandardForm, options: Options, before: Reply | None, limit: float) -> Reply:
+    def call(form: StandardForm, options: Options, before: Reply | None) -> Reply:
         if not starts or before is None or before.x is None or before.lam is None:
             return function_reply(function, form, options)
         start = (before.x.copy(), before.lam.copy())
@@ -203,28 +206,67 @@ def _command(words: tuple[str, ...], folder: str) -> tuple[str, ...]:
     return (program, *words[1:])
 
 
-def _running(command: tuple[str, ...], folder: str) -> Call:
-    def call(form: StandardForm, options: Options, before: Reply | None, limit: float) -> Reply:
-        text = json_text({"H": form.H, "g": form.g, "A": form.A, "b": form.b})
-        begin = perf_counter()
-        done = subprocess.run(
-            command,
-            input=text.encode(),
-            capture_output=True,
-            check=False,
-            timeout=limit,
-            cwd=folder,
-        )
-        seconds = perf_counter() - begin
-        if done.returncode < 0:
-            raise Crashed(f"killed by signal {-done.returncode}", seconds)
-        if done.returncode > 0:
-            last = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
-            words = f"exit status {done.returncode}: {' '.join(last)[:160]}"
-            return _failed(words, seconds)
-        return _written(done.stdout, seconds)
+class Executable:
+    """A program that answers each line of JSON with another: one process serves many problems.
 
-    return call
+    It is started at the first problem, and again where it has ended.
+
+    Parameters
+    ----------
+    command : tuple of str
+    folder : str
+        Where it runs.
+    """
+
+    def __init__(self, command: tuple[str, ...], folder: str) -> None:
+        self.command, self.folder = command, folder
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def __call__(self, form: StandardForm, options: Options, before: Reply | None) -> Reply:
+        """The reply to a problem; options and a start are not handed on.
+
+        Raises
+        ------
+        Crashed
+            If the program was ended by a signal.
+        """
+        text = json_text({"H": form.H, "g": form.g, "A": form.A, "b": form.b}) + "\n"
+        begin = perf_counter()
+        was_there = self._process is not None
+        line = self._answer(text.encode())
+        if was_there and not line and self._status() == 0:  # it ended after the answer before
+            line = self._answer(text.encode())
+        seconds = perf_counter() - begin
+        if line:
+            return _written(line, seconds)
+        code, words = self._status(), self._last_words()
+        if code < 0:
+            raise Crashed(f"killed by signal {-code}", seconds)
+        return _failed(f"exit status {code}: {words}"[:180] if code else NO_LINE, seconds)
+
+    def _answer(self, text: bytes) -> bytes:
+        """The line that the program writes; empty where it ends instead."""
+        if self._process is None or self._process.poll() is not None:
+            self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - of the process, and as long
+            self._process = subprocess.Popen(
+                self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors,
+                cwd=self.folder,
+            )  # fmt: skip
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        with contextlib.suppress(BrokenPipeError):  # its status says how it ended
+            self._process.stdin.write(text)
+            self._process.stdin.flush()
+        return self._process.stdout.readline()
+
+    def _status(self) -> int:
+        assert self._process is not None
+        return self._process.wait()
+
+    def _last_words(self) -> str:
+        self._errors.seek(0)
+        lines = self._errors.read().decode(errors="replace").strip().splitlines()
+        return " ".join(lines[-1:])
 
 
 def _written(output: bytes, seconds: float) -> Reply:

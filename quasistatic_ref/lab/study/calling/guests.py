@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.solve.adapters.program import Reply
 from quasistatic_ref.solve.backends import BACKENDS, Backend, Options, installed
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
 Native = Callable[[StandardForm, Options], Reply]

@@ -6,8 +6,9 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Adapter, Program, Reply
+from quasistatic_ref.optional.fast.adapters.program import Adapter, Program
 from quasistatic_ref.solve.backends import BACKENDS, Options
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
 QUIET: Final[dict[str, Options]] = {"osqp": {"verbose": False}}
@@ -24,13 +25,11 @@ class Native:
     """
 
     def __init__(self, name: str) -> None:
-        module = importlib.import_module(f"quasistatic_ref.solve.adapters.{name}")
+        module = importlib.import_module(f"quasistatic_ref.optional.fast.adapters.{name}")
         self.kind: type[Adapter] = getattr(module, BACKENDS[name].adapter)
         self.quiet = QUIET.get(name, {})
 
-    def __call__(
-        self, form: StandardForm, options: Options, before: Reply | None = None, limit: float = 0.0
-    ) -> Reply:
+    def __call__(self, form: StandardForm, options: Options, before: Reply | None = None) -> Reply:
         """The reply to a problem.
 
         Parameters
@@ -41,8 +40,6 @@ class Native:
         before : Reply, optional
             To the problem before: its memory and factors are kept, and where it has an x, the
             backend starts from what it found. By default the backend is set up.
-        limit : float
-            Of a call [s]; it is among the options, if the backend has one.
         """
         if before is None:
             return self._set_up(form, options)

@@ -11,7 +11,7 @@ from typing import Final
 from quasistatic_ref.lab.study.calling.calls import function_of, takes_start
 from quasistatic_ref.lab.study.calling.guests import NATIVELY
 from quasistatic_ref.lab.study.calling.solvers import Solver
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.reply import Reply
 
 COLD: Final = "cold"
 UPDATES: Final = "updates"

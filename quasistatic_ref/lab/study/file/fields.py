@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from quasistatic_ref.formats.declared import Field, Tables
+from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, SETTINGS
@@ -47,7 +48,22 @@ def _family(says: str) -> Field:
                  schema={"anyOf": [number, inner]})  # fmt: skip
 
 
-TABLES = Tables({
+class WholeTables(Tables):
+    """Fields by name, by the kind of table, each of which is read as a whole."""
+
+    def all_values(self, table: Fields, kind: str) -> dict[str, Any]:
+        """Every field of a table of some kind, by name.
+
+        Raises
+        ------
+        InputError
+            If the table has any other, or one is not of its kind.
+        """
+        table.only(self[kind])
+        return {name: self.value(table, kind, name) for name in self[kind]}
+
+
+TABLES = WholeTables({
     SOLVERS: {
         **_head("solvers", default="solvers"),
         "time_limit": Field("number", "of one problem; a solver that takes longer is killed", "s",

@@ -8,7 +8,7 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.file.fields import MODULE
 from quasistatic_ref.lab.study.file.solver_lists import BY_INTERFACE, PACKAGE, solvers_named

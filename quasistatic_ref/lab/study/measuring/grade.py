@@ -17,7 +17,7 @@ from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.problems.problem import NATURAL, RAW, Answer, Problem
 from quasistatic_ref.lab.study.store.rows import CLOCKS, Row
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -139,6 +139,7 @@ def ungraded(
         "clock_agrees": None,
         "memory": None,
         "iterations": None,
+        "repeats": None,
     }
 
 

@@ -122,7 +122,7 @@ class Keeper:
         Raises
         ------
         Ended
-            If it was killed, crashed, or said what no worker says.
+            If it, or an executable, was killed or crashed, or it said what no worker says.
         InputError
             If the solver cannot be imported.
         """
@@ -146,13 +146,16 @@ class Keeper:
             seconds = perf_counter() - begin
             after = processes.computed_and_waited(self._process.pid)
             computed, waited = (b - a for a, b in zip(before, after, strict=True))
-            return from_bytes(message_, sizes), max(seconds - waited, computed)
+            response = from_bytes(message_, sizes)
         except (EOFError, OSError):
             raise Ended(CRASHED, self._ended(), perf_counter() - begin) from None
         except Unreadable:
             self.close()
             words = "its process wrote what is no reply"
             raise Ended(CRASHED, words, perf_counter() - begin) from None
+        if response.crashed:
+            raise Ended(CRASHED, response.reply.status, response.times[-1])
+        return response, max(seconds - waited, computed)
 
     def _watched(self, seconds: float, patience: float, limit: float) -> None:
         assert self._process is not None

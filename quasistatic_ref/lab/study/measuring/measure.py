@@ -34,6 +34,7 @@ from quasistatic_ref.lab.study.measuring.keeper import Ended, Keeper, Request, e
 from quasistatic_ref.lab.study.measuring.messages import Response
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.store.rows import Row
+from quasistatic_ref.step.data import Array
 
 LONG = 2e-3
 """An exchange of calls lasts that long, if `MOST` times the repetitions suffice [s]."""
@@ -44,6 +45,10 @@ BORNE = 0.5
 """Share of an exchange, beyond what an empty one takes, that the calls in it must account for..."""
 NOISE = 2e-4
 """...but for that [s]: messages of this size are written and read in less."""
+
+NEARER = 1e3
+"""Ratio of its errors from which an answer is to the step before, and not to its own: both are of
+one solver, so that errors of its own differ less."""
 
 
 @dataclass(frozen=True)
@@ -156,6 +161,7 @@ def sequence_measured(
     turns: list[list[Row]] = []
     for _ in range(limits.repetitions):
         turn: list[Row] = []
+        x: Array | None = None
         for place, one in enumerate(ready):
             first = not turn or turn[-1]["outcome"] in (CRASHED, TIMEOUT, MEMORY)
             request = Request(setting, limits.call, mode=mode, first=first)
@@ -164,17 +170,30 @@ def sequence_measured(
                 row = ungraded(NOT_RUN, "not run (budget)", None, not one.answer.farkas)
                 row["seconds"]["spent"] = 0.0
             else:
-                row = _step(keeper, one, request, units, shape, limits.warm_up)
+                last = x
+                row, x = _step(keeper, one, request, units, shape, limits.warm_up)
+                if place:
+                    row["repeats"] = _repeats(one, ready[place - 1], x, last)
             left -= row["seconds"]["spent"]
             turn.append(row)
         turns.append(turn)
     return [_worst(repeated) for repeated in zip(*turns, strict=True)]
 
 
+def _repeats(one: Prepared, before: Prepared, x: Array | None, last: Array | None) -> bool | None:
+    """Whether x is the last answer again, or answers the step before; None: cannot be known."""
+    exact, old = one.answer.x, before.answer.x
+    if x is None or not x.shape == exact.shape == old.shape or np.array_equal(exact, old):
+        return None
+    off, off_before = (one.norm.displacement(x - answer) for answer in (exact, old))
+    same = last is not None and np.array_equal(x, last)
+    return same or bool(NEARER * off_before <= off)
+
+
 def _step(
     keeper: Keeper, ready: Prepared, request: Request, units: str, shape: object, warm_up: float
-) -> Row:
-    """One call on the next step of a sequence."""
+) -> tuple[Row, Array | None]:
+    """One call on the next step of a sequence, and the x that it returned."""
     form = ready.forms[units]
     try:
         keeper.start()
@@ -184,7 +203,7 @@ def _step(
     except Ended as end:
         row = ungraded(end.outcome, end.words, end.seconds, not ready.answer.farkas)
         row["seconds"]["spent"] = end.seconds
-        return row
+        return row, None
     finally:
         keeper.tidy()
     keeper.seen.add(shape)
@@ -192,7 +211,7 @@ def _step(
     agrees = borne_out(response.times, beyond)
     row = grades(ready, units, response.reply, keeper.solver, request.setting)
     row["seconds"] |= {"call": response.times[0] if agrees else beyond, "spent": outside}
-    return row | {"calls": 1, "clock_agrees": agrees}
+    return row | {"calls": 1, "clock_agrees": agrees}, response.reply.x
 
 
 def _worst(repeated: Sequence[Row]) -> Row:
@@ -212,16 +231,11 @@ def _graded(keeper: Keeper, ready: Prepared, request: Request, units: str, limit
     """The worse of the first and the last graded reply, with quartiles of the repeated calls."""
     form, solver = ready.forms[units], keeper.solver
     response, outside = keeper.answer(form, request)
-    if response.ended:
-        outcome = TIMEOUT if response.ended == TIMEOUT else CRASHED
-        raise Ended(outcome, response.reply.status, response.times[-1])
     row = grades(ready, units, response.reply, solver, request.setting)
     row["seconds"]["first"] = response.times[0]
     if not response.reply.solved and solver.claim(response.reply.status) != INFEASIBLE:
         return row | {"calls": 1}
     again, times, agrees = _timed(keeper, form, request, outside, limits)
-    if again.ended:
-        raise Ended(CRASHED, again.reply.status, again.times[-1])
     other = grades(ready, units, again.reply, solver, request.setting)
     row = min(row, other, key=_goodness) | {"calls": len(times), "clock_agrees": agrees}
     low, call, high = np.percentile(times, [25, 50, 75]).tolist()

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 
 HEAD = 1 << 16
@@ -32,13 +32,13 @@ class Response:
         Of the last call.
     times : tuple of float
         Of every call [s], by the clock of that process.
-    ended : str
-        ``"timeout"`` or ``"crashed"`` where an executable was ended; else empty.
+    crashed : bool
+        Whether an executable was ended by a signal.
     """
 
     reply: Reply
     times: tuple[float, ...] = ()
-    ended: str = ""
+    crashed: bool = False
 
 
 def to_bytes(response: Response, sizes: tuple[int, int]) -> bytes:
@@ -51,7 +51,7 @@ def to_bytes(response: Response, sizes: tuple[int, int]) -> bytes:
     head = {
         "shapes": shapes, "solved": bool(reply.solved), "status": reply.status[:1000],
         "iterations": reply.iterations, "own": reply.own, "setup": reply.setup,
-        "times": list(response.times), "ended": response.ended,
+        "times": list(response.times), "crashed": response.crashed,
     }  # fmt: skip
     return b"\n".join([json.dumps(head).encode(), b"".join(arrays)])
 
@@ -79,7 +79,7 @@ def from_bytes(message: bytes, sizes: tuple[int, int]) -> Response:
         iterations = None if head["iterations"] is None else int(head["iterations"])
         reply = Reply(arrays[0], arrays[1], head["solved"] is True, str(head["status"]), iterations,
                       own, times[-1] if times else 0.0, own, setup)  # fmt: skip
-        return Response(reply, times, str(head["ended"]))
+        return Response(reply, times, head["crashed"] is True)
     except (ValueError, KeyError, TypeError, OverflowError, RecursionError):
         raise Unreadable from None
 

@@ -8,7 +8,6 @@ elsewhere.
 
 import re
 import signal
-import subprocess
 import sys
 from collections import OrderedDict
 from collections.abc import Sequence
@@ -24,7 +23,7 @@ from quasistatic_ref.lab.study.calling.calls import Crashed, Options, call_of, o
 from quasistatic_ref.lab.study.calling.sessions import kept, modes_of
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.messages import NOTHING, Response, to_bytes
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
 KEPT = 2
@@ -91,7 +90,7 @@ class Called:
         for setting in settings:
             options = self.solver.settings_of(setting, PATIENCE)
             if self.solver.known and options:
-                said = tried(self.call, TINY, options, None, PATIENCE).status
+                said = tried(self.call, TINY, options, None).status
                 if RAISED.match(said):
                     words = f"refuses options of the setting {setting.name!r}: {said[:120]}"
                     raise InputError(f"{words}; leave them out, or take another interface")
@@ -107,29 +106,22 @@ class Called:
         """
         if not request["count"]:
             return Response(Reply(None, None, False, ",".join(modes_of(self.solver))))
-        limit = float(request["limit"])
-        options = self.solver.settings_of(request["setting"], limit)
+        options = self.solver.settings_of(request["setting"], float(request["limit"]))
         measured = self._next if request["mode"] else self._alone
         try:
-            return measured(form, request, options, limit)
-        except subprocess.TimeoutExpired as late:
-            reply = Reply(None, None, False, f"no answer in {limit:g} s")
-            return Response(reply, (late.timeout,), "timeout")
+            return measured(form, request, options)
         except Crashed as crash:
-            return Response(Reply(None, None, False, str(crash)), (crash.seconds,), "crashed")
+            reply = Reply(None, None, False, str(crash))
+            return Response(reply, (crash.seconds,), crashed=True)
 
-    def _next(
-        self, form: StandardForm, request: dict[str, Any], options: Options, limit: float
-    ) -> Response:
+    def _next(self, form: StandardForm, request: dict[str, Any], options: Options) -> Response:
         """The next step of a sequence."""
         before = None if request["first"] else kept(request["mode"], self.before)
         begin = perf_counter()
-        self.before = tried(self.call, form, options, before, limit)
+        self.before = tried(self.call, form, options, before)
         return Response(self.before, (perf_counter() - begin,))
 
-    def _alone(
-        self, form: StandardForm, request: dict[str, Any], options: Options, limit: float
-    ) -> Response:
+    def _alone(self, form: StandardForm, request: dict[str, Any], options: Options) -> Response:
         """One problem, as often as it is asked for."""
         # The matrices stay the same arrays: what is compiled of them is kept, and a start is taken.
         if request["g"] is not None:
@@ -138,8 +130,8 @@ class Called:
         for _ in range(request["count"]):
             if request["start"] is not None:
                 start = form._replace(g=request["start"])
-                before = tried(self.call, start, options, None, limit)
-            reply = tried(self.call, form, options, before, limit)
+                before = tried(self.call, start, options, None)
+            reply = tried(self.call, form, options, before)
             times.append(reply.call_seconds)
         return Response(reply, tuple(times))
 

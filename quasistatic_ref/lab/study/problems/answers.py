@@ -7,18 +7,18 @@ import numpy as np
 from scipy.sparse import csc_matrix, csr_matrix
 
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
-from quasistatic_ref.certify.rational import exact_form_of
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.study.calling.calls import tried
 from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, ENCLOSED, EXACT, Answer
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.large.bound import enclosed_answer
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
-from quasistatic_ref.solve.adapters.program import Reply
+from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.backends import BACKENDS, installed
-from quasistatic_ref.solve.through_qpsolvers import qpsolvers_reply
+from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import Units, natural_form, natural_hessian, units_of
 from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm

@@ -1,18 +1,16 @@
 """Every answer of a set proved again, without a solver."""
 
-from collections.abc import Sequence
-
 import numpy as np
 from scipy.sparse import csc_matrix
 
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
-from quasistatic_ref.certify.rational import exact_form_of
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.study.problems.answers import cone_answer, step_of
 from quasistatic_ref.lab.study.problems.families.short import framed
 from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
@@ -42,12 +40,6 @@ def refutation(one: Problem) -> str | None:
         name for name, v in parts.items() if v.tobytes() != getattr(one.answer, name).tobytes()
     ]
     return f"{' and '.join(wrong)} have other bits" if wrong else None
-
-
-def wrong_answers(problems: Sequence[Problem]) -> list[tuple[str, str]]:
-    """Names of problems whose answers are refuted, and why."""
-    found = [(one.id, refutation(one)) for one in problems]
-    return [(name, why) for name, why in found if why is not None]
 
 
 def cone_step(one: Problem) -> StepData:

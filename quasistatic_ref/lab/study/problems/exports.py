@@ -1,4 +1,7 @@
-"""A set in the formats that others read: npz, qpbenchmark's parquet, MATLAB's mat, JSON lines."""
+"""A set in the formats that others read: npz, qpbenchmark's parquet, MATLAB's mat, JSON, QPS.
+
+Each export carries a README with the layout of its files, the licences, and how to cite.
+"""
 
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -6,15 +9,19 @@ from typing import IO, Any
 
 import numpy as np
 from scipy.io import savemat
-from scipy.sparse import csc_matrix, csr_matrix
+from scipy.sparse import csc_matrix, csr_matrix, tril
 
+from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.files import json_text, text_written, written_whole
-from quasistatic_ref.lab.study.problems.problem import SPARSE, Problem
+from quasistatic_ref.formats.files import bytes_written, json_text, text_written, written_whole
+from quasistatic_ref.lab.folders import problem_set_folder
+from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Problem
 from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
 
-PARQUET = "parquet"
-FORMATS = ("npz", PARQUET, "mat", "json")
+PARQUET, QPS = "parquet", "qps"
+FORMATS = ("npz", PARQUET, "mat", "json", QPS)
+CARRIED = ("LICENSE*", "CITATION.cff")
+"""Files of contact-qp-1 that come with every export: all problems are of the same scenes."""
 WORDS = ("id", "family", "kind", "status", "dial", "tags")
 VECTORS = ("g", "b")
 ANSWERS = ("x", "net", "slack", "lam")
@@ -30,7 +37,7 @@ def exported(name: str, problems: Sequence[Problem], to: str, folder: Path) -> l
     problems : sequence of Problem
         In the units that they are to have.
     to : str
-        One of ``npz``, ``parquet``, ``mat``, ``json``.
+        One of ``npz``, ``parquet``, ``mat``, ``json``, ``qps``.
     folder : Path
 
     Returns
@@ -42,7 +49,7 @@ def exported(name: str, problems: Sequence[Problem], to: str, folder: Path) -> l
     InputError
         If nothing is left to write, a package is missing, or the folder cannot be written.
     """
-    problems = [one for one in problems if to != PARQUET or for_qpbenchmark(one)]
+    problems = [one for one in problems if has_place(one, to)]
     if not problems:
         raise InputError("holds no problem that this format has a place for", value=to)
     own: dict[str, Callable[[], list[Path]]] = {
@@ -50,13 +57,53 @@ def exported(name: str, problems: Sequence[Problem], to: str, folder: Path) -> l
         "mat": lambda: [_mat(folder / f"{name}.mat", problems)],
         "json": lambda: [_json(folder / f"{name}.jsonl", problems)],
         PARQUET: lambda: _parquet(name, problems, folder),
-    }
-    return own[to]()
+        QPS: lambda: [*(_qps(folder / "qps", one) for one in problems),
+                      _npz(folder / f"{name}.npz", problems)],
+    }  # fmt: skip
+    return [*own[to](), *_carried(name, len(problems), to, folder)]
 
 
-def for_qpbenchmark(one: Problem) -> bool:
-    """Whether qpbenchmark's format has a place for it: dense rows, and a solution."""
-    return one.dense and one.feasible
+def has_place(one: Problem, to: str) -> bool:
+    """Whether a format has a place for a problem: qpbenchmark's for dense rows with a solution."""
+    if to == PARQUET:
+        return one.dense and one.feasible
+    return to != QPS or one.facts["kind"] == QP
+
+
+def _carried(name: str, count: int, to: str, folder: Path) -> list[Path]:
+    """The README, the licences and the citation."""
+    here = Path(__file__).parent
+    layouts = (here / "layouts.txt").read_text(encoding="utf-8")
+    layout = layouts.partition(f"# {to}\n")[2].partition("\n# ")[0]
+    words = layout.format(name=name, stem=name.replace("-", "_")).strip()
+    text = (
+        (here / "export.txt")
+        .read_text(encoding="utf-8")
+        .format(name=name, to=to, count=count, version=__version__, layout=words)
+    )
+    found = [path for part in CARRIED for path in sorted(problem_set_folder().glob(part))]
+    return [
+        text_written(folder / "README.md", text),
+        *(bytes_written(folder / path.name, path.read_bytes()) for path in found),
+    ]
+
+
+def _qps(folder: Path, one: Problem) -> Path:
+    """A file of one problem: free MPS, with the lower triangle of H."""
+    H, A = tril(one.H).tocoo(), csc_matrix(one.A)
+    name = one.id.replace("/", "_").replace(" ", "_")
+    lines = [f"NAME {name}", "ROWS", " N objective", *(f" G r{i}" for i in range(len(one.b)))]
+    lines.append("COLUMNS")
+    for j, cost in enumerate((-one.g).tolist()):
+        lines.append(f" x{j} objective {cost!r}")
+        entries = slice(A.indptr[j], A.indptr[j + 1])
+        pairs = zip(A.indices[entries].tolist(), A.data[entries].tolist(), strict=True)
+        lines += [f" x{j} r{i} {value!r}" for i, value in pairs]
+    lines += ["RHS", *(f" rhs r{i} {value!r}" for i, value in enumerate(one.b.tolist()))]
+    lines += ["BOUNDS", *(f" FR bounds x{j}" for j in range(len(one.g)))]
+    triples = zip(H.row.tolist(), H.col.tolist(), H.data.tolist(), strict=True)
+    lines += ["QUADOBJ", *(f" x{i} x{j} {value!r}" for i, j, value in triples), "ENDATA"]
+    return text_written(folder / f"{name}.mps", "\n".join(lines) + "\n")
 
 
 def _npz(path: Path, problems: Sequence[Problem]) -> Path:

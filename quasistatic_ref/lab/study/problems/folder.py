@@ -35,7 +35,7 @@ from quasistatic_ref.solve.units import Units
 FORMAT, VERSION = "quasistatic-ref/problem-set", 1
 MANIFEST, FACTS, NUMBERS = "manifest.json", "problems.jsonl", "numbers"
 MATRICES: Final = ("H", "A")
-OF_N, OF_M, ANSWER_N, ANSWER_M = ("g", "coordinate"), ("b",), ("x", "net"), ("slack", "lam")
+ANSWERS: Final = ("x", "net", "slack", "lam")
 UNREADABLE: Final = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
                      RecursionError, lzma.LZMAError)  # fmt: skip
 """What reading raises of files that agree with their manifest, and are something else."""
@@ -208,7 +208,7 @@ def _flat(problems: Sequence[Problem]) -> dict[str, NDArray[Any]]:
             parts.setdefault(f"{name}_entries", []).append(np.diff(M.indptr).astype(np.uint16))
         exponents = np.log2(one.units.coordinate).astype(np.int16)
         vectors: dict[str, NDArray[Any]] = {"g": one.g, "b": one.b, "coordinate": exponents}
-        answers = {name: getattr(one.answer, name) + 0.0 for name in (*ANSWER_N, *ANSWER_M)}
+        answers = {name: getattr(one.answer, name) + 0.0 for name in ANSWERS}
         for name, values in (vectors | answers if solved else vectors).items():
             parts.setdefault(name, []).append(values)
     return {name: np.concatenate(arrays) for name, arrays in parts.items()}

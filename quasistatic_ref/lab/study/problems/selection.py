@@ -10,7 +10,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.formats.resources import problem_set_folder
+from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.study.problems.families.dials import ends
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest, set_read
 from quasistatic_ref.lab.study.problems.problem import Problem

@@ -14,21 +14,14 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.digits import MOST
 from quasistatic_ref.lab.study.calling.claims import hides
 from quasistatic_ref.lab.study.report.rows import Rows, Where
-from quasistatic_ref.lab.study.report.statistics import TICK, shifted_geometric_mean, success
+from quasistatic_ref.lab.study.report.statistics import shifted_geometric_mean, success
 
 WANTED = 6.0
 """Digits for which times are given: those that a simulator's step should have."""
 QUIET = 0.25
 """Load of each core when a study began, above which its times are not ranked."""
-REMEMBERED = 10.0
-"""A first call that takes so many times longer than the same call repeated: it was remembered. Of
-honest solvers it takes at most 4 times as long, on caches that hold other problems."""
-KNOWN = 99.0
-"""Share of answers that are the correctly rounded ones [%] above which they are not computed in
-floats: of solvers in float64 at most 15 % are."""
 FEWEST = 5
 """Pairs of one solver from which the noise of its mean is given."""
 MOST_OF = 90.0
@@ -125,18 +118,6 @@ class Soonest:
     def mean(self) -> float:
         """Shifted geometric mean of the times [s]."""
         return shifted_geometric_mean(self.times)
-
-    @property
-    def trick(self) -> str:
-        """What its rows look like if they are not those of a solver in floats; else empty."""
-        own = self.rows.at(solved=True)
-        timed = own.kept(lambda row: bool(np.isfinite(row["first"])))
-        ratios = timed["first"] / np.maximum(timed["call"], TICK)
-        if len(timed) and np.median(ratios) > REMEMBERED:
-            return "remembers the last problem"
-        if len(own) and success(own["digits"], MOST) > KNOWN:
-            return "has the exact answers"
-        return ""
 
 
 def to_digits(rows: Rows, limit: float) -> np.ndarray:

@@ -10,6 +10,7 @@ import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Section
 from quasistatic_ref.lab.study.report import tables
+from quasistatic_ref.lab.study.report.cheats import cheat_alone
 from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, comparison_of
 from quasistatic_ref.lab.study.report.recomputed import lines_of_pandas
 from quasistatic_ref.lab.study.report.rows import Where, rows_of
@@ -64,10 +65,13 @@ def _one_screen(comparison: Comparison, unreached: Mapping[str, str], head: str)
     if machines := comparison.study.get("machines"):
         words.append(f"Made on {len(machines)} machines: {', '.join(machines)}; this table and "
                      f"the figures are of {comparison.drawn}.")  # fmt: skip
+    for one in comparison.soonest:
+        if cheat := cheat_alone(one.rows):
+            words.append(f"{one.label} looks as if it {cheat}.")
     times = comparison.busy or comparison.noise.words
     again = (
-        "These lines make the table again, from a store that `study pack` wrote, for every "
-        "interface to a solver."
+        "These lines make the numbers again, from a store that `study pack` wrote, for every "
+        "interface to a solver, as the next table has them with settings and options."
     )
     table = tables.headline(comparison.fastest(), comparison)
     return [head, *words, times, table, again, Code(lines_of_pandas(comparison))]
@@ -86,7 +90,7 @@ def _of_problems(
         for units, warm in sorted(rows.groups("units", "warm"))
     ]
     return {
-        "Every interface": [tables.headline(comparison.soonest, comparison, options=True)],
+        "Every interface": [tables.interface_table(comparison)],
         "Accuracy and time": [*profiles, _against_time(comparison, best), *each],
         "False claims": [tables.claims_sentence(rows), *false, tables.detection(comparison.first)],
         "Worst problems": tables.worst_problems(comparison, facts, comparison.fastest()),

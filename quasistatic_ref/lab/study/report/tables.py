@@ -12,6 +12,7 @@ from quasistatic_ref.lab.study.calling.claims import HIDDEN, claim
 from quasistatic_ref.lab.study.calling.options import option_file
 from quasistatic_ref.lab.study.calling.sessions import COLD
 from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, OUTCOMES
+from quasistatic_ref.lab.study.report.cheats import cheat_alone, cheat_in_order
 from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, Soonest
 from quasistatic_ref.lab.study.report.rows import Rows, Where
 from quasistatic_ref.lab.study.report.statistics import (
@@ -35,8 +36,9 @@ LEVELS = (3.0, 6.0, 9.0)
 """Digits at which success is counted."""
 LIMITS = tuple({b.time_limit for b in BACKENDS.values()})
 """Options that are not advice."""
-FALSE_SHOWN, WORST_SHOWN = 12, 10
-"""How many false claims are shown, and worst problems of a solver."""
+WORST_SHOWN = 10
+"""How many worst problems of a solver are shown."""
+HALF = "half = 1, or all where a half is empty; calls that a budget did not reach left out"
 SHARED = "; on the {} on which all these solvers were called"
 FACTS = ("n", "m", "contacts", "h", "mass_ratio", "condition", "condition_natural")
 """Numbers of a problem whose smallest and largest are shown."""
@@ -101,30 +103,43 @@ def same_problems(rows: Rows) -> str:
     return SHARED.format(f"{len(set(rows['unit'])):,} problems")
 
 
-def headline(found: Sequence[Soonest], comparison: Comparison, options: bool = False) -> Table:
-    """Who solves what share to how many digits, in what time, with how many false claims.
+def headline(found: Sequence[Soonest], comparison: Comparison) -> Table:
+    """Who solves what share to 6 digits, in what time, with how many false claims."""
+    heads = solver_headings(comparison.rows)
+    lines = []
+    for one in found:
+        own, solved = one.rows, one.rows.at(solved=True)
+        lines.append((
+            *solver_cells(own),
+            f"{_share(WANTED)(own)} ({_shares(own)})",
+            _median_ms(solved["call"]),
+            _median_ms(solved["first"]),
+            str(int(own["wrong"].sum())),
+            str(one.missing),
+        ))  # fmt: skip
+    columns = (
+        *heads, f">= {WANTED:g} digits [%] (95 % of bootstraps)", "time, median [ms]",
+        "first call, median [ms]", "false claims", "not measured",
+    )  # fmt: skip
+    title = f"Each solver at the setting that has {WANTED:g} digits soonest on the other half."
+    where = filter_words(comparison.base, f"; {HALF}")
+    return Table(title, where, columns, tuple(lines), len(heads))
 
-    Parameters
-    ----------
-    found : sequence of Soonest
-    comparison : Comparison
-    options : bool
-        Whether each solver's own options are a column.
-    """
-    heads = solver_headings(found[0].rows) if found else ("solver", "interface")
-    names = (*heads, "setting", *(("its own options",) if options else ()), "looks as if it")
+
+def interface_table(comparison: Comparison) -> Table:
+    """Every interface to a solver at its setting, with its options, and all that is known of it."""
+    found = comparison.soonest
+    names = (*solver_headings(comparison.rows), "setting", "its own options", "looks as if it")
     lines = []
     for one in found:
         own, families = one.rows, one.rows["family"]
-        shares = interval(100 * resampled((own["digits"] >= WANTED).astype(float), families))
         span = interval(np.exp(resampled(np.log(one.times + SHIFT), families)) - SHIFT)
-        given = comparison.options[own.first("way")][one.setting]
+        given = options_words(comparison.options[own.first("way")][one.setting], LIMITS)
         solved = own.at(solved=True)
         lines.append((
-            *solver_cells(own), one.setting,
-            *((f"`{options_words(given, LIMITS)}`",) if options else ()), one.trick or "-",
+            *solver_cells(own), one.setting, f"`{given}`", cheat_alone(own) or "-",
             str(len(own)), str(one.missing), *(_share(least)(own) for least in LEVELS),
-            " to ".join(map(tenths, shares)), *(cell(own) for cell in CLAIMS.values()),
+            _shares(own), *(cell(own) for cell in CLAIMS.values()),
             _median_ms(solved["first"]), _median_ms(solved["call"]), milliseconds(one.mean),
             " to ".join(map(milliseconds, span)), _tie(one, found, comparison),
         ))  # fmt: skip
@@ -134,10 +149,18 @@ def headline(found: Sequence[Soonest], comparison: Comparison, options: bool = F
         "repeated, median [ms]", f"time to {WANTED:g} digits, shifted geometric mean [ms]",
         "95 % of bootstraps, mean", "tie with the first",
     )  # fmt: skip
-    more = "; half = 1, or all where a half is empty; calls that a budget did not reach left out"
-    who = "Every interface to a solver" if options else "Each solver"
-    title = f"{who} at the setting that has {WANTED:g} digits soonest on the other half."
-    return Table(title, filter_words(comparison.base, more), columns, tuple(lines), len(names))
+    title = (
+        f"Every interface to a solver at the setting that has {WANTED:g} digits soonest on the "
+        "other half."
+    )
+    where = filter_words(comparison.base, f"; {HALF}")
+    return Table(title, where, columns, tuple(lines), len(names))
+
+
+def _shares(own: Rows) -> str:
+    """The interval of the share with 6 digits."""
+    samples = resampled((own["digits"] >= WANTED).astype(float), own["family"])
+    return " to ".join(map(tenths, interval(100 * samples)))
 
 
 def _median_ms(values: np.ndarray) -> str:
@@ -325,7 +348,7 @@ def ask_command(row: Row) -> str:
     return shlex.join(["quasistatic-ref", "study", "ask", *words, *units, *start])
 
 
-def sequence_tables(rows: Rows, facts: Sequence[Mapping[str, Any]]) -> list[Table]:
+def sequence_tables(rows: Rows, facts: Sequence[Mapping[str, Any]]) -> list[Block]:
     """A line for each solver, setting and mode, on all steps but the first of each sequence.
 
     Parameters
@@ -336,7 +359,7 @@ def sequence_tables(rows: Rows, facts: Sequence[Mapping[str, Any]]) -> list[Tabl
     """
     later = {fact["id"] for fact in facts if fact["place"]}
     steps = rows.kept(lambda row: bool(row["mode"]) and row["problem"] in later)
-    lines = []
+    named, lines = [], []
     for key, modes in steps.groups("label", "setting", "units").items():
         cold = modes.at(mode=COLD)["call"]
         for (mode,), own in modes.groups("mode").items():
@@ -348,11 +371,13 @@ def sequence_tables(rows: Rows, facts: Sequence[Mapping[str, Any]]) -> list[Tabl
                 "-" if call is None else milliseconds(call),
                 "-" if call is None or over is None else f"{call / over:.2f}",
             ))  # fmt: skip
+            if cheat := cheat_in_order(own):
+                named.append(f"{key[0]} ({mode}) looks as if it {cheat}.")
     names = ("solver", "setting", "units", "mode", "problems", "solved", "digits, worst",
              "iterations, median", "time, median [ms]", "over cold")  # fmt: skip
     title = "Steps of sequences, each from what the solver kept of the step before."
     table = Table(title, "mode is given, place > 0", names, tuple(lines), left=4)
-    return [table] if lines else []
+    return [*named, table] if lines else []
 
 
 def _median_or_none(values: np.ndarray) -> float | None:
@@ -409,7 +434,7 @@ def place_tables(study: Mapping[str, Any]) -> list[Table]:
 
 
 def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
-    """Every solver's options at every setting, what they promise, and its author's word."""
+    """Every solver's options at every setting, what they promise, and its author's note."""
     rows = tuple(
         (s["name"], s["interface"], setting, f"`{options_words(options)}`",
          option_file(str(s["target"])).get("source", "-"),
@@ -418,5 +443,5 @@ def options_table(solvers: Sequence[Mapping[str, Any]]) -> Table:
         for setting, options in s["options"].items()
     )  # fmt: skip
     names = ("solver", "interface", "setting", "its own options", "documented at",
-             "its author's word", "digits promised")  # fmt: skip
+             "its author's note", "digits promised")  # fmt: skip
     return Table("Options.", "the store, options", names, rows, left=6)

@@ -16,7 +16,7 @@ TABLES: Final = {
 }
 """Fields that are tables."""
 FLAGS: Final = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong",
-                "wrong_multipliers", "clock_agrees", "tuned", "present")  # fmt: skip
+                "wrong_multipliers", "clock_agrees", "repeats", "tuned", "present")  # fmt: skip
 JSON: Final = ("facts", "versions", "target", "options", "axes", "fixed", "point", "measures")
 KEY: Final = ("problem", "solver", "interface", "setting", "mode", "warm", "units", "repetition")
 """What makes a measurement the same one."""

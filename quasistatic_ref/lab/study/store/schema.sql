@@ -96,6 +96,7 @@ CREATE TABLE rows (                              -- one measurement each
   clock_agrees INTEGER CHECK (clock_agrees IN (0, 1)),
   memory INTEGER CHECK (memory >= 0),
   iterations INTEGER,
+  repeats INTEGER CHECK (repeats IN (0, 1)),     -- the last answer again, or that to the step before
   PRIMARY KEY (problem, solver, interface, setting, mode, warm, units, repetition, machine),
   FOREIGN KEY (problem, family) REFERENCES problems DEFERRABLE INITIALLY DEFERRED,
   FOREIGN KEY (interface, solver, setting) REFERENCES options DEFERRABLE INITIALLY DEFERRED

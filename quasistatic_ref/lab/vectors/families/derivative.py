@@ -3,7 +3,7 @@
 from functools import cache
 
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.formats.resources import vectors_folder
+from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.derivative_kinks import squeezed_at_random

@@ -5,7 +5,6 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.vectors.expected import Json
@@ -154,7 +153,7 @@ def _cloud_distances(pair: ContactPair, kinematics: Kinematics) -> Json | None:
         return None
     (R, t), (R_s, t_s) = (_frame(placed, kinematics) for placed in (cloud, solid))
     in_solid = (cloud.shape.points @ R.T + t - t_s) @ R_s
-    return signed_distance(solid.shape, in_solid)[0].tolist()
+    return solid.shape.signed_distance(in_solid)[0].tolist()
 
 
 def _frame(placed: PlacedShape, kinematics: Kinematics) -> tuple[Array, Array]:

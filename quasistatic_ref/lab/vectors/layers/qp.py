@@ -15,7 +15,7 @@ from flint import fmpq
 from quasistatic_ref.certify.active_set import Farkas, least_index
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.point import rational_solution
-from quasistatic_ref.certify.rational import ExactForm, exact_form_of
+from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.program.optimum import is_optimum
@@ -24,6 +24,7 @@ from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.vectors.exact.conditioning import Bounds, bounds
 from quasistatic_ref.lab.vectors.exact.enclosed import enclosed
 from quasistatic_ref.lab.vectors.exact.entered import entered
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.lab.vectors.exact.precision import rounded, short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance

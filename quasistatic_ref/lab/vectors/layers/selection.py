@@ -59,8 +59,8 @@ def _left(case_input: Json) -> list[list[int]]:
 
 
 def own(case_input: Json) -> Json:
-    """The package's answer, from :func:`quasistatic_ref.contact.cloud.closest`."""
-    from quasistatic_ref.contact.cloud import closest
+    """The package's answer, from :func:`quasistatic_ref.contact.distance.closest`."""
+    from quasistatic_ref.contact.distance import closest
     from quasistatic_ref.contact.patch import TURNED
 
     k, found = case_input["k"], []

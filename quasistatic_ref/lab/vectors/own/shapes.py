@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import InputError
@@ -62,6 +61,6 @@ def _points_on_solid(
 ) -> tuple[Array, Array, Array, Array]:
     """Distances, closest points of the solid, the points themselves and normals, world frame."""
     world = points @ cloud.R.T + cloud.t
-    phi, normal = signed_distance(solid.shape, (world - solid.t) @ solid.R)
+    phi, normal = solid.shape.signed_distance((world - solid.t) @ solid.R)
     n = normal @ solid.R.T
     return phi, world - phi[:, None] * n, world, n

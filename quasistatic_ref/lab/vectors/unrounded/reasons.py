@@ -13,7 +13,6 @@ from typing import Final
 
 from flint import fmpq
 
-from quasistatic_ref.certify.degeneracy import strictly_active
 from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import row_count
@@ -21,6 +20,7 @@ from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, ar
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, tied
 from quasistatic_ref.lab.vectors.unrounded.step import Contact, rows
+from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
 
 KINDS: Final = ("row", "selection", "feature", "tangents", "touching", "multipliers")
 BEND: Final = fmpq(1, 10**12)

@@ -5,9 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import nearest_of_solids
-from quasistatic_ref.optional.derivatives.contact.couples import Couple, closest_pair, rim_velocity
-from quasistatic_ref.optional.derivatives.contact.features import Feature
+from quasistatic_ref.optional.derivatives.contact.couples import Couple, rim_velocity
+from quasistatic_ref.optional.derivatives.contact.features import Feature, across
 from quasistatic_ref.optional.derivatives.contact.witness_rates import Rates, Sides, witness_rates
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.ordered import crossed
@@ -87,7 +86,7 @@ def contact_rates(
 
 def nearly_level(couple: Couple) -> bool:
     """Whether a contact is on a rim that is level but for more than rounding."""
-    for body, end in zip(couple.bodies, couple.points, strict=True):
+    for body, end in zip(couple.of.bodies, couple.points, strict=True):
         radius = body.shape.rim_radius
         if radius is not None:
             x, n = body.R.T @ (end - body.t), body.R.T @ couple.n
@@ -138,14 +137,14 @@ def couple_rates(
     features = [c.features for c in couples] if features is None else features
     sides, far = [], np.zeros(len(couples))
     for side in (0, 1):
-        links = [(c.pair.alpha, c.pair.beta)[side].link for c in couples]
+        links = [(c.of.pair.alpha, c.of.pair.beta)[side].link for c in couples]
         nu, omega = J[links][:, :3], J[links][:, 3:]
         at = np.array([c.points[side] for c in couples]).reshape(-1, 3, 1)
         far = np.maximum(far, np.abs(at).max(axis=(1, 2), initial=0.0))
         v = nu + crossed(omega, at)
         v = v if slides is None else v + slides[side]
         sides.append(Sides([own[side] for own in features], v, omega))
-    phi, size = np.array([c.phi for c in couples]), np.array([c.size for c in couples])
+    phi, size = np.array([c.phi for c in couples]), np.array([c.of.size for c in couples])
     size = np.maximum(size, far)
     n = np.array([c.n for c in couples]).reshape(-1, 3)
     return witness_rates(phi, n, frames, sides[0], sides[1], size)
@@ -158,18 +157,16 @@ def _rim_side(couple: Couple) -> int:
 
 def _rim_slide(couple: Couple, J: Array) -> Array | None:
     """How a corner moves along its rim, shape (3, n_v), as the normal of the closest pair turns."""
-    rim, (a, b), pair = couple.rim, couple.bodies, couple.pair
+    rim, of = couple.rim, couple.of
     assert rim is not None
-    one = nearest_of_solids(pair, a, b)
-    nearest, n = closest_pair(pair, a, b, one), one.n[0]
-    across = np.linalg.svd(one.n)[2][1:]
-    rates = couple_rates([nearest], across[None], J)
+    nearest, n = of.closest, of.closest.n
+    rates = couple_rates([nearest], across(n)[None], J)
     if not rates.unique[0] or any(len(f.ends) for f in nearest.features):
         return None
-    link = (pair.alpha, pair.beta)[rim.side].link
+    link = (of.pair.alpha, of.pair.beta)[rim.side].link
     turn = rates.n[0] - np.cross(J[link, 3:], n[:, None], axis=0)
     sign = 1.0 if rim.side == 0 else -1.0
-    return rim_velocity(rim, couple.bodies[rim.side], sign * n, sign * turn)
+    return rim_velocity(rim, of.bodies[rim.side], sign * n, sign * turn)
 
 
 def tangent_rates(n: Array, d_n: Array) -> tuple[Array, Array]:

@@ -1,11 +1,18 @@
 """The two sides of each contact of a step: whose points they are, and what the shapes are there."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints, in_world
+from quasistatic_ref.contact.distance import (
+    ClosestPoints,
+    every_candidate,
+    in_world,
+    nearest_of_solids,
+)
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
@@ -35,14 +42,58 @@ class Rim(NamedTuple):
     radius: float
 
 
-class Couple(NamedTuple):
-    """One contact as two features.
+@dataclass(frozen=True, eq=False)
+class PairInWorld:
+    """A pair at one configuration, whose closest points are computed when they are first read.
 
     Parameters
     ----------
     pair : ContactPair
     bodies : (ShapeInWorld, ShapeInWorld)
         alpha's and beta's shape in the world.
+    """
+
+    pair: ContactPair
+    bodies: tuple[ShapeInWorld, ShapeInWorld]
+
+    @cached_property
+    def extents(self) -> tuple[float, float]:
+        """How large the bodies are [m]: a cloud as the box about it; of a half-space, infinity."""
+        first, second = (
+            float(np.ptp(body.shape.points, axis=0).max())
+            if isinstance(body.shape, PointCloud)
+            else body.shape.extent
+            for body in self.bodies
+        )
+        return first, second
+
+    @property
+    def size(self) -> float:
+        """The larger extent [m]; a half-space has none, and a single point one metre."""
+        return max(extent for extent in self.extents if np.isfinite(extent)) or 1.0
+
+    @cached_property
+    def nearest(self) -> ClosestPoints:
+        """The closest pair of two solids, of one entry."""
+        return nearest_of_solids(self.pair, *self.bodies)
+
+    @cached_property
+    def candidates(self) -> ClosestPoints:
+        """All candidates of two solids."""
+        return every_candidate(self.pair, *self.bodies, self.nearest)
+
+    @cached_property
+    def closest(self) -> "Couple":
+        """The closest pair of two solids as a couple."""
+        return _couple(self, self.nearest._replace(point=np.array([self.pair.corners])), 0)
+
+
+class Couple(NamedTuple):
+    """One contact as two features.
+
+    Parameters
+    ----------
+    of : PairInWorld
     phi : float
     points : (ndarray, ndarray), each of shape (3,)
         Closest points on both [m], world frame.
@@ -56,12 +107,9 @@ class Couple(NamedTuple):
     rim : Rim or None
     crosses : bool
         Whether the points are where edges cross.
-    extents : (float, float)
-        How large the bodies are [m]; of a half-space, infinity.
     """
 
-    pair: ContactPair
-    bodies: tuple[ShapeInWorld, ShapeInWorld]
+    of: PairInWorld
     phi: float
     points: tuple[Array, Array]
     n: Array
@@ -69,64 +117,31 @@ class Couple(NamedTuple):
     centre: tuple[int, Array, float] | None
     rim: Rim | None
     crosses: bool
-    extents: tuple[float, float]
-
-    @property
-    def size(self) -> float:
-        """The larger extent [m]; a half-space has none, and a single point one metre."""
-        return max(extent for extent in self.extents if np.isfinite(extent)) or 1.0
 
     @property
     def reach(self) -> float:
         """The size, or a point's largest coordinate [m]: places are rounded to a share of it."""
-        return max(self.size, *(float(np.abs(point).max()) for point in self.points))
+        return max(self.of.size, *(float(np.abs(point).max()) for point in self.points))
 
 
 def couples(
     pairs: Sequence[ContactPair], points: ClosestPoints, R: Array, t: Array
 ) -> list[Couple]:
     """The contacts of all pairs at their closest points; R (L, 3, 3), t (L, 3) are the links'."""
-    found, at = [], 0
+    found, at = list[Couple](), 0
     for pair in pairs:
-        a = in_world(pair.alpha, R, t)
-        b = in_world(pair.beta, R, t)
-        sizes = _extents(a, b)
-        for j in range(at, at + pair.n_c):
-            found.append(_couple(pair, a, b, points.chosen(np.array([j])), sizes))
+        of = PairInWorld(pair, (in_world(pair.alpha, R, t), in_world(pair.beta, R, t)))
+        found += [_couple(of, points, j) for j in range(at, at + pair.n_c)]
         at += pair.n_c
     return found
 
 
-def closest_pair(
-    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, points: ClosestPoints
-) -> Couple:
-    """The closest pair of two solids as a couple; `points` has one, `a` and `b` are the bodies."""
-    return _couple(pair, a, b, points._replace(point=np.array([pair.corners])), _extents(a, b))
-
-
-def _extents(a: ShapeInWorld, b: ShapeInWorld) -> tuple[float, float]:
-    """How large two bodies are [m]: a cloud as the box about it; of a half-space, infinity."""
-    first, second = (
-        float(np.ptp(body.shape.points, axis=0).max())
-        if isinstance(body.shape, PointCloud)
-        else body.shape.extent
-        for body in (a, b)
-    )
-    return first, second
-
-
-def _couple(
-    pair: ContactPair,
-    a: ShapeInWorld,
-    b: ShapeInWorld,
-    one: ClosestPoints,
-    extents: tuple[float, float],
-) -> Couple:
-    phi, n, index = float(one.phi[0]), one.n[0], int(one.point[0])
-    ends = one.alpha[0], one.beta[0]
-    corner = _corner(pair, a, b, index)
+def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
+    phi, n, index = float(points.phi[j]), points.n[j], int(points.point[j])
+    ends, pair = (points.alpha[j], points.beta[j]), of.pair
+    corner = _corner(of, index)
     features, centre, rim = [], None, None
-    for side, (body, end, outward) in enumerate(((a, ends[0], n), (b, ends[1], -n))):
+    for side, (body, end, outward) in enumerate(zip(of.bodies, ends, (n, -n), strict=True)):
         own = corner if corner is not None and corner[0] == side else None
         if own is not None:
             features.append(ball(own[1], outward))
@@ -137,22 +152,19 @@ def _couple(
         if isinstance(body.shape, Sphere):
             centre = (1 - side, body.t, body.shape.radius)
     crosses = not pair.has_cloud and index >= pair.corners + pair.n_c > pair.corners + 1
-    both = features[0], features[1]
-    return Couple(pair, (a, b), phi, ends, n, both, centre, rim, crosses, extents)
+    return Couple(of, phi, ends, n, (features[0], features[1]), centre, rim, crosses)
 
 
-def _corner(
-    pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld, index: int
-) -> tuple[int, float, Rim | None] | None:
+def _corner(of: PairInWorld, index: int) -> tuple[int, float, Rim | None] | None:
     """Which side is a corner, the ball about it and its rim; None of a closest pair."""
-    for side, body in enumerate((a, b)):
+    for side, body in enumerate(of.bodies):
         if isinstance(body.shape, PointCloud):
             return side, 0.0, None
-    if pair.n_c == 1 or index >= pair.corners:
+    if of.pair.n_c == 1 or index >= of.pair.corners:
         return None
-    first = a.shape.corner_count
+    first = of.bodies[0].shape.corner_count
     side, k = (0, index) if index < first else (1, index - first)
-    shape = (a, b)[side].shape
+    shape = of.bodies[side].shape
     before = shape.corner_count % 4  # its rims come last, with four corners each
     if shape.rim_radius is not None and k >= before:
         return side, 0.0, Rim(side, (k - before) % 4, shape.rim_radius)

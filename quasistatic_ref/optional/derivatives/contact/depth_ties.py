@@ -3,12 +3,12 @@
 import numpy as np
 
 from quasistatic_ref.contact.patch import TURNED, faces_apart
+from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between
-from quasistatic_ref.contact.solids.settle import settled
-from quasistatic_ref.contact.solids.ways_out import gaps, rival_directions
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
+from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import (
     Capsule,
     Ellipsoid,
@@ -19,6 +19,8 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import TIED
+
+CURVED = "the derivative of a contact of curved solids"
 
 
 def depth_tie(couple: Couple) -> bool:
@@ -31,13 +33,13 @@ def depth_tie(couple: Couple) -> bool:
     ----------
     couple : Couple
     """
-    a, b = couple.bodies
+    a, b = couple.of.bodies
     if couple.centre is not None:
         other, centre, _ = couple.centre
-        solid, body = couple.bodies[other], couple.bodies[1 - other].shape
+        solid, body = couple.of.bodies[other], couple.of.bodies[1 - other].shape
         corner = not isinstance(body, PointCloud | Sphere)
         way = solid.R.T @ (couple.n if other == 0 else -couple.n) if corner else None
-        return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.size, way)
+        return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.of.size, way)
     if couple.phi > 0 or isinstance(a.shape, HalfSpace) or isinstance(b.shape, HalfSpace):
         if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
             return _axes_cross(couple)
@@ -49,17 +51,19 @@ def depth_tie(couple: Couple) -> bool:
         return _rival(a, b, couple)
     every, normals = gaps_between(P, Q.moved(a.R.T @ b.R, a.R.T @ (b.t - a.t)))
     core = couple.phi + P.margin + Q.margin
-    level = every >= core - TIED * couple.size
+    level = every >= core - TIED * couple.of.size
     return core < 0 and _differ(normals[level], a.R.T @ couple.n)
 
 
 def _axes_cross(couple: Couple) -> bool:
-    radii = sum(body.shape.radius for body in couple.bodies if isinstance(body.shape, Capsule))
-    return bool(abs(couple.phi + radii) <= TIED * couple.size)
+    radii = sum(body.shape.radius for body in couple.of.bodies if isinstance(body.shape, Capsule))
+    return bool(abs(couple.phi + radii) <= TIED * couple.of.size)
 
 
 def _rival(a: ShapeInWorld, b: ShapeInWorld, couple: Couple) -> bool:
-    size = couple.size
+    size = couple.of.size
+    rival_directions = needed_part("curved.ways_out", CURVED).rival_directions
+    settled = needed_part("curved.settle", CURVED).settled
     ways = rival_directions(a, b, couple.n, couple.phi, size)
     if not ways:
         return False

@@ -30,6 +30,7 @@ from quasistatic_ref.shapes.placed_shape import (
     Sphere,
 )
 from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
 NONE = np.zeros((0, 3))
@@ -90,7 +91,7 @@ def feature(shape: Shape, x: Array, n: Array) -> Feature:
         case Sphere():
             return ball(shape.radius, n)
         case HalfSpace():
-            return Feature(np.zeros((3, 3)), _across(n))
+            return Feature(np.zeros((3, 3)), across(n))
         case Box():
             return _of_box(shape, x, n)
         case Capsule():
@@ -129,7 +130,7 @@ def _of_cylinder(shape: Cylinder, x: Array, n: Array) -> Feature:
     side = np.hypot(x[0], x[1]) >= shape.radius - near
     cap = abs(x[2]) >= shape.half_length - near
     if cap and not side:
-        return Feature(np.zeros((3, 3)), _across(n))
+        return Feature(np.zeros((3, 3)), across(n))
     if not cap:
         return Feature(_around(x, n), axis[None])
     return _of_rim(x, n, axis[None] if abs(n[2]) <= ON_RIM else NONE)
@@ -141,7 +142,7 @@ def _of_cone(shape: Cone, x: Array, n: Array) -> Feature:
     radial, level = np.hypot(n[0], n[1]), shape.radius / slant
     base = x[2] <= -shape.half_length + near
     if base and r < shape.radius - near:
-        return Feature(np.zeros((3, 3)), _across(n))
+        return Feature(np.zeros((3, 3)), across(n))
     outward = n[:2] / (radial or 1.0)
     generator = np.array([*(-level * outward), 2 * shape.half_length / slant])
     on_slant = generator[None] if abs(n[2] - level) <= ON_RIM else NONE
@@ -165,13 +166,13 @@ def _of_polytope(flat: Polytope, x: Array, n: Array, near: float) -> Feature:
     on = flat.normals[level >= level.max() - near]
     nothing = np.zeros((3, 3))
     if len(on) == 1:
-        return Feature(nothing, _across(n))
+        return Feature(nothing, across(n))
     if len(on) == 2:
         along = np.cross(on[0], on[1])
         shares = np.linalg.lstsq(on.T, n, rcond=None)[0]
         along = along / np.sqrt(along @ along)
-        across = np.cross(along, n)[None]
-        return Feature(nothing, along[None], across if shares.min() <= ON_RIM else NONE)
+        side = np.cross(along, n)[None]
+        return Feature(nothing, along[None], side if shares.min() <= ON_RIM else NONE)
     tail, head = flat.vertices[flat.edges[:, 0]], flat.vertices[flat.edges[:, 1]]
     here = [np.abs(end - x).max(axis=1) <= 10 * near for end in (tail, head)]
     ways = np.concatenate([(head - tail)[here[0]], (tail - head)[here[1]]])
@@ -184,7 +185,7 @@ def _of_rim(x: Array, n: Array, side: Array) -> Feature:
     radial = np.hypot(n[0], n[1])
     nothing = np.zeros((3, 3))
     if radial <= LEVEL:
-        return Feature(nothing, ends=_across(n))
+        return Feature(nothing, ends=across(n))
     if len(side):
         return Feature(_around(x, n), ends=side)
     return Feature(nothing, arc=_way_around(x)[None], curvature=float(radial / np.hypot(*x[:2])))
@@ -201,9 +202,9 @@ def _way_around(x: Array) -> Array:
     return np.array([-x[1], x[0], 0.0]) / (np.hypot(x[0], x[1]) or 1.0)
 
 
-def _across(n: Array) -> Array:
-    """Two unit vectors across n, shape (2, 3)."""
+def across(n: Array) -> Array:
+    """Two unit vectors across a unit vector n (3,) [-], shape (2, 3)."""
     first = np.eye(3)[np.abs(n).argmin()]
     first = first - (first @ n) * n
     first = first / np.sqrt(first @ first)
-    return np.stack([first, np.cross(n, first)])
+    return np.concatenate([first[None], crossed(n[None], first[None])])

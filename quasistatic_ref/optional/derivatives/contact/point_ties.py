@@ -4,14 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
-from quasistatic_ref.contact.distance import (
-    ClosestPoints,
-    every_candidate,
-    late,
-    nearest_of_solids,
-    relative_pose,
-)
+from quasistatic_ref.contact.distance import ClosestPoints, late, relative_pose
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.shapes.placed_shape import PointCloud
@@ -35,7 +28,8 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
     kept, left_out : list of int
         Both empty if nothing is tied.
     """
-    pair, (a, b) = kept[0].pair, kept[0].bodies
+    of = kept[0].of
+    pair, (a, b) = of.pair, of.bodies
     if pair.n_c >= pair.candidates or (pair.n_c == 1 and not pair.has_cloud):
         return [], []  # all of them, or the closest pair of two solids
     number = np.arange(pair.candidates)
@@ -44,14 +38,14 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
     elif isinstance(a.shape, PointCloud):
         phi = _cloud_distances(b, a, a.shape.points)
     else:
-        every = every_candidate(pair, a, b, nearest_of_solids(pair, a, b))
+        every = of.candidates
         phi, number = np.where(late(every, pair.k), np.inf, every.phi), every.point
     worst = points.phi.max()
-    as_near = number[np.abs(phi - worst) <= TIED * kept[0].size]
+    as_near = number[np.abs(phi - worst) <= TIED * of.size]
     left_out = np.setdiff1d(as_near, points.point).tolist()
     if not left_out:
         return [], []
-    level = np.abs(points.phi - worst) <= TIED * kept[0].size
+    level = np.abs(points.phi - worst) <= TIED * of.size
     return points.point[level].tolist(), left_out
 
 
@@ -59,4 +53,4 @@ def _cloud_distances(solid: ShapeInWorld, body: ShapeInWorld, points: Array) -> 
     """Signed distances of all points of a cloud, shape (N,) [m]."""
     relative = relative_pose(solid, body)
     x = rotated(relative[:, :3], points) + relative[:, 3]
-    return signed_distance(solid.shape, x)[0]
+    return solid.shape.signed_distance(x)[0]

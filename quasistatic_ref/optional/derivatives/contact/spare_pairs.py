@@ -9,14 +9,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints, every_candidate, nearest_of_solids
-from quasistatic_ref.contact.solids.faces import face
+from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, merged_features
-from quasistatic_ref.optional.derivatives.contact.couples import Couple, closest_pair
+from quasistatic_ref.optional.derivatives.contact.couples import Couple
+from quasistatic_ref.optional.derivatives.contact.features import across
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED
+
+LEVEL = 1e-11
+"""Difference of heights, relative to the solid, at which corners are of one face."""
 
 
 def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple[str, str] | None:
@@ -30,25 +34,35 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
     J : ndarray, shape (L, 6, n_v)
         Twist of each link at the world's origin, per unit of delta_q [m, rad].
     """
-    pair, (a, b) = kept[0].pair, kept[0].bodies
+    of = kept[0].of
+    pair, (a, b) = of.pair, of.bodies
     if pair.has_cloud or not 1 < pair.n_c < pair.candidates or pair.corners in points.point:
         return None
-    one = nearest_of_solids(pair, a, b)
-    nearest = closest_pair(pair, a, b, one)
-    across = np.linalg.svd(one.n)[2][1:]
-    unique = couple_rates([nearest], across[None], J).unique[0]
+    nearest, frame = of.closest, across(of.closest.n)[None]
+    unique = couple_rates([nearest], frame, J).unique[0]
     ends = any(len(f.ends) for f in nearest.features)
     if unique and not ends:
         return None
-    merged = couple_rates([nearest], across[None], J, features=[merged_features(nearest)])
+    merged = couple_rates([nearest], frame, J, features=[merged_features(nearest)])
     if merged.unique[0]:
         return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
-    every = every_candidate(pair, a, b, one)
-    level = every.phi <= one.phi + REPEATED
+    every = of.candidates
+    level = every.phi <= nearest.phi + REPEATED
     of_alpha, of_beta = every.point < a.shape.corner_count, every.point < pair.corners
     counts = int((level & of_alpha).sum()), int((level & of_beta & ~of_alpha).sum())
-    for body, way, count in ((a, one.n[0], counts[0]), (b, -one.n[0], counts[1])):
+    for body, way, count in ((a, nearest.n, counts[0]), (b, -nearest.n, counts[1])):
         whole = not isinstance(body.shape, HalfSpace | Sphere)
-        if whole and count >= len(face(body, way).corners):
+        if whole and count >= _face_corners(body, way):
             return None  # all of the smaller face lies on the larger one
     return reason.MANY, "has parallel surfaces that overlap in more than corners"
+
+
+def _face_corners(body: ShapeInWorld, n: Array) -> int:
+    """How many corners a solid has farthest along n (3,), of a disc and a round surface one."""
+    way = body.R.T @ n
+    corners, _ = body.shape.corners(way)
+    height = corners @ way
+    level = height >= height.max(initial=-np.inf) - LEVEL * np.abs(corners).max(initial=0.0)
+    count = int(np.count_nonzero(level))
+    on_disc = body.shape.rim_radius is not None and count > 2
+    return 1 if on_disc else max(1, count)

@@ -25,7 +25,6 @@ from dataclasses import dataclass
 import numpy as np
 from flint import fmpq, fmpq_mat
 
-from quasistatic_ref.certify.degeneracy import strictly_active
 from quasistatic_ref.certify.dependence import combination, idle_rows, independent_rows
 from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
@@ -35,6 +34,7 @@ from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.optional.derivatives.step.parameters import Change, parameter_changes
+from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 

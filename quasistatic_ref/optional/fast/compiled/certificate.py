@@ -7,7 +7,7 @@ import numpy as np
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
-from quasistatic_ref.optional.fast.guess.exchange import Proof, Violated
+from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
 from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, combined, zeros
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.cones import cone_matrix
@@ -24,11 +24,11 @@ ARRAYS = (
 )  # fmt: skip
 """The fields of ``Proof`` in proof.h."""
 
-DECIDED, NEGATIVE, TO_BE_IMPLIED = 0, 7, 8
-"""Outcomes of a proof: it holds; a row is violated; or it holds if some numbers are proved to be
+DECIDED, REFUTED, TO_BE_IMPLIED = 0, 6, 7
+"""Outcomes of a proof: it holds; the guess is wrong; or it holds if some numbers are proved to be
 zero."""
 
-LARGEST = 64
+LARGEST = 256
 """Most coordinates: the time grows with the cube of their number, the memory with its square."""
 
 
@@ -88,9 +88,8 @@ class Prover:
 
         Returns
         -------
-        ExactOptimum, Violated or None
-            Violated if a slack is proved negative; None
-            where something stays open: nothing is known then.
+        ExactOptimum, Refuted or None
+            None where something stays open: nothing is known then.
         """
         working, s = guess.tolist(), self.s
         if not self.usable or len(working) > step.n_v:
@@ -102,8 +101,8 @@ class Prover:
         for name, values in vectors(step).items():
             s[name][:] = values
         code, (rows, coordinates) = self._proof(s.address), s["counts"].tolist()
-        if code == NEGATIVE:
-            return Violated(rows, guess, s["lam"][guess], s["delta_q"].copy())
+        if code == REFUTED:
+            return Refuted(guess, s["lam"][guess], s["slack"].copy())
         least_slack, least_multiplier = s["least"].tolist()
         if code not in (DECIDED, TO_BE_IMPLIED):
             return None

@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.scene import Scene
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.solver import FastSolver
-from quasistatic_ref.solve.adapters.program import Program
 from quasistatic_ref.solve.units import NaturalHessian, Units
 from quasistatic_ref.step.data import StepData
 

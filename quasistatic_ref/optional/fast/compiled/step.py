@@ -20,11 +20,12 @@ from quasistatic_ref.optional.fast.compiled.scene import Scene, known
 from quasistatic_ref.optional.fast.compiled.screws import Screws
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.kept_step import KeptStep
+from quasistatic_ref.optional.fast.native import native_backends
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep
 from quasistatic_ref.optional.fast.solver import FastSolver
+from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Stopwatch
-from quasistatic_ref.solve.native import native_backends
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.arrays import QUIET
@@ -57,6 +58,8 @@ def unknown(simulator: FastSimulator) -> str | None:
         return f"{simulator.backend!r} has no interface of its own here"
     if simulator.extension is not None:
         return "the scene has an extension"
+    if simulator.law != CONVEX:
+        return f"the law is {simulator.law}"
     if not cone(simulator.cone).polyhedral:
         return f"the {simulator.cone} has no rows"
     if not simulator.pairs:

@@ -28,7 +28,7 @@ from quasistatic_ref.certify.point import PRECISION, inverse
 from quasistatic_ref.certify.rational import h_times_hessian, matrix
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.certify.rows import places
-from quasistatic_ref.optional.fast.guess.exchange import Proof, Violated
+from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
 from quasistatic_ref.optional.fast.guess.zeros import zeros
 from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
@@ -76,7 +76,8 @@ class BallHessian:
 
     def net(self, step: StepData, delta_q: list[arb]) -> list[arb]:
         """H delta_q - g = A'lam of Eq. :eq:`eq-9`: exact where H couples zeros only."""
-        n_a, n_u = step.n_a, step.n_u
+        n_a = step.n_a
+        n_u = step.n_u
         off = arb_mat(n_a, 1, delta_q[:n_a]) - _column(step.delta_q_bar_a)
         actuated = (self.K_q * off - _column(step.tau_a)) * self.h
         moved = self.M_u * arb_mat(n_u, 1, delta_q[n_a:])
@@ -96,7 +97,8 @@ class BallStep:
     """
 
     def __init__(self, step: StepData, hessian: BallHessian) -> None:
-        self.step, self.hessian = step, hessian
+        self.step = step
+        self.hessian = hessian
         with ctx.workprec(PRECISION):
             self.free = hessian.inverse * hessian.h_times_g(step)
 
@@ -126,29 +128,26 @@ class BallStep:
 
         Returns
         -------
-        ExactOptimum, Violated or None
-            Violated if a slack is proved negative; None where something stays open. Rows
-            whose multipliers are not surely positive are dropped; nothing else is mended here.
+        ExactOptimum, Refuted or None
+            None where something stays open.
         """
-        step, hessian = self.step, self.hessian
+        step = self.step
+        hessian = self.hessian
         working = sorted({int(i) for i in guess})
         with ctx.workprec(PRECISION):
             found = self.minimiser(working)
             if found is None:
                 return None
             A, y, x = found
-            pressed = [i for i, y_i in zip(working, y.entries(), strict=True) if y_i > 0]
-            if pressed != working:
-                return self.confirmed(pressed)
-            lam, motion = y * (1 / hessian.h), (self.J * x).entries()
+            lam = y * (1 / hessian.h)
+            motion = (self.J * x).entries()
             slacks = contact_slacks(step, range(step.contacts.n_c), motion)
             if step.extra.names:
                 A_own = arb_mat(len(step.extra.names), step.n_v, step.extra.A.ravel().tolist())
                 slacks += (A_own * x - _column(step.extra.b)).entries()
-            violated = [i for i, slack in enumerate(slacks) if slack < 0]
-            if violated:
-                point = [np.array([float(v) for v in part.entries()]) for part in (lam, x)]
-                return Violated(violated[0], np.array(working, dtype=np.int64), *point)
+            if any(slack < 0 for slack in slacks) or not all(v > 0 for v in lam.entries()):
+                point = _nonzero(lam.entries()), _nonzero(slacks)
+                return Refuted(np.array(working, dtype=np.int64), *point)
             net = A.transpose() * lam
             numbers, shown = all_nearest((*lam.entries(), *net.entries(), *x.entries(), *slacks))
         ends = np.cumsum([len(working), step.n_v, step.n_v])
@@ -208,19 +207,29 @@ def all_nearest(balls: Sequence[arb]) -> tuple[Array, NDArray[np.bool_]]:
     return x, shown
 
 
+def _nonzero(balls: Sequence[arb]) -> Array:
+    """The numbers in some balls, shape (balls,) [of their unit]; 0 where a ball holds zero."""
+    return np.array([0.0 if ball.contains(0) else float(ball) for ball in balls])
+
+
 def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:
     """A_W and b_W: (n~ + d~_i)'J of Eq. (8) for each row of the working set, the user's last."""
-    contacts, m = step.contacts, int(step.offsets[-1])
+    contacts = step.contacts
+    m = int(step.offsets[-1])
     contact, row = places(step, [i for i in working if i < m])
     own = [i - m for i in working if i >= m]
     used = list(dict.fromkeys(contact.tolist()))
-    directions, at = arb_mat(len(contact), 4 * len(used)), {j: 4 * i for i, j in enumerate(used)}
+    directions = arb_mat(len(contact), 4 * len(used))
+    at = {j: 4 * i for i, j in enumerate(used)}
     frames = zip(contact.tolist(), contacts.n[contact].tolist(), contacts.d1[contact].tolist(),
                  contacts.d2[contact].tolist(), strict=True)  # fmt: skip
-    table, mu = cone_matrix(step.cone)[row].tolist(), contacts.mu[contact].tolist()
+    table = cone_matrix(step.cone)[row].tolist()
+    mu = contacts.mu[contact].tolist()
     for k, (j, n, d1, d2) in enumerate(frames):
         gap, slip_1, slip_2, spin = table[k]
-        along_1, along_2, first = arb(slip_1) * mu[k][0], arb(slip_2) * mu[k][1], at[j]
+        along_1 = arb(slip_1) * mu[k][0]
+        along_2 = arb(slip_2) * mu[k][1]
+        first = at[j]
         for i in range(3):
             directions[k, first + i] = gap * arb(n[i]) + along_1 * d1[i] + along_2 * d2[i]
         directions[k, first + 3] = arb(spin) * mu[k][2]
@@ -242,14 +251,19 @@ def contact_slacks(step: StepData, which: Sequence[int] | Indices, motion: list[
     motion : list of arb, length 4 len(which)
         J x of these [m, m, m, rad].
     """
-    contacts, rows, j = step.contacts, cone_function(step.cone), [*which]
+    contacts = step.contacts
+    rows = cone_function(step.cone)
+    j = [*which]
     numbers = (contacts.phi, contacts.n, contacts.d1, contacts.d2, contacts.mu, step.counts)
     found = list[arb]()
     for i, (phi, n, d1, d2, (mu_v, _, mu_omega), count) in enumerate(
         zip(*(given[j].tolist() for given in numbers), strict=True)
     ):
-        nu, spin = motion[4 * i : 4 * i + 3], motion[4 * i + 3]
-        gap, slip_1, slip_2 = _dot(n, nu) + phi, _dot(d1, nu) * mu_v, _dot(d2, nu) * mu_v
+        nu = motion[4 * i : 4 * i + 3]
+        spin = motion[4 * i + 3]
+        gap = _dot(n, nu) + phi
+        slip_1 = _dot(d1, nu) * mu_v
+        slip_2 = _dot(d2, nu) * mu_v
         found += rows(gap, slip_1, slip_2, spin * mu_omega)[:count]  # Eq. (4)
     return found
 

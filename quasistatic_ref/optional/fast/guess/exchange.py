@@ -1,14 +1,16 @@
-"""A guess of a working set that is wrong by a row or two: where walks in floating point lead.
+"""A guess of a working set that is wrong: where walks in floating point lead.
 
-A backend does not see rows that are violated by less than its tolerance, nor does float64 see a
-violation below the rounding of the slack. The proof of the guess does, and names one such row. The
-walk from there is that of :mod:`~quasistatic_ref.certify.active_set`, with signs that rounding may
-have made wrong: what it leads to is a guess again, which has to be proved like any other.
+A backend does not see rows that are violated by less than its tolerance, nor multipliers of the
+size of rounding, of which bodies at rest on each other have many. The proof of the guess does: its
+balls give the multipliers and slacks of the guess, the smallest of them too. From there the method
+of :mod:`~quasistatic_ref.certify.active_set` goes on in float64. It only adds to these numbers, and
+what it adds is about as small as what was violated: they stay right relative to their own size. A
+sign may be wrong all the same. Where the walks end is a guess again, to be proved like any other.
 """
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -16,44 +18,52 @@ from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.standard_form import StandardForm
 
-CHANGES = 4
-"""Walks before a guess is given up: on the grasp one or two mend a wrong guess of DAQP."""
+GUESSES: Final = 16
+"""Guesses that follow a wrong one before the exact method has to decide. On the grasp one or two
+follow one of DAQP; on boxes in a row at rest, whose ties differ by 1e-21, 1e-40 and 1e-61 m, four
+to ten."""
 
-DEPENDENT = 1e-9
+WALKS: Final = 1000
+"""Rows that are added from one proof to the next, at most."""
+
+DEPENDENT: Final = 1e-9
 """A row is taken to depend on others if the squared length of the part that they do not span is at
 most this share of the squared length of the row, both in the norm of H^-1."""
 
+NO_FALL: Final = 1e-11
+"""Share of the fastest change of a multiplier up to which another one is taken not to change."""
 
-class Violated(NamedTuple):
-    """A guess whose multipliers are positive, but whose minimiser violates a row.
+ROUNDING: Final = 2.0**-46
+"""Of a slack that changes, relative to the sizes of what it is the sum of."""
+
+
+class Refuted(NamedTuple):
+    """A guess that is no working set of the optimum, and its minimiser.
 
     Parameters
     ----------
-    row : int
-        The first row that is violated.
     working : ndarray of int, shape (k,)
         The guess, ascending.
     lam : ndarray, shape (k,)
-        Its multipliers [N s].
-    delta_q : ndarray, shape (n_v,)
-        Its minimiser [m, rad].
+        Its multipliers [N s]; 0 where they may be zero.
+    slack : ndarray, shape (m,)
+        Of its minimiser [m]; 0 where it may be zero.
     """
 
-    row: int
     working: Indices
     lam: Array
-    delta_q: Array
+    slack: Array
 
 
-Proof: TypeAlias = "ExactOptimum | Violated | None"
-"""What testing a working set gives: the optimum, proved; :class:`Violated` if its multipliers are
-positive but a row is surely violated; or None if something stays undecided."""
+Proof: TypeAlias = "ExactOptimum | Refuted | None"
+"""What testing a working set gives: the optimum, proved; :class:`Refuted` if it is none of that; or
+None if something stays undecided."""
 
 
 def proved_nearby(
     prove: Callable[[Indices], Proof], guess: Indices, form: StandardForm, inverse: Array
-) -> ExactOptimum | None:
-    """The optimum proved on a guess, or on the working set that a few walks make of it; or None.
+) -> tuple[ExactOptimum | None, Indices]:
+    """The optimum proved on a guess, or on a working set that walks make of it.
 
     Parameters
     ----------
@@ -64,45 +74,148 @@ def proved_nearby(
     form : StandardForm
     inverse : ndarray, shape (n_v, n_v)
         Of its H [m^2/(N m s)].
+
+    Returns
+    -------
+    ExactOptimum or None
+        None where no guess is proved.
+    ndarray of int
+        The last guess.
     """
     found = prove(guess)
-    for _ in range(CHANGES):
-        if not isinstance(found, Violated):
+    for _ in range(GUESSES):
+        if not isinstance(found, Refuted):
             break
         with np.errstate(all="ignore"):
             changed = walked(form, inverse, found)
-        found = None if changed is None else prove(changed)
-    return None if isinstance(found, Violated) else found
+        if changed is None:
+            break
+        guess = changed
+        found = prove(guess)
+    return None if isinstance(found, Refuted) else found, guess
 
 
-def walked(form: StandardForm, inverse: Array, found: Violated) -> Indices | None:
-    """The working set, ascending, after a walk that adds the violated row; None if none is reached.
+def walked(form: StandardForm, inverse: Array, found: Refuted) -> Indices | None:
+    """The working set, ascending, at which walks from a refuted one end; None if they do not.
 
     Parameters
     ----------
     form : StandardForm
     inverse : ndarray, shape (n_v, n_v)
         Of its H [m^2/(N m s)].
-    found : Violated
+    found : Refuted
     """
-    p, working, lam, delta_q = found
-    row, A = form.A[p], form.A[working]
-    moved, short = inverse.dot(row), float(form.b[p] - row.dot(delta_q))
-    square = float(row.dot(moved))
-    reached, towards = A.dot(inverse).dot(A.T), A.dot(moved)
-    while True:
-        try:
-            falls = np.linalg.solve(reached, towards)  # of lam, per unit of p's multiplier
-        except np.linalg.LinAlgError:
-            return None
-        rate = square - float(falls.dot(towards))
-        full = max(short, 0.0) / rate if rate > DEPENDENT * square else math.inf
-        pairs = zip(lam.tolist(), falls.tolist(), strict=True)
-        limits = [lam_j / fall if fall > 0 else math.inf for lam_j, fall in pairs]
-        least = min(limits, default=math.inf)
-        if not full > least:  # NaN too
-            return np.array(sorted([*working.tolist(), p])) if full < math.inf else None
-        rest = np.arange(len(working)) != limits.index(least)
-        lam, working = (lam - least * falls)[rest], working[rest]
-        reached, towards = reached[rest][:, rest], towards[rest]
-        short -= least * rate
+    try:
+        walk = Walk(form, inverse, found)
+        walk.drop_what_pulls()
+        for _ in range(WALKS):
+            p = walk.violated()
+            if p is None:
+                return np.sort(walk.working)
+            if not walk.add(p):
+                return None
+    except np.linalg.LinAlgError:
+        pass
+    return None
+
+
+class Walk:
+    """The minimiser on a working set that changes, by its multipliers and slacks in float64.
+
+    Parameters
+    ----------
+    form : StandardForm
+    inverse : ndarray, shape (n_v, n_v)
+        Of its H [m^2/(N m s)].
+    found : Refuted
+        Where it starts.
+
+    Attributes
+    ----------
+    working : ndarray of int, shape (k,)
+    lam : ndarray, shape (k,)
+        [N s].
+    slack, noise : ndarray, shape (m,)
+        [m]; a slack may be wrong by about the noise.
+    """
+
+    def __init__(self, form: StandardForm, inverse: Array, found: Refuted) -> None:
+        self.A = form.A
+        self.inverse = inverse
+        self.sizes = np.abs(form.A), np.abs(inverse)
+        self.working = found.working
+        self.lam = found.lam
+        self.slack = found.slack.copy()
+        self.noise = np.zeros(len(found.slack))
+        A_W = form.A[found.working]
+        self._reached = A_W.dot(inverse).dot(A_W.T)
+
+    def drop_what_pulls(self) -> None:
+        """Leave out the row of the most negative multiplier until all are positive."""
+        while len(self.lam):
+            j = int(np.argmin(self.lam))
+            pull = self.lam[j]
+            if pull > 0:
+                return
+            row = self.A[self.working[j]]
+            towards = np.delete(self._reached[:, j], j)
+            self._drop(j)
+            change = np.linalg.solve(self._reached, towards)
+            self.lam = self.lam + pull * change
+            self._move(-pull, row, change)
+
+    def violated(self) -> int | None:
+        """The row that is violated most, if there is one."""
+        surely = np.where(self.slack < -self.noise, self.slack, 0.0)
+        p = int(np.argmin(surely)) if len(surely) else 0
+        return p if len(surely) and surely[p] < 0 else None
+
+    def add(self, p: int) -> bool:
+        """Walk until row p is satisfied; whether that is possible."""
+        row = self.A[p]
+        pressed = 0.0
+        along = self.inverse.dot(row)
+        square = float(row.dot(along))
+        towards = self.A[self.working].dot(along)
+        while True:
+            falls = np.linalg.solve(self._reached, towards)  # of lam, per unit of p's multiplier
+            rate = square - float(falls.dot(towards))
+            moves = rate > DEPENDENT * square
+            full = max(-float(self.slack[p]), 0.0) / rate if moves else math.inf
+            never = np.full(len(falls), math.inf)
+            surely = falls > NO_FALL * np.abs(falls).max(initial=0.0)
+            limits = np.divide(self.lam, falls, out=never, where=surely)
+            least = float(limits.min(initial=math.inf))
+            taken = min(full, least)
+            if not taken < math.inf:  # NaN too
+                return False
+            self.lam = np.maximum(self.lam - taken * falls, 0.0)
+            pressed += taken
+            if moves:
+                self._move(taken, row, falls)
+            if full <= least:
+                break
+            first = int(np.argmin(limits))
+            towards = np.delete(towards, first)
+            self._drop(first)
+        self.slack[p] = 0.0
+        self._reached = np.block([[self._reached, towards[:, None]], [towards, square]])
+        self.working = np.append(self.working, p)
+        self.lam = np.append(self.lam, pressed)
+        return True
+
+    def _drop(self, j: int) -> None:
+        rest = np.arange(len(self.working)) != j
+        self.working = self.working[rest]
+        self.lam = self.lam[rest]
+        self._reached = self._reached[rest][:, rest]
+
+    def _move(self, pressed: float, row: Array, falls: Array) -> None:
+        """The slacks once a row outside is pressed, those of W less by `falls` (k,) times that."""
+        A_W = self.A[self.working]
+        size_of_A, size_of_inverse = self.sizes
+        push = row - falls.dot(A_W)
+        size = np.abs(row) + np.abs(falls).dot(np.abs(A_W))
+        self.slack += pressed * self.A.dot(self.inverse.dot(push))
+        self.noise += ROUNDING * abs(pressed) * size_of_A.dot(size_of_inverse.dot(size))
+        self.slack[self.working] = 0.0

@@ -11,13 +11,13 @@ where both directions of a slip are closed, all of them are strictly active, and
 """
 
 from collections import OrderedDict
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from functools import cache
 from hashlib import sha256
 from typing import NamedTuple
 
 import numpy as np
-from flint import fmpz, fmpz_mat
+from flint import fmpz
 
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.dependence import follow, idle_rows
@@ -64,19 +64,18 @@ def zeros(
         None if a number is not zero.
     """
     all_active = Degeneracy(unique=not rows, smooth=True)
-    if not coordinates and spanned_in_contacts(step, working, rows):
-        return all_active
-    every, k = (*working, *rows), len(working)
+    every = (*working, *rows)
+    k = len(working)
     if _implied(step, _Claim(_numbers(step, every), k, every, tuple(coordinates))):
         return all_active
-    form, w = form_on(step, *_some_rows(step, every)), tuple(range(k))
+    form = form_on(step, *_some_rows(step, every))
+    w = tuple(range(k))
     solution = rational_solution(form, w)
     if any(solution.slack[k:]) or any(solution.x[v] for v in coordinates):
         return None
-    total = [
-        sum(column, fmpz(0)) for column in zip(*map(form.equation, range(k, form.m)), strict=True)
-    ]
-    if not rows or all(follow([form.equation(i) for i in w], [total])):
+    columns = zip(*form.equations(range(k, form.m)), strict=True)
+    total = [sum(column, fmpz(0)) for column in columns]
+    if not rows or all(follow(form.equations(w), [total])):
         return all_active
     spanned, unspanned = idle_rows(form, w, solution.slack)
     unique = multipliers_unique(form, w, spanned, unspanned)
@@ -94,7 +93,8 @@ class _Claim(NamedTuple):
 
 def _numbers(step: StepData, rows: Sequence[int]) -> bytes:
     """A hash of all numbers of which some rows are made, of their shapes and the cone's name."""
-    used, contacts = np.unique(places(step, rows)[0]), step.contacts
+    used = np.unique(places(step, rows)[0])
+    contacts = step.contacts
     used = used[used < contacts.n_c]
     own = contacts.J, contacts.phi, contacts.n, contacts.d1, contacts.d2, contacts.mu
     shared = (step.offsets, step.extra.A, step.extra.b)
@@ -113,14 +113,37 @@ def _implied(step: StepData, claim: _Claim) -> bool:
     """Whether W implies all zeros."""
     known = _known.get(claim)
     if known is None:
-        n, k = step.n_v, claim.k
+        n = step.n_v
+        k = claim.k
         exact = exact_rows(step, claim.rows)
-        zeros = [[fmpz(int(i == v)) for i in range(n + 1)] for v in claim.coordinates]
-        known = all(follow(exact[:k], [*exact[k:], *zeros]))
+        equations = _across_pairs(step, claim, exact)
+        equations += [[int(i == v) for i in range(n + 1)] for v in claim.coordinates]
+        known = not equations or all(follow(exact[:k], equations))
         while len(_known) >= KEPT:
             _known.popitem(last=False)  # the oldest, in one call: other threads solve as well
         _known[claim] = known
     return known
+
+
+def _across_pairs(step: StepData, claim: _Claim, exact: list[list[int]]) -> list[list[int]]:
+    """The equations of the claim's rows that do not follow from those of W between the same bodies.
+
+    Most do: the rows of a contact combine four motions, of which contacts with the same normal have
+    the spin in common. Of few rows and coordinates that is decided in little time.
+    """
+    contact, _ = places(step, claim.rows)
+    alike: dict[bytes, list[int]] = {}
+    moves = np.vstack([(step.contacts.J != 0).any(axis=1), np.ones((1, step.n_v), bool)])
+    for i, j in enumerate(contact.tolist()):
+        alike.setdefault(moves[j].tobytes(), []).append(i)
+    left = []
+    for key, rows in alike.items():
+        columns = [*np.flatnonzero(np.frombuffer(key, dtype=bool)).tolist(), step.n_v]
+        some = [[exact[i][v] for v in columns] for i in rows]
+        k = sum(i < claim.k for i in rows)
+        found = follow(some[:k], some[k:]) if k else [False] * len(rows)
+        left += [exact[i] for i, seen in zip(rows[k:], found, strict=True) if not seen]
+    return left
 
 
 def exact_rows(step: StepData, rows: Sequence[int]) -> list[list[int]]:
@@ -148,53 +171,6 @@ def _some_rows(step: StepData, rows: Sequence[int]) -> tuple[Dyadic, Dyadic]:
     b = joined([dyadic(-gaps), dyadic(step.extra.b[row[own]])])
     order = np.argsort(own, kind="stable").argsort()
     return A[order], b[order]
-
-
-def spanned_in_contacts(step: StepData, working: Sequence[int], rows: Sequence[int]) -> bool:
-    """Whether the coefficients of the rows show that equations of some rows follow from those of W.
-
-    The rows of a contact combine the equations of four generators: of the gap, two slips and the
-    spin. A coefficient of friction that is 0 leaves out its generator, and contacts whose spins
-    are equal, or opposite, have that generator in common. A dependence among the coefficients is
-    one among the rows; the converse does not hold.
-
-    Parameters
-    ----------
-    step : StepData
-        In a polyhedral cone.
-    working : sequence of int
-        W: independent rows.
-    rows : sequence of int
-    """
-    contact, row = places(step, [*working, *rows])
-    table_of_cone, mu = combined(step.cone).tolist(), step.contacts.mu.tolist()
-    spins = step.contacts.J[:, 3] + 0.0
-    columns: dict[Hashable, int] = {}
-    entries: list[tuple[int, int, int]] = []
-
-    def put(k: int, generator: Hashable, coefficient: int) -> None:
-        if coefficient:
-            column = columns.setdefault(generator, len(columns))
-            entries.append((k, column, coefficient))
-
-    for k, (j, i) in enumerate(zip(contact.tolist(), row.tolist(), strict=True)):
-        if j == step.contacts.n_c:
-            put(k, ("own", i), 1)
-            continue
-        gap, slip_1, slip_2, spin = table_of_cone[i]
-        mu_v, _, mu_omega = mu[j]
-        put(k, (j, "gap"), gap)
-        if mu_v:
-            put(k, (j, "slip_1"), slip_1)
-            put(k, (j, "slip_2"), slip_2)
-        if mu_omega:
-            turn, back = spins[j].tobytes(), (0.0 - spins[j]).tobytes()
-            opposite = (mu_omega, back) in columns
-            put(k, (mu_omega, back if opposite else turn), -spin if opposite else spin)
-    table = fmpz_mat(len(contact), len(columns))
-    for k, column, coefficient in entries:
-        table[k, column] = coefficient
-    return bool(table.rank() == len(working))
 
 
 @cache

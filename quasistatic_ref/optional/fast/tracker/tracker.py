@@ -10,7 +10,6 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.contact.distance import (
     ClosestPoints,
     check_finite,
@@ -174,7 +173,7 @@ class FollowedCloud:
         """
         assert self.list is not None
         x = rotated(relative[:, :3], self.points[self.list.index]) + relative[:, 3]
-        return x, *signed_distance(self.solid.shape, x)
+        return x, *self.solid.shape.signed_distance(x)
 
     def first_list(self, relative: Array) -> Shortlist:
         """A list that starts from some points of the cloud.
@@ -186,7 +185,7 @@ class FollowedCloud:
         """
         some = self.points[:: max(1, len(self.points) // SOME)]
         x = rotated(relative[:, :3], some) + relative[:, 3]
-        phi, normal = signed_distance(self.solid.shape, x)
+        phi, normal = self.solid.shape.signed_distance(x)
         return self.new_list(relative, normal[phi.argmin()], np.inf, self.width)
 
     def new_list(self, relative: Array, n: Array, phi_k: float, width: int) -> Shortlist:

@@ -8,7 +8,6 @@ from functools import cached_property
 
 import numpy as np
 
-from quasistatic_ref.contact.cloud import signed_distance
 from quasistatic_ref.optional.fast.tracker.ball_tree import BallTree
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape
 from quasistatic_ref.step.data import Array, Indices
@@ -143,7 +142,7 @@ def shortlist(
     for depth, balls in enumerate(tree.levels):
         radius = balls.radius[nodes]
         x = rotated(R, balls.centre[nodes]) + t
-        phi = signed_distance(solid, x)[0]
+        phi = solid.signed_distance(x)[0]
         if len(nodes) >= k:
             far_side = phi + balls.far_side[nodes]
             phi_k = min(phi_k, float(np.partition(far_side, k - 1)[k - 1]))

@@ -122,7 +122,9 @@ def camera_of(view: str | Camera) -> Camera:
     return PLANES[view] if isinstance(view, str) else view
 
 
-def force_scale(moments: Sequence[Moment], view: str | Camera | None, half: float) -> float:
+def force_scale(
+    moments: Sequence[Moment], view: str | Camera | None, half: float, longest: float = LONGEST
+) -> float:
     """Length at which a force of 1 N is drawn so that the largest in view fits [m/N].
 
     Zero where there are no forces.
@@ -134,6 +136,8 @@ def force_scale(moments: Sequence[Moment], view: str | Camera | None, half: floa
         None in three dimensions. What of a force is along the view cannot be seen.
     half : float
         Half the scene's size [m].
+    longest : float
+        Length of the largest force over the scene's size [-].
     """
     forces = np.array([c.force for m in moments for c in m.contacts]).reshape(-1, 3)
     most = seen = float(np.linalg.norm(forces, axis=1).max(initial=0.0))
@@ -141,7 +145,7 @@ def force_scale(moments: Sequence[Moment], view: str | Camera | None, half: floa
         seen = float(np.linalg.norm(camera_of(view).seen(forces)[:, :2], axis=1).max(initial=0.0))
     if seen < BEARING * most:  # every force is along the view
         seen = most
-    return round_scale(2 * LONGEST * half / seen) if seen > 0 else 0.0
+    return round_scale(2 * longest * half / seen) if seen > 0 else 0.0
 
 
 def round_scale(scale: float) -> float:

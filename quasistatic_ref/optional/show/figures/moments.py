@@ -171,7 +171,7 @@ def drawn_shapes(scene: HasScene) -> tuple[PlacedShape, ...]:
 def extent(of: Moment) -> Array:
     """Least and greatest coordinates of what is bounded, shape (2, 3) [m]."""
     points = [
-        of.world(placed, surface_points(placed))
+        of.world(placed, surface_points(placed.shape))
         for placed in of.shapes
         if not isinstance(placed.shape, HalfSpace)
     ]
@@ -199,7 +199,7 @@ def focus(moments: list[Moment]) -> Array:
     points = [c.beta[None] for m in looked_at for c in m.contacts]
     for m in looked_at:
         own = [placed for placed in m.shapes if moved[placed.link]]
-        points += [m.world(placed, surface_points(placed)) for placed in own]
+        points += [m.world(placed, surface_points(placed.shape)) for placed in own]
     every = np.concatenate(points)
     return np.array([every.min(axis=0), every.max(axis=0)])
 

@@ -104,7 +104,7 @@ class Pen2D(Pen):
                 bounded.append((nearness, placed))
         bounded.sort(key=lambda pair: float(pair[0]))
         for layer, (_, placed) in enumerate(bounded):
-            points = self.camera.seen(of.world(placed, surface_points(placed)))
+            points = self.camera.seen(of.world(placed, surface_points(placed.shape)))
             self._body(placed, points, 1 + layer / len(bounded))
 
     def _body(self, placed: PlacedShape, seen: Array, zorder: float) -> None:
@@ -201,7 +201,7 @@ class Pen3D(Pen):
                 points = self.seen(of.world(placed, placed.shape.points))
                 self.axes.scatter(*points.T, s=1.5, c=CLOUD, linewidths=0)
             else:
-                points = self.seen(of.world(placed, surface_points(placed, around=24, up=9)))
+                points = self.seen(of.world(placed, surface_points(placed.shape, around=24, up=8)))
                 self._polygons(faces(points), SOLID, "0.2", 0.3)
 
     def _polygons(self, polygons: list[Array], face: str, edge: str, alpha: float) -> None:

@@ -1,24 +1,53 @@
 """Shapes as points whose hull looks like them, and hulls as polygons."""
 
+from functools import lru_cache
+
 import numpy as np
 from scipy.spatial import ConvexHull
 
+from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.shapes import placed_shape as shapes
-from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.data import Array
 
-AROUND, UP = 48, 25
-"""Corners of round shapes around their axis and along it."""
+AROUND, UP = 48, 24
+"""Corners of round shapes around their axis and along it: no level is in the middle of a side."""
+DECIMALS = 12
+"""To which corners that are found several times agree [m]."""
 
 SAME_PLANE = 9
 """Decimals to which the planes of two triangles agree that are parts of one face."""
 
 
-def surface_points(placed: shapes.PlacedShape, around: int = AROUND, up: int = UP) -> Array:
+@lru_cache(maxsize=256)
+def surface_points(shape: shapes.Shape, around: int = AROUND, up: int = UP) -> Array:
     """A cloud's points, or points whose hull looks like the shape; its own frame, (N, 3) [m].
 
-    A half-space has none: see :func:`patch`.
+    They are the corners of a box or a mesh, and of any other shape its farthest points along
+    directions that are spread over the sphere. A half-space has none: see :func:`patch`.
+
+    Parameters
+    ----------
+    shape : Shape
+    around, up : int
+        Numbers of directions around its axis and along it.
     """
-    return placed.shape.surface(around, up)
+    if isinstance(shape, shapes.PointCloud):
+        return shape.points
+    if isinstance(shape, shapes.HalfSpace):
+        return np.zeros((0, 3))
+    flat = polytope(shape)
+    if flat is not None and not flat.margin:
+        return flat.vertices
+    every = np.array([shape.support_point(direction) for direction in ball(around, up)])
+    return np.unique(every.round(DECIMALS), axis=0)
+
+
+def ball(around: int, up: int) -> Array:
+    """Points of the unit sphere, shape (up around, 3) [-]."""
+    azimuth, height = np.meshgrid(np.linspace(0, 2 * np.pi, around), np.linspace(-1, 1, up))
+    r = np.sqrt(1 - height**2)
+    points = np.stack([r * np.cos(azimuth), r * np.sin(azimuth), height], axis=-1)
+    return points.reshape(-1, 3)
 
 
 def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:
@@ -32,15 +61,14 @@ def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:
     return np.asarray(foot + around)
 
 
-def triangles(points: Array) -> Indices:
-    """Triangles of the convex hull as indices, (T, 3), counter-clockwise from outside."""
+def triangles(points: Array) -> Array:
+    """Corners of the convex hull's triangles, shape (3T, 3), counter-clockwise from outside."""
     hull = ConvexHull(points)
     corners = points[hull.simplices]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     inward = np.einsum("ti,ti->t", normal, hull.equations[:, :3]) < 0
-    found = np.array(hull.simplices, dtype=np.int64)
-    found[inward] = found[inward][:, [0, 2, 1]]
-    return found
+    corners[inward] = corners[inward][:, [0, 2, 1]]
+    return np.asarray(corners.reshape(-1, 3))
 
 
 def faces(points: Array) -> list[Array]:

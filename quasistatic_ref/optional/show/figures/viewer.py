@@ -15,7 +15,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, text_written
-from quasistatic_ref.optional.show.figures.draw import round_scale
+from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.moments import (
     DrawnContact,
     Moment,
@@ -23,7 +23,7 @@ from quasistatic_ref.optional.show.figures.moments import (
     frames,
     still,
 )
-from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points, triangles
+from quasistatic_ref.optional.show.figures.surfaces import ball, patch, surface_points, triangles
 from quasistatic_ref.optional.show.figures.three import (
     clip,
     colour_clip,
@@ -36,14 +36,13 @@ from quasistatic_ref.optional.show.figures.three import (
 from quasistatic_ref.optional.show.figures.visuals import AROUND, FIXED, UP, colours, visuals
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
-from quasistatic_ref.shapes.shape import ball
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.data import Array
 
 FRAMES_PER_SECOND = 30
-LONGEST = 0.5
-"""Length of the largest force over half the size of what is looked at [-]."""
+LONGEST = 0.25
+"""Length of the largest force over the size of what is looked at [-]."""
 
 THICK, DOT = 0.02, 0.012
 """Radii of a force, drawn as a slim cone, and of a contact over half that size [-]."""
@@ -91,12 +90,15 @@ def view_written(
     InputError
         If the extra ``view`` is not installed, the run has no steps, or its scene is not known.
     """
+    if not isinstance(path, str | Path):
+        problem = "must be a file; give what is shown, then the file, then the run"
+        raise InputError(problem, field="path", value=type(path).__name__)
     viewer = viewer_script()
     scene, run = _scene(shown, run)
     moments, fps = ([still(scene)], 1.0) if run is None else frames(scene, run, FRAMES_PER_SECOND)
     box = focus(moments)
     centre, half = box.mean(axis=0), float(np.ptp(box, axis=0).max()) / 2
-    scale = metres_per_newton(moments, half)
+    scale = force_scale(moments, None, half, LONGEST)
     title = scene.path.stem if isinstance(scene, Scenario) else "scene"
     page = Template(PAGE.read_text("utf-8")).substitute(
         title=escape(title), caption=_caption(title, scene, run, scale), viewer=viewer,
@@ -140,20 +142,6 @@ def viewer_script() -> str:
         problem = "needs meshcat: pip install 'quasistatic-ref[view]'"
         raise InputError(problem, field="--view")
     return (Path(found.origin).parent / "viewer" / "dist" / "main.min.js").read_text("utf-8")
-
-
-def metres_per_newton(moments: list[Moment], half: float) -> float:
-    """Length at which a force of 1 N is shown [m/N]; 0 where there are no forces.
-
-    Parameters
-    ----------
-    moments : list of Moment
-    half : float
-        Half the scene's size [m].
-    """
-    forces = [np.linalg.norm(c.force) for m in moments for c in m.contacts]
-    most = float(max(forces, default=0.0))
-    return round_scale(LONGEST * half / most) if most > 0 else 0.0
 
 
 def scene_commands(
@@ -251,8 +239,8 @@ def _shape(placed: PlacedShape, of: Moment, half: float, colour: int) -> dict[st
     if isinstance(shape, HalfSpace):
         corners = patch(shape, focus([of]).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
         return thing(corners, "Mesh", material(FLOOR, 0.8))
-    points = surface_points(placed, AROUND, UP)
-    return _lit(points[triangles(points)].reshape(-1, 3), colour)
+    points = surface_points(placed.shape, AROUND, UP)
+    return _lit(triangles(points), colour)
 
 
 def _cloud(points: Array, world: Array, half: float, colour: int) -> dict[str, Any]:
@@ -271,7 +259,7 @@ def _lit(corners: Array, colour: int) -> dict[str, Any]:
 
 def _ball(radius: float) -> dict[str, Any]:
     points = radius * ball(12, 7)
-    return _over(points[triangles(points)].reshape(-1, 3))
+    return _over(triangles(points))
 
 
 def _spike(radius: float) -> dict[str, Any]:
@@ -279,7 +267,7 @@ def _spike(radius: float) -> dict[str, Any]:
     angle = np.linspace(0, 2 * np.pi, 12, endpoint=False)
     base = radius * np.stack([np.cos(angle), np.sin(angle), np.zeros(12)], axis=1)
     points = np.vstack([base, [0.0, 0.0, 1.0]])
-    return _over(points[triangles(points)].reshape(-1, 3))
+    return _over(triangles(points))
 
 
 def _over(corners: Array) -> dict[str, Any]:

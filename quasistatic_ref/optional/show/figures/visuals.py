@@ -1,6 +1,7 @@
 """What bodies look like: the visual elements of their URDFs, and a colour for each body."""
 
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any, Final, NamedTuple
 from xml.etree.ElementTree import Element
 
@@ -8,18 +9,18 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.readers.mesh_files import mesh_corners, mesh_path
+from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_path, triangles_of
 from quasistatic_ref.model.urdf.urdf_file import FileMesh, urdf_file, written_shape
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
-from quasistatic_ref.optional.show.figures.surfaces import triangles
+from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
 from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.data import Array
 
 PALETTE: Final = (0x0072B2, 0xE69F00, 0x009E73, 0xCC79A7, 0x56B4E9, 0xF0E442)
-"""Colours of bodies in turn, which are told apart by every eye (Okabe and Ito 2008)."""
+"""Colours of bodies in turn, which colour-blind readers can distinguish (Okabe and Ito 2008)."""
 FIXED: Final = 0xBDBDBD
 """What belongs to no body."""
-AROUND, UP = 32, 13
+AROUND, UP = 32, 12
 """Corners of round shapes around their axis and along it."""
 
 
@@ -72,9 +73,8 @@ def _of_body(body: Body) -> Iterator[Visual]:
 def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
     if not isinstance(shape, FileMesh):
-        points = shape.surface(AROUND, UP)
-        return np.asarray(points[triangles(points)].reshape(-1, 3))
-    return mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
+        return triangles(surface_points(shape, AROUND, UP))
+    return _mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
 
 
 def _colour(material: Element | None, named: dict[str | None, Element]) -> int | None:
@@ -92,3 +92,21 @@ def _colour(material: Element | None, named: dict[str | None, Element]) -> int |
         return None
     each = (round(255 * min(max(x, 0.0), 1.0)) for x in (red, green, blue))
     return int.from_bytes(bytes(each), "big")
+
+
+def _mesh_corners(path: Path, scale: Array) -> Array:
+    """The triangles of a mesh file, three corners each, shape (3T, 3) [m].
+
+    Parameters
+    ----------
+    path : Path
+    scale : ndarray, shape (3,)
+        Of each coordinate [-].
+
+    Raises
+    ------
+    ModelError
+        If coal cannot read the file.
+    """
+    loaded = loaded_mesh(path, scale)
+    return np.asarray(np.array(loaded.vertices())[triangles_of(loaded).ravel()])

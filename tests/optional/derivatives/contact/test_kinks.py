@@ -8,7 +8,7 @@ from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.kinks import _not_unique, _switches
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.shapes.placed_shape import Box, PointCloud, Sphere
+from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.tolerances import TIED, UNIQUE
 from tests.contact.still import pair, placed
 
@@ -35,19 +35,6 @@ def test_edges_that_cross_have_no_normal_where_they_touch() -> None:
     for phi, kind in ((UNIQUE * 0.05, reason.NO_NORMAL), (UNIQUE, reason.MANY)):
         for sign in (1, -1):
             assert _not_unique(0, at._replace(phi=sign * phi)).kind == kind
-
-
-def test_parallel_edges_have_many_closest_points_and_a_sphere_a_centre() -> None:
-    crossed = couple(CUBE, CUBE, (ON_EDGE, CROSSED), [0.0, 0.0, 0.1 / HALF])
-    parallel = crossed._replace(phi=0.0, features=(crossed.features[0],) * 2)
-    found = _not_unique(0, parallel)
-    assert found.kind == reason.MANY
-    assert found.says.endswith("parallel surfaces")
-    still = np.eye(3), np.eye(3)
-    middle = couple(Sphere(0.1), PointCloud(np.zeros((1, 3))), still, [0.0, 0.0, 0.0])
-    assert "centre" in _not_unique(0, middle).says
-    corners = _not_unique(0, middle._replace(phi=0.0))
-    assert corners.kind == reason.NO_NORMAL
 
 
 SWITCHES = {

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.derivatives.step import barrier
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from tests.helpers import changed, hessian, point_on_floor, random_step
@@ -58,19 +57,6 @@ def test_a_method_that_rounding_keeps_from_settling_gives_its_best_point(rng, mo
     off = barrier_step(step, 1e-6).x - settled.x
     energy = settled.x @ hessian(step) @ settled.x
     assert off @ hessian(step) @ off <= CLOSED_FORM**2 * energy
-
-
-def test_a_row_that_no_coordinate_moves_keeps_its_gap():
-    kappa = 1e-4
-    step, z = pressed(0.3, 2.0, kappa)
-    two = repeated(step.contacts, [0, 0])
-    J = two.J.copy()
-    J[1] = 0.0
-    rests = step.replace(contacts=changed(two, J=J, phi=[0.0, 0.5]))
-    found = barrier_step(rests, kappa)
-    np.testing.assert_allclose(found.x, z, rtol=CLOSED_FORM, atol=0.0)
-    still = found.slack[int(rests.offsets[1]) :]
-    np.testing.assert_allclose(still, 0.5, rtol=CLOSED_FORM)
 
 
 def test_rows_that_are_far_push_as_little_as_kappa_says(rng):

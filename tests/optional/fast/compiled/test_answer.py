@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.scenes.piles import pile
+from quasistatic_ref.optional.fast.adapters.daqp import Daqp
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve.adapters.daqp import Daqp
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
 pytestmark = needs_compiler

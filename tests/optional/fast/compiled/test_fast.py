@@ -151,31 +151,6 @@ def test_bodies_along_the_axes_of_the_world_have_the_zeros_of_the_plain_path(kin
         assert differing(*found) == []
 
 
-def run_of(name, fast):
-    """The results of a few steps of a scenario, with and without compiled code."""
-    scenario = load_scenario(name, ["record=light"], fast=True)
-    simulator, q = scenario.simulator(), scenario.system.q_start
-    if not fast:
-        simulator.compiled = None
-    for k in range(min(scenario.steps, 25)):
-        result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
-        q = result.q
-        yield result
-    assert (simulator.compiled is not None) == fast
-
-
-@needs_compiler
-@pytest.mark.parametrize("name", ["block_push", "panda_push"])
-def test_scenarios_have_the_bits_of_numpy(name):
-    for one, other in zip(run_of(name, True), run_of(name, False), strict=True):
-        assert one == other
-        forms = (standard_form(one.step), standard_form(other.step))
-        found = (
-            arrays(r.points, r.step, form) for r, form in zip((one, other), forms, strict=True)
-        )
-        assert differing(*found) == []
-
-
 def python(source, **settings):
     command = [sys.executable, "-W", "error", "-c", source]
     done = subprocess.run(

@@ -18,7 +18,7 @@ from quasistatic_ref.solve.units import natural_units
 from tests.helpers import changed, random_step
 from tests.optional.fast.compiled.changed_c import changed_sources
 from tests.optional.fast.compiled.test_fast import needs_compiler
-from validation.make.confirmed_bits import CONES, checked, differing, random_case
+from validation.make.confirmed_bits import differing
 
 pytestmark = needs_compiler
 MATRICES = 40
@@ -58,7 +58,7 @@ def holds(library):
     for K, R, r, exact in matrices():
         n = len(K)
         G, e = np.zeros((n, n)), np.zeros(n)
-        library.defect(pointer(R), pointer(K), ctypes.c_int64(n), pointer(G))
+        library.defect(pointer(R), pointer(K), ctypes.c_int64(n), pointer(G), pointer(e))
         if any(Fraction(G[i, j]) < exact[i][j] for i in range(n) for j in range(n)):
             return False
         for bound in (G, np.full((n, n), 0.55 / n)):  # the second shows no contraction by a half
@@ -79,8 +79,8 @@ def test_the_bounds_of_a_proof_are_bounds(tmp_path):
 
 
 MUTANTS = {
-    "no rounding of the sums": ("((double)n * 0x1p-52 + 0x1p-47) * (size + one)", "0.0"),
-    "no rounding of K and of the difference": ("+ 0x1p-47) * (size + one)", ") * 0.0"),
+    "no rounding of the sums": ("((double)n * 0x1p-52 + 0x1p-47) * (sizes[j] + one)", "0.0"),
+    "no rounding of K and of the difference": ("+ 0x1p-47) * (sizes[j] + one)", ") * 0.0"),
     "a contraction by twice": ("e[i] / 2", "e[i] * 2"),
     "the bound itself": ("e[i] = 2 * e[i]", "e[i] = 0.5 * e[i]"),
     "one residual less": (
@@ -105,40 +105,13 @@ def made(folder, text, other):
     return ctypes.CDLL(str(out))
 
 
-def test_random_steps_are_proved_with_the_bits_of_the_exact_method():
-    """A sample of validation/make/confirmed_bits.py."""
-    outcomes = [checked(seed) for seed in range(3 * 2 * len(CONES))]
-    assert [fault for _, _, faults in outcomes for fault in faults] == []
-    optima, proved = (sum(found[key] for _, found, _ in outcomes) for key in ("optima", "compiled"))
-    assert proved > 0.9 * optima
-
-
 def proof(step, working):
     units = natural_units(step)
     prover = compiled("certificate").prover(step, units.coordinate, None)
     return prover.optimum(step, np.array(working, dtype=np.int64), units)
 
 
-def test_a_wrong_working_set_is_refused():
-    rng = np.random.default_rng(9)
-    tried = 0
-    for seed in range(12):
-        _, step = random_case(seed)
-        truth = exact_optimum(exact_form(step))
-        if isinstance(truth, Farkas):
-            continue
-        m = int(step.offsets[-1])
-        for _ in range(20):
-            guess = np.sort(rng.choice(m, size=rng.integers(min(m, step.n_v) + 1), replace=False))
-            found = proof(step, guess)
-            tried += 1
-            assert not isinstance(found, ExactOptimum) or not differing(
-                found, exact_optimum(exact_form(step), guess.tolist())
-            )
-    assert tried > 100
-
-
-@pytest.mark.parametrize(("factor", "shown"), [(1.0, True), (2.0**-400, False)])
+@pytest.mark.parametrize(("factor", "shown"), [(1.0, True), (2.0**-600, False)])
 def test_numbers_that_do_not_fit_are_left_to_balls(factor, shown):
     step = random_step(np.random.default_rng(2))
     J = step.contacts.J.copy()
@@ -166,14 +139,3 @@ def test_a_run_is_proved_by_compiled_code(monkeypatch):
     assert (run["certificate"] == "exact").all()
     assert 40 <= len(proved) <= 44  # a wrong guess is followed by another
     assert np.mean(proved) > 0.9
-
-
-def test_impulses_that_are_zero_where_nothing_moves_are_proved():
-    """Boxes at rest on each other: A'lam holds their weight, and is zero along all else."""
-    scenario = load_scenario("stack", fast=True)
-    found = scenario.simulator().step(scenario.system.q_start, scenario.targets(scenario.h))
-    step, solution = found.step, found.solution
-    working = np.flatnonzero(solution.lam > 0)
-    optimum = proof(step, working)
-    assert not differing(optimum, exact_optimum(exact_form(step), working.tolist()))
-    assert (optimum.net == 0).any()

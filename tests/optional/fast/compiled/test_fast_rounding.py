@@ -57,7 +57,7 @@ def cases():
                 second = near - first * 2**56
         third = int(rng.choice([0, -(2**55), 2**55, int(rng.integers(-(2**55), 2**55))]))
         second *= bool(rng.integers(8)) or third != 0
-        unit = Fraction(2) ** (56 * (place - 1 - 12))  # of the second digit
+        unit = Fraction(2) ** (56 * (place - 1 - 16))  # of the second digit
         yield first, second, third, place, unit, float(unit) * rng.choice([0.0, 0.3, 0.9, 1.7, gap])
 
 

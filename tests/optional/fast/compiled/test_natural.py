@@ -5,10 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.solve.adapters.program import Program
-from quasistatic_ref.solve.units import STANDSTILL, natural_hessian, units_of
+from quasistatic_ref.solve.units import natural_hessian, units_of
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
@@ -63,29 +62,8 @@ def test_units_are_those_of_numpy(case):
     assert program.b.tobytes() == (b * (1 / (rho * ell))).tobytes()
 
 
-def test_a_step_that_nothing_drives_has_the_size_of_a_standstill():
-    found, _, _ = units(np.eye(2), *DECIDED["nothing at all"])
-    assert found.size == STANDSTILL
-
-
 @pytest.mark.parametrize("case", OPEN.values(), ids=OPEN)
 def test_units_that_an_order_of_sums_may_decide_are_left_to_numpy(case):
     found, _, program = units(np.eye(2), *case)
     assert found is None
     assert not any(part.any() for part in (program.f, program.A, program.b))
-
-
-def test_a_backend_is_given_the_program_that_numpy_would_write():
-    scenario = load_scenario("bunny_grasp", ["record=light"], fast=True)
-    simulator, q = scenario.simulator(), scenario.system.q_start
-    given = []
-    for k in range(6):
-        step = simulator.step(q, scenario.targets(scenario.h * (k + 1))).step
-        solver = simulator.solver
-        program = [part.tobytes() for part in (solver.program.f, solver.program.A)]
-        units = simulator.compiled.units(solver, step)
-        solver.written = None
-        solver.write(solver.scaled(step))
-        given.append(units is not None)
-        assert program == [part.tobytes() for part in (solver.program.f, solver.program.A)]
-    assert all(given)

@@ -1,26 +1,18 @@
 """A guessed working set, confirmed in balls: the bits of the exact method, or None."""
 
-import itertools
-
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.dependence import follow
 from quasistatic_ref.certify.exact import exact_optimum, exact_step
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step, grasp_step
+from quasistatic_ref.optional.fast.compiled import why_not
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
-from quasistatic_ref.optional.fast.guess.exchange import Violated
-from quasistatic_ref.optional.fast.guess.zeros import exact_rows, spanned_in_contacts
-from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.step.standard_form import standard_form
 from tests.certify.test_exact import resting_point
-from tests.helpers import changed, pinch, planted_step, random_step, sphere_on_floor
-from tests.tolerances import ACTIVE_SET
+from tests.helpers import pinch, planted_step, random_step, sphere_on_floor
 from validation.make import confirmed_bits
 from validation.make.confirmed_bits import CONES, checked, differing
 
@@ -66,6 +58,7 @@ def test_random_steps_have_the_same_bits_and_wrong_sets_are_refused():
     total = {key: sum(found[key] for _, found, _ in outcomes) for key in confirmed_bits.COLUMNS}
     assert total["optima"] >= 24
     assert total["confirmed"] >= 0.95 * total["optima"]
+    assert total["compiled"] > 0.9 * total["optima"] or why_not() is not None
     assert total["refused"] >= 50
 
 
@@ -75,41 +68,6 @@ def test_a_row_that_touches_and_bears_nothing_is_a_kink():
     assert not truth.differentiable
     assert differing(answer, truth) == []
     assert differing(exact_step(step, truth.working_set), truth) == []
-
-
-def test_the_first_violated_row_is_named():
-    """A body is pressed into one floor, the second of three contacts; the others are far."""
-    step = resting_point(weight=2.0, contacts=3)
-    step = step.replace(contacts=changed(step.contacts, phi=np.array([1.0, 0.0, 1.0])))
-    found = BallStep(step, BallHessian(step)).confirmed([])
-    form = standard_form(step)
-    slack = form.A @ np.linalg.solve(form.H, form.g) - form.b
-    assert isinstance(found, Violated)
-    assert found.row == np.flatnonzero(slack < 0)[0] == 6
-    # With a row that touches and is not violated before it: 0 = slack < those of the others.
-    own = step.replace(extra=Extra(("idle", "shut"), [[1.0, 0, 0, 0], [0, 0, 1.0, 0]], [0.0, 0.0]))
-    far = own.replace(contacts=changed(step.contacts, phi=np.ones(3)))
-    assert BallStep(far, BallHessian(far)).confirmed([]).row == 19
-
-
-def test_a_refused_guess_has_its_point_in_float64_and_is_not_rounded(monkeypatch):
-    """W without a row; the KKT system of what is left gives x and lam: H x - A_W'lam = g."""
-    step = grasp_step(np.random.default_rng(5))
-    form, rest = standard_form(step), optimum_and_answer(step)[0].working_set[1:]
-
-    def refused(numbers):
-        raise AssertionError("numbers of a guess that is wrong were rounded")
-
-    monkeypatch.setattr("quasistatic_ref.optional.fast.guess.confirm.all_nearest", refused)
-    found = BallStep(step, BallHessian(step)).confirmed(rest)
-    assert isinstance(found, Violated)
-    assert set(found.working) <= set(rest)
-    A_W, n = form.A[found.working], step.n_v
-    K = np.block([[form.H, -A_W.T], [A_W, np.zeros((len(A_W), len(A_W)))]])
-    expected = np.linalg.solve(K, np.concatenate([form.g, form.b[found.working]]))
-    for said, truth in ((found.delta_q, expected[:n]), (found.lam, expected[n:])):
-        np.testing.assert_allclose(said, truth, rtol=0, atol=ACTIVE_SET * np.abs(truth).max())
-    assert form.A[found.row] @ found.delta_q < form.b[found.row]
 
 
 def test_rows_that_depend_on_each_other_are_refused():
@@ -125,34 +83,3 @@ def test_a_mass_matrix_that_a_simulator_poses_is_checked():
     object.__setattr__(step, "M_u", M_u)
     with pytest.raises(StepDataError, match="M_u: must be positive definite"):
         BallHessian(step)
-
-
-def test_a_solver_keeps_the_inverse_of_H_while_H_is_the_same():
-    step = random_step(np.random.default_rng(1))
-    solver = solver_for(step, "clarabel", fast=True)
-    solve_step(step, solver)
-    first = solver.proofs.parts[0].kept.hessian
-    assert first.fits(step)
-    solve_step(step, solver)
-    assert solver.proofs.parts[0].kept.hessian is first
-    heavier = step.replace(M_u=2 * step.M_u)
-    assert not first.fits(heavier)
-    once = solve_step(heavier, solver)
-    assert solver.proofs.parts[0].kept.hessian.fits(heavier)
-    assert once == solve_step(heavier, "clarabel", fast=True)
-
-
-def test_rows_that_are_seen_to_be_spanned_are_spanned():
-    """Of a contact, +d1 and -d1 add up to +d2 and -d2, and to +spin and -spin."""
-    step = sphere_on_floor(wrench=(0.0, 0.0, -3.0, 0.0, 0.0, 0.0))
-    seen = {
-        (working, row): spanned_in_contacts(step, working, [row])
-        for working in itertools.combinations(range(6), 3)
-        for row in set(range(6)) - set(working)
-    }
-    for (working, row), is_seen in seen.items():
-        held, (equation,) = exact_rows(step, working), exact_rows(step, [row])
-        assert follow(held, [equation]) == [is_seen]
-    assert seen[(0, 1, 2), 3]
-    assert seen[(0, 2, 4), 5]
-    assert not seen[(0, 1, 4), 5]

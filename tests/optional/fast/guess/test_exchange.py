@@ -8,7 +8,7 @@ from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
-from quasistatic_ref.optional.fast.guess.exchange import Violated, proved_nearby, walked
+from quasistatic_ref.optional.fast.guess.exchange import GUESSES, Refuted, proved_nearby, walked
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import StandardForm
@@ -39,7 +39,7 @@ def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
             if found is None:
                 continue
             assert set(differing(found, truth)) <= (NEARBY if truth.multipliers_unique else OTHERS)
-            mended += isinstance(BallStep(step, hessian).confirmed(guess), Violated)
+            mended += isinstance(BallStep(step, hessian).confirmed(guess), Refuted)
     assert mended >= 5
 
 
@@ -76,16 +76,20 @@ def line(*bounds):
     return StandardForm(np.eye(1), np.zeros(1), np.ones((len(b), 1)), b)
 
 
+def refuted(form, working, lam):
+    """A guess and the slacks of its minimiser, H being 1: x = g + A'lam."""
+    x = form.g + form.A[working].T @ np.array(lam)
+    return Refuted(np.array(working, dtype=np.int64), np.array(lam), form.A @ x - form.b)
+
+
 def test_a_walk_adds_the_row_and_drops_what_stops_pressing():
-    none, x = np.zeros(0, np.int64), np.zeros(1)
     form = line(1.0, 2.0)
-    assert walked(form, np.eye(1), Violated(0, none, np.zeros(0), x)).tolist() == [0]
+    assert walked(line(1.0), np.eye(1), refuted(line(1.0), [], [])).tolist() == [0]
     # x >= 1 holds with lam = 1; x >= 2 depends on it, takes its place, and is left alone.
-    held = Violated(1, np.array([0]), np.ones(1), np.ones(1))
-    assert walked(form, np.eye(1), held).tolist() == [1]
+    assert walked(form, np.eye(1), refuted(form, [0], [1.0])).tolist() == [1]
     # x <= -1 against x >= 1: nothing gives way.
     form = StandardForm(np.eye(1), np.zeros(1), np.array([[1.0], [-1.0]]), np.ones(2))
-    assert walked(form, np.eye(1), Violated(1, np.array([0]), np.ones(1), np.ones(1))) is None
+    assert walked(form, np.eye(1), refuted(form, [0], [1.0])) is None
 
 
 @pytest.mark.parametrize(
@@ -102,20 +106,43 @@ def test_a_walk_drops_one_row_after_the_other(short, left):
         np.eye(3), np.zeros(3), np.array([[1.0, 0, 0], [0, 1.0, 0], [1.0, 1, 1]]),
         np.array([1.0, 2.0, 3.0 + short]),
     )  # fmt: skip
-    held = Violated(2, np.array([0, 1]), np.array([1.0, 2.0]), np.array([1.0, 2.0, 0.0]))
-    assert walked(form, np.eye(3), held).tolist() == left
+    assert walked(form, np.eye(3), refuted(form, [0, 1], [1.0, 2.0])).tolist() == left
+
+
+def test_what_pulls_is_dropped_one_row_at_a_time():
+    """X <= 1 and x + y >= 0 at g = (2, 2): the second pulls; without it, the first bears 1.
+
+    On both, x = 1 and y = -1: A'lam = x - g = (-1, -3) = lam_0 (-1, 0) + lam_1 (1, 1).
+    """
+    form = StandardForm(
+        np.eye(2), np.array([2.0, 2.0]), np.array([[-1.0, 0.0], [1.0, 1.0]]), np.array([-1.0, 0.0])
+    )
+    assert walked(form, np.eye(2), refuted(form, [0, 1], [-2.0, -3.0])).tolist() == [0]
+
+
+def test_small_violations_are_seen_next_to_large_numbers():
+    """1 - x >= 0 bears 1e3; y >= 1e-30 m is all that is violated, and a copy of it is not."""
+    form = StandardForm(
+        np.eye(2), np.array([1e3, 0.0]), np.array([[-1.0, 0.0], [0.0, 1.0], [0.0, 1.0]]),
+        np.array([-1.0, 1e-30, 1e-30]),
+    )  # fmt: skip
+    found = refuted(form, [0], [1e3 - 1])
+    assert walked(form, np.eye(2), found).tolist() == [0, 1]
 
 
 def test_a_guess_is_given_up_after_some_walks():
     guesses = []
+    form = line(*range(1, 20))
 
     def never(rows):
         guesses.append(rows.tolist())
-        return Violated(len(guesses), rows, np.ones(len(rows)), np.zeros(1))
+        slack = np.ones(19)
+        slack[len(guesses)] = -1.0
+        return Refuted(rows, np.ones(len(rows)), slack)
 
-    assert (
-        proved_nearby(never, np.zeros(0, np.int64), line(1.0, 2.0, 3.0, 4.0, 5.0, 6.0), np.eye(1))
-        is None
-    )
-    assert 2 <= len(guesses) <= 5
-    assert proved_nearby(lambda rows: None, np.zeros(0, np.int64), line(1.0), np.eye(1)) is None
+    found, last = proved_nearby(never, np.zeros(0, np.int64), form, np.eye(1))
+    assert found is None
+    assert last.tolist() == guesses[-1]
+    assert len(guesses) == 1 + GUESSES
+    first = np.zeros(0, np.int64)
+    assert proved_nearby(lambda rows: None, first, form, np.eye(1)) == (None, first)

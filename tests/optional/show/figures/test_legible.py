@@ -5,7 +5,6 @@ import pytest
 from matplotlib import pyplot as plt
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.examples import pinch_threshold
 from quasistatic_ref.optional.show.figures import figure_style, panels, style_file
 from quasistatic_ref.optional.show.figures.style import PAGE, STYLES, scaled, sized
 from tests.legible import faults
@@ -73,62 +72,6 @@ def test_a_planted_fault_is_found(page, plant, says):
     found = faults(figure)
     assert found
     assert all(says in fault for fault in found), found
-
-
-HARMLESS = {
-    "categories need no unit": lambda a: (
-        a.set_xticks([0, 1], ["+d1", "solve"]),
-        a.set_xlabel(""),
-    ),
-    "nothing at the ticks": lambda a: (a.set_xticks([]), a.set_xlabel("")),
-    "a marker tells lines apart": lambda a: (same_lines(a), a.lines[1].set_marker("o")),
-    "black and white": lambda a: (
-        a.bar([0], [1], color="black", label="a"),
-        a.bar([0], [1], color="white", label="b"),
-    ),
-    "a hatch": lambda a: (
-        a.bar([0], [1], color="#5588aa", label="a"),
-        a.bar([0], [1], color="#aa7755", hatch="//", label="b"),
-    ),
-    "a family of equal lines": lambda a: a.plot([[0, 0], [1, 1]], [[0, 1], [1, 2]], "k-."),
-}
-
-
-@pytest.mark.parametrize("plant", HARMLESS.values(), ids=HARMLESS)
-def test_what_can_be_read_is_no_fault(page, plant):
-    figure, axes = page
-    plant(axes)
-    assert faults(figure) == []
-
-
-@pytest.mark.parametrize("size", [(3.4, 2.4), (6.3, 3.4)])
-def test_text_that_is_cut_is_read_at_any_size(size):
-    label = "distance d of the centre of mass from the fingers' axis, as it was measured [mm]"
-    with figure_style("paper"):
-        figure, axes = plt.subplots(figsize=size, layout="constrained")
-        axes.set(xlabel=label, ylabel="squeeze N [N]", xlim=(0, 60))
-        extent = axes.xaxis.label.get_window_extent()
-        out = extent.width > 100 * size[0]
-        assert any("reaches from" in fault for fault in faults(figure)) == out
-    plt.close(figure)
-    with figure_style("paper"):
-        figure, axes = plt.subplots(figsize=size, layout="constrained")
-        pinch_threshold.figure(axes, levers=2)
-    assert faults(figure) == []
-    plt.close(figure)
-
-
-def test_shared_axes_are_labelled_once():
-    with figure_style():
-        figure, (above, below) = panels(4.6, 3, rows=2, sharex=True)
-        for axes in (above, below):
-            axes.plot([0, 1], [0, 1])
-            axes.set_ylabel("force [N]")
-        below.set_xlabel("time t [s]")
-    assert faults(figure) == []
-    below.set_xlabel("")
-    assert len(faults(figure)) == 1
-    plt.close(figure)
 
 
 @pytest.mark.parametrize("style", ["slides", "poster"])

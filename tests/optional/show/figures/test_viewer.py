@@ -13,12 +13,13 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.show.figures import viewer
+from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.moments import SLIP, focus, frames
 from quasistatic_ref.optional.show.figures.three import z_along
 from quasistatic_ref.optional.show.figures.viewer import (
     FRAMES_PER_SECOND,
+    LONGEST,
     STATES,
-    metres_per_newton,
     scene_commands,
     view_written,
 )
@@ -90,7 +91,7 @@ def test_forces_start_at_beta_and_are_as_long_as_they_are_strong(commands, pushe
         force = np.linalg.norm(run.forces[::2, j, :3], axis=1)
         length = np.maximum(0.01 * force, NANOMETRE)
         np.testing.assert_allclose(found[".scale"][:, 2], length, atol=NANOMETRE)
-    assert metres_per_newton(moments, 0.1) * max(
+    assert force_scale(moments, None, 0.1, LONGEST) * max(
         np.linalg.norm(c.force) for m in moments for c in m.contacts
     ) <= 0.05 * (1 + ROUNDING)
 
@@ -127,6 +128,8 @@ def test_a_scene_made_in_python_and_one_without_a_run_have_pages(pushed, tmp_pat
     from_file = pickle.loads(pickle.dumps(run))
     with pytest.raises(InputError, match=r"is from a file; give its scenario or simulator first"):
         view_written(from_file, tmp_path / "other.html")
+    with pytest.raises(InputError, match="path: must be a file; give what is shown, then the file"):
+        view_written(scenario, run, tmp_path / "other.html")
 
 
 def test_contacts_have_the_colours_of_their_states(commands, pushed):

@@ -53,11 +53,12 @@ static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double
     }
 }
 
-/* Slacks of all rows; those that are not surely positive are collected. */
+/* Slacks of all rows; those that may be zero are collected. */
 static int slacks(Proof *s, Room *m, int *lost)
 {
     double unit = s->units[0] * s->units[1];
     int64_t last = -1, next = 0;
+    int code = DECIDED;
     Number of[4];
     double e[4];
     for (int64_t r = 0; r < s->rows; r++) {
@@ -81,17 +82,20 @@ static int slacks(Proof *s, Room *m, int *lost)
         }
         Number x = carried(&sum, lost);
         error *= UP;
-        if (fabs(value(&x)) * DOWN <= error)
+        if (fabs(value(&x)) * DOWN <= error) {
             s->idle[s->counts[0]++] = r;
-        else if (value(&x) < 0.0) {
-            s->counts[0] = r;
-            return NEGATIVE;
-        } else if (!nearest(&x, error, 1.0, unit, s->slack + r, lost))
-            return OPEN_NUMBER;
-        else if (s->slack[r] < s->least[0])
+            continue;
+        }
+        if (value(&x) < 0.0)
+            code = REFUTED;
+        if (!nearest(&x, error, 1.0, unit, s->slack + r, lost)) {
+            s->slack[r] = value(&x) * unit;
+            code = code == REFUTED ? REFUTED : OPEN_NUMBER;
+        }
+        if (s->slack[r] < s->least[0])
             s->least[0] = s->slack[r];
     }
-    return DECIDED;
+    return code;
 }
 
 /* Which coordinates stay where they are: no load, no row of the working set, and no entry of H
@@ -122,24 +126,35 @@ static int held(const Proof *s, const char *rest, int64_t v)
     return 1;
 }
 
-/* delta_q, the multipliers of the working set and A'lam, rounded. Coordinates that are not surely
-   other than zero are collected. */
-static int rounded(Proof *s, Room *m, int *lost)
+/* The multipliers of the working set, rounded; zero where that is not surely wrong. */
+static int pressed(Proof *s, Room *m, int *lost)
 {
-    int64_t n = s->n_v, k = s->working;
-    double ell = s->units[0], rho = s->units[1];
+    int64_t n = s->n_v;
+    double unit = s->units[1] / s->units[0];
+    int code = DECIDED;
     for (int64_t r = 0; r < s->rows; r++)
         s->lam[r] = 0.0;
-    for (int64_t w = 0; w < k; w++) {
-        double *lam = s->lam + s->guess[w];
-        if (!nearest(m->z + n + w, m->e[n + w], *s->h, rho / ell, lam, lost))
-            return OPEN_NUMBER;
-        if (!(*lam > 0.0)) {
-            s->counts[0] = s->guess[w];
-            return NOT_PRESSED;
+    for (int64_t w = 0; w < s->working; w++) {
+        const Number *y = m->z + n + w;
+        double *lam = s->lam + s->guess[w], error = m->e[n + w];
+        if (!(value(y) * DOWN > error))
+            code = REFUTED;
+        if (fabs(value(y)) * DOWN <= error)
+            continue;
+        if (!nearest(y, error, *s->h, unit, lam, lost)) {
+            *lam = value(y) / *s->h * unit;
+            code = code == REFUTED ? REFUTED : OPEN_NUMBER;
         }
         s->least[1] = *lam < s->least[1] ? *lam : s->least[1];
     }
+    return code;
+}
+
+/* delta_q and A'lam, rounded. Coordinates that are not surely other than zero are collected. */
+static int rounded(Proof *s, Room *m, int *lost)
+{
+    int64_t n = s->n_v, k = s->working;
+    double rho = s->units[1];
     at_rest(s, m, m->rests);
     for (int64_t v = 0; v < n; v++) {
         s->delta_q[v] = s->net[v] = 0.0;
@@ -201,8 +216,8 @@ static int proved(Proof *s, Room *m)
         return LOST;
     if (!inverse(m->copy, m->R, N))
         return SINGULAR;
-    defect(m->R, m->K, N, m->G);
-    for (int bits = REFINED; code == OPEN_NUMBER && bits <= FINEST; bits += FINEST - REFINED) {
+    defect(m->R, m->K, N, m->G, m->copy);
+    for (int bits = REFINED; code != DECIDED && bits <= FINEST; bits += FINEST - REFINED) {
         s->counts[0] = s->counts[1] = 0;
         s->least[0] = s->least[1] = INFINITY;
         refined(s, m, bits, &lost);
@@ -210,12 +225,15 @@ static int proved(Proof *s, Room *m)
             return LOST;
         if (!error_bounds(m->R, m->G, m->rest, N, m->e))
             return OPEN_BOUND;
+        int of_lam = pressed(s, m, &lost), of_slack = slacks(s, m, &lost);
+        if (of_lam == REFUTED || of_slack == REFUTED)
+            return lost ? LOST : REFUTED;
         code = rounded(s, m, &lost);
-        if (code == DECIDED)
-            code = slacks(s, m, &lost);
+        if (of_lam == OPEN_NUMBER || of_slack == OPEN_NUMBER)
+            code = OPEN_NUMBER;
+        if (code == DECIDED && (s->counts[1] || !spanned(s, m->table, m->pivot)))
+            code = TO_BE_IMPLIED;
     }
-    if (code == DECIDED && (s->counts[1] || !spanned(s, m->table, m->pivot)))
-        code = TO_BE_IMPLIED;
     return lost ? LOST : code;
 }
 

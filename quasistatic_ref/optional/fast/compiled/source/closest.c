@@ -39,7 +39,7 @@ static inline double along(const double *row, double x, double y, double z)
     return (row[0] * x + row[1] * y) + row[2] * z;
 }
 
-/* contact/cloud: signed_distance, and its normal where one is asked for. */
+/* shapes: signed_distance, and its normal where one is asked for. */
 static double rounded_box(const double *size, const double *x, double *normal)
 {
     double excess[3], beyond[3], inside;
@@ -137,7 +137,7 @@ static void in_solid(const double *pose, double x, double y, double z, double *a
         at[i] = along(pose + 4 * i, x, y, z) + pose[4 * i + 3];
 }
 
-/* contact/cloud: the `count` least distances in ascending order, ties by index; 0 if one is NaN. */
+/* contact/distance: the `count` least distances in ascending order, ties by index; 0 if one is NaN. */
 static int selected(const Scene *s, int64_t pair, const double *pose)
 {
     int64_t kept = 0, count = s->count[pair];

@@ -32,29 +32,34 @@ int inverse(double *a, double *R, int64_t n)
             double f = a[i * n + c];
             if (i == c || f == 0.0)
                 continue;
-            for (int64_t j = 0; j < n; j++) {
+            for (int64_t j = c; j < n; j++) /* before c the pivot's row is zero */
                 a[i * n + j] -= f * a[c * n + j];
+            for (int64_t j = 0; j < n; j++)
                 R[i * n + j] -= f * R[c * n + j];
-            }
         }
     }
     return 1;
 }
 
-/* Upper bounds of |I - R K|, K being known to a relative 2^-48 of each entry. */
-void defect(const double *R, const double *K, int64_t n, double *G)
+/* Upper bounds of |I - R K|, K being known to a relative 2^-48 of each entry; sizes has room for n. */
+void defect(const double *R, const double *K, int64_t n, double *G, double *sizes)
 {
-    for (int64_t i = 0; i < n; i++)
-        for (int64_t j = 0; j < n; j++) {
-            double sum = 0.0, size = 0.0;
-            for (int64_t l = 0; l < n; l++) {
+    for (int64_t i = 0; i < n; i++) {
+        double *sums = G + i * n;
+        for (int64_t j = 0; j < n; j++)
+            sums[j] = sizes[j] = 0.0;
+        for (int64_t l = 0; l < n; l++)
+            for (int64_t j = 0; j < n; j++) {
                 double term = R[i * n + l] * K[l * n + j];
-                sum += term;
-                size += fabs(term);
+                sums[j] += term;
+                sizes[j] += fabs(term);
             }
+        for (int64_t j = 0; j < n; j++) {
             double one = i == j;
-            G[i * n + j] = (fabs(one - sum) + ((double)n * 0x1p-52 + 0x1p-47) * (size + one) + NORMAL) * UP;
+            double rounding = ((double)n * 0x1p-52 + 0x1p-47) * (sizes[j] + one);
+            sums[j] = (fabs(one - sums[j]) + rounding + NORMAL) * UP;
         }
+    }
 }
 
 /* e with |z* - z| <= e, given residuals |r|; 0 where the contraction is not shown. */

@@ -1,6 +1,6 @@
-/* Numbers of fixed point that are never rounded: whole multiples of 2^-672.
+/* Numbers of fixed point that are never rounded: whole multiples of 2^-896.
 
-   A Number is the sum of d[j] 2^(56 (j - 12)) over its digits from `low` to below `high`; digits
+   A Number is the sum of d[j] 2^(56 (j - 16)) over its digits from `low` to below `high`; digits
    are from -2^55 to 2^55. A float64 has two digits. Products are collected in a Sum, whose digits
    have room for 2^15 of them. Whatever would not fit, below the grid or beyond the last digit, is
    noted in `lost`, and what was computed is then worth nothing. */
@@ -12,7 +12,7 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { BITS = 56, FRACTION = 12, DIGITS = 15 };
+enum { BITS = 56, FRACTION = 16, DIGITS = 19 };
 
 typedef struct { int low, high; int64_t d[DIGITS]; } Number;
 typedef struct { int start; int64_t d[2]; } Float;
@@ -158,8 +158,9 @@ static inline Number product(const Number *x, const Float *f, int *lost)
 static inline double value(const Number *x)
 {
     static const double weight[DIGITS] = {
-        0x1p-672, 0x1p-616, 0x1p-560, 0x1p-504, 0x1p-448, 0x1p-392, 0x1p-336, 0x1p-280,
-        0x1p-224, 0x1p-168, 0x1p-112, 0x1p-56, 1.0, 0x1p56, 0x1p112,
+        0x1p-896, 0x1p-840, 0x1p-784, 0x1p-728, 0x1p-672, 0x1p-616, 0x1p-560,
+        0x1p-504, 0x1p-448, 0x1p-392, 0x1p-336, 0x1p-280, 0x1p-224, 0x1p-168,
+        0x1p-112, 0x1p-56, 1.0, 0x1p56, 0x1p112,
     };
     int last = x->high - 4 > x->low ? x->high - 4 : x->low;
     double sum = 0.0;

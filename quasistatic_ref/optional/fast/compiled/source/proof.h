@@ -7,18 +7,18 @@
 
 #include "fixed_point.h"
 
-enum { DECIDED, NO_MEMORY, LOST, SINGULAR, OPEN_BOUND, OPEN_NUMBER, NOT_PRESSED, NEGATIVE, TO_BE_IMPLIED };
+enum { DECIDED, NO_MEMORY, LOST, SINGULAR, OPEN_BOUND, OPEN_NUMBER, REFUTED, TO_BE_IMPLIED };
 
 /* Why a coordinate does not move: nothing acts on it, or the working set may hold it. */
 enum { AT_REST = 1, STILL };
 
 /* Bits to which the solution is refined, and again where a small number is open; of the grid of its
-   corrections. */
-enum { REFINED = 160, FINEST = 240, GRID = 280, ROUNDS = 12 };
+   corrections. Ties of bodies at rest on each other are broken by 2^-260. */
+enum { REFINED = 160, FINEST = 400, GRID = 440, ROUNDS = 16 };
 
 #define UP (1 + 0x1p-40)   /* for the rounding of sums of non-negative float64 numbers */
 #define DOWN (1 - 0x1p-40)
-#define FLOOR 0x1p-250     /* a residual that is added, so that no bound is zero */
+#define FLOOR 0x1p-410     /* a residual that is added, so that no bound is zero */
 #define NORMAL 0x1p-900    /* numbers beyond this have exact neighbours and multiples */
 
 /* One for one the fields of Proof in certificate.py. */
@@ -39,7 +39,7 @@ typedef struct {
     /* The answer, in SI units. */
     double *delta_q, *lam, *net, *slack;
     /* What may be zero and was taken to be: rows that are not in the guess, and coordinates; how
-       many of both. Of a guess that is NOT_PRESSED or NEGATIVE the first number is the row. */
+       many of both. */
     int64_t *idle, *still, *counts;
     /* Of an optimum the least slack that is not zero, and the least multiplier of the working set;
        infinite where there is none. */
@@ -68,7 +68,7 @@ void load(const Proof *s, Number *g, int *lost);
 void system_of(const Proof *s, Room *m, int *lost);
 void corrected(const Proof *s, Room *m, int *lost);
 int inverse(double *a, double *R, int64_t n);
-void defect(const double *R, const double *K, int64_t n, double *G);
+void defect(const double *R, const double *K, int64_t n, double *G, double *sizes);
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
 int nearest(const Number *x, double e, double h, double unit, double *out, int *lost);
 int spanned(const Proof *s, int64_t *table, int64_t *pivot);

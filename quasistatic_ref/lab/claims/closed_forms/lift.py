@@ -1,0 +1,86 @@
+"""A bar that two fingers lift by its end: the smallest time step with which they hold it."""
+
+import numpy as np
+
+from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
+from quasistatic_ref.lab.measures import exact, grid, threshold
+from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, contacts_of, point_jacobian
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.tolerances import CLOSED_FORM
+
+M, MU_V, K, SQUEEZE = 0.2, 0.6, 2000.0, 10.0
+"""Mass of the bar [kg], [-], of a finger [N/m], its force [N]."""
+HALF_WIDTH, PAD = 0.03, 0.01
+"""Of the bar along x, and of a pad along y and z [m]."""
+INERTIA = (7e-4, 9e-5, 7.3e-4)
+"""Of the bar [kg m^2]."""
+
+
+def lifting_step(speed: float, lever: float, h: float) -> StepData:
+    """A step in which fingers lift a bar as fast as in the steps before.
+
+    q_a: how far the left finger and the right one have closed, along +x and -x, and how far each
+    has risen. q_u: the twist of the bar at its centre of mass, axes along the world's. Each finger
+    touches at the four corners of its pad.
+
+    Parameters
+    ----------
+    speed : float
+        Of the bar and of the targets [m/s].
+    lever : float
+        Of the fingers along y, from the centre of mass [m].
+    h : float
+        [s].
+    """
+    n = np.repeat([X, -X], 4, axis=0)  # finger j closes along n
+    corners = [[0.0, y, z] for y in (-PAD, PAD) for z in (-PAD, PAD)]
+    J = np.zeros((8, 4, 10))
+    J[:4, :3, 0] = -X
+    J[4:, :3, 1] = X
+    J[:4, 2, 2] = -1.0
+    J[4:, 2, 3] = -1.0
+    J[:, :, 4:] = point_jacobian(lever * Y - HALF_WIDTH * n + np.tile(corners, (2, 1)), n)
+    lag = M * (GRAVITY + speed / h) / (2 * K)  # of the targets: weight and drag, half of it each
+    frames = np.stack([np.tile(Y, (8, 1)), np.cross(n, Y), n], axis=1)
+    return StepData(
+        h=h,
+        K_q=K * np.eye(4),
+        M_u=np.diag([M, M, M, *INERTIA]),
+        tau_a=np.zeros(4),
+        tau_u=np.array([0.0, 0.0, -M * GRAVITY, 0.0, 0.0, 0.0]),
+        delta_q_bar_a=np.array([SQUEEZE / K, SQUEEZE / K, speed * h + lag, speed * h + lag]),
+        contacts=contacts_of(0.0, frames, J, MU_V),
+    )
+
+
+def evidence() -> Evidence:
+    """The rate 1 / h of steps from which on the bar turns."""
+    found, expected, risen = [], [], []
+    for speed, lever in grid([0.001, 0.01, 0.1, 0.3], [0.02, 0.03, 0.04]):
+        rate = (2 * MU_V * SQUEEZE * PAD / lever - M * GRAVITY) / (M * speed)
+
+        def turns(rate: float, of: tuple[float, float] = (speed, lever)) -> bool:
+            return bool(np.any(exact(lifting_step(*of, 1 / rate)).delta_q[7:]))
+
+        found.append(threshold(turns, 0.5 * rate, 2 * rate))
+        expected.append(rate)
+        h = 1.1 / rate
+        risen.append(exact(lifting_step(speed, lever, h)).delta_q[6] / (speed * h))
+    return Evidence.of(
+        comparison(
+            "rate of steps that turns the bar [1/s]", found, expected, CLOSED_FORM, expected
+        ),
+        comparison("rise of a bar that is held, over v h [-]", risen, 1.0, CLOSED_FORM),
+    )
+
+
+CLAIM = Claim(
+    name="lift",
+    sentence="Two fingers with square pads of half-width a, which press with N, lift a bar at the "
+    "speed v by the lever e >= a without turning it while m (g + v / h) <= 2 mu_v N a / e: at a "
+    "given speed the time step must not be too small.",
+    where="docs/derivations.md (R46)",
+    sweep="four speeds, three levers; each threshold by bisection on exact answers",
+    reason="CLOSED_FORM, above the 1e-13 at which the bisection stops.",
+    measure=evidence,
+)

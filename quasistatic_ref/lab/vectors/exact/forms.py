@@ -1,0 +1,43 @@
+"""A quadratic program of float64 numbers without rounding."""
+
+import numpy as np
+from flint import fmpq
+
+from quasistatic_ref.certify.arithmetic import check_arithmetic
+from quasistatic_ref.certify.rational import ExactForm, dyadic, in_integers
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.pivots import exact_factor
+
+
+def exact_form_of(H: Array, g: Array, A: Array, b: Array) -> ExactForm:
+    """H, g, A, b taken as they are given.
+
+    Parameters
+    ----------
+    H : ndarray, shape (n_v, n_v)
+        Symmetric to the last bit.
+    g : ndarray, shape (n_v,)
+    A : ndarray, shape (m, n_v)
+    b : ndarray, shape (m,)
+
+    Returns
+    -------
+    ExactForm
+
+    Raises
+    ------
+    StepDataError
+        If H is not symmetric and positive definite, or a number is not finite.
+    InputError
+        If nothing can be proved in this thread.
+    """
+    check_arithmetic()
+    for name, array in (("H", H), ("g", g), ("A", A), ("b", b)):
+        if not np.isfinite(array).all():
+            raise StepDataError("must contain finite numbers only", field=name, value=array)
+    if not np.array_equal(H, H.T):
+        raise StepDataError("must be symmetric to the last bit", field="H", value=H.tolist())
+    if exact_factor(H, 0.0) is None:
+        raise StepDataError("must be positive definite without rounding", field="H")
+    return in_integers(dyadic(H), dyadic(g), dyadic(A), dyadic(b), fmpq(1))

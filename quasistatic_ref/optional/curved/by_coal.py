@@ -1,0 +1,213 @@
+"""Closest points of pairs without a closed form: coal's answers, refined, believed with a proof.
+
+For any unit vector n, the gap s(n) between two convex solids along n is at most their signed
+distance. So points on both that are phi n apart, with s(n) = phi, prove themselves: apart, phi
+is the distance; in penetration, n parts the solids after a translation by -phi. Answers are held
+against that with closed-form support points, which never share coal's mistakes.
+
+coal's tolerances are lengths. So a pair is enlarged or shrunk by a power of two, which rounds
+nothing, until its size is about one; every number below is relative to that size.
+"""
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import NamedTuple
+
+import coal
+import numpy as np
+
+from quasistatic_ref.contact.separations import gaps
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.curved.settle import settled
+from quasistatic_ref.optional.curved.ways_out import rival_directions
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import Box, Ellipsoid, Shape
+from quasistatic_ref.shapes.round import Round
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.tolerances import SUPPORT, WITNESS
+
+ACCURACIES = (1e-10, 1e-8, 1e-6)
+"""Tolerances of coal, tried in turn: the tighter ones sometimes end without an answer."""
+
+CLEARANCE = 0.02
+"""How far apart, relative to the depth, the solids are put to have a normal computed."""
+
+LEAST = 1e-3
+"""Added to that: where they just touch, their depth is nothing."""
+
+SAME = 1 - 1e-4
+"""Cosine above which two refined normals are the same way out."""
+
+ENOUGH = 1e-14
+"""Defect at which refining ends: rounding of the farthest points."""
+
+ROUNDS = 30
+"""Refinements of a normal in penetration; shallow ones settle in two or three."""
+
+
+class Judged(NamedTuple):
+    """An answer, and by how much it is wrong.
+
+    Attributes
+    ----------
+    defect : float
+        |s(n) - phi| or the disagreement of the points, the larger [m].
+    """
+
+    phi: float
+    alpha: Array
+    beta: Array
+    n: Array
+    defect: float
+
+
+def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
+    """Signed distance, closest points and normal of two bounded convex solids, world frame.
+
+    Raises
+    ------
+    ContactError
+        If coal has no answer that proves itself.
+    """
+    size = a.shape.extent + b.shape.extent + float(np.abs(b.t - a.t).max())
+    scale = 2.0 ** -np.round(np.log2(size))
+    here = ShapeInWorld(_resized(a.shape, scale), a.R, np.zeros(3))
+    there = ShapeInWorld(_resized(b.shape, scale), b.R, scale * (b.t - a.t))
+    best = _best(here, there, _by_coal(here, there))
+    # Where they just touch, what is proved is right: no gap is wider than that of a contact.
+    touching = best.phi >= -ENOUGH and best.defect <= WITNESS
+    if not (best.phi > 0 or touching):
+        best = _shallowest(here, there, best)
+    if not best.defect <= WITNESS:  # `not <=`, so that NaN is refused as well
+        raise ContactError(
+            "the contact normal is not reliable at this pose: move the bodies apart, or use a box, "
+            "a capsule, a convex mesh or a cloud",
+            field=name,
+            value={"phi": best.phi / scale, "n": best.n.tolist()},
+        )
+    alpha, phi = best.alpha / scale + a.t, float(best.phi / scale)
+    return Witness(phi, alpha, alpha + phi * best.n, best.n)
+
+
+@lru_cache(maxsize=256)
+def _resized(shape: Shape, scale: float) -> Shape:
+    """The shape with all lengths multiplied; kept, with its coal object."""
+    match shape:
+        case Box():
+            return Box(scale * shape.half_extents)
+        case Round():
+            return type(shape)(scale * shape.radius, scale * shape.half_length)
+        case Ellipsoid():
+            return Ellipsoid(scale * shape.half_axes)
+        case ConvexMesh():
+            vertices, offsets = scale * shape.vertices, scale * shape.offsets
+            return replace(
+                shape, vertices=vertices, offsets=offsets, volume=scale**3 * shape.volume
+            )
+    raise shape.lacks("has no closest points with this solid")
+
+
+def _best(a: ShapeInWorld, b: ShapeInWorld, start: Judged) -> Judged:
+    """Of an answer and the maxima near it, the widest gap that is proved."""
+    every = [start]
+    if np.isfinite(start.n).all():
+        every += [judged(a, b, *way) for way in settled(a, b, Witness(*start[:4]))]
+    for tolerance in (ENOUGH, WITNESS):
+        proved = [found for found in every if found.defect <= tolerance]
+        if proved:  # no gap exceeds the distance
+            widest = max(found.phi for found in proved)
+            level = [found for found in proved if found.phi >= widest - tolerance]
+            return min(level, key=lambda found: found.defect)
+    return min(every, key=lambda found: found.defect)
+
+
+def _by_coal(a: ShapeInWorld, b: ShapeInWorld) -> Judged:
+    """The best of coal's answers, with its defect."""
+    best: Judged | None = None
+    for accuracy in ACCURACIES:
+        request, result = coal.DistanceRequest(), coal.DistanceResult()
+        request.enable_signed_distance = True
+        request.gjk_tolerance = request.epa_tolerance = accuracy
+        request.gjk_max_iterations = request.epa_max_iterations = 1000
+        phi = coal.distance(
+            a.shape.coal, coal.Transform3s(a.R, a.t), b.shape.coal, coal.Transform3s(b.R, b.t),
+            request, result,
+        )  # fmt: skip
+        alpha, beta = np.array(result.getNearestPoint1()), np.array(result.getNearestPoint2())
+        found = judged(a, b, phi, alpha, beta, np.array(result.normal))
+        # NaN compares as false: it never becomes the best unless there is nothing else.
+        if best is None or not np.isfinite(best.defect) or found.defect < best.defect:
+            best = found
+        if best.defect <= SUPPORT * np.abs(a.t - b.t).max():
+            break
+    assert best is not None
+    return best
+
+
+def judged(
+    a: ShapeInWorld, b: ShapeInWorld, phi: float, alpha: Array, beta: Array, n: Array
+) -> Judged:
+    """An answer, with its defect: what phi n misses the gap along n and the points' distance by.
+
+    Parameters
+    ----------
+    a, b : ShapeInWorld
+    phi, alpha, beta, n : float, ndarray, ndarray, ndarray
+        In whatever length unit the solids have.
+    """
+    if not (np.isfinite(phi) and np.isfinite(n).all() and abs(n @ n - 1) <= WITNESS):
+        return Judged(phi, alpha, beta, n, np.inf)
+    gap = n @ (b.farthest(-n) - a.farthest(n))
+    apart = np.abs(beta - alpha - phi * n).max()
+    return Judged(phi, alpha, beta, n, float(max(abs(gap - phi), apart)))
+
+
+def _shallowest(a: ShapeInWorld, b: ShapeInWorld, first: Judged) -> Judged:
+    """The least depth: coal's way out made exact, and every other that may be shorter."""
+    n = first.n if np.isfinite(first.n).all() and first.n.any() else np.array([1.0, 0.0, 0.0])
+    n = n / np.sqrt(n @ n)
+    size = float(sum(solid.reach(np.stack([n, -n])).sum() for solid in (a, b)))
+    known = _refined(a, b, n, size)
+    best = max((first, known), key=lambda answer: (answer.defect <= WITNESS, answer.phi))
+    rivals = rival_directions(a, b, best.n if best.defect <= WITNESS else n, best.phi, size)
+    found = [_refined(a, b, way, size) for way in rivals]
+    for answer in found:
+        if answer.defect <= WITNESS and answer.phi > best.phi:
+            best = answer
+    # No gap exceeds the signed distance: where one does, the way out was not found.
+    if rivals and gaps(a, b, np.array(rivals)).max() > best.phi + WITNESS:
+        return best._replace(defect=np.inf)
+    # A way out that was not followed to its end, but may be the shorter one, decides nothing.
+    open_ends = [way for way in found if way.phi + way.defect > best.phi + WITNESS]
+    if any(way.n @ best.n < SAME for way in open_ends):
+        return best._replace(defect=np.inf)
+    return best
+
+
+def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
+    """A maximum of the gap, followed from a direction.
+
+    Parted along n by a little more than the depth, the solids have a distance and a normal that
+    coal is good at; that normal is the next n, until the gap's own maximum is near.
+    """
+    best = Judged(-np.inf, a.t, b.t, n, np.inf)
+    for k in range(ROUNDS):
+        gap = float(n @ (b.farthest(-n) - a.farthest(n)))
+        # Round surfaces settle faster from afar, corners from close by: in turn.
+        clearance = CLEARANCE * abs(gap) + (LEAST * size if k % 2 == 0 else 0.0)
+        shift = (clearance - gap) * n
+        parted = _by_coal(a, b._replace(t=b.t + shift))
+        if not (np.isfinite(parted.defect) and parted.phi > 0):
+            break
+        before, n = n, parted.n
+        phi = float(n @ (b.farthest(-n) - a.farthest(n)))
+        found = _best(a, b, judged(a, b, phi, parted.alpha, parted.beta - shift, n))
+        if found.defect < best.defect:
+            best = found
+        if best.defect <= ENOUGH:
+            break
+        # A slow approach keeps its direction: take twice as long a step.
+        n = n + (n - before)
+        n = n / np.sqrt(n @ n)
+    return best

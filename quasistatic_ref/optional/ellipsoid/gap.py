@@ -1,0 +1,28 @@
+"""The duality gap of multipliers in a file, and whether it is next to nothing."""
+
+import math
+from collections.abc import Sequence
+
+from flint import fmpq
+
+from quasistatic_ref.certify.gap import energy, free_energy
+from quasistatic_ref.certify.rational import ExactForm, fraction
+from quasistatic_ref.certify.rounding import nearest_fraction
+from quasistatic_ref.tolerances import IMPULSES
+
+
+def in_joules(form: ExactForm, gap: fmpq) -> float:
+    """A gap in the form's units as a float64 that is not below it [N m s]."""
+    return _nearest_not_below(gap * form.net_unit * form.x_unit)
+
+
+def negligible(form: ExactForm, x: Sequence[fmpq], gap: fmpq) -> bool:
+    """Whether a duality gap is mere rounding of the step's energies, with contacts and without."""
+    return bool(gap <= fraction(IMPULSES) * (free_energy(form) + energy(form, x)))
+
+
+def _nearest_not_below(x: fmpq) -> float:
+    """The smallest float64 that is not below a fraction [-]."""
+    value = nearest_fraction(x)
+    below = math.isfinite(value) and fraction(value) < x
+    return math.nextafter(value, math.inf) if below else value

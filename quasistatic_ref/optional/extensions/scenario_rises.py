@@ -1,0 +1,99 @@
+"""The fields ``joint_friction`` and ``support`` of a scenario's bodies, as private rises, (R40)."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import ScenarioError
+from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.extensions.rises import private_rises, urdf_friction
+from quasistatic_ref.scenario.bodies import BodyEntry
+from quasistatic_ref.scenario.checks import check_names
+from quasistatic_ref.scenario.scenario_table import SUPPORT, URDF, value
+from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.extension import Extension, Rises
+
+
+@dataclass(frozen=True, eq=False)
+class Rising(Plain):
+    """An extension with private rises, at each q: those of a scenario and those of its own.
+
+    Parameters
+    ----------
+    rises : Rises
+        Of the scenario.
+    extension : callable, optional
+        A function of q, without rises.
+    """
+
+    rises: Rises
+    extension: Callable[[Array], Extension] | None = None
+
+    def __call__(self, q: Array) -> Extension:
+        """The extension at q, shape (n_q,)."""
+        own = Extension() if self.extension is None else self.extension(q)
+        return replace(own, rises=self.rises)
+
+
+def scenario_rises(
+    system: System, pairs: tuple[ContactPair, ...], entries: Mapping[str, BodyEntry], **more: Any
+) -> tuple[tuple[ContactPair, ...], Rises]:
+    """The pairs with those of supports, and the private rises of all friction.
+
+    Parameters
+    ----------
+    system : System
+    pairs : tuple of ContactPair
+    entries : mapping of str to BodyEntry
+    more : object
+        h, K_q and gravity as of :func:`~quasistatic_ref.optional.extensions.rises.private_rises`.
+
+    Raises
+    ------
+    InputError
+        Naming the field.
+    """
+    friction: dict[str, float] = {}
+    for entry in entries.values():
+        friction |= joint_friction(system, entry)
+    support = {name: _support(e, e.support) for name, e in entries.items() if e.support is not None}
+    return private_rises(system, pairs, friction=friction, support=support, **more)
+
+
+def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:
+    """Friction of a body's coordinates, by their names [N, N m].
+
+    Raises
+    ------
+    ScenarioError
+        If a joint is unknown or a floating base, or a friction is no number >= 0.
+    """
+    if entry.joint_friction == URDF:
+        return urdf_friction(system, entry.body.name)
+    table = {} if entry.joint_friction is None else entry.joint_friction
+    given = Fields(table, entry.table.name("joint_friction"), ScenarioError)
+    own = [joint for joint in system.joints if joint.name.startswith(f"{entry.body.name}/")]
+    rubbed = [joint for joint in own if joint.kind != "floating"]
+    given.only(entry.short(joint) for joint in rubbed)
+    found: dict[str, float] = {}
+    for joint in rubbed:
+        name, coordinates = entry.short(joint), joint.coordinates
+        if name not in given:
+            continue
+        one = len(coordinates) == 1
+        loads = [given.number(name)] if one else given.array(name, (len(coordinates),)).tolist()
+        if min(loads) < 0:
+            raise given.fail(name, "must be at least 0", loads)
+        found |= {c.name: load for c, load in zip(coordinates, loads, strict=True)}
+    return found
+
+
+def _support(entry: BodyEntry, rubs: Fields) -> tuple[float, float]:
+    """mu_v [-] and mu_omega [m] of a planar base on its floor."""
+    if entry.body.base != "planar":
+        raise entry.table.fail("support", 'is for a body with base = "planar"')
+    check_names(rubs, SUPPORT)
+    return value(rubs, SUPPORT, "mu_v"), value(rubs, SUPPORT, "mu_omega")

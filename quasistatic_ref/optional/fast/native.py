@@ -1,0 +1,152 @@
+"""A step handed to a backend's own interface, without CVXPY.
+
+What CVXPY would make of a step is its standard form (a test holds them equal); the matrices are
+written into arrays that are kept, in natural units, and the backend is updated in place. Where it
+can, it starts from its answer to the step before.
+"""
+
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import BackendError
+from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, SparseProgram
+from quasistatic_ref.solve.backends import BACKENDS, installed
+from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.solver import OptionSet, Solver
+from quasistatic_ref.solve.units import NaturalHessian, Units, reach
+from quasistatic_ref.step.cones import cone
+from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.tolerances import FAR
+
+
+def native_backends(cone_name: str) -> tuple[str, ...]:
+    """Backends with an interface of their own here for steps in a cone of that name."""
+    rows = cone(cone_name).polyhedral
+    return tuple(name for name in installed("native") if rows or BACKENDS[name].cones)
+
+
+def check_native(name: str, cone_name: str) -> None:
+    """Refuse a backend that has no interface of its own here, or does not take a cone by it.
+
+    Raises
+    ------
+    BackendError
+        In one sentence that says which do.
+    """
+    if name in native_backends(cone_name):
+        return
+    there = ", ".join(native_backends(cone_name))
+    problem = f"has no interface of its own here that takes the cone {cone_name!r}; {there} have"
+    raise BackendError(problem, field="backend", value=name)
+
+
+class NativeSolver(Solver):
+    """The arrays of steps of one kind, and a backend that is updated from them in place.
+
+    Parameters
+    ----------
+    like : StepData
+        A step of that kind.
+    name : str
+        Of a backend with an adapter.
+
+    Raises
+    ------
+    BackendError
+        If the backend has no native interface, or does not take the cone.
+    """
+
+    engine = "native"
+    remembers = True
+    fixed = ("n_a", "n_u", "cone", "contacts.rows", "extra")
+
+    def __init__(self, like: StepData, name: str) -> None:
+        check_native(name, like.cone)
+        super().__init__(like, name)
+        # Needs its package.
+        module = import_module(f"quasistatic_ref.optional.fast.adapters.{name}")
+        self.adapter: type[Adapter] = getattr(module, BACKENDS[name].adapter)
+        self.sizes = sizes(like)
+        self.metric: NaturalHessian | None = None
+        self.program: Program | SparseProgram = self.empty()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.like, self.name)
+
+    def empty(self) -> Program | SparseProgram:
+        """A program of the right size."""
+        like, order = self.like, self.adapter.ORDER
+        n, m = like.n_v, like.m
+        return Program(
+            np.zeros((n, n), order=order), np.zeros(n), np.zeros((m, n), order=order), np.zeros(m)
+        )
+
+    def takes(self, step: StepData) -> bool:
+        """Whether a step can be written into the same arrays."""
+        # Steps of one run share their layout of rows: an identity test, which takes no time.
+        alike = step.layout is self.like.layout and sizes(step) == self.sizes
+        return alike or super().takes(step)
+
+    def write(self, scaled: Any) -> NDArray[np.bool_] | None:
+        """Write the program in natural units; tell which rows, shape (m,), are out of reach."""
+        self.write_program(scaled)
+        program = self.program
+        if not self.adapter.NEAR or program.b.min(initial=0.0) >= -FAR:
+            return None
+        least = -reach_of_rows(scaled.step, scaled.units)
+        np.maximum(program.b, least, out=program.b)
+        return np.asarray(program.b == least)
+
+    def write_program(self, scaled: Any) -> None:
+        """Write the program in natural units as it is; H only where it is another array."""
+        form, program = scaled.form, self.program
+        S, ell, rho = scaled.units.coordinate, scaled.units.length, scaled.units.size
+        if self.metric is None or self.metric.H is not scaled.metric.H:
+            program.H[:] = scaled.metric.natural
+            self.metric = scaled.metric
+        np.multiply(form.g, S / -rho, out=program.f)
+        np.multiply(form.A, S / ell, out=program.A)
+        np.multiply(form.b, 1 / (rho * ell), out=program.b)
+
+    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
+        """One attempt: from the answer before, if there is one; cold if not, or if that fails."""
+        program = self.program
+        if isinstance(program, Program) and not program.b.size:  # not every backend takes that
+            x = np.asarray(np.linalg.solve(program.H, -program.f), dtype=np.float64)
+            return Reply(x, np.zeros(0), True, "optimal", 0)
+        held: _SetUpAdapter | None = attempt.kept
+        attempt.kept = None  # an adapter that raises is set up again
+        if held is None:
+            held = _SetUpAdapter(self.adapter(program, attempt.options), self.metric)
+        warm = self.adapter.WARM and held.warm
+        reply = held.adapter.reply(held.metric is self.metric, warm)
+        if warm and not reply.solved:
+            reply = held.adapter.reply(False, False)
+        held.metric, held.warm = self.metric, reply.solved
+        attempt.kept = held
+        return reply
+
+
+def reach_of_rows(step: StepData, units: Units) -> Array:
+    """How far each row may be in natural units before its contact is out of reach, shape (m,)."""
+    of_contacts = reach(step.contacts.J * (units.coordinate / units.length))
+    own = np.full(len(step.extra.names), np.inf)  # a user's own rows are no contacts
+    return np.concatenate([np.repeat(of_contacts, step.counts), own])
+
+
+def sizes(step: StepData) -> tuple[int, int, int]:
+    """n_a, n_u and the number of rows of the user's own."""
+    return step.tau_a.size, step.tau_u.size, len(step.extra.names)
+
+
+@dataclass(eq=False)
+class _SetUpAdapter:
+    """An adapter, the H that it has, and whether it can start from its answer."""
+
+    adapter: Adapter
+    metric: NaturalHessian | None
+    warm: bool = False

@@ -1,0 +1,121 @@
+"""Large steps: the sparse standard form handed to a backend's own interface.
+
+As :mod:`~quasistatic_ref.optional.fast.native`, in time and memory that grow with the number of
+entries that are not zero. Answers are judged by residuals and a bound of the error
+(:mod:`~quasistatic_ref.optional.large.sparse_bound`), or proved group by group.
+"""
+
+from typing import Any
+
+import numpy as np
+
+from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.norm import Norm
+from quasistatic_ref.errors import BackendError
+from quasistatic_ref.optional.fast.adapters.program import SparseProgram
+from quasistatic_ref.optional.fast.native import NativeSolver
+from quasistatic_ref.optional.fast.proofs import Proofs
+from quasistatic_ref.parts import needed_part
+from quasistatic_ref.solve.backends import BACKENDS, Options
+from quasistatic_ref.solve.scaled import NaturalStep
+from quasistatic_ref.solve.solver import NaturalAnswer, OptionSet
+from quasistatic_ref.step.data import Array, Mask, StepData
+from quasistatic_ref.tolerances import FAR
+
+GAPS = ("tol_gap_abs", "tol_gap_rel", "eps_duality_gap_abs", "eps_duality_gap_rel")
+"""Options that ask for a duality gap: Clarabel's, then PIQP's."""
+
+
+MOST_ITERATIONS = 100
+"""Limit of the iterations of an interior-point method: one that has not reached its duality gap
+after 40 mostly stalls, and is tried with other options sooner than after its usual 500."""
+
+
+def reachable(options: Options, rows: int) -> Options:
+    """Options whose duality gap can be reached, in fewer iterations; the same if they have no gap.
+
+    The gap is a difference of sums over all rows, of terms near one in natural units: rounding
+    leaves some 2^-52 of each. With a smaller gap Clarabel takes 20 to 30 more steps in search of a
+    lucky one, and PIQP all that it may.
+    """
+    least = rows * float(np.finfo(np.float64).eps)
+    gaps = {name: max(options[name], least) for name in GAPS if name in options}
+    most = {"max_iter": min(options["max_iter"], MOST_ITERATIONS)} if gaps else {}
+    return options | gaps | most
+
+
+class SparseSolver(NativeSolver):
+    """The pattern of large steps of one kind, and a backend that takes sparse matrices.
+
+    Parameters
+    ----------
+    like : StepData
+        With contacts in blocks, and no rows of the user's own.
+    name : str
+        Of a backend whose adapter takes sparse matrices.
+
+    Raises
+    ------
+    BackendError
+        If the backend takes no sparse matrices.
+    StepDataError
+        If the step is not in blocks.
+    """
+
+    def __init__(self, like: StepData, name: str) -> None:
+        able = [entry.name for entry in BACKENDS.values() if entry.sparse]
+        if name not in able:
+            problem = f"takes no sparse matrices; a step this large needs {', '.join(able)}"
+            raise BackendError(problem, field="backend", value=name)
+        self.proofs = Proofs()
+        super().__init__(like, name)
+
+    def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
+        """The exact optimum."""
+        return self.proofs.optimum(scaled, answer)
+
+    def norm(self, scaled: NaturalStep) -> Norm:
+        """The norm ||.||_H of a step."""
+        return self.proofs.norm()
+
+    def empty(self) -> SparseProgram:
+        """A program with H in natural units, which stays, and the pattern of A."""
+        kind: Any = needed_part("large.sparse", "a step in blocks").LargeSteps(self.like)
+        self.kind = kind
+        A = kind.pattern.A.copy()
+        m, n = A.shape
+        return SparseProgram(kind.H.H, kind.P, np.zeros(n), A, np.zeros(m))
+
+    def takes(self, step: StepData) -> bool:
+        """Whether a step has its entries where this pattern has them, and the same H."""
+        return bool(self.kind.fits(step))
+
+    def differences(self, step: StepData) -> list[str]:
+        """In what a step is not like the one that the pattern was made for."""
+        return [*super().differences(step), "H or the pattern of A"]
+
+    def attempts(self, accuracy: float) -> list[OptionSet]:
+        """The sets of options, none of which asks for a gap that rounding hides."""
+        if accuracy not in self._attempts:
+            for attempt in super().attempts(accuracy):
+                attempt.options = reachable(attempt.options, len(self.program.b))
+        return self._attempts[accuracy]
+
+    def scaled(self, step: StepData) -> NaturalStep:
+        """The step in natural units."""
+        scaled: NaturalStep = self.kind.scaled(step)
+        return scaled
+
+    def error_bound(self, scaled: Any, delta_q: Array, lam: Array) -> float:
+        """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
+        return float(scaled.error_bound(delta_q, lam))
+
+    def write(self, scaled: Any) -> Mask:
+        """Write g, A and b; tell which rows are out of reach, shape (m,)."""
+        program = self.program
+        squares = np.bincount(scaled.A.indices, scaled.A.data**2, minlength=len(scaled.b))
+        reach = -FAR * np.maximum(1.0, np.sqrt(squares))
+        program.f[:] = -scaled.g
+        program.A.data[:] = scaled.A.data
+        np.maximum(scaled.b, reach, out=program.b)
+        return np.asarray(scaled.b < reach)

@@ -1,0 +1,1 @@
+"""Backends that qpsolvers reaches: ``solver = "qpsolvers:NAME"``."""

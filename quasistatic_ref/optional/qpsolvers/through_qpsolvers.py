@@ -1,0 +1,113 @@
+"""Through qpsolvers: the standard form handed over, without CVXPY."""
+
+import warnings
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import qpsolvers
+
+from quasistatic_ref.solve.backends import QPSOLVERS, Options
+from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.scaled import DenseStep
+from quasistatic_ref.solve.solver import OptionSet, Solver
+from quasistatic_ref.solve.units import out_of_reach, within_reach
+from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.standard_form import StandardForm, standard_form
+
+
+def available_solvers() -> list[str]:
+    """Names of the solvers that qpsolvers finds here."""
+    return list(qpsolvers.available_solvers)
+
+
+class QpsolversSolver(Solver):
+    """A backend that qpsolvers knows; nothing is compiled, so it takes every step of its cone.
+
+    Parameters
+    ----------
+    like : StepData
+        A step in the cone of those that are to be solved.
+    name : str
+        Of the backend, with ``qpsolvers:``.
+    """
+
+    engine = "qpsolvers"
+    fixed = ("cone",)
+
+    def write(self, scaled: DenseStep) -> Mask:
+        """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
+        natural = scaled.natural
+        self.form = standard_form(within_reach(natural))
+        return np.repeat(out_of_reach(natural), natural.counts)
+
+    def reply(self, attempt: OptionSet, scaled: DenseStep) -> Reply:
+        """What the backend says, from a cold start."""
+        name = self.name.removeprefix(QPSOLVERS)
+        reply = qpsolvers_reply(self.form, name, attempt.options)
+        reply.lam = None if reply.lam is None else reply.lam.reshape(-1)
+        return reply
+
+
+def qpsolvers_reply(
+    form: StandardForm, name: str, options: Options, start: Array | None = None
+) -> Reply:
+    """The reply of a backend to a plain quadratic program.
+
+    Parameters
+    ----------
+    form : StandardForm
+    name : str
+        Of the backend in qpsolvers.
+    options : dict
+        In its own names.
+    start : ndarray, shape (n,), optional
+        Where a warm start begins [m, rad].
+    """
+    program = qpsolvers.Problem(P=form.H.copy(), q=-form.g, G=-form.A, h=-form.b)
+    initial = None if start is None else start.copy()
+    begin = perf_counter()
+    with warnings.catch_warnings():
+        # It warns of dense matrices converted (13 x 80 numbers), of defaults that will change,
+        # and of statuses, which are dealt with below.
+        warnings.simplefilter("ignore")
+        solution = qpsolvers.solve_problem(program, name, initvals=initial, **options)
+    seconds = perf_counter() - begin
+    status, iterations = _status(solution)
+    return Reply(
+        None if solution.x is None else np.array(solution.x, dtype=np.float64),
+        None if solution.z is None else np.array(solution.z, dtype=np.float64),
+        bool(solution.found),
+        status,
+        iterations,
+        None if solution.solve_time is None else float(solution.solve_time),
+        seconds,
+        *_account(solution),
+    )
+
+
+def _account(solution: qpsolvers.Solution) -> tuple[float | None, float | None]:
+    """Seconds of solving and of setting up as the solver reports them, and not qpsolvers' clock."""
+    extras = solution.extras or {}
+    info = extras.get("info", extras)
+    field: Any = info.get if isinstance(info, dict) else lambda name: getattr(info, name, None)
+    package = type(info).__module__
+    unit = 1e-3 if "setup_time" in extras else 1e-6 if "proxsuite" in package else 1.0  # SCS: ms
+
+    def seconds(name: str) -> float | None:
+        time = field(name)
+        return unit * float(time) if time is not None and time > 0 else None
+
+    return seconds("solve_time"), seconds("setup_time")
+
+
+def _status(solution: qpsolvers.Solution) -> tuple[str, int | None]:
+    """What a backend called its result, and its iterations, where qpsolvers hands them on."""
+    extras = solution.extras or {}
+    info = extras.get("info")
+    status = extras.get("status", getattr(info, "status", None))
+    iterations: Any = extras.get("iter", getattr(info, "iter", None))
+    if "iterations" in extras:  # quadprog's: added, dropped
+        iterations = np.ravel(extras["iterations"])[0]
+    words = str(status) if status is not None else "found" if solution.found else "not found"
+    return words.rpartition(".")[2], None if iterations is None else int(iterations)

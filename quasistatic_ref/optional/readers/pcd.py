@@ -1,0 +1,96 @@
+"""Point positions of a PCD file (Point Cloud Library, versions .5 to .7), ascii or binary.
+
+The viewpoint is where the sensor stood; the points are taken as written.
+"""
+
+import math
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.optional.readers.point_table import PointTable, header_lines, table_points
+from quasistatic_ref.step.arrays import Array
+
+_TYPES = {
+    ("F", "4"): "<f4", ("F", "8"): "<f8", ("I", "1"): "i1", ("I", "2"): "<i2", ("I", "4"): "<i4",
+    ("I", "8"): "<i8", ("U", "1"): "u1", ("U", "2"): "<u2", ("U", "4"): "<u4", ("U", "8"): "<u8",
+}  # fmt: skip
+_WORDS = (
+    "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA",
+)  # fmt: skip
+MOST_COLUMNS = 1000
+
+
+def pcd_points(content: bytes) -> Array:
+    """Point positions of a PCD file.
+
+    Parameters
+    ----------
+    content : bytes
+        The whole file.
+
+    Returns
+    -------
+    ndarray, shape (N, 3)
+        x, y, z [m].
+
+    Raises
+    ------
+    ModelError
+        If the header or a point is malformed, not finite, or missing.
+    """
+    table = _table(content)
+    names = table.names
+    for name in "xyz":
+        if names.count(name) != 1 or table.columns[names.index(name)][2] != 1:
+            raise ModelError(f"must name {name} once, with one entry", field="FIELDS", value=names)
+    return table_points(table, "DATA", "points")
+
+
+def _table(content: bytes) -> PointTable:
+    header: dict[str, list[str]] = {}
+    for number, words, start in header_lines(content, "a line DATA"):
+        if not words or words[0].startswith("#"):
+            continue
+        if words[0] not in _WORDS or words[0] in header:
+            problem = f"must begin with one of {', '.join(_WORDS)}, each given once"
+            raise ModelError(problem, field=f"line {number}", value=" ".join(words))
+        header[words[0]] = words[1:]
+        if words[0] == "DATA":
+            body = content[start:]
+            break
+    data = " ".join(header["DATA"])
+    if data not in ("ascii", "binary"):
+        raise ModelError("must be ascii or binary; convert the file", field="DATA", value=data)
+    return PointTable(_columns(header), _count(header), data == "ascii", body, number + 1)
+
+
+def _columns(header: dict[str, list[str]]) -> tuple[tuple[str, str, int], ...]:
+    names, sizes, types = (header.get(word, []) for word in ("FIELDS", "SIZE", "TYPE"))
+    counts = header.get("COUNT", ["1"] * len(names))
+    if not len(names) == len(sizes) == len(types) == len(counts) <= MOST_COLUMNS:
+        problem = "must have as many entries as SIZE, TYPE and COUNT"
+        raise ModelError(problem, field="FIELDS", value=names)
+    columns = []
+    for name, size, kind, count in zip(names, sizes, types, counts, strict=True):
+        if (kind, size) not in _TYPES:
+            raise ModelError("has an unknown SIZE and TYPE", field=name, value=f"{size} {kind}")
+        columns.append((name, _TYPES[kind, size], _whole("COUNT", count)))
+    if sum(n for _, _, n in columns) > MOST_COLUMNS:
+        raise ModelError(f"must have at most {MOST_COLUMNS} entries", field="FIELDS")
+    return tuple(columns)
+
+
+def _count(header: dict[str, list[str]]) -> int:
+    """The number of points, which POINTS and WIDTH times HEIGHT must agree on."""
+    sizes = [_whole(word, *header[word]) for word in ("WIDTH", "HEIGHT") if word in header]
+    given = [_whole("POINTS", *header["POINTS"])] if "POINTS" in header else []
+    if len(sizes) == 2:
+        given.append(math.prod(sizes))
+    if not given or len(set(given)) > 1:
+        raise ModelError("must be given, and be WIDTH times HEIGHT", field="POINTS", value=given)
+    return given[0]
+
+
+def _whole(field: str, *words: str) -> int:
+    if len(words) != 1 or not (words[0].isascii() and words[0].isdigit()) or len(words[0]) > 18:
+        raise ModelError("must be a whole number", field=field, value=" ".join(words))
+    return int(words[0])

@@ -1,0 +1,40 @@
+"""Points of clouds in further formats, by the extensions of their files."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.formats.files import bytes_read
+from quasistatic_ref.formats.npz import npy_array, npz_arrays
+from quasistatic_ref.optional.readers.pcd import pcd_points
+from quasistatic_ref.optional.readers.ply import ply_points
+from quasistatic_ref.step.arrays import Array
+
+
+def _npz(path: Path) -> Array:
+    arrays = npz_arrays(path, "a file of NumPy's arrays")
+    name = "points" if "points" in arrays else next(iter(arrays), "")
+    if name != "points" and len(arrays) != 1:
+        problem = "must contain one array, or one that is named points"
+        raise ModelError(problem, field="its arrays", value=list(arrays))
+    return _of_array(arrays[name], name)
+
+
+def _of_array(array: NDArray[Any], name: str) -> Array:
+    if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
+        given = f"{array.dtype} of shape {array.shape}"
+        raise ModelError("must contain numbers of shape (N, 3)", field=name, value=given)
+    return array.astype(np.float64)
+
+
+POINTS: Final[dict[str, Callable[[Path], Array]]] = {
+    ".ply": lambda path: ply_points(bytes_read(path, ModelError)),
+    ".pcd": lambda path: pcd_points(bytes_read(path, ModelError)),
+    ".npy": lambda path: _of_array(npy_array(path), "its array"),
+    ".npz": _npz,
+}
+"""Extension -> the points of such a file, shape (N, 3) [m]."""

@@ -1,0 +1,44 @@
+"""The law of friction that steps obey: the model's own, or Coulomb's of ``optional/coulomb``."""
+
+from types import ModuleType
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.parts import needed_part
+
+CONVEX, COULOMB = "convex", "coulomb"
+LAWS = (CONVEX, COULOMB)
+ITERATED = ("s", "s_residual", "s_iterations")
+"""What Coulomb's law adds to each step of a record: by how much phi was raised, shape (n_c,) [m];
+by how much that is not its own [m]; and how many convex steps were solved."""
+
+
+def coulomb() -> ModuleType:
+    """What takes steps under Coulomb's law.
+
+    Raises
+    ------
+    InputError
+        If ``optional/coulomb`` is missing.
+    """
+    return needed_part("coulomb.fixed_point", f'law = "{COULOMB}"')
+
+
+def check_law(law: str, certify: str) -> None:
+    """Refuse a law that is unknown, or whose steps cannot be certified as is asked for.
+
+    Raises
+    ------
+    InputError
+        Also if :func:`coulomb` does.
+    """
+    if law not in LAWS:
+        raise InputError(f"is not a choice{suggestion(law, LAWS)}", field="law", value=law)
+    if law == COULOMB:
+        coulomb()
+        if certify != "full":
+            problem = (
+                f'needs certify = "full", not "{certify}": the iteration ends where exact steps '
+                "agree to 12 digits"
+            )
+            raise InputError(problem, field="law", value=law)

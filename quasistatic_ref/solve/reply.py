@@ -1,0 +1,39 @@
+"""What one call of a solver gives back."""
+
+from dataclasses import dataclass
+
+from quasistatic_ref.step.data import Array
+
+
+@dataclass(eq=False)
+class Reply:
+    """What came back from one call of a solver: as it is, not judged.
+
+    Parameters
+    ----------
+    x : ndarray, shape (n,), or None
+        The answer to min 1/2 x'Hx - g'x, A x >= b; any shape if the solver is broken.
+    lam : ndarray, shape (m,), or None
+        Multipliers of A x >= b, >= 0 but for the solver's tolerance.
+    solved : bool
+        Whether it claims a full solution.
+    status : str
+        Its own word, or what it raised.
+    iterations : int or None
+    seconds : float or None
+        Inside the solver [s], where it says so.
+    call_seconds : float
+        Of the whole call [s], in a study.
+    own, setup : float or None
+        Of solving and of setting up [s], by the solver's own account, in a study.
+    """
+
+    x: Array | None
+    lam: Array | None
+    solved: bool
+    status: str
+    iterations: int | None = None
+    seconds: float | None = None
+    call_seconds: float = 0.0
+    own: float | None = None
+    setup: float | None = None

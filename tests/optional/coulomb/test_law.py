@@ -1,0 +1,148 @@
+"""``law = "coulomb"`` of scenarios and simulators: runs without a rise, and what is refused."""
+
+import json
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import InputError, RunFailed
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.derivatives import derivatives
+from quasistatic_ref.optional.doctor.table import scene_findings
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import Box, PlacedShape
+from quasistatic_ref.simulate.rollout import rollout
+from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.simulate.trajectory import trajectory_read
+from quasistatic_ref.step.extension import Extension
+from tests.optional.extensions.test_rises import PUSHED, G, H, scene
+from tests.scenes import written_scenario
+from tests.tolerances import ROUNDING
+
+RISE = 1e-10
+"""Largest gap under load, over the slip of its step [-]: s is its own to within 1e-12 of motions
+that are up to a hundred times the slip."""
+
+
+@pytest.fixture(scope="module")
+def runs():
+    """The first 40 steps of block_push, on both paths."""
+    return [
+        load_scenario("block_push", steps=40, law="coulomb", fast=fast).run(progress=False)
+        for fast in (False, True)
+    ]
+
+
+def test_a_run_under_coulombs_law_lifts_nothing_off_and_has_one_result(runs):
+    plain, fast = runs
+    for name in ("q", "delta_q", "s", "s_residual", "s_iterations"):
+        np.testing.assert_array_equal(plain[name], fast[name])
+    assert plain.header["law"] == "coulomb"
+    s = plain["s"].max()
+    assert plain.header["largest_boundary_layer"] < RISE * s
+    rising = load_scenario("block_push", steps=40, fast=True).run(progress=False)
+    np.testing.assert_allclose(rising.header["largest_boundary_layer"], s, rtol=0.2)
+    assert "law" not in rising.header
+    assert "s" not in rising.arrays
+
+
+def test_a_recorded_step_is_the_one_that_was_certified(runs, tmp_path):
+    run = trajectory_read(runs[0].save(tmp_path / "run.npz"))
+    k = int(run["s_iterations"].argmax())
+    step = run.step_data(k)
+    np.testing.assert_array_equal(step.contacts.phi, run["phi"][k] + run["s"][k])
+    scenario = load_scenario("block_push", law="coulomb")
+    q_bar = scenario.targets((k + 1) * scenario.h)
+    result = scenario.simulator().step(run["q"][k], q_bar)
+    assert result.solution.step == result.step == step
+    assert result.solution.found
+    assert (result.points.phi == run["phi"][k]).all()
+    certificate = result.solution.certificate
+    assert verify(step, run["delta_q"][k], certificate.active, run["lam"][k], certificate)
+
+
+def test_an_l_on_its_support_is_pushed_along_a_wall_without_leaving_it(tmp_path):
+    """The force (F_x, -F_y), the wall with friction w: x = h^2 (F_x - mu m g - w F_y) / m."""
+    m, mu, w = 0.5, 0.4, 0.25
+    x = H**2 * (4.0 - mu * m * G - w * 2.0) / m
+    run = scene(tmp_path, PUSHED, law="coulomb").run(progress=False)
+    expected = [x, 0.0, 0.0]
+    np.testing.assert_allclose(run["delta_q"][0], expected, rtol=1e-11, atol=1e-11 * x)
+    assert (np.abs(run["phi"]) < RISE * x).sum(axis=1).min() >= 3  # the side and the support
+
+
+def test_the_command_says_how_many_iterations_there_were(tmp_path, capsys):
+    path = str(written_scenario(tmp_path))
+    assert main(["run", path, "--law", "coulomb", "--out", str(tmp_path), "--quiet"]) == 0
+    assert "Coulomb's law: " in capsys.readouterr().out
+    assert main(["run", path, "--law", "coulomb", "--out", str(tmp_path), "--json"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    run = trajectory_read(tmp_path / "scene.npz")
+    assert said["law"] == "coulomb"
+    assert said["s_iterations"] == run["s_iterations"].tolist()
+    assert said["largest_s_residual"] == run["s_residual"].max()
+
+
+def slot(clearance, **settings):
+    """A block of 1 kg without weight between two walls, each `clearance` away [m]."""
+    block = Body.of_shape("block", Box(size=(0.1, 0.1, 0.1)), 1.0)
+    system = System([block])
+    pairs = [
+        ContactPair(
+            f"wall(wall, {side:+})",
+            PlacedShape("wall", 0, np.eye(3), [0.0, side * (0.1 + clearance), 0.0],
+                        Box(size=(2.0, 0.1, 2.0))),
+            system.shapes[0], mu_v=0.5, mu_omega=0.0, rows=4, k=4,
+        )
+        for side in (-1, 1)
+    ]  # fmt: skip
+    settings = {"law": "coulomb", "fast": True} | settings
+    return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), gravity=(0, 0, 0), **settings)
+
+
+def test_a_guide_is_named_as_undetermined_and_stays_locked():
+    """Each iterate with clearance c raises s by c: X mu / c of them lead to Coulomb's slip."""
+    locked = slot(0.0)
+    (found,) = scene_findings(locked, locked.system.q_start)
+    assert found.name == "guided friction"
+    assert "where Coulomb's law has many solutions" in found.sentence
+    push = np.array([20.0, 0, 0, 0, 0, 0])
+    result = locked.step(locked.system.q_start, [], push)
+    assert not result.solution.delta_q.any()
+    X = H**2 * 20.0
+    loose = slot(X / 20)
+    assert scene_findings(loose, loose.system.q_start) == []
+    result = loose.step(loose.system.q_start, [], push)
+    np.testing.assert_allclose(result.solution.delta_q[0], X, rtol=ROUNDING)
+    assert 10 <= result.solution.s_iterations <= 12
+
+
+def test_where_no_solution_is_found_a_run_ends_and_claims_nothing():
+    narrow = slot(1e-6)
+    push = np.array([20.0, 0, 0, 0, 0, 0])
+    sentence = (
+        r"step 0: no solution under Coulomb's law was found in 200 iterations: s is still off by "
+        r"1e-06 m; take a smaller h, or law = \"convex\""
+    )
+    with pytest.raises(RunFailed, match=sentence) as failed:
+        rollout(narrow, narrow.system.q_start, [], 3, force=lambda t, q: push, progress=False)
+    assert failed.value.trajectory.steps == 0
+    assert failed.value.step.contacts.phi == pytest.approx(1e-6)  # the step as it was posed
+
+
+def test_what_the_law_does_not_take_is_refused_in_a_sentence(tmp_path):
+    with pytest.raises(InputError, match=r"law: is not a choice; did you mean 'coulomb'\?"):
+        slot(0.0, law="coulom")
+    with pytest.raises(InputError, match=r'law: needs certify = "full", not "off"'):
+        slot(0.0, certify="off")
+    cost = slot(0.0, extension=lambda q: Extension(lambda s: [cp.sum_squares(s.delta_q)]))
+    with pytest.raises(InputError, match=r"extension: holds costs or nonlinear constraints"):
+        cost.step(cost.system.q_start, [])
+    tried = slot(0.0)
+    with pytest.raises(InputError, match=r'law: must be "convex" for derivatives'):
+        derivatives(tried, tried.system.q_start, [])

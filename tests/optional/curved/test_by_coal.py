@@ -1,0 +1,118 @@
+"""What coal answers is checked before it is used, mended or refused."""
+
+import coal
+import numpy as np
+import pytest
+
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.curved import by_coal
+from quasistatic_ref.optional.curved.by_coal import coal_witness
+from quasistatic_ref.shapes.placed_shape import Cone, Ellipsoid
+from tests.contact.still import found_for, placed, standing
+from tests.tolerances import COAL, CURVED_PAIR, EXACT, ROUNDING
+
+PLANTED = {
+    "normal turned round": lambda r: setattr(r, "normal", -np.array(r.normal)),
+    "normal of another direction": lambda r: setattr(r, "normal", np.roll(np.array(r.normal), 1)),
+    "always the same normal": lambda r: setattr(r, "normal", np.array([1.0, 0.0, 0.0])),
+    "normal too long": lambda r: setattr(r, "normal", 1.1 * np.array(r.normal)),
+    "no normal": lambda r: setattr(r, "normal", np.zeros(3)),
+    "normal NaN": lambda r: setattr(r, "normal", np.full(3, np.nan)),
+    "distance": lambda r: None,
+}
+
+
+REFUSED = ("normal of another direction", "no normal", "normal NaN")
+
+
+@pytest.mark.parametrize("spoil", PLANTED)
+@pytest.mark.parametrize("gap", [0.1, 0.0, -0.01])
+def test_a_bad_answer_of_coal_is_mended_or_refused(monkeypatch, spoil, gap):
+    honest = coal.distance
+
+    def spoilt(*arguments):
+        phi = honest(*arguments)
+        PLANTED[spoil](arguments[-1])
+        return phi + 1e-3 * (spoil == "distance")
+
+    monkeypatch.setattr(coal, "distance", spoilt)
+    cone = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
+    kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.4 + gap])))
+    found, refusal = None, ""
+    try:
+        found = found_for(placed(cone), placed(cone, 1), kinematics)
+    except ContactError as error:
+        refusal = str(error)
+    if found is None:
+        assert refusal.startswith("p: the contact normal is not reliable")
+        assert spoil != "distance"
+        return
+    assert spoil not in REFUSED
+    # The lower cone's tip is at z = 0.2, the upper one's base at 0.2 + gap.
+    np.testing.assert_allclose(found.phi, [gap], rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(found.n, [[0, 0, 1]], rtol=EXACT, atol=CURVED_PAIR)
+
+
+X = np.eye(3)[0]
+SLANTING = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])
+
+
+def tips(gap, R=None, at=(0.0, 0.0, 0.0)):
+    """Two ellipsoids whose longest axes are in line, along R's first column, tip to tip."""
+    R, at = np.eye(3) if R is None else R, np.array(at)
+    one, two = Ellipsoid(np.array([0.125, 0.05, 0.04])), Ellipsoid(np.array([0.25, 0.03, 0.06]))
+    return ShapeInWorld(one, R, at), ShapeInWorld(two, R, at + (0.375 + gap) * R[:, 0])
+
+
+def without_normals(monkeypatch, answers, phi=None):
+    """So many answers of coal lack the normal, and have another distance, if one is given."""
+    honest, left = coal.distance, list(range(answers))
+
+    def spoilt(*arguments):
+        found = honest(*arguments)
+        if not left:
+            return found
+        left.pop()
+        arguments[-1].normal = np.full(3, np.nan)
+        return found if phi is None else phi
+
+    monkeypatch.setattr(coal, "distance", spoilt)
+
+
+def test_ellipsoids_are_as_far_apart_as_their_tips_however_far() -> None:
+    for gap in (0.1, 10.0, 1e3):
+        found = coal_witness("p", *tips(gap))
+        np.testing.assert_allclose(found.phi, gap, rtol=ROUNDING)
+        np.testing.assert_allclose(found.n, X, rtol=EXACT, atol=CURVED_PAIR)
+
+
+@pytest.mark.parametrize("t", [(0.375, 0.25, 0.125), (0.25, 0.0625, 0.03125)])
+def test_an_answer_does_not_depend_on_where_the_world_has_its_origin(t) -> None:
+    # Apart, and in penetration; all of these numbers are exact.
+    found = []
+    for origin in (0.0, 2.0**20):
+        one, two = tips(0.0, at=(origin, 0, 0))
+        found.append(coal_witness("p", one, ShapeInWorld(two.shape, SLANTING, one.t + t)))
+    assert found[0].phi == found[1].phi
+    assert found[0].n.tolist() == found[1].n.tolist()
+
+
+@pytest.mark.parametrize("gap", [10.0, -0.01])
+def test_a_pair_that_is_refused_has_coal_s_distance_in_the_message(monkeypatch, gap) -> None:
+    without_normals(monkeypatch, 1000)
+    with pytest.raises(ContactError, match="the contact normal is not reliable") as refused:
+        coal_witness("p", *tips(gap))
+    np.testing.assert_allclose(refused.value.value["phi"], gap, rtol=EXACT, atol=10 * COAL)
+
+
+@pytest.mark.parametrize("settle", [True, False])
+@pytest.mark.parametrize("gap", [0.0, -1e-4, -0.01])
+def test_where_coal_has_no_normal_the_way_out_is_found_from_any(monkeypatch, gap, settle) -> None:
+    # At no accuracy; the direction that is tried then is x.
+    without_normals(monkeypatch, len(by_coal.ACCURACIES), phi=gap)
+    if not settle:
+        monkeypatch.setattr(by_coal, "settled", lambda *_: iter(()))
+    found = coal_witness("p", *tips(gap))
+    np.testing.assert_allclose(found.phi, gap, rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(found.n, X, rtol=EXACT, atol=CURVED_PAIR)

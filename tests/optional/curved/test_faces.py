@@ -1,0 +1,121 @@
+"""What a solid has farthest along a direction, and how that changes with the direction."""
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.optional.curved.faces import Face, curvature, face, kinks
+from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder
+from tests.oracles import closest
+from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT, ROUNDING
+
+SOLIDS = closest.solids()
+HERE = np.eye(3), np.zeros(3)
+
+
+def directions(count: int) -> np.ndarray:
+    n = np.random.default_rng(3).normal(size=(count, 3))
+    return n / np.linalg.norm(n, axis=1)[:, None]
+
+
+@pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "ellipsoid", "box"])
+def test_the_curvature_is_the_derivative_of_the_farthest_point(name) -> None:
+    R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
+    solid, h = ShapeInWorld(SOLIDS[name], R, np.array([0.1, 0.2, 0.3])), DIFFERENCE_STEP
+    for n in directions(20):
+        T = np.linalg.svd(n[None])[2][1:]
+        for way in T:
+            ahead, behind = (solid.farthest((n + s * h * way) / np.hypot(1, h)) for s in (1, -1))
+            difference = (ahead - behind) / (2 * h)
+            expected = curvature(solid, n) @ way
+            np.testing.assert_allclose(difference, expected, rtol=EXACT, atol=DIFFERENCE)
+        # The farthest point is the same for every length of n.
+        np.testing.assert_allclose(curvature(solid, n) @ n, 0, rtol=EXACT, atol=CURVED_PAIR)
+
+
+def test_edges_of_a_box_are_kinks_along_its_axes_as_unit_vectors() -> None:
+    """Four of its twelve edges lie along each axis: the sum of e e' is 4 I for unit vectors e."""
+    of = kinks(Box(np.array([0.3, 0.02, 0.1])))
+    assert not of.levels.any()
+    np.testing.assert_allclose(of.axes.T @ of.axes, 4 * np.eye(3), rtol=0, atol=EXACT)
+
+
+def flat_normals(name: str) -> list[np.ndarray]:
+    of = kinks(SOLIDS[name])
+    found = list(of.normals)
+    for u, c in zip(of.axes, of.levels, strict=True):
+        m = np.linalg.svd(u[None])[2][1]
+        found.append(c * u + np.sqrt(1 - c * c) * m)
+    return found
+
+
+@pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "box", "mesh"])
+def test_every_point_of_a_face_is_as_far_as_the_farthest(name) -> None:
+    R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
+    solid = ShapeInWorld(SOLIDS[name], R, np.array([0.1, 0.2, 0.3]))
+    wide = 0
+    for own in flat_normals(name):
+        n = R @ own
+        found = face(solid, n)
+        height = float(solid.reach(n[None])[0])
+        np.testing.assert_allclose(found.corners @ n, height, rtol=EXACT, atol=CURVED_PAIR)
+        wide += len(found.corners) > 1 or found.radius > 0
+        for x in 0.3 * np.random.default_rng(5).normal(size=(20, 3)):
+            on = found.nearest(x)
+            depth = SOLIDS[name].signed_distance((R.T @ (on - solid.t))[None])[0]
+            np.testing.assert_allclose(depth, 0, rtol=EXACT, atol=CURVED_PAIR)
+            # Nearest: no corner lies further towards x.
+            across = x - on - ((x - on) @ n) * n
+            assert ((found.corners - on) @ across).max() <= CURVED_PAIR + (
+                found.radius * np.linalg.norm(across)
+            )
+    assert wide
+
+
+@pytest.mark.parametrize("end", [1.0, -1.0])
+def test_both_caps_of_a_cylinder_are_faces_and_the_base_of_a_cone(end) -> None:
+    way = np.array([0.0, 0.0, end])
+    cap = face(ShapeInWorld(Cylinder(0.1, 0.25), *HERE), way)
+    assert cap.radius == 0.1
+    np.testing.assert_allclose(cap.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
+    base = face(ShapeInWorld(Cone(0.1, 0.25), *HERE), way)
+    assert base.radius == (0.1 if end < 0 else 0.0)
+    np.testing.assert_allclose(base.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
+
+
+def test_a_square_s_nearest_points_are_those_of_its_clipped_coordinates() -> None:
+    corners = np.array([[1.0, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]])
+    square = Face(corners, 0.0, np.array([0.0, 0.0, 1.0]))
+    for x in np.random.default_rng(8).normal(size=(50, 3)) * 2:
+        expected = [*np.clip(x[:2], -1, 1), 0.0]
+        np.testing.assert_allclose(square.nearest(x), expected, rtol=EXACT, atol=CURVED_PAIR)
+
+
+def test_a_normal_that_is_off_by_a_millionth_is_not_that_of_a_face() -> None:
+    n = np.array([np.sin(1e-6), 0, np.cos(1e-6)])
+    cap = face(ShapeInWorld(Cylinder(0.1, 0.25), *HERE), n)
+    assert cap.radius == 0
+    np.testing.assert_allclose(cap.corners, [[0.1, 0, 0.25]], rtol=EXACT, atol=CURVED_PAIR)
+    for size in (1e-3, 1.0, 1e3):  # an edge along y, twice as long as the box is wide
+        edge = face(ShapeInWorld(Box(size * np.array([1, 2, 3])), *HERE), n).corners
+        expected = size * np.array([[1, -2, 3], [1, 2, 3]])
+        np.testing.assert_allclose(edge[edge[:, 1].argsort()], expected, rtol=ROUNDING)
+
+
+def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding() -> None:
+    R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
+    x, _, axis = R.T
+    at = ShapeInWorld(Cylinder(1.0, 0.5), R, np.zeros(3))
+    side = face(at, x + 0.9e-11 * axis).corners
+    np.testing.assert_allclose(side @ axis, [-0.5, 0.5], rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(side @ x, [1, 1], rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(side @ R[:, 1], [0, 0], rtol=EXACT, atol=CURVED_PAIR)
+
+
+def test_beyond_a_segment_its_end_is_nearest_also_in_line_with_it() -> None:
+    segment = Face(np.array([[0.0, 0, 0], [1, 0, 0]]), 0.0, np.array([0.0, 0.0, 1.0]))
+    for x in (-0.5, 0.25, 2.0):
+        expected = [np.clip(x, 0, 1), 0, 0]
+        found = segment.nearest(np.array([x, 0.0, 0.5]))
+        np.testing.assert_allclose(found, expected, rtol=EXACT, atol=EXACT)

@@ -1,0 +1,94 @@
+"""Adapters alone: an answer in closed form, a program rewritten in place, cold and warm starts."""
+
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.optional.fast.adapters.daqp import STATUS
+from quasistatic_ref.optional.fast.adapters.program import Program, SparseProgram
+from quasistatic_ref.solve.backends import BACKENDS, installed
+from tests.tolerances import OPTIMUM
+
+every_backend = pytest.mark.parametrize("name", installed("native"))
+
+
+def adapter_class(name):
+    return getattr(
+        import_module(f"quasistatic_ref.optional.fast.adapters.{name}"), BACKENDS[name].adapter
+    )
+
+
+def written(program, h, g, a, b):
+    """Rewrite a program: H = [[h, 1], [1, 2]], g = (0, g), and the rows a x_1 >= b, x_2 >= -9.
+
+    Where the first row bears load and the second does not, x_1 = b / a, x_2 = (g - x_1) / 2 and
+    lam_1 = (h x_1 + x_2) / a, by the two entries of H x - g = A'lam.
+    """
+    program.H[:] = [[h, 1.0], [1.0, 2.0]]
+    program.f[:] = [0.0, -g]
+    program.A[:] = [[a, 0.0], [0.0, 1.0]]
+    program.b[:] = [b, -9.0]
+    x_1 = b / a
+    x_2 = (g - x_1) / 2
+    return [x_1, x_2], [(h * x_1 + x_2) / a, 0.0]
+
+
+def held(name):
+    """An adapter in its backend's own options, and the program that it holds."""
+    order = adapter_class(name).ORDER
+    H, A = np.zeros((2, 2), order=order), np.zeros((2, 2), order=order)
+    program = Program(H, np.zeros(2), A, np.zeros(2))
+    written(program, h=3.0, g=4.0, a=2.0, b=2.0)
+    return adapter_class(name)(program, BACKENDS[name].first(1e-12)), program
+
+
+@every_backend
+@pytest.mark.parametrize("h", [3.0, 5.0])
+def test_a_program_that_is_rewritten_is_solved_as_it_stands(name, h):
+    adapter, program = held(name)
+    for g, a in ((4.0, 2.0), (6.0, 4.0)):
+        x, lam = written(program, h, g, a, b=2.0)
+        reply = adapter.reply(same_H=h == 3.0, warm=False)
+        assert reply.solved
+        assert reply.iterations > 0
+        np.testing.assert_allclose(reply.x, x, rtol=0.0, atol=OPTIMUM)
+        np.testing.assert_allclose(reply.lam, lam, rtol=0.0, atol=OPTIMUM)
+
+
+@every_backend
+def test_rows_that_contradict_each_other_are_not_solved(name):
+    """2 x_1 >= 2 and -2 x_1 >= 2."""
+    adapter, program = held(name)
+    program.A[1], program.b[1] = [-2.0, 0.0], 2.0
+    assert not adapter.reply(same_H=True, warm=False).solved
+
+
+@every_backend
+def test_a_cold_start_takes_as_long_as_the_first_and_a_warm_one_is_shorter(name):
+    adapter, _ = held(name)
+    first, warm, cold = (adapter.reply(True, warm=warm) for warm in (False, True, False))
+    assert cold.iterations == first.iterations
+    assert (warm.iterations < first.iterations) == adapter_class(name).WARM
+
+
+def test_every_exit_flag_of_daqp_has_a_word():
+    """By its manual 1 and 2 are solutions, -1 to -6 are none; -1 is that of no feasible point."""
+    assert sorted(STATUS) == [-6, -5, -4, -3, -2, -1, 1, 2]
+    adapter, program = held("daqp")
+    assert adapter.reply(same_H=True, warm=False).status == "optimal"
+    program.A[1], program.b[1] = [-2.0, 0.0], 2.0
+    assert adapter.reply(same_H=True, warm=False).status == "infeasible"
+
+
+def test_piqp_scales_dense_programs_only():
+    """Its own number of rounds for a dense program, none for a sparse one in natural units."""
+    from scipy.sparse import csc_matrix
+
+    dense, program = held("piqp")
+    P, A = csc_matrix(np.triu(program.H)), csc_matrix(program.A)
+    sparse = adapter_class("piqp")(
+        SparseProgram(csc_matrix(program.H), P, program.f, A, program.b), {}
+    )
+    assert dense.solver.settings.preconditioner_iter > 0
+    assert sparse.solver.settings.preconditioner_iter == 0

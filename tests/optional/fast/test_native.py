@@ -1,0 +1,130 @@
+"""Backends by their own interface: the program is CVXPY's, certified answers have its bits."""
+
+import subprocess
+import sys
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+from quasistatic_ref.cli.main import main
+from quasistatic_ref.errors import BackendError, InputError
+from quasistatic_ref.optional.fast.adapters.daqp import Daqp
+from quasistatic_ref.optional.fast.native import NativeSolver
+from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.solve.backends import installed
+from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.scaled import DenseStep
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
+from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.standard_form import standard_form
+from tests.helpers import changed, error, pinch, planted_step, random_step, unconstrained
+from tests.tolerances import ACTIVE_SET, EXACT
+
+every_backend = pytest.mark.parametrize("backend", installed("native"))
+
+
+@every_backend
+@pytest.mark.parametrize("far", [False, True])
+def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backend, far, rng):
+    # Written again, it holds nothing of the step before.
+    solver = NativeSolver(random_step(rng), backend)
+    solver.answer(DenseStep(random_step(rng)), 1e-9)
+    step = random_step(rng)
+    if far:
+        step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0, 2e-4]))
+    solver.answer(DenseStep(step), 1e-9)
+    natural = to_natural(step, natural_units(step))
+    expected = standard_form(within_reach(natural) if solver.adapter.NEAR else natural)
+    program = solver.program
+    for found, value in ((program.H, expected.H), (program.f, -expected.g),
+                         (program.A, expected.A), (program.b, expected.b)):  # fmt: skip
+        np.testing.assert_allclose(found, value, rtol=EXACT, atol=EXACT)
+
+
+@every_backend
+def test_certified_steps_have_the_bits_of_the_exact_method(backend, rng):
+    for step in (random_step(rng), pinch(), pinch(grip=0.5)):
+        one = solve_step(step, "none")
+        two = solve_step(step, NativeSolver(step, backend))
+        A = standard_form(step).A
+        np.testing.assert_allclose(two.delta_q, one.delta_q, rtol=EXACT, atol=EXACT)
+        assert two.certificate.kind == "exact"
+        np.testing.assert_allclose(A.T @ two.lam, A.T @ one.lam, rtol=1e-12, atol=1e-15)
+
+
+def test_a_step_without_rows_needs_no_backend(rng):
+    step = random_step(rng, rows=())
+    answer = solve_step(step, NativeSolver(step, "daqp"), certify="off")
+    assert error(step, answer.delta_q, unconstrained(step)) <= ACTIVE_SET
+
+
+def test_a_start_from_the_answer_before_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
+    step, calls, honest = planted_step(rng)[0], [], Daqp.reply
+    solver = NativeSolver(step, "daqp")
+    right = solve_step(step, solver, certify="off").delta_q
+
+    def reply(self, same_H, warm):
+        calls.append(warm)
+        return Reply(None, None, False, "at a loss") if warm else honest(self, same_H, warm)
+
+    monkeypatch.setattr(Daqp, "reply", reply)
+    found = solve_step(step, solver, certify="off").delta_q
+    assert error(step, found, right) <= ACTIVE_SET
+    assert calls == [True, False]
+
+
+REFUSED = {
+    "through CVXPY alone": "highs",
+    "another interface": "qpsolvers:daqp",
+    "unknown": "dapq",
+}
+
+
+@pytest.mark.parametrize("name", REFUSED.values(), ids=REFUSED)
+def test_a_backend_without_an_interface_of_its_own_is_refused(name, rng):
+    with pytest.raises(BackendError, match=r"has no interface of its own .* clarabel, .* have"):
+        NativeSolver(random_step(rng), name)
+
+
+def test_the_ellipsoid_is_refused_natively_by_backends_of_rows(rng):
+    with pytest.raises(BackendError, match="takes only linear rows; the ellipsoid needs one of"):
+        solver_for(random_step(rng).replace(cone="ellipsoid"), "daqp", fast=True)
+
+
+def test_extensions_that_are_more_than_rows_need_cvxpy(rng):
+    step = random_step(rng)
+    curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])
+    with pytest.raises(
+        BackendError,
+        match="takes linear constraints only; for a cost or a nonlinear constraint pass",
+    ):
+        solve_step(step, NativeSolver(step, "clarabel"), extension=curved)
+
+
+def test_an_engine_is_refused_in_a_sentence_that_names_fast(capsys):
+    with pytest.raises(
+        InputError, match=r"solver\.engine: is not a field any more; use fast = true"
+    ):
+        load_scenario("sphere_spin", ["solver.engine=native"])
+    with pytest.raises(SystemExit):
+        main(["run", "sphere_spin", "--engine", "native"])
+    assert "--engine is no option any more; --fast" in capsys.readouterr().err
+
+
+NATIVE_RUN = """
+import sys
+from quasistatic_ref.cli.main import main
+status = main(["run", "sphere_spin", "--fast", "--set", "steps=3", "--json", "--out", sys.argv[1]])
+heavy = "cvxpy", "qpsolvers", "scipy", "matplotlib", "osqp", "piqp", "clarabel", "numba"
+print(status, [name for name in heavy if name in sys.modules])
+"""
+
+
+def test_a_fast_run_imports_neither_cvxpy_nor_what_it_does_not_call(tmp_path):
+    """It takes less time than these packages take to be imported."""
+    command = [sys.executable, "-c", NATIVE_RUN, str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert done.stdout.splitlines()[-1] == "0 []", done.stderr

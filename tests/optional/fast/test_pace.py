@@ -1,0 +1,36 @@
+"""A run says when `fast` would save ten seconds, and only then, once."""
+
+import pytest
+
+from quasistatic_ref.optional.fast.pace import FIRST, SAVED, WORTH, Pace
+from quasistatic_ref.tolerances import SPARSE_FROM_PIQP
+
+STEPS = 1000
+
+
+def said(fast, step_seconds, first=0.0):
+    """What is said after each step: the first takes longer, the others as long as is given."""
+    pace = Pace(fast, STEPS)
+    times = [first, *[step_seconds] * (STEPS - 1)]
+    return [pace.advice({"solve": time / 2, "rows": time / 4, "proof": time / 4}) for time in times]
+
+
+@pytest.mark.parametrize(("share", "spoken"), [(0.999, False), (1.001, True)])
+def test_it_is_said_once_where_ten_seconds_would_be_saved(share, spoken):
+    # After 1 + FIRST steps, the share SAVED of what the others take is WORTH seconds.
+    seconds = share * WORTH / SAVED / (STEPS - 1 - FIRST)
+    sentences = said(False, seconds, first=1e3)
+    assert [k for k, words in enumerate(sentences) if words] == [FIRST] * spoken
+    if spoken:
+        assert sentences[FIRST].startswith(f"the other {STEPS - 1 - FIRST} steps take some 11 s; ")
+        assert "--fast" in sentences[FIRST]
+
+
+def test_a_large_scene_is_told_at_once():
+    assert Pace(False, 1).opening(SPARSE_FROM_PIQP - 1) is None
+    assert Pace(True, 1).opening(SPARSE_FROM_PIQP) is None
+    assert "--fast" in Pace(False, 1).opening(SPARSE_FROM_PIQP)
+
+
+def test_a_fast_run_says_nothing():
+    assert not any(said(True, 1.0))

@@ -1,0 +1,110 @@
+"""Scenes made in Python, written as files and loaded again."""
+
+import numpy as np
+import pytest
+
+import quasistatic_ref as qr
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.scenes.systems import RAIL
+from quasistatic_ref.model.rotation import rotation
+from quasistatic_ref.optional.runs.scene_file import scenario_written
+
+TURNED = rotation(np.array([0.3, -0.2, 1.1]))
+STANDING = (
+    qr.Box((0.05, 0.06, 0.07)),
+    qr.Sphere(0.1),
+    qr.Cylinder(0.02, 0.1),
+    qr.Capsule(0.02, 0.1),
+    qr.Cone(0.02, 0.1),
+    qr.Ellipsoid((0.01, 0.02, 0.03)),
+)
+
+
+def placed(name, link, shape, R=None, t=(0.0, 0.0, 0.0)):
+    return qr.PlacedShape(name, link, np.eye(3) if R is None else R, np.array(t), shape)
+
+
+def scene(changes=(), **settings):
+    """A finger on a rail, a ball that it pushes, solids that stand, a capsule and a cloud."""
+    rail = qr.Body("rail", RAIL, actuated=["slide"], xyz=(-0.2, 0, 0.05))
+    ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
+    system = qr.System([rail, ball])
+    finger, body = system.link("rail/finger"), system.link("ball/solid")
+    floor = placed("floor", 0, qr.HalfSpace((0, 0, 1), 0.0))
+    pairs = [
+        qr.ContactPair("rest", floor, system.shapes[0], 0.5, 0.01, 6, 1),
+        qr.ContactPair("push", placed("tip", finger, qr.Capsule(0.02, 0.03), None, (0.1, 0, 0)),
+                       system.shapes[0], 0.2, 0.0, 4, 1),
+        qr.ContactPair("points", floor, placed("points", body, qr.PointCloud(0.04 * np.eye(3))),
+                       0.1, 0.0, 4, 2),
+    ]  # fmt: skip
+    for number, shape in enumerate(STANDING):
+        stands = placed(f"solid{number}", 0, shape, TURNED, (number, 2.0, 0.1))
+        pairs.append(qr.ContactPair(f"far {number}", stands, system.shapes[0], 0.5, 0.0, 4, 1))
+    K_q = np.array([[300.0]])
+    return qr.Simulator(system, [*pairs, *changes], **({"h": 0.02, "K_q": K_q} | settings))
+
+
+def motion(simulator, steps=5):
+    target = simulator.system.q_start[: simulator.system.n_q_a]
+    if simulator.system.joints[0].kind == "prismatic":
+        target = target + 0.1
+    run = qr.rollout(simulator, simulator.system.q_start, target, steps=steps, progress=False)
+    return run["q"].tobytes()
+
+
+def test_a_scene_is_loaded_as_it_was_written_and_moves_alike(tmp_path):
+    simulator = scene(fast=True, gravity_acts=np.array([True]))
+    path = qr.scenario_written(simulator, tmp_path / "new" / "scene.toml", steps=7)
+    loaded = qr.load_scenario(path)
+    assert loaded.steps == 7
+    assert loaded.fast
+    names = [pair.name.partition("(")[0] for pair in loaded.pairs]
+    assert names == [pair.name for pair in simulator.pairs]
+    assert motion(loaded.simulator()) == motion(simulator)
+    names = sorted(file.name for file in path.parent.iterdir())
+    assert names == ["scene.toml", "scene_ball.npy", "scene_ball.urdf", "scene_rail.urdf"]
+
+
+@pytest.mark.parametrize("name", scenario_names())
+def test_every_scenario_of_the_package_is_written_as_it_was_loaded(tmp_path, name):
+    simulator = qr.load_scenario(name, fast=True).simulator()
+    loaded = qr.load_scenario(qr.scenario_written(simulator, tmp_path / "copy.toml", steps=1))
+    assert motion(loaded.simulator(), 2) == motion(simulator, 2)
+
+
+ON_BALL = 3
+"""Number of the ball's link."""
+
+
+@pytest.mark.parametrize(
+    ("changes", "settings", "words"),
+    [
+        ((), {"extension": lambda q: qr.Extension()}, "extension: is a function"),
+        ([qr.Cone(0.01, 0.01)], {}, "is a cone on a link"),
+        ([qr.convex_hull(np.vstack([np.zeros(3), np.eye(3)]))], {}, "is a ConvexMesh"),
+    ],
+)
+def test_what_no_file_holds_is_refused_and_nothing_is_written(tmp_path, changes, settings, words):
+    floor = placed("floor", 0, qr.HalfSpace((0, 0, 1), 0.0))
+    pairs = [
+        qr.ContactPair("more", floor, placed("extra", ON_BALL, shape), 0.1, 0.0, 4, 1)
+        for shape in changes
+    ]
+    with pytest.raises(InputError, match=words):
+        scenario_written(scene(pairs, **settings), tmp_path / "scene.toml", steps=1)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_rotation_that_no_angles_give_is_refused_by_name(tmp_path):
+    R = TURNED @ TURNED @ TURNED  # rounded otherwise than any roll, pitch and yaw
+    beta = scene().pairs[0].beta
+    for skew, words in (
+        (placed("skew", 0, STANDING[0], R), "is not what any roll, pitch and yaw give"),
+        (placed("skew", 2, STANDING[0], TURNED), "is rounded where a URDF is read"),
+    ):
+        more = qr.ContactPair("more", skew, beta, 0.1, 0.0, 4, 1)
+        with pytest.raises(InputError, match=rf"skew\.R: {words}"):
+            scenario_written(scene([more]), tmp_path / "scene.toml", steps=1)
+    assert not list(tmp_path.iterdir())

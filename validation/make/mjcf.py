@@ -1,0 +1,204 @@
+"""MJCF models of others against MuJoCo: ``python -m validation.make.mjcf [FOLDER] [--count N]``.
+
+FOLDER is one into which pip has installed ``PACKAGES``, without what they need: of them only the
+models are read. Where it is not given, that is done in a temporary one. At N random configurations,
+each body's mass, pose and Jacobian, the mass matrix and signed distances of shapes are compared
+with MuJoCo's; the result is validation/results/mjcf.md. Exit status 1 if a difference exceeds its
+tolerance.
+"""
+
+import argparse
+import subprocess
+import sys
+import tempfile
+from importlib import import_module
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
+from quasistatic_ref.step.data import Array
+
+PACKAGES = ("gymnasium==1.4.0", "dm_control==1.0.50")
+GYMNASIUM, SUITE = "gymnasium/envs/mujoco/assets", "dm_control/suite"
+MODELS = (
+    f"{GYMNASIUM}/ant.xml", f"{GYMNASIUM}/half_cheetah.xml", f"{GYMNASIUM}/hopper.xml",
+    f"{GYMNASIUM}/humanoid.xml", f"{GYMNASIUM}/pusher.xml", f"{SUITE}/cartpole.xml",
+    f"{SUITE}/finger.xml", f"{SUITE}/humanoid.xml", f"{SUITE}/reacher.xml", f"{SUITE}/walker.xml",
+)  # fmt: skip
+mujoco: Any = import_module("mujoco")
+OUT = Path(__file__).parents[1] / "results" / "mjcf.md"
+SAME, CURVED = 1e-12, 1e-6
+"""Tolerances: relative to the largest entry; of distances to cylinders and boxes, which MuJoCo and
+coal find by iteration [m]."""
+EXACT = ("Sphere", "Capsule")
+FARTHEST, PAIRS = 10.0, 12
+"""Distances up to which MuJoCo looks [m], and pairs of shapes of a model that are compared."""
+PAGE = """# MJCF models against MuJoCo
+
+Made by `python -m validation.make.mjcf`, at {count} random configurations of each model, with
+MuJoCo {version}. Largest differences: of masses [kg], of poses [m, -], of Jacobians and mass
+matrices over their largest entry, and of signed distances [m] of {pairs} pairs of
+shapes at most: spheres and capsules, and others where they are apart.
+
+{table}
+"""
+
+
+class Differences(NamedTuple):
+    """Largest differences of a model from MuJoCo's."""
+
+    n_v: int
+    shapes: int
+    ignored: int
+    mass: float
+    pose: float
+    jacobian: float
+    inertia: float
+    distance: float
+    curved: float
+
+
+def system_of(path: Path) -> tuple[System, Any]:
+    """An MJCF file as a system of one body, all actuated, and as MuJoCo's model."""
+    model = mujoco.MjModel.from_xml_path(str(path))
+    base = "floating" if (model.jnt_type == mujoco.mjtJoint.mjJNT_FREE).any() else "fixed"
+    text = mjcf_urdf(path, base)
+    body = Body("r", text, base, "all", package_dirs=[path.parent])
+    return System([body]), model
+
+
+def placed(system: System, model: Any, q: Array) -> tuple[Array, Array]:
+    """MuJoCo's qpos of a configuration q, and T with its qvel = T delta_q."""
+    qpos, T = model.qpos0.copy(), np.zeros((model.nv, system.n_v))
+    names = [model.joint(i).name or f"joint{i}" for i in range(model.njnt)]
+    for joint in system.joints:
+        own = joint.name.partition("/")[2]
+        i = 0 if own == "base" else names.index(own)
+        at, dof, x = model.jnt_qposadr[i], model.jnt_dofadr[i], q[joint.q]
+        if (
+            own == "base"
+        ):  # a twist in the body's frame; MuJoCo's velocity is along the world's axes
+            qpos[at : at + 7] = x[[0, 1, 2, 6, 3, 4, 5]]
+            R = system.kinematics(q).R[system.link("r")]
+            T[dof : dof + 3, joint.v][:, :3], T[dof + 3 : dof + 6, joint.v][:, 3:] = R, np.eye(3)
+        else:
+            qpos[at] += x[0] if len(x) == 1 else np.arctan2(x[1], x[0])
+            T[dof, joint.v] = 1.0
+    return qpos, T
+
+
+def differences(path: Path, count: int, seed: int = 0) -> Differences:
+    """What a file, read here, differs from MuJoCo in at random configurations."""
+    system, model = system_of(path)
+    data, rng = mujoco.MjData(model), np.random.default_rng(seed)
+    bodies = ["worldbody", *(model.body(i).name or f"body{i}" for i in range(1, model.nbody))]
+    links = [system.links.index(f"r/{b}") if f"r/{b}" in system.links else 0 for b in bodies]
+    numbers = {i: link for i, link in enumerate(links) if link}
+    mass = max(abs(system.masses[k] - model.body_mass[i]) for i, k in numbers.items())
+    pairs = shape_pairs(system, model, numbers, rng)
+    worst = np.zeros(5)
+    for _ in range(count):
+        q = system.integrate(system.q_start, rng.normal(scale=0.5, size=system.n_v))
+        qpos, T = placed(system, model, q)
+        data.qpos[:] = qpos
+        mujoco.mj_forward(model, data)
+        kinematics = system.kinematics(q)
+        pose, jacobian = 0.0, 0.0
+        M = np.zeros((system.n_v, system.n_v))
+        for i, k in numbers.items():
+            R, J = kinematics.R[k], kinematics.J[k]
+            pose = max(pose, np.abs(kinematics.t[k] - data.xpos[i]).max(),
+                       np.abs(R - data.xmat[i].reshape(3, 3)).max())  # fmt: skip
+            own = np.zeros((2, 3, model.nv))
+            mujoco.mj_jacBody(model, data, own[0], own[1], i)
+            jacobian = max(jacobian, off(J, np.vstack(own) @ T))
+            arm = R @ system.centres[k]
+            linear = J[:3] - np.cross(arm, J[3:], axisb=0, axisc=0)
+            M += system.masses[k] * linear.T @ linear
+            M += J[3:].T @ R @ system.inertias[k] @ R.T @ J[3:]
+        full = np.zeros((model.nv, model.nv))
+        mujoco.mj_fullM(model, data, full)
+        inertia = off(M, T.T @ (full - np.diag(model.dof_armature)) @ T)
+        near, curved = 0.0, 0.0
+        for pair, g, other in pairs:
+            apart = mujoco.mj_geomDistance(model, data, g, other, FARTHEST, None)
+            exact = {type(s.shape).__name__ for s in (pair.alpha, pair.beta)} <= set(EXACT)
+            if not exact and apart <= 0:
+                continue  # a rail through a box is as deep as its radius there
+            try:
+                error = abs(float(closest_points([pair], kinematics).phi[0]) - apart)
+            except ContactError:  # neighbours that cross at a joint have no normal
+                continue
+            near, curved = (max(near, error), curved) if exact else (near, max(curved, error))
+        worst = np.maximum(worst, [pose, jacobian, inertia, near, curved])
+    return Differences(system.n_v, len(system.shapes), len(system.ignored), mass, *worst.tolist())
+
+
+def off(found: Array, expected: Array) -> float:
+    """The largest difference over the largest entry [-]."""
+    size = np.abs(expected).max(initial=0.0)
+    return float(np.abs(found - expected).max(initial=0.0) / (size or 1.0))
+
+
+def shape_pairs(
+    system: System, model: Any, numbers: dict[int, int], rng: np.random.Generator
+) -> list[tuple[ContactPair, int, int]]:
+    """Some pairs of shapes of two links, and MuJoCo's numbers of their geoms."""
+    touches = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    geoms: dict[int, list[int]] = {}
+    for g in np.flatnonzero(touches & (model.geom_type > 1)):
+        geoms.setdefault(numbers.get(int(model.geom_bodyid[g]), -1), []).append(int(g))
+    number = {id(s): geoms[s.link].pop(0) for s in system.shapes}
+    every = [(a, b) for i, a in enumerate(system.shapes) for b in system.shapes[i + 1 :]]
+    every = [(a, b) for a, b in every if a.link != b.link]
+    chosen = rng.permutation(len(every))[:PAIRS]
+    return [
+        (ContactPair("p(a, b)", a, b, 0.0, 0.0, 4, 1), number[id(a)], number[id(b)])
+        for a, b in (every[i] for i in chosen)
+    ]
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Compare, write the page, and return the exit status."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path, nargs="?")
+    parser.add_argument("--count", type=int, default=100)
+    parser.add_argument("--out", type=Path, default=OUT)
+    options = parser.parse_args(arguments)
+    if options.folder is not None:
+        return compared(options.folder, options.count, options.out)
+    with tempfile.TemporaryDirectory() as made:
+        pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target", made]
+        subprocess.run([*pip, *PACKAGES], check=True)
+        return compared(Path(made), options.count, options.out)
+
+
+def compared(folder: Path, count: int, out: Path) -> int:
+    """Compare the models in a folder and write the page; the exit status."""
+    rows, status = [], 0
+    for name in MODELS:
+        found = differences(folder / name, count)
+        good = max(found[3:8]) <= SAME and found.curved <= CURVED
+        status = status or int(not good)
+        rows.append((name, *map(str, found[:3]), *(f"{x:.1e}" for x in found[3:])))
+        print(*rows[-1], flush=True)
+    head = ("model", "n_v", "shapes", "ignored", "masses", "poses", "Jacobians", "mass matrix",
+            "spheres and capsules", "other shapes")  # fmt: skip
+    table = "\n".join(markdown_table(head, rows, 1))
+    text_written(
+        out, PAGE.format(count=count, version=mujoco.__version__, pairs=PAIRS, table=table)
+    )
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,123 @@
+"""The page of the study of second-order simulators: its tables and its figure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.lab.figures.labels import labelled, legend_below
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.parallel import Record, records_read
+from quasistatic_ref.optional.show.figures import Figure, panels
+from quasistatic_ref.optional.show.figures.style import scaled
+from validation.programs.engines.second_order import STUDY
+
+RESULTS = Path(__file__).parents[2] / "results" / "second_order.jsonl"
+SCENES = {
+    "lift": "lift",
+    "push": "centric push",
+    "push_beside": "push beside the centre",
+}
+DRAWN = {
+    ("quasistatic_ref", "uncertified"): ("o-", "black"),
+    ("mujoco", "implicitfast, elliptic, impratio 100"): ("s--", "0.45"),
+    ("mujoco", "implicitfast, elliptic, impratio 100, solref 5 ms"): ("s-", "0.45"),
+    ("drake", "point, sap"): ("^--", "0.7"),
+    ("drake", "point, lagged"): ("^-", "0.7"),
+}
+DRAWN_SPEEDS = (0.01, 0.1)
+LARGEST = 0.1
+"""Larger errors are drawn there: the body was lost [m]."""
+
+
+def rows() -> list[Record]:
+    """The committed rows."""
+    return list(records_read(RESULTS)[1:])
+
+
+def chosen(**fields: Any) -> list[Record]:
+    """Rows with these values of their fields."""
+    return [row for row in rows() if all(row[name] == value for name, value in fields.items())]
+
+
+def series(found: list[Record], scene: str) -> Iterator[tuple[str, str, float, list[Record]]]:
+    """Engine, setting, speed, and the runs of the grid by falling time step."""
+    for engine, settings in STUDY["engines"].items():
+        for setting in settings:
+            for speed in STUDY["speeds"]:
+                of = (scene, engine, setting, speed)
+                own = [
+                    row for row in found
+                    if (row["scene"], row["engine"], row["setting"], row["speed"]) == of
+                    and row["h"] in STUDY["steps"]
+                ]  # fmt: skip
+                yield engine, setting, speed, sorted(own, key=lambda row: -row["h"])
+
+
+def span(own: list[Record], verdict: str) -> str:
+    """Time steps with a verdict, as intervals of neighbours [ms]: "all", "0.5 to 2, 10" or "-"."""
+    steps = sorted(row["h"] for row in own)
+    good = {row["h"] for row in own if row[verdict]}
+    if len(good) == len(steps):
+        return "all"
+    parts: list[list[float]] = []
+    for before, h in zip([None, *steps], steps, strict=False):
+        if h in good:
+            if before in good:
+                parts[-1].append(h)
+            else:
+                parts.append([h])
+    words = [
+        f"{1e3 * part[0]:g}" if len(part) == 1 else f"{1e3 * part[0]:g} to {1e3 * part[-1]:g}"
+        for part in parts
+    ]
+    return ", ".join(words) or "-"
+
+
+def tables(found: list[Record]) -> str:
+    """Time steps with which the body is held, and with which all is right [ms], scene by scene."""
+    lines = ["<!-- Written by python -m validation.make.second_order. -->", ""]
+    for scene, title in SCENES.items():
+        cells: dict[tuple[str, str], list[str]] = {}
+        for engine, setting, _, own in series(found, scene):
+            held, right = span(own, "holds"), span(own, "right")
+            cells.setdefault((engine, setting), []).append(f"{held}; **{right}**")
+        head = ("engine", "setting", *(f"{1e3 * speed:g} mm/s" for speed in STUDY["speeds"]))
+        lines += [f"{title[0].upper()}{title[1:]}:", ""]
+        lines += [*markdown_table(head, [(*key, *words) for key, words in cells.items()]), ""]
+    return "\n".join(lines)
+
+
+def figure(within: Any = None) -> Figure:
+    """Error against cost, a panel for each scene and for each of two speeds.
+
+    Parameters
+    ----------
+    within : Axes or SubFigure, optional
+        Where to draw; a figure of its own by default.
+    """
+    found = rows()
+    page, grid = panels(6.3, 4.6, len(SCENES), rows=len(DRAWN_SPEEDS), within=within, narrow=0,
+                        sharex=True, sharey=True)  # fmt: skip
+    places = [(speed, scene) for speed in DRAWN_SPEEDS for scene in SCENES]
+    for axes, (speed, scene) in zip(grid, places, strict=True):
+        for engine, setting, at, own in series(found, scene):
+            if at != speed or (engine, setting) not in DRAWN:
+                continue
+            mark, colour = DRAWN[engine, setting]
+            cost = [row["cost"] for row in own]
+            error = [1e3 * min(row["way"], LARGEST) for row in own]
+            axes.loglog(cost, error, mark, color=colour, markersize=scaled(3), linewidth=0.8,
+                        label=f"{engine}: {setting}")  # fmt: skip
+        axes.axhline(1e3 * STUDY["thresholds"]["pose"]["way"], color="black", linestyle=":")
+        below, left = speed == DRAWN_SPEEDS[-1], scene == next(iter(SCENES))
+        labelled(
+            axes,
+            "cost [ms a simulated s]" if below else "",
+            "error of the place [mm]" if left else "",
+            f"{SCENES[scene]}, {1e3 * speed:g} mm/s".replace(" beside the centre", " beside"),
+            key=False,
+        )
+    legend_below(grid, grid[0].get_legend_handles_labels()[0])
+    return page

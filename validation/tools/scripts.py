@@ -1,0 +1,52 @@
+"""What scripts share that make a committed result: their options, and their page."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.formats.files import json_text, text_written
+
+
+def asked(doc: str | None, names: Collection[str] = (), **options: Any) -> argparse.Namespace:
+    """The options that a script was called with; its docstring is its help.
+
+    Parameters
+    ----------
+    doc : str
+        What each option is for stands there.
+    names : collection of str
+        Words that may stand without a dash; ``names`` of the result, empty for none of them.
+    options
+        Name -> default, or the type of an option that is None by default. False: a switch.
+    """
+    form = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=doc, formatter_class=form)
+    if names:
+        parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(names))
+    for name, default in options.items():
+        if default is False:
+            parser.add_argument(f"--{name}", action="store_true")
+        elif isinstance(default, type):
+            parser.add_argument(f"--{name}", type=default)
+        else:
+            parser.add_argument(f"--{name}", type=type(default), default=default)
+    given = parser.parse_args()
+    if unknown := set(given.names if names else ()) - set(names):
+        parser.error(f"no such name: {', '.join(sorted(unknown))}; there are {', '.join(names)}")
+    return given
+
+
+def shown(text: str, out: Path | None) -> None:
+    """Print a page, and write it to a file where one was asked for."""
+    print(text, end="" if text.endswith("\n") else "\n")
+    if out is not None:
+        text_written(out, text if text.endswith("\n") else f"{text}\n")
+
+
+def record_written(path: Path, record: Any) -> None:
+    """Write a record of numbers and arrays as JSON, a field a line."""
+    text_written(path, json.dumps(json.loads(json_text(record)), indent=1) + "\n")
