@@ -13,7 +13,13 @@ Matrix: TypeAlias = Any
 
 
 def vector(values: Iterable[float | Real]) -> Vector:
-    """Numbers as a vector, each exactly."""
+    """Numbers as a vector, each exactly.
+
+    Parameters
+    ----------
+    values : iterable of float or number
+        [any unit].
+    """
     return np.array([number(x) for x in values], dtype=object)
 
 
