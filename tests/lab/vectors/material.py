@@ -4,10 +4,13 @@ import functools
 import json
 from pathlib import Path
 
+import numpy as np
+
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.trees import mapped
 
 ROOT = Path(__file__).parents[3]
 VECTORS = ROOT / "validation" / "vectors"
@@ -64,6 +67,11 @@ def answer_file(folder, layer, outputs, **head):
     path = folder / f"{layer}.json"
     path.write_text(json.dumps(top))
     return path
+
+
+def in_float32(output):
+    """Every float of an answer rounded to 24 bits."""
+    return mapped(output, lambda x: float(np.float32(x)) if isinstance(x, float) else x)
 
 
 LIGHT = ("selection", "rows", "wrench")

@@ -15,7 +15,7 @@ import pytest
 from flint import fmpq, fmpz_mat
 
 from quasistatic_ref.lab.vectors.challenge.fresh import record_of
-from quasistatic_ref.lab.vectors.exact.algebra import add, scaled
+from quasistatic_ref.lab.vectors.exact.algebra import vector
 from quasistatic_ref.lab.vectors.families import derivative_kinks as kinks
 from quasistatic_ref.lab.vectors.families.derivative_kinks import squeezed
 from quasistatic_ref.lab.vectors.families.step_scenes import FLOOR
@@ -47,7 +47,7 @@ def along(one, way, force):
 
 
 def way(j, size=1):
-    return [fmpq(size) if i == j else fmpq(0) for i in range(6)]
+    return fmpq(size) * np.eye(6, dtype=int)[j]
 
 
 def step_of(case):
@@ -57,7 +57,7 @@ def step_of(case):
 @pytest.mark.parametrize("push", [1, 0])
 def test_between_two_balls_the_slope_is_no_sum_of_two_slopes(push):
     one = step_of(squeezed(0.25, 0.5, float(push)))
-    still = [fmpq(0)] * 6
+    still = way(Y, 0)
     for c in (-32, 32, 0):
         found = along(one, way(Y), way(Y, c))
         held = 1 + max(fmpq(c, 32) + fmpq(push, 24), fmpq(-1, 2))
@@ -127,20 +127,17 @@ def test_rows_that_go_on_to_depend_on_each_other_leave_the_derivative(scene, con
     assert found.reasons == []
     # Along q and, for each coordinate, a force many times what takes the motion back.
     for c in (-64, 64):
-        ways, forces = [fmpq(i + 1, 8) for i in range(6)], [fmpq(c * (3 - i)) for i in range(6)]
+        ways, forces = vector(range(1, 7)) / 8, c * vector(range(3, -3, -1))
         whole = along(one, ways, forces)
-        total = [fmpq(0)] * 6
-        for i in range(6):
-            total = add(total, scaled(found.columns["q"][i], ways[i]))
-            total = add(total, scaled(found.columns["tau"][i], forces[i]))
+        total = ways @ np.array(found.columns["q"]) + forces @ np.array(found.columns["tau"])
         size = max(map(abs, total))
         assert whole.bend < BEND
-        assert max(abs(x - y) for x, y in zip(whole.column, total, strict=True)) < PROVED * size
+        assert max(abs(whole.column - total)) < PROVED * size
 
 
 def test_a_contact_that_is_replaced_is_compared_with_nothing():
     one = step_of(squeezed(0.25, 0.5, 1.0))
-    found = along(one, way(Y), [fmpq(0)] * 6)
+    found = along(one, way(Y), way(Y, 0))
     assert dependence_breaks(one, [found])
     sides = [(step, [_another(contact) for contact in others]) for step, others in found.sides]
     assert not dependence_breaks(one, [replace(found, sides=tuple(sides))])

@@ -3,14 +3,13 @@
 import copy
 import json
 
-import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.case import judged
 from quasistatic_ref.lab.vectors.files import answers_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from tests.lab.vectors.material import cases, expected, report_on, right_answers
+from tests.lab.vectors.material import cases, expected, in_float32, report_on, right_answers
 
 SOLVED = ("delta_q", "lam", "A_lam", "wrench", "q_next", "farkas")
 """What comes after A and b in a step."""
@@ -96,14 +95,6 @@ def by_phi(name, contacts):
     return sorted(contacts, key=lambda c: (pairs.index(c["pair"]), c["phi"]))
 
 
-def in_float32(value):
-    if isinstance(value, dict):
-        return {key: in_float32(v) for key, v in value.items()}
-    if isinstance(value, list):
-        return [in_float32(v) for v in value]
-    return float(np.float32(value)) if isinstance(value, float) else value
-
-
 @pytest.mark.parametrize("layer", LAYERS)
 def test_float32_is_right_to_six_digits_and_not_to_twelve(layer):
     # float32 rounds to 2^-24 = 6e-8 of a number: that is below 1e-6 and above 1e-12.
@@ -133,6 +124,12 @@ def test_some_cases_can_be_asked_for_by_the_beginning_of_their_ids(answers, caps
     assert main(["vectors", "check", str(answers), "--only", "rows/random", "--json"]) == 1
     (report,) = json.loads(capsys.readouterr().out)["layers"]
     assert [len(report["cases"]), report["failed"]] == [12, 1]
+    answers_written(answers, "wrench", "test", right_answers("wrench"))
+    names = ["rows/random/2", cases("wrench")[0].id]
+    words = [word for name in names for word in ("--only", name)]
+    assert main(["vectors", "check", str(answers), *words, "--json"]) == 0
+    layers = json.loads(capsys.readouterr().out)["layers"]
+    assert [one["id"] for layer in layers for one in layer["cases"]] == names
     assert main(["vectors", "check", str(answers), "--only", "rows/nothing"]) == 2
     assert "no beginning" in capsys.readouterr().err
 

@@ -2,20 +2,17 @@
 
 import time
 
-import numpy as np
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.check.case import judged
-from quasistatic_ref.lab.vectors.check.folder import check_answers
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.check.scope import Scope, scope_read
 from quasistatic_ref.lab.vectors.conformance.badge import AMBER, GREEN, RED, colour
 from quasistatic_ref.lab.vectors.conformance.files import conformance
 from quasistatic_ref.lab.vectors.files import answers_written
-from tests.lab.vectors.material import VECTORS, cases, expected, right_answers
+from tests.lab.vectors.material import VECTORS, cases, expected, in_float32, right_answers
 
 HEAD = 'format = "quasistatic-ref/scope"\nversion = 1\n'
 BOXES = f"""{HEAD}name = "boxes and half-spaces"
@@ -40,15 +37,6 @@ def scope(tmp_path):
         return scope_read(path)
 
     return read
-
-
-def in_float32(value):
-    """Every float of an answer rounded to 24 bits."""
-    if isinstance(value, dict):
-        return {name: in_float32(one) for name, one in value.items()}
-    if isinstance(value, list):
-        return [in_float32(one) for one in value]
-    return float(np.float32(value)) if isinstance(value, float) else value
 
 
 def cut_down(folder, scope, change=lambda output: output):
@@ -133,17 +121,6 @@ def test_the_seconds_of_a_challenge_are_kept_with_a_slow_program():
     began = time.monotonic()
     challenge(slow, layers=["rows"], seconds=1.0)
     assert time.monotonic() - began < 4.0
-
-
-def test_several_beginnings_of_ids_are_looked_at(tmp_path, capsys):
-    for layer in ("rows", "selection"):
-        answers_written(tmp_path, layer, "mine", right_answers(layer))
-    names = [cases("rows")[0].id, cases("selection")[0].id]
-    report = check_answers(tmp_path, VECTORS, only=names)
-    assert [v.id for layer in report.layers for v in layer.verdicts] == names
-    words = [word for name in names for word in ("--only", name)]
-    assert main(["vectors", "check", str(tmp_path), *words]) == 0
-    capsys.readouterr()
 
 
 def test_a_mistake_of_a_partial_program_is_found_and_named():

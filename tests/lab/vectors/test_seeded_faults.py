@@ -12,7 +12,8 @@ from quasistatic_ref.lab.vectors.check.compare import difference, parts, toleran
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
 from quasistatic_ref.lab.vectors.check.mistakes import MISTAKES
 from quasistatic_ref.lab.vectors.check.patched import patched_texts, program
-from quasistatic_ref.lab.vectors.check.table import ENTRIES, FACTOR
+from quasistatic_ref.lab.vectors.check.table import FACTOR
+from quasistatic_ref.lab.vectors.check.table import PATCHES as TABLE
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from tests.lab.vectors.material import cases, expected, report_on, right_answers, small_cases
 from validation.make import planted_bugs
@@ -20,10 +21,10 @@ from validation.make import planted_bugs
 IMPOSSIBLE = (ArithmeticError, LookupError, TypeError, ValueError)
 """What a patched program raises in cases in which the mistake cannot be made."""
 PATCHES = {
-    f"{layer}: {entry.name} {number}": (entry.name, layer, patch.lines.replace(FACTOR, "0.01"))
-    for entry in ENTRIES
-    for number, patch in enumerate(entry.patches, start=1)
-    for layer in patch.layers
+    f"{layer}: {name} {number}": (name, layer, patch.replace(FACTOR, "0.01"))
+    for name, by_layer in TABLE.items()
+    for layer, patches in by_layer.items()
+    for number, patch in enumerate(patches, start=1)
 }
 NAMED = {
     (name, layer): patch

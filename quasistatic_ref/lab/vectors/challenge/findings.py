@@ -11,6 +11,7 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.quoting import aligned
 from quasistatic_ref.lab.vectors.check.side_by_side import side_by_side
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import mapped
 
 RECORD = "counterexample.json"
 FORMAT = "quasistatic-ref/counterexample"
@@ -82,7 +83,7 @@ class Finding:
     def written(self, folder: Path, command: str) -> Path:
         """Write its folder: the record, and a page with the line that runs it again."""
         place = folder / self.name
-        record = json.dumps(_finite(self.record), indent=1, allow_nan=False)
+        record = json.dumps(mapped(self.record, _finite), indent=1, allow_nan=False)
         text_written(place / RECORD, record + "\n")
         program = ("quasistatic-ref", "vectors", "challenge", "--command", command)
         again = shlex.join([*program, "--again", str(place / RECORD)])
@@ -97,9 +98,5 @@ class Finding:
 
 
 def _finite(value: Json) -> Json:
-    """The same with words in the place of numbers that JSON has not: "nan", "inf"."""
-    if isinstance(value, dict):
-        return {key: _finite(one) for key, one in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(one) for one in value]
+    """A word in the place of a number that JSON has not: "nan", "inf"."""
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,49 +1,42 @@
 """Inputs with fewer parts: contacts, pairs, wrenches, points, rows, bodies, coordinates."""
 
+import copy
 from collections.abc import Iterator, Sequence
 from typing import Final
 
 from quasistatic_ref.lab.vectors.converters import places
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import Path, nodes
 
-LISTS: Final = ("contacts", "pairs", "wrenches", "second_order")
+LISTS: Final = {"contacts": 1, "pairs": 0, "wrenches": 0, "second_order": 1, "phi": 1,
+                "points": 1, "vertices": 1}  # fmt: skip
+"""Lists of which parts are left out, and how many are left at least."""
+
+
+def replaced(case: Json, path: Path, value: Json) -> Json:
+    """A copy with another value in one place."""
+    changed = copy.deepcopy(case)
+    _at(changed, path[:-1])[path[-1]] = copy.deepcopy(value)
+    return changed
 
 
 def fewer_parts(case: Json) -> Iterator[Json]:
-    """One contact, pair, wrench, block, group or point alone, or all but one."""
-    for name in LISTS:
-        if len(case.get(name, [])) > (name in ("contacts", "second_order")):
-            for part in _fewer(case[name]):
-                yield _used({**case, name: part})
-    for i, pair in enumerate(case.get("pairs", [])):
-        for k in range(1, pair["k"]):
-            pairs = [*case["pairs"][:i], {**pair, "k": k}, *case["pairs"][i + 1 :]]
-            yield {**case, "pairs": pairs}
+    """One contact, pair, wrench, block, group, point or row alone, or all but one."""
+    for path, value in nodes(case):
+        name = str(path[-1]) if path else ""
+        if isinstance(value, list) and (name in LISTS or path[:-1] == ("phi",)):
+            for part in _fewer(value):
+                if len(part) >= LISTS.get(name, 0):
+                    yield _used(replaced(case, path, part))
+        elif name == "k":
+            yield from (replaced(case, path, k) for k in range(1, value))
     if "bodies" in case:  # of the layer wrench
         for name in case["bodies"]:
             rest = {key: value for key, value in case["bodies"].items() if key != name}
             yield {**case, "bodies": rest, "contacts": _loose(case["contacts"], name)}
-    if "k" in case:
-        yield from ({**case, "phi": part} for part in _fewer(case["phi"]) if part)
-        for i, phi in enumerate(case["phi"]):
-            for part in _fewer(phi):
-                yield {**case, "phi": [*case["phi"][:i], part, *case["phi"][i + 1 :]]}
-        if case["k"] > 1:
-            yield {**case, "k": 1}
     if "A" in case:
-        rows = list(zip(case["A"], case["b"], strict=True))
-        for part in _fewer(rows):
-            yield {**case, "A": [row for row, _ in part], "b": [b for _, b in part]}
-    for side in ("alpha", "beta"):
-        if "pose_alpha" in case and case[side]["kind"] == "cloud":
-            for points in _fewer(case[side]["points"]):
-                if points:
-                    yield {**case, side: {**case[side], "points": points}}
-    for name, entry in case.get("shapes", {}).items():
-        for key in ("points", "vertices"):
-            for some in _fewer(entry["shape"].get(key, [])):
-                shape = {**entry["shape"], key: some}
-                yield {**case, "shapes": {**case["shapes"], name: {**entry, "shape": shape}}}
+        for kept in _fewer(range(len(case["b"]))):
+            yield {**case, **{key: [case[key][i] for i in kept] for key in ("A", "b")}}
 
 
 def _fewer(values: Sequence[Json]) -> Iterator[list[Json]]:
@@ -117,22 +110,21 @@ def _cut(values: Json, part: slice) -> Json:
 
 def fewer_coordinates(case: Json) -> Iterator[Json]:
     """Without a column of J, or of H and A."""
-    if "H" in case:
-        for k in range(len(case["g"]) if len(case["g"]) > 1 else 0):
-            one = slice(k, k + 1)
-            changed = {**case, "H": _cut([_cut(row, one) for row in case["H"]], one)}
+    matrices = [path for path, value in nodes(case) if path[-1:] in (("J",), ("F",), ("A",))]
+    counts = [len(row) for path in matrices for row in _at(case, path)]
+    counts.append(len(case.get("g", [])))
+    for k in range(max(counts) if max(counts) > 1 else 0):
+        one = slice(k, k + 1)
+        changed = copy.deepcopy(case)
+        if "H" in case:
+            changed["H"] = _cut([_cut(row, one) for row in case["H"]], one)
             changed["g"] = _cut(case["g"], one)
-            if "A" in case:
-                changed["A"] = [_cut(row, one) for row in case["A"]]
-            else:
-                changed["second_order"] = [
-                    {**block, "F": [_cut(row, one) for row in block["F"]]}
-                    for block in case["second_order"]
-                ]
-            yield changed
-    contacts = case.get("contacts", [])
-    if contacts and "J" in contacts[0]:
-        for k in range(len(contacts[0]["J"][0]) if len(contacts[0]["J"][0]) > 1 else 0):
-            one = slice(k, k + 1)
-            cut = [{**c, "J": [_cut(row, one) for row in c["J"]]} for c in contacts]
-            yield {**case, "contacts": cut}
+        for path in matrices:
+            _at(changed, path)[:] = [_cut(row, one) for row in _at(case, path)]
+        yield changed
+
+
+def _at(case: Json, path: Path) -> Json:
+    for key in path:
+        case = case[key]
+    return case

@@ -3,7 +3,6 @@
 A move need not give a valid input; an invalid one is not sent.
 """
 
-import copy
 from collections.abc import Callable, Iterator
 from typing import Final
 
@@ -13,24 +12,25 @@ from quasistatic_ref.lab.vectors.challenge.removals import (
     fewer_bodies,
     fewer_coordinates,
     fewer_parts,
+    replaced,
 )
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, UPRIGHT
+from quasistatic_ref.lab.vectors.trees import mapped, nodes
 
 KEPT: Final = ("rows", "k", "n", "d1", "d2", "actuated", "joint")
 """Fields whose numbers are no lengths, or that change together."""
 FRAME: Final = ("n", "d1", "d2")
 ONES: Final = ("mu_v", "mu_omega", "mass", "h", "radius", "multiplier")
-Path = tuple[str | int, ...]
 
 
 def few(value: Json, digits: int) -> Json:
     """All numbers of a value with so many significant digits."""
-    if isinstance(value, dict):
-        return {key: v if key in KEPT else few(v, digits) for key, v in value.items()}
-    if isinstance(value, list):
-        return [few(v, digits) for v in value]
-    return float(f"{value:.{digits}g}") + 0.0 if isinstance(value, float) else value
+
+    def rounded(x: Json) -> Json:
+        return float(f"{x:.{digits}g}") + 0.0 if isinstance(x, float) else x
+
+    return mapped(value, rounded, KEPT)
 
 
 def rounded_case(name: str, case: Json) -> Json:
@@ -82,34 +82,12 @@ def simpler_numbers(case: Json) -> Iterator[Json]:
     for path, value in nodes(case):
         if path and path[-1] not in KEPT and not set(path) & set(FRAME):
             if isinstance(value, list) and value and not isinstance(value[0], dict | str):
-                yield replaced(case, path, _none(value))
+                yield replaced(case, path, mapped(value, lambda _: 0.0))
                 for digits in (1, 2, 3):
                     yield replaced(case, path, few(value, digits))
             elif isinstance(value, float) and value:
                 for other in (0.0, few(value, 1), few(value, 2), few(value, 3)):
                     yield replaced(case, path, other)
-
-
-def _none(value: Json) -> Json:
-    return [_none(v) for v in value] if isinstance(value, list) else 0.0
-
-
-def nodes(value: Json, path: Path = ()) -> Iterator[tuple[Path, Json]]:
-    """Every part of a case with its place, the whole before what is in it."""
-    yield path, value
-    inside = enumerate(value) if isinstance(value, list) else ()
-    for key, inner in value.items() if isinstance(value, dict) else inside:
-        yield from nodes(inner, (*path, key))
-
-
-def replaced(case: Json, path: Path, value: Json) -> Json:
-    """A copy with another value in one place."""
-    changed = copy.deepcopy(case)
-    inside = changed
-    for key in path[:-1]:
-        inside = inside[key]
-    inside[path[-1]] = copy.deepcopy(value)
-    return changed
 
 
 MOVES: Final[tuple[Callable[[Json], Iterator[Json]], ...]] = (

@@ -1,11 +1,10 @@
 """Whether an input is one of its layer: what the families keep to, and moves may break."""
 
-from collections.abc import Iterator
-
 import numpy as np
 
 from quasistatic_ref.lab.vectors.converters import places
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import nodes
 
 SQUARE = 1e-9
 """How far a frame may be from a right-handed one of unit vectors [-]."""
@@ -22,7 +21,8 @@ def is_valid(name: str, case: Json) -> bool:
         Its input, of the right shape.
     """
     positive = ("radius", "length", "h", "size", "half_axes")
-    for key, value in fields(case):
+    for path, value in nodes(case):
+        key = path[-1] if path else ""
         if key in positive and not np.all(np.array(value) > 0):
             return False
         if key in ("quaternion", "axis", "normal") and not np.any(value):
@@ -36,18 +36,6 @@ def is_valid(name: str, case: Json) -> bool:
     if "mechanism" in case and not (case["mechanism"]["bodies"] and _turned(case)):
         return False
     return all(_positive(case[key]) for key in ("H", "K_q") if case.get(key))
-
-
-def fields(value: Json, key: str = "") -> Iterator[tuple[str, Json]]:
-    """Every value that has a name, at any depth."""
-    if key:
-        yield key, value
-    if isinstance(value, dict):
-        for name, inner in value.items():
-            yield from fields(inner, name)
-    elif isinstance(value, list) and value and isinstance(value[0], dict):
-        for inner in value:
-            yield from fields(inner)
 
 
 def _positive(matrix: Json) -> bool:

@@ -96,6 +96,7 @@ def _named(cases: Sequence[Case], only: Sequence[str], layer: str) -> Sequence[C
     return found if only else cases
 
 
+@np.errstate(all="ignore")  # answers may be any numbers: what overflows does not match
 def layer_report(
     layer: str,
     cases: Sequence[Case],
@@ -115,17 +116,6 @@ def layer_report(
     digits : float, optional
         [-] An answer that is right to so many digits is acceptable.
     """
-    with np.errstate(all="ignore"):  # answers may be any numbers: what overflows does not match
-        return _layer_report(layer, cases, expected, answers, digits)
-
-
-def _layer_report(
-    layer: str,
-    cases: Sequence[Case],
-    expected: dict[str, Json],
-    answers: Answers,
-    digits: float | None,
-) -> LayerReport:
     verdicts: list[Verdict] = []
     failed: list[Failed] = []
     right: list[Failed] = []
@@ -177,7 +167,7 @@ def answer_judged(
     try:
         output = converted(layer, case.input, given, answers.tangent, answers.quaternion)
         verdict = judged(layer, case.input, record, output, digits).named(case.id)
-    except (ValueError, TypeError, KeyError, IndexError, OverflowError) as error:
+    except (ValueError, TypeError, KeyError, IndexError, ArithmeticError) as error:
         # Of a shape that only a conversion meets before its shape is checked.
         output = given
         verdict = failure("", f"the output is no output of this layer: {error}").named(case.id)

@@ -16,12 +16,12 @@ from quasistatic_ref.lab.vectors.check.compare import difference, leaves, parts,
 from quasistatic_ref.lab.vectors.check.mistake import Mistake
 from quasistatic_ref.lab.vectors.check.multipliers import program_rows
 from quasistatic_ref.lab.vectors.check.report import Named
-from quasistatic_ref.lab.vectors.check.table import ENTRIES
+from quasistatic_ref.lab.vectors.check.table import TABLED
 from quasistatic_ref.lab.vectors.check.verdict import Verdict
 from quasistatic_ref.lab.vectors.check.wrong_derivatives import DERIVATIVES
 from quasistatic_ref.lab.vectors.expected import Json
 
-MISTAKES: Final = (*(entry.mistake for entry in ENTRIES), *DERIVATIVES)
+MISTAKES: Final = (*TABLED, *DERIVATIVES)
 """Tried in this order; of equally good explanations all are named."""
 SAMPLE: Final = 12
 """Failing cases that are tried, and right ones: mistakes are systematic, some predictions slow."""

@@ -68,6 +68,52 @@ class LayerReport:
         """How many cases have a verdict."""
         return sum(v.verdict == verdict for v in self.verdicts)
 
+    def _good(self, *, whole: bool, loose: bool) -> int:
+        """How many cases are right, their answers whole or in part."""
+        return sum(
+            v.verdict in (PASSED, ACCEPTABLE) and v.loose == loose and (not v.without) == whole
+            for v in self.verdicts
+        )
+
+    @property
+    def right(self) -> int:
+        """Whole answers, right as far as float64 can be, by a documented freedom or without."""
+        return self._good(whole=True, loose=False)
+
+    @property
+    def loose(self) -> int:
+        """Whole answers that are right to the required digits alone."""
+        return self._good(whole=True, loose=True)
+
+    @property
+    def in_part(self) -> int:
+        """Answers that leave fields out, and are right in what they contain."""
+        return self._good(whole=False, loose=False) + self._good(whole=False, loose=True)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every case is answered whole, and right to the digits that were asked for."""
+        good = self.right + self.loose
+        return self.present and not self.problem and good == len(self.verdicts)
+
+    @property
+    def whole(self) -> bool:
+        """Whether every case is answered whole and right."""
+        return self.complete and not self.loose
+
+    @property
+    def words(self) -> str:
+        """E.g. ``right``, ``right to fewer digits``, ``12 wrong, 3 missing``, ``not answered``."""
+        if not self.present:
+            return "not answered"
+        if self.problem:
+            return "its file is not as it should be"
+        wrong = ((self.count(FAILED), "wrong"), (self.count(MISSING), "missing"))
+        if any(count for count, _ in wrong):
+            return ", ".join(f"{count} {word}" for count, word in wrong if count)
+        kinds = ((self.loose, "to fewer digits"), (self.in_part, "in part"))
+        return ", ".join(["right", *(word for count, word in kinds if count)])
+
     @property
     def ok(self) -> bool:
         """Whether nothing failed, and nothing is missing from a layer that is answered."""

@@ -4,7 +4,6 @@ A program that does boxes in float32, and no Farkas vectors, is complete or not 
 outside is not asked of it, and is not missing.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -17,6 +16,7 @@ from quasistatic_ref.lab.vectors.check.verdict import DIGITS
 from quasistatic_ref.lab.vectors.distances.shapes import SHAPES
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.trees import named
 from quasistatic_ref.step.cones import cone
 
 FORMAT: Final = "quasistatic-ref/scope"
@@ -59,11 +59,12 @@ class Scope:
         record : dict
             What is expected.
         """
+        kinds = {kind for kind in named(case, "kind") if kind in SHAPES}
         cones = {case["cone"]} if "cone" in case else set()
         cones |= {ROUND} if "second_order" in case else set()
         return (
             layer in self.layers
-            and (self.shapes is None or set(_kinds(case)) <= set(self.shapes))
+            and (self.shapes is None or kinds <= set(self.shapes))
             and (self.cones is None or cones <= set(self.cones))
             and (self.farkas or "farkas" not in record["output"])
         )
@@ -107,16 +108,3 @@ def scope_read(path: str | Path | None) -> Scope:
     except InputError as error:
         raise error.in_file(path) from None
     return found
-
-
-def _kinds(value: Json) -> Iterator[str]:
-    """The kinds of all shapes in a case."""
-    if isinstance(value, dict):
-        if value.get("kind") in SHAPES:
-            yield value["kind"]
-        for inner in value.values():
-            yield from _kinds(inner)
-    elif isinstance(value, list):
-        for inner in value:
-            if isinstance(inner, dict):
-                yield from _kinds(inner)

@@ -1,8 +1,7 @@
 """The table of classic mistakes, mistakes.toml: each predicts what the patched program answers."""
 
 import tomllib
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable
 from importlib.resources import files
 from typing import Final
 
@@ -18,7 +17,7 @@ FACTOR: Final = "FACTOR"
 TIME_STEPS: Final = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 
 
-def _predictions(patches: Sequence[str], layer: str) -> Prediction:
+def _predictions(patches: list[str], layer: str) -> Prediction:
     """What each patch changes in the program's answer."""
 
     def predicted(case: Json, output: Json) -> Iterable[Json]:
@@ -33,66 +32,32 @@ def _predictions(patches: Sequence[str], layer: str) -> Prediction:
     return predicted
 
 
-@dataclass(frozen=True)
-class Patch:
-    """One way to make a mistake.
-
-    Parameters
-    ----------
-    layers : list of str
-        Those whose answers it changes.
-    lines : str
-        As :func:`~quasistatic_ref.lab.vectors.check.patched.patched_texts` has them.
-    """
-
-    layers: list[str]
-    lines: str
-
-    @property
-    def variants(self) -> list[str]:
-        """Its lines with each factor in the place of FACTOR."""
-        if FACTOR not in self.lines:
-            return [self.lines]
-        return [self.lines.replace(FACTOR, repr(f)) for h in TIME_STEPS for f in (h, 1 / h)]
+def _variants(lines: str) -> list[str]:
+    """A patch with each factor in the place of FACTOR."""
+    if FACTOR not in lines:
+        return [lines]
+    return [lines.replace(FACTOR, repr(f)) for h in TIME_STEPS for f in (h, 1 / h)]
 
 
-def _patch(text: str) -> Patch:
-    head = text.partition("\n")[0]
-    return Patch(head.partition(": ")[2].split(", "), text)
+def _patches(entry: Json) -> dict[str, list[str]]:
+    """The patches of an entry by the layers whose answers they change, as their heads say."""
+    found: dict[str, list[str]] = {}
+    for patch in entry["patches"].split("\n\n"):
+        for layer in patch.partition("\n")[0].partition(": ")[2].split(", "):
+            found.setdefault(layer, []).append(patch)
+    return found
 
 
-@dataclass(frozen=True)
-class Entry:
-    """One mistake of the table.
-
-    Parameters
-    ----------
-    name, sentence : str
-    patches : list of Patch
-    """
-
-    name: str
-    sentence: str
-    patches: list[Patch]
-
-    @property
-    def mistake(self) -> Mistake:
-        """What it predicts, by layer."""
-        layers = {layer for patch in self.patches for layer in patch.layers}
-        return Mistake(self.name, self.sentence, {layer: self._in(layer) for layer in layers})
-
-    def _in(self, layer: str) -> Prediction:
-        mine = [patch for patch in self.patches if layer in patch.layers]
-        return _predictions([lines for patch in mine for lines in patch.variants], layer)
+def _mistake(name: str, sentence: str) -> Mistake:
+    by_layer = {
+        layer: _predictions([one for patch in patches for one in _variants(patch)], layer)
+        for layer, patches in PATCHES[name].items()
+    }
+    return Mistake(name, sentence, by_layer)
 
 
-def _table() -> tuple[Entry, ...]:
-    text = (files(check) / TABLE).read_text(encoding="utf-8")
-    return tuple(
-        Entry(one["name"], one["sentence"], [_patch(p) for p in one["patches"].split("\n\n")])
-        for one in tomllib.loads(text)["mistake"]
-    )
-
-
-ENTRIES: Final = _table()
+_ENTRIES = tomllib.loads((files(check) / TABLE).read_text(encoding="utf-8"))["mistake"]
+PATCHES: Final = {entry["name"]: _patches(entry) for entry in _ENTRIES}
+"""Of each mistake by layer: lines as :func:`patched_texts` takes them, one or several ways."""
+TABLED: Final = tuple(_mistake(entry["name"], entry["sentence"]) for entry in _ENTRIES)
 """The mistakes of mistakes.toml."""

@@ -1,16 +1,22 @@
 """Whether two points and a normal prove a signed distance, for answers that are not unique.
 
 If alpha lies in its body and is its farthest point along n, beta in its own and the farthest
-against n, then the gap along n is the signed distance, apart and in penetration. Shapes are the
-tables of a case, about their own origin; everything is float64.
+against n, then the gap along n is the signed distance, apart and in penetration. How far a point
+is outside of a shape, and how far a shape reaches, are distances, too: those to a point, and to a
+half-space.
 """
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
-from quasistatic_ref.lab.program.rotation import rotation
+from quasistatic_ref.lab.program.rotation import frame
+from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
+from quasistatic_ref.lab.vectors.exact.precision import rounded
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
 from quasistatic_ref.step.data import Array
+
+TILTED = 1e-9
+"""Sine of an angle: that between a half-space's normal and a direction of float64 is 1e-16."""
 
 
 def witness_problem(
@@ -35,93 +41,35 @@ def witness_problem(
     if np.abs(beta - alpha - phi * n).max() > tolerance:
         return "beta - alpha is not phi n"
     for name, point, sign in (("alpha", alpha, 1.0), ("beta", beta, -1.0)):
-        R, t = _pose(case[f"pose_{name}"])
-        local, direction = R.T @ (point - t), sign * (R.T @ n)
-        if excess(case[name], local) > tolerance:
+        shape, pose, direction = case[name], case[f"pose_{name}"], sign * n
+        ball = {"kind": "sphere", "radius": 0.0}
+        if _phi(ball, at(*point), shape, pose) > tolerance:
             return f"{name} is outside its shape"
-        if farthest(case[name], direction) - direction @ local > tolerance:
+        if shape["kind"] == "halfspace":
+            normal = frame(pose)[0] @ shape["normal"]
+            tilted = np.linalg.norm(np.cross(direction, normal)) > TILTED * np.linalg.norm(normal)
+            ends = not tilted and direction @ normal > 0
+            short = -_phi(ball, at(*point), shape, pose) if ends else np.inf
+        else:
+            beyond = {"kind": "halfspace", "normal": list(-direction), "offset": -direction @ point}
+            short = -_phi(beyond, ORIGIN, shape, pose)
+        if short > tolerance:
             return f"{name} is not where its shape ends along n"
     return None
 
 
-def farthest(shape: Json, direction: Array) -> float:
-    """How far a shape reaches along a direction of length one [m].
-
-    Infinite for a half-space, unless the direction is its normal.
-    """
-    match shape["kind"]:
-        case "sphere":
-            return float(shape["radius"])
-        case "box":
-            return float(np.abs(direction) @ np.array(shape["size"]) / 2)
-        case "capsule":
-            return float(abs(direction[2]) * shape["length"] / 2 + shape["radius"])
-        case "cylinder":
-            across = np.hypot(direction[0], direction[1])
-            return float(abs(direction[2]) * shape["length"] / 2 + shape["radius"] * across)
-        case "cone":
-            across, half = np.hypot(direction[0], direction[1]), shape["length"] / 2
-            rim = shape["radius"] * across - half * direction[2]
-            return float(max(half * direction[2], rim))
-        case "ellipsoid":
-            return float(np.linalg.norm(direction * np.array(shape["half_axes"])))
-        case "halfspace":
-            normal = np.array(shape["normal"])
-            length = np.linalg.norm(normal)
-            # The sine of the angle, which the direction of a float64 answer leaves at 1e-16.
-            tilted = np.linalg.norm(np.cross(direction, normal / length)) > 1e-9
-            return float("inf") if tilted or direction @ normal < 0 else shape["offset"] / length
-        case _:
-            return float((np.array(shape["vertices"]) @ direction).max())
-
-
-def excess(shape: Json, point: Array) -> float:
-    """How far a point is outside a shape [m], or a lower bound of that; negative within."""
-    match shape["kind"]:
-        case "sphere":
-            return float(np.linalg.norm(point)) - float(shape["radius"])
-        case "box":
-            return float((np.abs(point) - np.array(shape["size"]) / 2).max())
-        case "capsule":
-            half = shape["length"] / 2
-            axis = np.array([0.0, 0.0, np.clip(point[2], -half, half)])
-            return float(np.linalg.norm(point - axis)) - float(shape["radius"])
-        case "cylinder":
-            across = np.hypot(point[0], point[1])
-            return float(max(across - shape["radius"], abs(point[2]) - shape["length"] / 2))
-        case "cone":
-            across, half = np.hypot(point[0], point[1]), shape["length"] / 2
-            slant = np.hypot(shape["radius"], 2 * half)
-            side = (2 * half * across + shape["radius"] * (point[2] - half)) / slant
-            return float(max(side, -half - point[2]))
-        case "ellipsoid":
-            a = np.array(shape["half_axes"])
-            return float((np.linalg.norm(point / a) - 1) * a.min())
-        case "halfspace":
-            normal = np.array(shape["normal"])
-            return float((point @ normal - shape["offset"]) / np.linalg.norm(normal))
-        case _:
-            facets = ConvexHull(np.array(shape["vertices"])).equations
-            return float((facets[:, :3] @ point + facets[:, 3]).max())
+def _phi(alpha: Json, pose_alpha: Json, beta: Json, pose_beta: Json) -> float:
+    case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
+    phi: float = rounded(lambda: witnesses(case)[0].phi)[0]
+    return phi
 
 
 def solid_cases(case: Json) -> list[Json]:
     """The case itself, or one for each point of its cloud."""
     for name in ("alpha", "beta"):
         if case[name]["kind"] == "cloud":
-            R, t = _pose(case[f"pose_{name}"])
+            R, t = frame(case[f"pose_{name}"])
             points = np.array(case[name]["points"]) @ R.T + t
-            unturned = [0.0, 0.0, 0.0, 1.0]
-            return [
-                {
-                    **case,
-                    name: {"kind": "sphere", "radius": 0.0},
-                    f"pose_{name}": {"xyz": point.tolist(), "quaternion": unturned},
-                }
-                for point in points
-            ]
+            ball = {name: {"kind": "sphere", "radius": 0.0}}
+            return [{**case, **ball, f"pose_{name}": at(*point.tolist())} for point in points]
     return [case]
-
-
-def _pose(pose: Json) -> tuple[Array, Array]:
-    return rotation(pose["quaternion"]), np.array(pose["xyz"], dtype=np.float64)

@@ -16,16 +16,11 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.check.mistake import Mistake, Prediction
 from quasistatic_ref.lab.vectors.converters import tangent_map
 from quasistatic_ref.lab.vectors.distances.solid_pair import point_witness
-from quasistatic_ref.lab.vectors.exact.algebra import (
-    Vector,
-    add,
-    scaled,
-    subtract,
-)
+from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded.derivatives import moves
 from quasistatic_ref.lab.vectors.unrounded.differences import Base, away, base, quotient
-from quasistatic_ref.lab.vectors.unrounded.grid import STEP, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP, on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.moved_inputs import with_held_wrenches
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near
 from quasistatic_ref.lab.vectors.unrounded.step import Change, after
@@ -102,8 +97,7 @@ def _normal_towards(at: World, near: Near, other: str, point: Vector) -> Vector:
         raise InputError("a point has no surface", field="shape")
     with working():
         found = point_witness(solid, point)
-        n = found.n if other == "alpha" else scaled(found.n, -1)
-        return vector_on_grid(n)
+        return on_grid(found.n if other == "alpha" else -found.n)
 
 
 def plain_sum(case: Json, output: Json) -> Iterable[Json]:
@@ -113,20 +107,16 @@ def plain_sum(case: Json, output: Json) -> Iterable[Json]:
 
     def of_step(inputs: Callable[[fmpq], Json]) -> Vector:
         found = quotient(one, inputs, moved=True)
-        return _step_rate(found.sides[0][0].delta_q, found.sides[1][0].delta_q)
+        return (found.sides[0][0].delta_q - found.sides[1][0].delta_q) / (2 * STEP)
 
     def carried(inputs: Callable[[fmpq], Json]) -> Vector:
         ends = [world(inputs(by)) for by in (STEP, -STEP)]
         up, down = (away(at, one.q_next, after(at, step)) for at in ends)
-        return _step_rate(up, down)
+        return (up - down) / (2 * STEP)
 
     rate = np.array(_by_q(one, of_step))
     yield {"dq_dq": (np.eye(len(rate)) + rate).tolist()}
     yield {"dq_dq": (np.array(_by_q(one, carried)) + rate).tolist()}
-
-
-def _step_rate(up: Vector, down: Vector) -> Vector:
-    return [(x - y) / (2 * STEP) for x, y in zip(up, down, strict=True)]
 
 
 def world_frame(case: Json, output: Json) -> Iterable[Json]:
@@ -168,7 +158,7 @@ def _carried(before: World, at: World, near: Near, side: str, point: Vector) -> 
     body = _body(at, near, side)
     if body is None:
         return point
-    return add(_turned(before, at, near, side, subtract(point, before.at[body][1])), at.at[body][1])
+    return _turned(before, at, near, side, point - before.at[body][1]) + at.at[body][1]
 
 
 def _turned(before: World, at: World, near: Near, side: str, way: Vector) -> Vector:
@@ -176,8 +166,7 @@ def _turned(before: World, at: World, near: Near, side: str, way: Vector) -> Vec
     body = _body(at, near, side)
     if body is None:
         return way
-    turned: Vector = (at.at[body][0] @ before.at[body][0].T @ way).tolist()
-    return turned
+    return at.at[body][0] @ before.at[body][0].T @ way
 
 
 DERIVATIVES: Final = (

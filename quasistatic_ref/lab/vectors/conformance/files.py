@@ -75,11 +75,10 @@ def written(found: Conformance, answers: Path, out: Path) -> list[Path]:
         Folders.
     """
     writable_folder(out)
-    layers = [layer for layer in found.report.layers if layer.present]
-    declared = {layer.layer: answers_read(answers, layer.layer) for layer in layers}
+    declared = {one.layer: answers_read(answers, one.layer) for one in found.answered}
     contents = {name: bytes_read(answers / f"{name}.json") for name in declared}
     hashes = {name: hashlib.sha256(content).hexdigest() for name, content in contents.items()}
-    images = {"badge": badge(found), "digits": histogram(layers)}
+    images = {"badge": badge(found), "digits": histogram(found.answered)}
     content = page(found, declared, _versions(found, declared, hashes))
     record = json.dumps(record_of(found, hashes), indent=1) + "\n"
     files = {
@@ -101,10 +100,10 @@ def record_of(found: Conformance, hashes: Mapping[str, str]) -> dict[str, Json]:
         SHA-256 of each file of answers.
     """
     layers = [
-        {**one.record, "answers_sha256": hashes.get(one.layer), "in_part": standing.partial,
-         "to_fewer_digits": standing.loose, "frozen": one.layer not in found.edition.changed,
+        {**one.record, "answers_sha256": hashes.get(one.layer), "in_part": one.in_part,
+         "to_fewer_digits": one.loose, "frozen": one.layer not in found.edition.changed,
          "vectors_sha256": found.edition.hashes[one.layer]}
-        for one, standing in zip(found.report.layers, found.layers, strict=True)
+        for one in found.layers
     ]  # fmt: skip
     return {
         "format": FORMAT,

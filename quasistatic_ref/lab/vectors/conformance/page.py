@@ -35,7 +35,7 @@ def page(
     versions : sequence of Table
         Versions and hashes.
     """
-    layers = [layer for layer in conformance.report.layers if layer.present]
+    layers = conformance.answered
     parts = (
         ("What was passed", _passed(conformance)),
         ("Correct digits", _digits(layers)),
@@ -51,13 +51,10 @@ def page(
 def _passed(conformance: Conformance) -> Iterator[Block]:
     sentence = f"{conformance.label}: {conformance.message}."
     yield Picture("badge", "", {}, sentence, "", folder="", ending="svg", natural=True)
-    reports = {layer.layer: layer for layer in conformance.report.layers}
     rows = []
     for one in conformance.layers:
-        of = reports[one.layer]
-        counts = of.row[1:5] if one.answered else ("-",) * 4
-        partial = str(one.partial) if one.answered else "-"
-        rows.append((one.layer, one.words, str(one.cases), *counts, partial))
+        counts = (*one.row[1:5], str(one.in_part)) if one.present else ("-",) * 5
+        rows.append((one.layer, one.words, str(len(one.verdicts)), *counts))
     columns = ("layer", "verdict", "cases", "passed", "acceptable", "failed", "missing", "in part")
     yield Table("Layers", "", columns, tuple(rows), 2)
     yield WHOLE

@@ -19,8 +19,8 @@ from quasistatic_ref.lab.program.candidates import crossing_index, crossings, ed
 from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, along, cross, dot, subtract
-from quasistatic_ref.lab.vectors.exact.precision import number, rounded
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, vector
+from quasistatic_ref.lab.vectors.exact.precision import rounded
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.tolerances import REPEATED
@@ -132,11 +132,11 @@ def _crossings(case: Json, nearest: _Candidate) -> list[tuple[tuple[int, int], _
         def place(i: int = i, j: int = j) -> Json:
             n = witnesses(case)[0].n
             (tail, head), (start, end) = _edge(case, "alpha", i), _edge(case, "beta", j)
-            u, v, w = subtract(head, tail), subtract(end, start), subtract(start, tail)
-            steep = dot(cross(u, v), n)
-            alpha = along(tail, u, dot(cross(w, v), n) / steep)
-            beta = along(start, v, dot(cross(w, u), n) / steep)
-            return {"phi": dot(subtract(beta, alpha), n), "alpha": alpha, "beta": beta, "n": n}
+            u, v, w = head - tail, end - start, start - tail
+            steep = np.cross(u, v) @ n
+            alpha = tail + np.cross(w, v) @ n / steep * u
+            beta = start + np.cross(w, u) @ n / steep * v
+            return {"phi": (beta - alpha) @ n, "alpha": alpha, "beta": beta, "n": n}
 
         found.append(((i, j), _Candidate(rounded(place)[0], nearest.unique, nearest.case)))
     return found
@@ -145,7 +145,7 @@ def _crossings(case: Json, nearest: _Candidate) -> list[tuple[tuple[int, int], _
 def _edge(case: Json, side: str, i: int) -> list[Vector]:
     """Ends of an edge of a box in the world, in exact numbers."""
     box = placed(case[side], case[f"pose_{side}"])
-    return [box.world([number(x) for x in end]) for end in edges(case[side])[0][i].tolist()]
+    return [box.world(vector(end)) for end in edges(case[side])[0][i].tolist()]
 
 
 def _kept(

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
@@ -19,17 +20,8 @@ from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed
 from quasistatic_ref.lab.vectors.distances.stationary import minimum
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import (
-    IDENTITY,
-    Vector,
-    along,
-    cross,
-    dot,
-    scaled,
-    squared,
-    subtract,
-)
-from quasistatic_ref.lab.vectors.exact.precision import Real, rational_near, root, sign
+from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, Vector, length
+from quasistatic_ref.lab.vectors.exact.precision import Real, rational_near, sign
 
 
 def polytope_and_curved(flat: Core, curved: Placed) -> Witness:
@@ -58,10 +50,10 @@ def _candidates(flat: Core, curved: Placed) -> Iterator[Witness]:
         yield _on_face(flat, normal, curved)
     for first, last in flat.sides:
         start = flat.vertices[first]
-        way = subtract(flat.vertices[last], start)
+        way = flat.vertices[last] - start
         at = minimum(partial(slope, curved, start, way), fmpq(0), fmpq(1))
-        if at is not None and outside(curved, along(start, way, rational_near(at))):
-            yield point_on_solid(curved, along(start, way, at)).swapped()
+        if at is not None and outside(curved, start + rational_near(at) * way):
+            yield point_on_solid(curved, start + at * way).swapped()
 
 
 def outside(solid: Placed, point: Vector) -> bool:
@@ -71,37 +63,36 @@ def outside(solid: Placed, point: Vector) -> bool:
 
 def slope(curved: Placed, start: Vector, way: Vector, at: Real) -> Real:
     """Derivative along a line of the distance to a solid: it increases, as that is convex."""
-    return dot(point_on_solid(curved, along(start, way, at)).n, way)
+    return point_on_solid(curved, start + at * way).n @ way
 
 
 def _on_face(flat: Core, normal: Vector, curved: Placed) -> Witness:
     """From the plane of a face to the farthest point of the curved solid towards it."""
-    support, _ = SUPPORTS[curved.kind](curved.sizes, curved.local_direction(scaled(normal, -1)))
+    support, _ = SUPPORTS[curved.kind](curved.sizes, curved.local_direction(-normal))
     beta = curved.world(support)
-    length = root(squared(normal))
-    n = [x / length for x in normal]
-    phi = (dot(normal, beta) - max(dot(normal, x) for x in flat.vertices)) / length
-    return Witness(phi, along(beta, n, -phi), beta, n, True)
+    phi = (normal @ beta - max(normal @ x for x in flat.vertices)) / length(normal)
+    n = normal / length(normal)
+    return Witness(phi, beta - phi * n, beta, n, True)
 
 
 def _is_normal(flat: Core, found: Witness) -> bool:
     """Whether alpha is a point of the polytope, and n a normal of it there."""
-    reach = dot(found.n, found.alpha)
-    if any(sign(dot(found.n, x) - reach) > 0 for x in flat.vertices):
+    reach = found.n @ found.alpha
+    if any(sign(found.n @ x - reach) > 0 for x in flat.vertices):
         return False
     for normal in flat.normals:
-        face = max(dot(normal, x) for x in flat.vertices)
-        if sign(dot(normal, found.alpha) - face) > 0:
+        face = max(normal @ x for x in flat.vertices)
+        if sign(normal @ found.alpha - face) > 0:
             return False
     return True
 
 
 def _with_uniqueness(flat: Core, curved: Placed, found: Witness) -> Witness:
     """Not unique are the points where flat parts of both solids lie in each other."""
-    reach = dot(found.n, found.alpha)
-    highest = [x for x in flat.vertices if sign(dot(found.n, x) - reach) == 0]
-    ways = _independent([subtract(x, highest[0]) for x in highest[1:]])
-    unique = not shares_a_way(ways, flat_of(curved, scaled(found.n, -1)))
+    reach = found.n @ found.alpha
+    highest = [x for x in flat.vertices if sign(found.n @ x - reach) == 0]
+    ways = _independent([x - highest[0] for x in highest[1:]])
+    unique = not shares_a_way(ways, flat_of(curved, -found.n))
     return replace(found, unique=unique)
 
 
@@ -109,18 +100,18 @@ def _independent(ways: Sequence[Vector]) -> list[Vector]:
     """At most two directions that span the same as those given."""
     if not ways:
         return []
-    others = [way for way in ways[1:] if any(cross(ways[0], way))]
+    others = [way for way in ways[1:] if any(np.cross(ways[0], way))]
     return [ways[0], *others[:1]]
 
 
-def flat_of(solid: Placed, direction: Vector) -> list[Vector]:
+def flat_of(solid: Placed, direction: Vector) -> Sequence[Vector]:
     """Directions that span what of a curved solid is farthest along another: none, one or two.
 
     A cylinder or cone has its cap (two), a generator (one) or a point there.
     """
     d = solid.local_direction(direction)
-    flat: list[Vector] = []
-    radial = root(squared(d[:2]))
+    flat: Sequence[Vector] = []
+    radial = length(d[:2])
     if solid.kind == "ellipsoid":
         return flat
     if sign(radial) == 0:
@@ -130,16 +121,15 @@ def flat_of(solid: Placed, direction: Vector) -> list[Vector]:
         flat = IDENTITY[2:] if sign(d[2]) == 0 else []
     else:
         radius, half = solid.sizes
-        slant = [-radius * x / radial for x in d[:2]]
-        generator = [*slant, 2 * half]
-        flat = [generator] if sign(dot(generator, d)) == 0 else []
+        generator = np.append(-radius / radial * d[:2], 2 * half)
+        flat = [generator] if sign(generator @ d) == 0 else []
     return [solid.world_direction(way) for way in flat]
 
 
 def shares_a_way(a: Sequence[Vector], b: Sequence[Vector]) -> bool:
     """Whether two spans of at most two directions, in one plane, have a direction in common."""
-    if not a or not b:
+    if not len(a) or not len(b):
         return False
     if len(a) + len(b) > 2:
         return True
-    return all(sign(x) == 0 for x in cross(a[0], b[0]))
+    return all(sign(x) == 0 for x in np.cross(a[0], b[0]))

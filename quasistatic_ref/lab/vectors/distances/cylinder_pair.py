@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
@@ -19,16 +20,8 @@ from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.stationary import minimum
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import (
-    IDENTITY,
-    Vector,
-    add,
-    along,
-    dot,
-    scaled,
-    squared,
-)
-from quasistatic_ref.lab.vectors.exact.precision import Real, cos_sin, rational_near, root, sign
+from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, Vector, length
+from quasistatic_ref.lab.vectors.exact.precision import Real, cos_sin, rational_near, sign
 
 SECTORS = 48
 """Parts of a rim: its distance to a convex solid has few minima, far apart."""
@@ -48,7 +41,7 @@ def cylinder_and_curved(cylinder: Placed, other: Placed) -> Witness:
     for candidate in _candidates(cylinder, other):
         if sign(candidate.phi) > 0 and _is_normal(cylinder, candidate):
             ways = flat_of(cylinder, candidate.n)
-            unique = not shares_a_way(ways, flat_of(other, scaled(candidate.n, -1)))
+            unique = not shares_a_way(ways, flat_of(other, -candidate.n))
             return replace(candidate, unique=unique)
     raise InputError(
         "the solids meet, where this pair has no closed form",
@@ -61,16 +54,16 @@ def _candidates(cylinder: Placed, other: Placed) -> Iterator[Witness]:
     radius, half = cylinder.sizes
     axis = cylinder.world_direction(IDENTITY[2])
     at = minimum(partial(slope, other, cylinder.t, axis), -half, half)
-    if at is not None and outside(other, along(cylinder.t, axis, rational_near(at))):
-        core = point_on_solid(other, along(cylinder.t, axis, at)).swapped()
+    if at is not None and outside(other, cylinder.t + rational_near(at) * axis):
+        core = point_on_solid(other, cylinder.t + at * axis).swapped()
         yield core.inflated(radius, fmpq(0))
     for end in (1, -1):
-        n = scaled(axis, end)
-        centre = along(cylinder.t, n, half)
-        support, _ = SUPPORTS[other.kind](other.sizes, other.local_direction(scaled(n, -1)))
+        n = end * axis
+        centre = cylinder.t + half * n
+        support, _ = SUPPORTS[other.kind](other.sizes, other.local_direction(-n))
         beta = other.world(support)
-        phi = dot(n, beta) - dot(n, centre)
-        yield Witness(phi, along(beta, n, -phi), beta, n, True)
+        phi = n @ beta - n @ centre
+        yield Witness(phi, beta - phi * n, beta, n, True)
         yield point_on_solid(other, centre).swapped()
         yield from _on_rim(cylinder, centre, other)
 
@@ -81,12 +74,12 @@ def _on_rim(cylinder: Placed, centre: Vector, other: Placed) -> Iterator[Witness
     def radial(angle: Real) -> tuple[Vector, Vector]:
         """Way from the centre to the rim, and along it."""
         c, s = cos_sin(angle)
-        way = along(scaled(x_axis, c), y_axis, s)
-        return scaled(way, cylinder.sizes[0]), along(scaled(y_axis, c), x_axis, -s)
+        way = c * x_axis + s * y_axis
+        return cylinder.sizes[0] * way, c * y_axis - s * x_axis
 
     def rise(angle: Real) -> Real:
         way, forward = radial(angle)
-        return dot(point_on_solid(other, add(centre, way)).n, forward)
+        return point_on_solid(other, centre + way).n @ forward
 
     step = 4 * QUARTER / SECTORS
     angles = [step * k for k in range(SECTORS + 1)]
@@ -96,8 +89,8 @@ def _on_rim(cylinder: Placed, centre: Vector, other: Placed) -> Iterator[Witness
         if signs[k] < 0 < signs[k + 1]:
             at = minimum(rise, angles[k], angles[k + 1])
         if at is not None:
-            point = add(centre, radial(at)[0])
-            if outside(other, [rational_near(x) for x in point]):
+            point = centre + radial(at)[0]
+            if outside(other, np.array([rational_near(x) for x in point])):
                 yield point_on_solid(other, point).swapped()
 
 
@@ -105,9 +98,8 @@ def _is_normal(cylinder: Placed, found: Witness) -> bool:
     """Whether alpha is a point of the cylinder, and n a normal of it there."""
     at, n = cylinder.local(found.alpha), cylinder.local_direction(found.n)
     radius, half = cylinder.sizes
-    r = root(squared(at[:2]))
-    if sign(r - radius) > 0 or sign(abs(at[2]) - half) > 0:
+    if sign(length(at[:2]) - radius) > 0 or sign(abs(at[2]) - half) > 0:
         return False
     # The support function, reached at alpha: n is a normal there.
-    reach = radius * root(squared(n[:2])) + half * abs(n[2])
-    return sign(reach - dot(n, at)) == 0
+    reach = radius * length(n[:2]) + half * abs(n[2])
+    return sign(reach - n @ at) == 0

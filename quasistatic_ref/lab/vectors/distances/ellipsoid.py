@@ -5,54 +5,51 @@ root of F(t) = sum (e_i p_i / (t + e_i^2))^2 - 1. (D. Eberly, "Distance from a p
 an ellipsoid, or a hyperellipsoid".)
 """
 
-from collections.abc import Sequence
-
+import numpy as np
 from flint import arb, ctx, fmpq
 
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, dot
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, length
 from quasistatic_ref.lab.vectors.exact.precision import Real, Undecided, ball, root, sign
 
 
-def distance_to_ellipsoid(half_axes: Sequence[Real], p: Vector) -> tuple[Real, Vector, bool]:
+def distance_to_ellipsoid(half_axes: Vector, p: Vector) -> tuple[Real, Vector, bool]:
     """Signed distance, outward unit normal, and whether that is unique.
 
     Parameters
     ----------
-    half_axes, p : list of fmpq, length 3
+    half_axes, p : ndarray of fmpq, shape (3,)
         The point in the ellipsoid's own frame.
     """
-    squares = [e * e for e in half_axes]
+    squares = half_axes * half_axes
     least = min(squares)
-    inner = [k for k in range(3) if squares[k] == least]
-    if not any(p[k] for k in inner):
+    inner = np.flatnonzero(squares == least)
+    if not any(p[inner]):
         # On the plane of the medial axis: t may be the pole -e^2, where x leaves the plane.
-        x = [s * y / (s - least) if s > least else fmpq(0) for s, y in zip(squares, p, strict=True)]
-        left = 1 - sum((x[k] * x[k] / squares[k] for k in range(3)), fmpq(0))
+        across = squares > least
+        x = 0 * p
+        x[across] = (squares * p)[across] / (squares[across] - least)
+        left = 1 - x @ (x / squares)
         if left >= 0:
             x[inner[0]] = root(left * least)
             return *_from_closest(squares, p, x), left == 0
     t = _largest_root(squares, p, -least)
-    x = [s * y / (t + s) for s, y in zip(squares, p, strict=True)]
-    return *_from_closest(squares, p, x), True
+    return *_from_closest(squares, p, squares * p / (t + squares)), True
 
 
-def _from_closest(squares: Sequence[Real], p: Vector, x: Vector) -> tuple[Real, Vector]:
-    normal = [y / s for s, y in zip(squares, x, strict=True)]
-    length = root(dot(normal, normal))
-    normal = [y / length for y in normal]
-    return dot([a - b for a, b in zip(p, x, strict=True)], normal), normal
+def _from_closest(squares: Vector, p: Vector, x: Vector) -> tuple[Real, Vector]:
+    normal = x / squares
+    normal = normal / length(normal)
+    return (p - x) @ normal, normal
 
 
-def _largest_root(squares: Sequence[Real], p: Vector, pole: Real) -> Real:
+def _largest_root(squares: Vector, p: Vector, pole: Real) -> Real:
     """Ball around the root of F beyond its last pole, where F falls and is convex."""
 
     def F(t: Real) -> Real:
-        terms = (s * y * y / (t + s) ** 2 for s, y in zip(squares, p, strict=True))
-        return sum(terms, fmpq(-1))
+        return sum(squares * p * p / (t + squares) ** 2, fmpq(-1))
 
     def slope(t: Real) -> Real:
-        terms = (-2 * s * y * y / (t + s) ** 3 for s, y in zip(squares, p, strict=True))
-        return sum(terms, fmpq(0))
+        return sum(-2 * squares * p * p / (t + squares) ** 3, fmpq(0))
 
     # Where one term of F alone is 1 the root is not yet reached; Newton's steps rise towards it.
     starts = [root(s * y * y) - s for s, y in zip(squares, p, strict=True) if y]

@@ -2,7 +2,9 @@
 
 from collections.abc import Iterator, Sequence
 
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, along, cross, dot, subtract
+import numpy as np
+
+from quasistatic_ref.lab.vectors.exact.algebra import Vector
 
 Edge = tuple[Vector, Vector]
 
@@ -29,41 +31,40 @@ def common_points(a: Sequence[Vector], b: Sequence[Vector], normal: Vector) -> l
     for one in edges_a:
         for other in edges_b:
             found += _crossing(one, other, normal)
-    return [x for k, x in enumerate(found) if x not in found[:k]]
+    once = dict.fromkeys(tuple(x) for x in found)
+    return [np.array(x) for x in once]
 
 
 def _edges(points: Sequence[Vector], normal: Vector) -> Iterator[Edge]:
     """Pairs of points with all others on their left, or between them."""
     for k, p in enumerate(points):
         for j, q in enumerate(points):
-            if j == k or p == q:
+            if j == k or all(p == q):
                 continue
-            inward = cross(normal, subtract(q, p))
-            if all(dot(inward, subtract(x, p)) >= 0 for x in points):
+            inward = np.cross(normal, q - p)
+            if all(inward @ (x - p) >= 0 for x in points):
                 yield p, q
 
 
 def _inside(x: Vector, points: Sequence[Vector], edges: Sequence[Edge], normal: Vector) -> bool:
     if len(points) == 1:
-        return x == points[0]
+        return all(x == points[0])
     # A segment is two edges, there and back: between both lies its line alone.
-    left = all(dot(cross(normal, subtract(q, p)), subtract(x, p)) >= 0 for p, q in edges)
+    left = all(np.cross(normal, q - p) @ (x - p) >= 0 for p, q in edges)
     if not left:
         return False
-    flat = all(
-        dot(cross(normal, subtract(q, p)), subtract(y, p)) == 0 for p, q in edges for y in points
-    )
-    return not flat or any(dot(subtract(p, x), subtract(q, x)) <= 0 for p, q in edges)
+    flat = all(np.cross(normal, q - p) @ (y - p) == 0 for p, q in edges for y in points)
+    return not flat or any((p - x) @ (q - x) <= 0 for p, q in edges)
 
 
 def _crossing(one: Edge, other: Edge, normal: Vector) -> list[Vector]:
     """Where two segments that are not parallel meet."""
     (p, q), (r, s) = one, other
-    way, across = subtract(q, p), subtract(s, r)
-    turn = dot(normal, cross(way, across))
+    way, across = q - p, s - r
+    turn = normal @ np.cross(way, across)
     if turn == 0:
         return []
-    apart = subtract(r, p)
-    at = dot(normal, cross(apart, across)) / turn
-    on_other = dot(normal, cross(apart, way)) / turn
-    return [along(p, way, at)] if 0 <= at <= 1 and 0 <= on_other <= 1 else []
+    apart = r - p
+    at = normal @ np.cross(apart, across) / turn
+    on_other = normal @ np.cross(apart, way) / turn
+    return [p + at * way] if 0 <= at <= 1 and 0 <= on_other <= 1 else []

@@ -1,23 +1,24 @@
 """Closest points of a half-space and a bounded solid: its lowest point."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.shapes import Placed, core
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, dot, scaled, squared
-from quasistatic_ref.lab.vectors.exact.precision import Real, root, sign
+from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, ZERO, Vector, length
+from quasistatic_ref.lab.vectors.exact.precision import Real, sign
 
 
 def solid_on_plane(plane: Placed, solid: Placed) -> Witness:
     """Closest points of a half-space, which is alpha's, and a solid."""
-    down = scaled(plane.normal, -1)
+    down = -plane.normal
     flat = core(solid)
     if flat is not None:
-        heights = [dot(down, x) for x in flat.vertices]
+        heights = [down @ x for x in flat.vertices]
         lowest = heights.index(max(heights))
         found = point_on_solid(plane, flat.vertices[lowest])
         alone = replace(found, unique=heights.count(max(heights)) == 1)
@@ -26,29 +27,28 @@ def solid_on_plane(plane: Placed, solid: Placed) -> Witness:
     return replace(point_on_solid(plane, solid.world(point)), unique=unique)
 
 
-def cylinder_support(sizes: Sequence[Real], d: Vector) -> tuple[Vector, bool]:
+def cylinder_support(sizes: Vector, d: Vector) -> tuple[Vector, bool]:
     """Farthest point of a cylinder; the middle of a cap or a side that is all as far."""
     across, rim = _rim(sizes[0], d)
     height = sign(d[2])
-    return [*rim, height * sizes[1]], across and height != 0
+    return np.append(rim, height * sizes[1]), across and height != 0
 
 
-def cone_support(sizes: Sequence[Real], d: Vector) -> tuple[Vector, bool]:
+def cone_support(sizes: Vector, d: Vector) -> tuple[Vector, bool]:
     """Farthest point of a cone: the tip, or a point of the rim."""
     across, rim = _rim(sizes[0], d)
-    tip, base = [fmpq(0), fmpq(0), sizes[1]], [*rim, -sizes[1]]
-    higher = sign(dot(d, tip) - dot(d, base))
+    tip, base = sizes[1] * IDENTITY[2], np.append(rim, -sizes[1])
+    higher = sign(d @ tip - d @ base)
     return (tip, True) if higher > 0 else (base, across and higher < 0)
 
 
-def ellipsoid_support(sizes: Sequence[Real], d: Vector) -> tuple[Vector, bool]:
+def ellipsoid_support(sizes: Vector, d: Vector) -> tuple[Vector, bool]:
     """Farthest point of an ellipsoid."""
-    stretched = [e * x for e, x in zip(sizes, d, strict=True)]
-    length = root(squared(stretched))
-    return [e * x / length for e, x in zip(sizes, stretched, strict=True)], True
+    stretched = sizes * d
+    return sizes * stretched / length(stretched), True
 
 
-SUPPORTS: dict[str, Callable[[Sequence[Real], Vector], tuple[Vector, bool]]] = {
+SUPPORTS: dict[str, Callable[[Vector, Vector], tuple[Vector, bool]]] = {
     "cylinder": cylinder_support,
     "cone": cone_support,
     "ellipsoid": ellipsoid_support,
@@ -57,7 +57,7 @@ SUPPORTS: dict[str, Callable[[Sequence[Real], Vector], tuple[Vector, bool]]] = {
 
 
 def _rim(radius: Real, d: Vector) -> tuple[bool, Vector]:
-    length = root(squared(d[:2]))
-    if sign(length) == 0:
-        return False, [fmpq(0), fmpq(0)]
-    return True, [radius * x / length for x in d[:2]]
+    across = length(d[:2])
+    if sign(across) == 0:
+        return False, ZERO[:2]
+    return True, radius / across * d[:2]

@@ -4,15 +4,14 @@ Everything is in the shape's own frame. Where the normal is not unique (the midd
 axis of a cylinder) one is taken, and the answer says so.
 """
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
-from flint import fmpq
+import numpy as np
 
 from quasistatic_ref.lab.vectors.distances.ellipsoid import distance_to_ellipsoid
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, dot, squared
+from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, Vector, length, vector
 from quasistatic_ref.lab.vectors.exact.precision import Real, root, sign
 
 
@@ -38,60 +37,55 @@ def point_on_solid(solid: Placed, point: Vector) -> Witness:
             found = Surface(*distance_to_ellipsoid(solid.sizes, at))
         case _:
             normal = solid.sizes[:3]
-            length = root(squared(normal))
-            phi = (dot(normal, at) - solid.sizes[3]) / length
-            found = Surface(phi, [x / length for x in normal], True)
+            phi = (normal @ at - solid.sizes[3]) / length(normal)
+            found = Surface(phi, normal / length(normal), True)
     n = solid.world_direction(found.normal)
-    alpha = [x - found.phi * y for x, y in zip(point, n, strict=True)]
-    return Witness(found.phi, alpha, point, n, found.unique)
+    return Witness(found.phi, point - found.phi * n, point, n, found.unique)
 
 
-def _box(half: Sequence[Real], at: Vector) -> Surface:
-    signs = [-1 if x < 0 else 1 for x in at]
-    excess = [abs(x) - h for x, h in zip(at, half, strict=True)]
-    beyond = [max(x, fmpq(0)) for x in excess]
+def _box(half: Vector, at: Vector) -> Surface:
+    signs = vector(-1 if x < 0 else 1 for x in at)
+    excess = abs(at) - half
+    beyond = vector(max(x, 0) for x in excess)
     if any(beyond):
-        outside = root(squared(beyond))
-        normal = [s * x / outside for s, x in zip(signs, beyond, strict=True)]
-        return Surface(outside, normal, True)
-    nearest = max(excess)
-    face = excess.index(nearest)
-    unique = excess.count(nearest) == 1 and bool(at[face])
-    return Surface(nearest, [fmpq(signs[k] if k == face else 0) for k in range(3)], unique)
+        outside = length(beyond)
+        return Surface(outside, signs * beyond / outside, True)
+    face = int(np.argmax(excess))
+    unique = sum(excess == excess[face]) == 1 and bool(at[face])
+    return Surface(excess[face], signs[face] * IDENTITY[face], unique)
 
 
-def _cylinder(sizes: Sequence[Real], at: Vector) -> Surface:
+def _cylinder(sizes: Vector, at: Vector) -> Surface:
     r, outward = _radial(at)
     up = sign(at[2]) or 1
-    flat = _rectangle([r - sizes[0], abs(at[2]) - sizes[1]])
-    normal = [*(flat.normal[0] * x for x in outward), flat.normal[1] * up]
+    flat = _rectangle(np.array([r, abs(at[2])]) - sizes)
+    normal = np.append(flat.normal[0] * outward, flat.normal[1] * up)
     lost = (sign(r) == 0 and sign(flat.normal[0]) != 0) or (
         sign(at[2]) == 0 and sign(flat.normal[1]) != 0
     )
     return Surface(flat.phi, normal, flat.unique and not lost)
 
 
-def _rectangle(excess: Sequence[Real]) -> Surface:
+def _rectangle(excess: Vector) -> Surface:
     """In the half-plane (r, |z|), from how far beyond its two sides a point is."""
-    beyond = [x if sign(x) > 0 else fmpq(0) for x in excess]
+    beyond = vector(x if sign(x) > 0 else 0 for x in excess)
     if any(sign(x) for x in beyond):
-        outside = root(squared(beyond))
-        return Surface(outside, [x / outside for x in beyond], True)
+        return Surface(length(beyond), beyond / length(beyond), True)
     side = sign(excess[0] - excess[1])
     if side >= 0:
-        return Surface(excess[0], [fmpq(1), fmpq(0)], side > 0)
-    return Surface(excess[1], [fmpq(0), fmpq(1)], True)
+        return Surface(excess[0], IDENTITY[0, :2], side > 0)
+    return Surface(excess[1], IDENTITY[1, :2], True)
 
 
-def _cone(sizes: Sequence[Real], at: Vector) -> Surface:
+def _cone(sizes: Vector, at: Vector) -> Surface:
     """In the half-plane (r, z) a cone is a triangle: rim, tip, and the axis, which is no side."""
     radius, half = sizes
     r, outward = _radial(at)
     slant = root(radius * radius + 4 * half * half)
-    side = [2 * half / slant, radius / slant]
+    side = np.array([2 * half, radius]) / slant
     above_side = (r - radius) * side[0] + (at[2] + half) * side[1]
     above_base = -half - at[2]
-    below = Surface(above_base, [fmpq(0), fmpq(-1)], True)
+    below = Surface(above_base, -IDENTITY[1, :2], True)
     # From the rim along the side to the tip, and along the base to the axis.
     up_side = (radius - r) * side[1] + (at[2] + half) * side[0]
     if sign(above_side) <= 0 and sign(above_base) <= 0:
@@ -103,15 +97,14 @@ def _cone(sizes: Sequence[Real], at: Vector) -> Surface:
         flat = below
     else:
         beyond_tip = sign(up_side - slant) > 0
-        away = [r, at[2] - half] if beyond_tip else [r - radius, at[2] + half]
-        distance = root(squared(away))
-        flat = Surface(distance, [x / distance for x in away], True)
+        away = np.array([r, at[2] - half] if beyond_tip else [r - radius, at[2] + half])
+        flat = Surface(length(away), away / length(away), True)
     lost = sign(r) == 0 and sign(flat.normal[0]) != 0
-    normal = [*(flat.normal[0] * x for x in outward), flat.normal[1]]
+    normal = np.append(flat.normal[0] * outward, flat.normal[1])
     return Surface(flat.phi, normal, flat.unique and not lost)
 
 
 def _radial(at: Vector) -> tuple[Real, Vector]:
     """Distance from the axis, and the direction away from it: x where there is none."""
-    r = root(squared(at[:2]))
-    return r, [x / r for x in at[:2]] if sign(r) else [fmpq(1), fmpq(0)]
+    r = length(at[:2])
+    return r, at[:2] / r if sign(r) else IDENTITY[0, :2]

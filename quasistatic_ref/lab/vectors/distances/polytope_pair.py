@@ -8,23 +8,14 @@ normals of faces of either, and common normals of an edge of each.
 
 from collections.abc import Sequence
 
+import numpy as np
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.lab.vectors.distances.planar import common_points
 from quasistatic_ref.lab.vectors.distances.shapes import Core
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import (
-    IDENTITY,
-    Vector,
-    add,
-    along,
-    cross,
-    dot,
-    scaled,
-    squared,
-    subtract,
-)
-from quasistatic_ref.lab.vectors.exact.precision import Real, root, sign
+from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, Vector, length
+from quasistatic_ref.lab.vectors.exact.precision import Real, sign
 
 
 def polytope_pair(a: Core, b: Core) -> Witness:
@@ -34,35 +25,34 @@ def polytope_pair(a: Core, b: Core) -> Witness:
         normal, unique = between, True
     else:
         normal, unique = widest_gap(a, b)
-        between = scaled(normal, gap(a, b, normal) / squared(normal))
-    length = root(squared(normal))
-    n = [x / length for x in normal]
+        between = gap(a, b, normal) / (normal @ normal) * normal
+    n = normal / length(normal)
     # Both faces lie in one plane after b's is moved by -between; what they share are witnesses.
     face_a = _extreme(a.vertices, normal)
-    face_b = [subtract(x, between) for x in _extreme(b.vertices, scaled(normal, -1))]
+    face_b = [x - between for x in _extreme(b.vertices, -normal)]
     shared = common_points(face_a, face_b, normal)
-    phi = gap(a, b, normal) / length
-    alpha, beta = shared[0], add(shared[0], between)
+    phi = gap(a, b, normal) / length(normal)
+    alpha, beta = shared[0], shared[0] + between
     return Witness(phi, alpha, beta, n, unique and len(shared) == 1).inflated(a.margin, b.margin)
 
 
 def gap(a: Core, b: Core, normal: Vector) -> Real:
     """Gap between the cores along a normal, times the normal's length."""
-    return min(dot(normal, x) for x in b.vertices) - max(dot(normal, x) for x in a.vertices)
+    return min(normal @ x for x in b.vertices) - max(normal @ x for x in a.vertices)
 
 
 def widest_gap(a: Core, b: Core) -> tuple[Vector, bool]:
     """Normal, of any length, of the widest gap of two cores that meet; and whether it is unique."""
-    normals = [*a.normals, *(scaled(x, -1) for x in b.normals)]
-    crossing = [cross(one, other) for one in a.edges for other in b.edges]
+    normals = [*a.normals, *(-x for x in b.normals)]
+    crossing = [np.cross(one, other) for one in a.edges for other in b.edges]
     ways = [x for x in crossing if any(x)]
     solid = bool(normals)
     if not solid:
         # A difference without volume: the normal of its plane, or one at right angles to its line.
         edges = [*a.edges, *b.edges]
-        ways += [x for edge in edges for e in IDENTITY if any(x := cross(edge, e))]
-        ways += IDENTITY
-    normals += [x for way in ways for x in (way, scaled(way, -1))]
+        ways += [x for edge in edges for e in IDENTITY if any(x := np.cross(edge, e))]
+        ways += [*IDENTITY]
+    normals += [x for way in ways for x in (way, -way)]
     best: Vector = normals[0]
     value = _signed_square(gap(a, b, best), best)
     ties = [best]
@@ -77,13 +67,13 @@ def widest_gap(a: Core, b: Core) -> tuple[Vector, bool]:
 
 def shortest_difference(a: Sequence[Vector], b: Sequence[Vector]) -> Vector:
     """Vector of least length from the hull of some points to that of others."""
-    x = subtract(b[0], a[0])
+    x = b[0] - a[0]
     corral, weights = [x], [fmpq(1)]
     while True:
-        low = min(b, key=lambda y: dot(x, y))
-        high = max(a, key=lambda y: dot(x, y))
-        extreme = subtract(low, high)
-        if dot(x, extreme) >= squared(x):
+        low = min(b, key=lambda y: x @ y)
+        high = max(a, key=lambda y: x @ y)
+        extreme = low - high
+        if x @ extreme >= x @ x:
             return x
         corral.append(extreme)
         weights.append(fmpq(0))
@@ -97,15 +87,13 @@ def shortest_difference(a: Sequence[Vector], b: Sequence[Vector]) -> Vector:
             moved = [w + share * (g - w) for w, g in zip(weights, goal, strict=True)]
             kept = [k for k, w in enumerate(moved) if w > 0]
             corral, weights = [corral[k] for k in kept], [moved[k] for k in kept]
-        x = [fmpq(0)] * 3
-        for point, weight in zip(corral, weights, strict=True):
-            x = along(x, point, weight)
+        x = np.array(weights) @ np.array(corral)
 
 
 def _affine_weights(points: Sequence[Vector]) -> list[Real]:
     """Weights, of sum one, of the point of least norm in the affine hull of independent points."""
     n = len(points)
-    A = [[dot(p, q) for q in points] + [fmpq(1)] for p in points] + [[fmpq(1)] * n + [fmpq(0)]]
+    A = [[p @ q for q in points] + [fmpq(1)] for p in points] + [[fmpq(1)] * n + [fmpq(0)]]
     right = [fmpq(0)] * n + [fmpq(1)]
     solution = fmpq_mat(n + 1, n + 1, [x for row in A for x in row]).solve(
         fmpq_mat(n + 1, 1, right)
@@ -114,15 +102,15 @@ def _affine_weights(points: Sequence[Vector]) -> list[Real]:
 
 
 def _extreme(points: Sequence[Vector], direction: Vector) -> list[Vector]:
-    heights = [dot(direction, x) for x in points]
+    heights = [direction @ x for x in points]
     top = max(heights)
     return [x for x, height in zip(points, heights, strict=True) if height == top]
 
 
 def _signed_square(value: Real, normal: Vector) -> Real:
     """(value / |normal|)^2 with the sign of the value: ordered as value / |normal| is."""
-    return sign(value) * value * value / squared(normal)
+    return sign(value) * value * value / (normal @ normal)
 
 
 def _parallel(a: Vector, b: Vector) -> bool:
-    return not any(cross(a, b)) and dot(a, b) > 0
+    return not any(np.cross(a, b)) and a @ b > 0

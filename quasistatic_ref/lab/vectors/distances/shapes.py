@@ -5,25 +5,14 @@ from functools import lru_cache
 from itertools import combinations, product
 from typing import Any
 
+import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.program.rotation import rotation
-from quasistatic_ref.lab.vectors.exact.algebra import (
-    IDENTITY,
-    ZERO,
-    Matrix,
-    Vector,
-    cross,
-    dot,
-    moved,
-    scaled,
-    subtract,
-    times,
-    transposed,
-)
-from quasistatic_ref.lab.vectors.exact.precision import Real, number, numbers, sign
+from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, ZERO, Matrix, Vector, vector
+from quasistatic_ref.lab.vectors.exact.precision import Real, number, sign
 
 SHAPES = {
     "sphere": ("radius",),
@@ -57,32 +46,32 @@ class Placed:
     kind: str
     R: Matrix
     t: Vector
-    sizes: list[Real]
+    sizes: Vector
     points: list[Vector]
 
     def local(self, x: Vector) -> Vector:
         """Coordinates of a point of the world in the shape's own frame."""
-        return times(transposed(self.R), subtract(x, self.t))
+        return self.R.T @ (x - self.t)
 
     def local_direction(self, x: Vector) -> Vector:
         """The same of a direction."""
-        return times(transposed(self.R), x)
+        return self.R.T @ x
 
     def world(self, x: Vector) -> Vector:
         """Coordinates in the world of a point of the shape's own frame."""
-        return moved(self.R, self.t, x)
+        return self.R @ x + self.t
 
     def world_direction(self, x: Vector) -> Vector:
         """The same of a direction."""
-        return times(self.R, x)
+        return self.R @ x
 
     def world_normal(self, x: Vector) -> Vector:
         """A normal of a plane in the world: at right angles to what R makes of the plane.
 
         Where R is a rotation to some digits only, R x is not. Its cofactors make one that is.
         """
-        rows = [cross(self.R[i - 2], self.R[i - 1]) for i in range(3)]
-        return times(rows, x)
+        rows = [np.cross(self.R[i - 2], self.R[i - 1]) for i in range(3)]
+        return np.array(rows) @ x
 
     @property
     def normal(self) -> Vector:
@@ -105,7 +94,7 @@ def placed(shape: dict[str, Any], pose: dict[str, Any]) -> Placed:
     if set(shape) != {"kind", *SHAPES[kind]}:
         problem = f"a {kind} has the fields {', '.join(SHAPES[kind])}"
         raise InputError(problem, field="shape", value=sorted(shape))
-    R, t = rotation(numbers(pose["quaternion"])).tolist(), numbers(pose["xyz"])
+    R, t = rotation(vector(pose["quaternion"])), vector(pose["xyz"])
     sizes: list[Real] = []
     points: list[Vector] = []
     match kind:
@@ -116,12 +105,12 @@ def placed(shape: dict[str, Any], pose: dict[str, Any]) -> Placed:
         case "box":
             sizes = [number(x) / 2 for x in shape["size"]]
         case "ellipsoid":
-            sizes = numbers(shape["half_axes"])
+            sizes = [number(x) for x in shape["half_axes"]]
         case "halfspace":
-            sizes = [*numbers(shape["normal"]), number(shape["offset"])]
+            sizes = [number(x) for x in (*shape["normal"], shape["offset"])]
         case _:
-            points = [numbers(x) for x in shape[SHAPES[kind][0]]]
-    return Placed(kind, R, t, sizes, points)
+            points = [vector(x) for x in shape[SHAPES[kind][0]]]
+    return Placed(kind, R, t, np.array(sizes), points)
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,13 +146,13 @@ def core(solid: Placed) -> Core | None:
             local = Core(solid.sizes[0], [ZERO], [], [], [])
         case "capsule":
             margin, half = solid.sizes
-            ends = [scaled(IDENTITY[2], -half), scaled(IDENTITY[2], half)]
+            ends = [-half * IDENTITY[2], half * IDENTITY[2]]
             local = Core(margin, ends, [], [IDENTITY[2]], [(0, 1)])
         case "box":
-            corners = [list(x) for x in product(*((-half, half) for half in solid.sizes))]
-            faces = [*IDENTITY, *(scaled(axis, -1) for axis in IDENTITY)]
+            corners = [np.array(x) for x in product(*((-half, half) for half in solid.sizes))]
+            faces = [*IDENTITY, *(-axis for axis in IDENTITY)]
             sides = [(k, k + step) for step in (4, 2, 1) for k in range(8) if not k & step]
-            local = Core(zero, corners, faces, IDENTITY, sides)
+            local = Core(zero, corners, faces, [*IDENTITY], sides)
         case "convex":
             local = _hull(tuple(tuple(point) for point in solid.points))
         case _:
@@ -186,20 +175,20 @@ def _hull(points: tuple[tuple[Real, ...], ...]) -> Core:
     InputError
         If the points lie in one plane.
     """
-    vertices = [list(point) for point in points]
+    vertices = [np.array(point) for point in points]
     faces: dict[tuple[Real, ...], frozenset[int]] = {}
     for a, b, c in combinations(range(len(vertices)), 3):
         if any({a, b, c} <= members for members in faces.values()):
             continue
-        normal = cross(subtract(vertices[b], vertices[a]), subtract(vertices[c], vertices[a]))
+        normal = np.cross(vertices[b] - vertices[a], vertices[c] - vertices[a])
         if not any(normal):
             continue
-        sides = [sign(dot(normal, subtract(x, vertices[a]))) for x in vertices]
+        sides = [sign(normal @ (x - vertices[a])) for x in vertices]
         if min(sides) < 0 < max(sides):
             continue
         if max(sides) == min(sides):
             break
-        outward = scaled(normal, -1) if max(sides) > 0 else normal
+        outward = -normal if max(sides) > 0 else normal
         members = frozenset(k for k, side in enumerate(sides) if not side)
         faces[_direction(outward, signed=True)] = members
     if not faces:
@@ -211,10 +200,10 @@ def _hull(points: tuple[tuple[Real, ...], ...]) -> Core:
         if len(shared) > 1:
             # Of points on one line, the lexicographically least and largest are its ends.
             ends = sorted(shared, key=lambda k: points[k])
-            way = subtract(vertices[ends[-1]], vertices[ends[0]])
+            way = vertices[ends[-1]] - vertices[ends[0]]
             edges[_direction(way, signed=False)] = None
             ends_of.append((ends[0], ends[-1]))
-    return Core(fmpq(0), vertices, [*map(list, faces)], [*map(list, edges)], ends_of)
+    return Core(fmpq(0), vertices, [*map(np.array, faces)], [*map(np.array, edges)], ends_of)
 
 
 def _direction(x: Vector, signed: bool) -> tuple[Real, ...]:

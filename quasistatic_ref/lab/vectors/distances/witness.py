@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Any
 
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, along, scaled
+from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.exact.precision import Real
 
 
@@ -31,13 +31,13 @@ class Witness:
 
     def swapped(self) -> "Witness":
         """The same with alpha and beta exchanged."""
-        return Witness(self.phi, self.beta, self.alpha, scaled(self.n, -1), self.unique)
+        return Witness(self.phi, self.beta, self.alpha, -self.n, self.unique)
 
     def inflated(self, margin_alpha: Real, margin_beta: Real) -> "Witness":
         """The same of solids that have a ball about every point."""
         phi = self.phi - margin_alpha - margin_beta
-        alpha = along(self.alpha, self.n, margin_alpha)
-        return replace(self, phi=phi, alpha=alpha, beta=along(self.beta, self.n, -margin_beta))
+        alpha = self.alpha + margin_alpha * self.n
+        return replace(self, phi=phi, alpha=alpha, beta=self.beta - margin_beta * self.n)
 
     def table(self) -> dict[str, Any]:
         """The fields of the layer's output."""

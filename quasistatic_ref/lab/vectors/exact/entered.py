@@ -7,6 +7,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.program.mechanism import ENTRIES, slices
 from quasistatic_ref.lab.vectors.exact.precision import number
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.trees import mapped
 
 SIDES: Final = ("alpha_body", "beta_body")
 COUNTS: Final = ("k", "rows")
@@ -44,10 +45,10 @@ def entered(case: Json) -> Json:
 
 def exact(value: Any) -> Any:
     """The same nesting of exact numbers, counts and words."""
-    if isinstance(value, dict):
-        return {key: v if key in COUNTS else exact(v) for key, v in value.items()}
-    if isinstance(value, list):
-        return [exact(v) for v in value]
+    return mapped(value, _exact, COUNTS)
+
+
+def _exact(value: Any) -> Any:
     counts = isinstance(value, bool) or not isinstance(value, int | float)
     return value if counts else number(value)
 

@@ -11,15 +11,14 @@ move an entry of x by as many sqrt((H^-1)_vv) at most, one of A'lam = H x - g by
 slack by sqrt((A H^-1 A')_ii).
 """
 
-from collections.abc import Iterable
 from fractions import Fraction
 from math import isqrt
 from typing import Final
 
-from flint import fmpq, fmpq_mat
+import numpy as np
 
 from quasistatic_ref.certify.rational import ExactForm
-from quasistatic_ref.lab.vectors.exact.rational import UNIT, fraction
+from quasistatic_ref.lab.vectors.exact.rational import UNIT, inverse, largest, rationals
 
 ROUNDINGS: Final = 8
 """Of the unconstrained step: an answer of 15 digits."""
@@ -34,24 +33,17 @@ def floors(form: ExactForm) -> tuple[Fraction, Fraction, Fraction]:
     ----------
     form : ExactForm
     """
-    H, A, g = fmpq_mat(form.H), fmpq_mat(form.A), fmpq_mat(form.g)
-    inverse = H.inv()
-    energy = (g.transpose() * inverse * g)[0, 0] * fmpq(ROUNDINGS**2)
-    image = A * inverse
-    slacks = (
-        sum((image[i, v] * A[i, v] for v in range(form.n)), start=fmpq(0)) for i in range(form.m)
+    H, A, g = (rationals(M) for M in (form.H, form.A, form.g.entries()))
+    H_inverse = inverse(H)
+    energy = ROUNDINGS**2 * (g @ H_inverse @ g)
+    slacks = np.sum((A @ H_inverse) * A, axis=1)
+    squares = (
+        (np.diag(H_inverse), form.x_unit),
+        (np.diag(H), form.net_unit),
+        (slacks, form.slack_unit),
     )
-    return (
-        _reach((inverse[v, v] for v in range(form.n)), energy, form.x_unit),
-        _reach((H[v, v] for v in range(form.n)), energy, form.net_unit),
-        _reach(slacks, energy, form.slack_unit),
-    )
-
-
-def _reach(squares: Iterable[fmpq], energy: fmpq, unit: fmpq) -> Fraction:
-    """The largest square root of s energy, in SI units."""
-    largest = max(squares, default=fmpq(0)) * energy * unit * unit
-    return UNIT * _root(fraction(largest))
+    x, net, slack = (UNIT * _root(largest(v * energy, unit * unit)) for v, unit in squares)
+    return x, net, slack
 
 
 def _root(value: Fraction) -> Fraction:

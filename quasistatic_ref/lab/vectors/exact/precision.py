@@ -8,7 +8,7 @@ is 0, and one of relative radius < 2^-200 that contains a midpoint is that midpo
 rational answers on the way to which a root or a sine cancelled.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
 from math import inf, isqrt, nextafter
@@ -20,6 +20,7 @@ from flint import arb, ctx, fmpq
 from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.lab.program import number as kinds
+from quasistatic_ref.lab.vectors.trees import mapped
 
 Real: TypeAlias = Any
 """An fmpq or an arb. They mix freely, which their type hints cannot say."""
@@ -43,11 +44,6 @@ class Undecided(ArithmeticError):
 def number(x: float | Real) -> Real:
     """A float64 or whole number, exactly; what is exact or a ball already, as it is."""
     return x if isinstance(x, (fmpq, arb)) else fmpq(*x.as_integer_ratio())
-
-
-def numbers(values: Sequence[float | Real]) -> list[Real]:
-    """Several float64 values [any unit], exactly."""
-    return [number(x) for x in values]
 
 
 def ball(x: Real) -> arb:
@@ -142,7 +138,7 @@ def rounded(function: Callable[[], Any]) -> tuple[Any, Any]:
         with ctx.workprec(precision):
             try:
                 tree = function()
-                return _mapped(tree, _nearest), _mapped(tree, _decimal)
+                return mapped(tree, _each(_nearest)), mapped(tree, _each(_decimal))
             except Undecided:
                 precision *= 2
     raise Undecided(f"{HIGHEST} bits do not decide a sign or a rounding: the case is ill-posed")
@@ -157,14 +153,15 @@ def short(digits: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in digits.items() if fits(value)}
 
 
-def _mapped(tree: Any, leaf: Callable[[Real], Any]) -> Any:
-    if isinstance(tree, dict):
-        return {key: _mapped(value, leaf) for key, value in tree.items()}
-    if isinstance(tree, (list, tuple)):
-        return [_mapped(value, leaf) for value in tree]
-    if isinstance(tree, np.ndarray):  # its whole numbers are constants of the program
-        return np.frompyfunc(lambda x: leaf(number(x)), 1, 1)(tree).tolist()
-    return leaf(tree) if isinstance(tree, (fmpq, arb)) else tree
+def _each(leaf: Callable[[Real], Any]) -> Callable[[Any], Any]:
+    """The same of each number of an array; what is no number is passed on."""
+
+    def of(value: Any) -> Any:
+        if isinstance(value, np.ndarray):  # its whole numbers are constants of the program
+            return np.frompyfunc(lambda x: leaf(number(x)), 1, 1)(value).tolist()
+        return leaf(value) if isinstance(value, (fmpq, arb)) else value
+
+    return of
 
 
 def _nearest(x: Real) -> float:

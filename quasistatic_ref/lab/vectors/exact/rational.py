@@ -4,17 +4,37 @@ from decimal import ROUND_UP, Context, Decimal
 from fractions import Fraction
 from typing import Any, Final
 
-from flint import fmpq
+import numpy as np
+from flint import fmpq, fmpq_mat, fmpz_mat
 
 from quasistatic_ref.lab.vectors.expected import Tolerance
 
 UNIT: Final = Fraction(1, 2**53)
 """Relative error of one rounding in float64."""
+UNITY: Final = fmpq(1)
 
 
 def fraction(value: fmpq) -> Fraction:
     """The same number of the other kind."""
     return Fraction(int(value.p), int(value.q))
+
+
+def rationals(values: Any) -> Any:
+    """An array of rational numbers, of the shape of a matrix or a list of whole ones."""
+    if isinstance(values, fmpz_mat):
+        return rationals(values.entries()).reshape(values.nrows(), values.ncols())
+    return np.array([fmpq(v) for v in values], dtype=object)
+
+
+def inverse(M: Any) -> Any:
+    """The inverse of an array of rational numbers."""
+    return np.array(fmpq_mat(len(M), len(M), M.ravel().tolist()).inv().tolist()).reshape(M.shape)
+
+
+def largest(values: Any, unit: fmpq = UNITY) -> Fraction:
+    """The largest size in an array, in SI units; 0 of none."""
+    sizes = np.abs(unit * np.array(values, dtype=object)).ravel()
+    return fraction(max(sizes, default=fmpq(0)))
 
 
 def tolerance(bound: Any, reason: str) -> Tolerance:

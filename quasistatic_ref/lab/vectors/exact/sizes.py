@@ -15,6 +15,7 @@ from flint import fmpq
 from quasistatic_ref.lab.program import number as kinds
 from quasistatic_ref.lab.vectors.exact.precision import number
 from quasistatic_ref.lab.vectors.exact.rational import fraction
+from quasistatic_ref.lab.vectors.trees import mapped
 
 
 def _operator(of_fractions: Callable[[fmpq, fmpq], fmpq]) -> Callable[[Any, Any], Any]:
@@ -54,11 +55,7 @@ def _part_of_turn(like: Size, k: int, K: int) -> tuple[Size, ...]:
 
 def sizes(case: Any) -> Any:
     """A case with the sizes of its numbers in their places."""
-    if isinstance(case, dict):
-        return {key: sizes(value) for key, value in case.items()}
-    if isinstance(case, list):
-        return [sizes(value) for value in case]
-    return Size(case) if isinstance(case, fmpq) else case
+    return mapped(case, lambda value: Size(value) if isinstance(value, fmpq) else value)
 
 
 def largest(values: Any) -> Fraction:

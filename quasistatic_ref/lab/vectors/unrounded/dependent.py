@@ -10,12 +10,14 @@ not, a row opens for one sign of z: a derivative along each coordinate may exist
 from collections.abc import Iterable, Sequence
 from typing import Final
 
+import numpy as np
 from flint import fmpq, fmpz_mat
 
-from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector, along, dot, scaled, subtract
+from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
+from quasistatic_ref.lab.vectors.exact.rational import rationals
 from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP
-from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, nearest, row_counts
+from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, blocks, nearest
 from quasistatic_ref.lab.vectors.unrounded.step import Contact, Rows, rows
 
 CLOSE: Final = fmpq(1, 1 << 50)
@@ -45,8 +47,8 @@ def dependence_breaks(one: Base, found: Iterable[Quotient]) -> bool:
     for step, contacts in (side for change in found for side in change.sides):
         rates = _rates(one, own, contacts, _blocks(one, contacts, step.rows))
         for mu in together:
-            pulled = _combined(mu, [rates[i] for i in tight])
-            if any(abs(dot(pulled, z)) > BEND for z in moves):
+            pulled = mu @ np.array([rates[i] for i in tight])
+            if any(abs(pulled @ z) > BEND for z in moves):
                 return True
     return False
 
@@ -54,38 +56,26 @@ def dependence_breaks(one: Base, found: Iterable[Quotient]) -> bool:
 def _null(A: fmpz_mat) -> list[Vector]:
     """Vectors z with A z = 0 that span all of these; the largest entry of each is 1 in size."""
     table, count = A.nullspace()
-    columns = [[fmpq(x) for x in column] for column in table.transpose().tolist()[:count]]
-    return [scaled(column, 1 / max(abs(x) for x in column)) for column in columns]
-
-
-def _combined(mu: Vector, some: Matrix) -> Vector:
-    total = [fmpq(0)] * len(some[0])
-    for weight, row in zip(mu, some, strict=True):
-        total = along(total, row, weight) if weight else total
-    return total
+    columns = table.transpose().tolist()[:count]
+    return [rationals(column) / max(map(abs, column)) for column in columns]
 
 
 def _blocks(one: Base, contacts: Sequence[Contact], table: Rows) -> list[Matrix]:
     """The rows of each contact."""
-    found, first = [], 0
-    for count in row_counts(one.at.case, contacts):
-        every = range(first, first + count)
-        entries = [[table.A[i, v] for v in range(table.A.ncols())] for i in every]
-        found.append([[fmpq(x, table.denominator) for x in row] for row in entries])
-        first += count
-    return found
+    A = rationals(table.A) / table.denominator
+    return [A[block] for block in blocks(one.at.case, contacts)]
 
 
 def _rates(
     one: Base, own: list[Matrix], contacts: Sequence[Contact], nearby: list[Matrix]
-) -> Matrix:
+) -> list[Vector]:
     """How fast each row of the step changes towards a step nearby, but for the sign."""
     places = {(c.near.pair, c.near.index): k for k, c in enumerate(contacts)}
-    found: Matrix = []
+    found: list[Vector] = []
     for contact, block in zip(one.contacts, own, strict=True):
         k = places.get((contact.near.pair, contact.near.index))
         others = block if k is None else _matched(one, contact, block, contacts[k], nearby[k])
-        found += [scaled(subtract(y, x), 1 / STEP) for x, y in zip(block, others, strict=True)]
+        found += [(y - x) / STEP for x, y in zip(block, others, strict=True)]
     return found
 
 
@@ -112,7 +102,7 @@ def turned(contact: Contact, other: Contact) -> Contact:
     other : Contact
         The same candidate in a step nearby.
     """
-    c, s = dot(contact.d1, other.d1), dot(contact.d1, other.d2)
+    c, s = contact.d1 @ other.d1, contact.d1 @ other.d2
     n, first, second, spin = other.motion
-    motion = [n, along(scaled(first, c), second, s), along(scaled(second, c), first, -s), spin]
-    return Contact(other.near, contact.d1, contact.d2, motion)
+    motion = [n, c * first + s * second, c * second - s * first, spin]
+    return Contact(other.near, contact.d1, contact.d2, np.array(motion))

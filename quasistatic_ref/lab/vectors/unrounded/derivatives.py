@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Final
 
+import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
@@ -65,9 +66,9 @@ def moves(one: Base) -> dict[str, list[Move]]:
     _, n_a, n = slices(case["mechanism"])
     masses = [k for k, body in enumerate(case["mechanism"]["bodies"]) if "mass" in body]
     found: dict[str, list[Move]] = {
-        "q": [partial(moved_inputs.with_q, _way(n, j)) for j in range(n)],
-        "q_bar_a": [partial(moved_inputs.with_target, _way(n_a, j)) for j in range(n_a)],
-        "tau": [partial(moved_inputs.with_force, _way(n, j)) for j in range(n)],
+        "q": [partial(moved_inputs.with_q, way) for way in np.eye(n, dtype=int)],
+        "q_bar_a": [partial(moved_inputs.with_target, way) for way in np.eye(n_a, dtype=int)],
+        "tau": [partial(moved_inputs.with_force, way) for way in np.eye(n, dtype=int)],
         "mu_v": [partial(moved_inputs.with_friction, "mu_v", p) for p in pairs],
         "mu_omega": [partial(moved_inputs.with_friction, "mu_omega", p) for p in pairs],
         "K_q": [partial(moved_inputs.with_stiffness, j) for j in range(n_a)],
@@ -78,10 +79,6 @@ def moves(one: Base) -> dict[str, list[Move]]:
         if not all(pair[name] > 0 for pair in case["pairs"]):
             del found[name]
     return found
-
-
-def _way(size: int, j: int) -> Vector:
-    return [fmpq(int(i == j)) for i in range(size)]
 
 
 def derivatives(one: Base) -> Derivatives:
@@ -124,11 +121,9 @@ def _off(
 
     whole = quotient(one, everything, moved=True, eps=OTHER_STEP).column
     parts: Sequence[Vector] = [column for name in listed for column in columns[name]]
-    total = [fmpq(0)] * len(whole)
-    for column, weight in zip(parts, weights, strict=True):
-        total = [x + weight * y for x, y in zip(total, column, strict=True)]
-    size = max((abs(x) for x in whole), default=fmpq(0))
-    error = max((abs(x - y) for x, y in zip(whole, total, strict=True)), default=fmpq(0))
+    total = np.array(weights) @ np.array(parts)
+    size = max(abs(whole), default=fmpq(0))
+    error = max(abs(whole - total), default=fmpq(0))
     return error / size if size else error
 
 

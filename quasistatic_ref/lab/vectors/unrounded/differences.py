@@ -11,9 +11,9 @@ from dataclasses import dataclass, field
 from flint import fmpq
 
 from quasistatic_ref.lab.program.integration import way
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, scaled
+from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded.grid import STEP, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import STEP, on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, kept, pool
 from quasistatic_ref.lab.vectors.unrounded.step import (
     Change,
@@ -89,7 +89,7 @@ def are_solids(case: Json, pair: int) -> bool:
 def away(at: World, q_next: Vector, other: Vector) -> Vector:
     """Difference other (-) q_next, on the grid [m, rad]."""
     with working():
-        return vector_on_grid(way(at.case["mechanism"], q_next, other))
+        return on_grid(way(at.case["mechanism"], q_next, other))
 
 
 def base(case: Json, change: Change | None = None) -> Base:
@@ -153,7 +153,6 @@ def quotient(
     """
     forward, ahead, up = one.step_at(inputs(eps), moved=moved)
     backward, behind, down = one.step_at(inputs(-eps), moved=moved)
-    column = [(x - y) / (2 * eps) for x, y in zip(up, down, strict=True)]
-    bend = max((abs(x + y) / eps for x, y in zip(up, down, strict=True)), default=fmpq(0))
-    sides = (scaled(up, 1 / eps), scaled(down, -1 / eps))
-    return Quotient(column, bend, ((forward, ahead), (backward, behind)), sides)
+    bend = max(abs(up + down) / eps, default=fmpq(0))
+    sides = ((forward, ahead), (backward, behind))
+    return Quotient((up - down) / (2 * eps), bend, sides, (up / eps, -down / eps))

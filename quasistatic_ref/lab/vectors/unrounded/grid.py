@@ -6,13 +6,13 @@ that every comparison has an answer; what float64 writes is a multiple already. 
 quotient over 2 * 2^-100 thus keeps more than 60 decimal places.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable
 from contextlib import AbstractContextManager
-from typing import Final
+from typing import Any, Final
 
+import numpy as np
 from flint import ctx, fmpq
 
-from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
 from quasistatic_ref.lab.vectors.exact.precision import Real, number, rational_near
 
 BITS: Final = 320
@@ -27,21 +27,14 @@ OTHER_STEP: Final = fmpq(3, 1 << 98)
 """A second one, to prove the digits."""
 
 
-def on_grid(x: Real) -> fmpq:
-    """The nearest multiple of 2^-320; of a ball, that of its middle."""
+def _on_grid(x: Real) -> fmpq:
     exact = rational_near(number(x))
     p, q = int(exact.p), int(exact.q)
     return fmpq(((p << (BITS + 1)) + q) // (2 * q), 1 << BITS)
 
 
-def vector_on_grid(x: Iterable[Real]) -> Vector:
-    """The same of every number of a vector."""
-    return [on_grid(v) for v in x]
-
-
-def matrix_on_grid(A: Iterable[Iterable[Real]]) -> Matrix:
-    """The same of every number of a matrix."""
-    return [vector_on_grid(row) for row in A]
+on_grid: Final[Callable[[Any], Any]] = np.frompyfunc(_on_grid, 1, 1)
+"""The nearest multiple of 2^-320 of a number, or of each of an array; of a ball, of its middle."""
 
 
 def exact_or_on_grid(x: Real) -> Real:

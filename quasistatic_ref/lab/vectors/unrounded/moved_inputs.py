@@ -14,10 +14,10 @@ from flint import fmpq
 
 from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.program.rotation import quaternion_product, rotation
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, add, scaled
-from quasistatic_ref.lab.vectors.exact.precision import Real, number, numbers, root
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, vector
+from quasistatic_ref.lab.vectors.exact.precision import Real, number, root
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.world import world
 
 Array = Any
@@ -71,25 +71,25 @@ def _turned(unit: Array, angle: Real) -> Array:
 
 def with_q(way: Vector, case: Json, by: fmpq) -> Json:
     """The case at q (+) by times way, but for terms of third order."""
-    return {**case, "q": curved(case["mechanism"], case["q"], scaled(way, by))}
+    return {**case, "q": curved(case["mechanism"], case["q"], by * way)}
 
 
 def with_target(way: Vector, case: Json, by: fmpq) -> Json:
     """The same of q_bar_a, with one number for each actuated coordinate."""
-    return {**case, "q_bar_a": curved(case["mechanism"], case["q_bar_a"], scaled(way, by))}
+    return {**case, "q_bar_a": curved(case["mechanism"], case["q_bar_a"], by * way)}
 
 
 def with_force(way: Vector, case: Json, by: fmpq) -> Json:
     """The case with an additional generalised force, by times way [N, N m]."""
-    more = scaled(way, by)
-    return {**case, "tau": add(case["tau"], more) if "tau" in case else more}
+    more = by * way
+    return {**case, "tau": case["tau"] + more if "tau" in case else more}
 
 
 def with_held_wrenches(case: Json) -> Json:
     """The case with its wrenches as the generalised force ``tau`` that they are at its q."""
     at = world({**case, "gravity": [0.0, 0.0, 0.0]})
-    tau = vector_on_grid(at.loads[1])
-    return {**at.case, "gravity": numbers(case["gravity"]), "wrenches": [], "tau": tau}
+    tau = on_grid(at.loads[1])
+    return {**at.case, "gravity": list(vector(case["gravity"])), "wrenches": [], "tau": tau}
 
 
 def with_friction(name: str, pair: int, case: Json, by: Real) -> Json:
@@ -101,7 +101,7 @@ def with_friction(name: str, pair: int, case: Json, by: Real) -> Json:
 
 def with_stiffness(j: int, case: Json, by: Real) -> Json:
     """The case with another K_q[j][j]."""
-    K = [numbers(row) for row in case["K_q"]]
+    K = [vector(row) for row in case["K_q"]]
     K[j][j] += by
     return {**case, "K_q": K}
 

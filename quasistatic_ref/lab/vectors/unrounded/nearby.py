@@ -18,10 +18,10 @@ from quasistatic_ref.lab.vectors.distances.candidates import parts
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness, point_witness
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import Vector
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, vector
 from quasistatic_ref.lab.vectors.exact.precision import number
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded.grid import is_small, on_grid, vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import is_small, on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.world import World
 from quasistatic_ref.tolerances import REPEATED
 
@@ -95,15 +95,13 @@ def _witness(part: Json, alpha: Placed, beta: Placed, point: Json | None) -> Wit
             return pair_witness(alpha, beta)
         except InputError as error:
             raise Touching("meet", field="pairs", value=error.value) from None
-    local = [number(x) for x in point]
     if part["beta"]["kind"] == "cloud":
-        return point_witness(alpha, vector_on_grid(beta.world(local)))
-    return point_witness(beta, vector_on_grid(alpha.world(local))).swapped()
+        return point_witness(alpha, on_grid(beta.world(vector(point))))
+    return point_witness(beta, on_grid(alpha.world(vector(point)))).swapped()
 
 
 def _near(pair: int, index: int, one: Witness) -> Near:
-    phi, n = on_grid(one.phi), vector_on_grid(one.n)
-    return Near(pair, index, phi, vector_on_grid(one.alpha), vector_on_grid(one.beta), n)
+    return Near(pair, index, **{key: on_grid(value) for key, value in one.table().items()})
 
 
 def ordered(found: Sequence[Near], k: int, *, solids: bool) -> list[tuple[bool, fmpq, int]]:

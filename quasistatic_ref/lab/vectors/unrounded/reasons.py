@@ -8,6 +8,7 @@ Only contacts that touch, with a row without slack, can be the reason.
 """
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import accumulate
 from typing import Final
 
 from flint import fmpq
@@ -57,30 +58,27 @@ def _reason(kind: str, one: Base, contact: Contact, indices: Sequence[int] = ())
     return {"kind": kind, "pair": pair, "index": [*indices] or [contact.near.index], "rows": []}
 
 
+def blocks(case: Json, contacts: Iterable[Contact]) -> list[range]:
+    """The rows of each contact."""
+    counts = [row_count(case["cone"], case["pairs"][c.near.pair]["rows"]) for c in contacts]
+    ends = accumulate(counts)
+    return [range(end - count, end) for end, count in zip(ends, counts, strict=True)]
+
+
 def _touching(one: Base) -> list[int]:
     """Numbers of the contacts that have a row without slack."""
-    signs = iter(one.step.optimum.slack_signs)
-    found = []
-    for k, count in enumerate(row_counts(one.at.case, one.contacts)):
-        own = [next(signs) for _ in range(count)]
-        found += [k] if 0 in own else []
-    return found
-
-
-def row_counts(case: Json, contacts: Iterable[Contact]) -> list[int]:
-    """Numbers of rows of each contact."""
-    return [row_count(case["cone"], case["pairs"][c.near.pair]["rows"]) for c in contacts]
+    signs = one.step.optimum.slack_signs
+    every = enumerate(blocks(one.at.case, one.contacts))
+    return [k for k, block in every if any(signs[i] == 0 for i in block)]
 
 
 def _rows(one: Base) -> list[Json]:
     """Weakly active rows, contact by contact."""
-    weak, first, found = weak_rows(one), 0, []
-    counts = row_counts(one.at.case, one.contacts)
-    for contact, count in zip(one.contacts, counts, strict=True):
-        own = [i - first for i in weak if first <= i < first + count]
+    weak, found = weak_rows(one), []
+    for contact, block in zip(one.contacts, blocks(one.at.case, one.contacts), strict=True):
+        own = [i - block.start for i in weak if i in block]
         if own:
             found.append({**_reason("row", one, contact), "rows": own})
-        first += count
     return found
 
 
@@ -116,32 +114,34 @@ def _frame(contact: Contact) -> Vector:
     return [*contact.d1, *contact.d2]
 
 
+def _same(own: Sequence[Contact], k: int, found: Quotient) -> list[Contact]:
+    """A contact at the step and at the two nearby; none where another candidate replaces it."""
+    (_, ahead), (_, behind) = found.sides
+    each = [contacts[k] for contacts in (own, ahead, behind)]
+    return each if len({contact.near.index for contact in each}) == 1 else []
+
+
+def _jumps(own: Vector, ahead: Vector, behind: Vector) -> bool:
+    """Whether the second difference of some number does not vanish."""
+    every = zip(own, ahead, behind, strict=True)
+    return any(abs(x + y - 2 * z) > BEND * STEP for z, x, y in every)
+
+
 def _bends(
     own: Sequence[Contact], k: int, found: Quotient, part: Callable[[Contact], Vector]
 ) -> bool:
     """Whether the second difference of a contact's numbers does not vanish; of another, no."""
-    (_, ahead), (_, behind) = found.sides
-    if len({contacts[k].near.index for contacts in (own, ahead, behind)}) > 1:
-        return False
-    both = zip(part(own[k]), part(ahead[k]), part(behind[k]), strict=True)
-    return any(abs(x + y - 2 * z) > BEND * STEP for z, x, y in both)
+    same = _same(own, k, found)
+    return bool(same) and _jumps(*map(part, same))
 
 
 def _turns(one: Base, k: int, found: Quotient) -> bool:
     """Whether the rows of a contact, as a set, jump or bend."""
-    if len({side[1][k].near.index for side in found.sides} | {one.contacts[k].near.index}) > 1:
+    same = _same(one.contacts, k, found)
+    if not same:
         return False
-    own, *sides = (
-        rows(one.at.case, [contacts[k]])[0]
-        for contacts in (one.contacts, found.sides[0][1], found.sides[1][1])
-    )
-    for row in own:
-        ahead, behind = (nearest(row, side) for side in sides)
-        if any(
-            abs(x + y - 2 * z) > BEND * STEP for z, x, y in zip(row, ahead, behind, strict=True)
-        ):
-            return True
-    return False
+    own, *sides = (rows(one.at.case, [contact])[0] for contact in same)
+    return any(_jumps(row, *(nearest(row, side) for side in sides)) for row in own)
 
 
 def nearest(row: Vector, others: Matrix) -> Vector:

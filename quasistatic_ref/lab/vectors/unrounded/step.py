@@ -23,13 +23,9 @@ from quasistatic_ref.lab.program.rows import contact_rows
 from quasistatic_ref.lab.program.step import objective
 from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
 from quasistatic_ref.lab.vectors.exact.precision import Real
+from quasistatic_ref.lab.vectors.exact.rational import rationals
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded.grid import (
-    matrix_on_grid,
-    on_grid,
-    vector_on_grid,
-    working,
-)
+from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near
 from quasistatic_ref.lab.vectors.unrounded.world import World
 
@@ -101,22 +97,23 @@ Change: TypeAlias = Callable[[World, Near], Near]
 def contact(at: World, near: Near) -> Contact:
     """A contact in its frame."""
     with working():
-        d1 = vector_on_grid(candidates.tangents(np.array(near.n))[0])
-    d2 = vector_on_grid(np.cross(near.n, d1))
+        d1 = on_grid(candidates.tangents(np.array(near.n))[0])
+    d2 = on_grid(np.cross(near.n, d1))
     pair = at.case["pairs"][near.pair]
     bodies = {f"{s}_body": at.case["shapes"][pair[s]]["body"] for s in ("alpha", "beta")}
     J = contact_jacobian(at.at, {**vars(near), **bodies})
     motion = np.vstack([np.array([near.n, d1, d2]) @ J[:3], J[3:]])
-    return Contact(near, d1, d2, matrix_on_grid(motion))
+    return Contact(near, d1, d2, on_grid(motion))
 
 
-def rows(case: Json, contacts: Sequence[Contact]) -> tuple[Matrix, Vector]:
+def rows(case: Json, contacts: Sequence[Contact]) -> tuple[list[Vector], list[Real]]:
     """A and b of the program; each entry is exact in the contacts' motion and phi."""
-    A, b = [], []
+    A: list[Vector] = []
+    b: list[Real] = []
     for one in contacts:
         own = dict(zip(("n", "d1", "d2"), AXES, strict=True)) | {"J": one.motion}
         block = contact_rows({**case["pairs"][one.near.pair], **own}, case["cone"])
-        A += block.tolist()
+        A.extend(block)
         b += [-one.near.phi] * len(block)
     return A, b
 
@@ -146,8 +143,8 @@ def solved(
     with working():
         H, g = objective(at.case, *at.loads)
         if "tau" in at.case:
-            g = g + at.case["h"] * np.array(at.case["tau"])
-        H, g = matrix_on_grid(H), vector_on_grid(g)
+            g = g + at.case["h"] * at.case["tau"]
+        H, g = on_grid(H), on_grid(g)
     own = known or integer_rows(len(g), *rows(at.case, contacts))
     form = form_of(H, g, own)
     optimum = dual_active_set(form, warm)
@@ -162,7 +159,7 @@ def delta_q(form: ExactForm, optimum: Optimum) -> Vector:
     if near is not None:
         return near
     found = optimum.point.rational
-    return [on_grid(form.x_unit * fmpq(x, found.denominator)) for x in found.x]
+    return on_grid(form.x_unit * rationals(found.x) / found.denominator)
 
 
 def _in_balls(form: ExactForm, working: Sequence[int]) -> Vector | None:
@@ -180,24 +177,25 @@ def _in_balls(form: ExactForm, working: Sequence[int]) -> Vector | None:
         x = [value * form.x_unit for value in (alone + across * lam).entries()]
         if any(value.rad() > NARROW for value in x):
             return None
-        return [on_grid(value) for value in x]
+        return on_grid(np.array(x))
 
 
-def integer_rows(n: int, A: Matrix, b: Vector) -> Rows:
+def integer_rows(n: int, A: Sequence[Vector], b: Sequence[Real]) -> Rows:
     """The rows of a program of n unknowns in integers."""
-    denominator = _denominator([x for row in A for x in row])
-    return Rows(_integers(A, n, denominator), denominator, b)
+    table = np.array(A, dtype=object).reshape(len(A), n)
+    denominator = _denominator(table)
+    return Rows(_integers(table, denominator), denominator, np.array(b, dtype=object))
 
 
 def form_of(H: Matrix, g: Vector, rows: Rows) -> ExactForm:
     """The program min 1/2 x'Hx - g'x s.t. A x >= b in integers."""
-    dH, dA = _denominator([x for row in H for x in row]), rows.denominator
-    D = _denominator([*(x * dH for x in g), *(x * dA for x in rows.b)])
+    dH, dA = _denominator(H), rows.denominator
+    D = _denominator(np.append(g * dH, rows.b * dA))
     return ExactForm(
-        H=_integers(H, len(g), dH),
-        g=_integers([[x] for x in g], 1, dH * D),
+        H=_integers(H, dH),
+        g=_integers(g[:, None], dH * D),
         A=rows.A,
-        b=_integers([[x] for x in rows.b], 1, dA * D),
+        b=_integers(rows.b[:, None], dA * D),
         x_unit=fmpq(1, D),
         slack_unit=fmpq(1, dA * D),
         lam_unit=fmpq(dA, dH * D),
@@ -205,17 +203,17 @@ def form_of(H: Matrix, g: Vector, rows: Rows) -> ExactForm:
     )
 
 
-def _denominator(values: Vector) -> int:
-    return lcm(*(int(x.q) for x in values)) if values else 1
+def _denominator(values: Matrix) -> int:
+    return lcm(*(int(x.q) for x in values.ravel()))
 
 
-def _integers(A: Matrix, columns: int, factor: int) -> fmpz_mat:
-    return fmpz_mat(len(A), columns, [int((x * factor).p) for row in A for x in row])
+def _integers(A: Matrix, factor: int) -> fmpz_mat:
+    return fmpz_mat(len(A), A.shape[1], [int((x * factor).p) for x in A.ravel()])
 
 
 def after(at: World, step: Sequence[Real]) -> Vector:
     """Configuration q (+) delta_q; balls where it is not rational."""
     with working():
         case = {"mechanism": at.case["mechanism"], "q": at.case["q"], "delta_q": step}
-        found: Vector = integrate(case)["q"].tolist()
+        found: Vector = integrate(case)["q"]
         return found

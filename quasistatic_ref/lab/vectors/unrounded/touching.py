@@ -10,9 +10,9 @@ from flint import fmpq
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, along
+from quasistatic_ref.lab.vectors.exact.algebra import Vector, vector
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded.grid import vector_on_grid, working
+from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.nearby import Touching, candidates
 from quasistatic_ref.lab.vectors.unrounded.world import world
 
@@ -44,9 +44,9 @@ def touching_pairs(case: Json) -> list[str]:
 def _normals(alpha: Placed, beta: Placed) -> Iterator[Vector]:
     """Normals after each translation, by next to nothing, that parts two solids."""
     for way in product((-1, 0, 1), repeat=3):
-        apart = replace(beta, t=along(beta.t, [fmpq(x) for x in way], APART))
+        apart = replace(beta, t=beta.t + APART * vector(way))
         try:
             with working():
-                yield vector_on_grid(pair_witness(alpha, apart).n)
+                yield on_grid(pair_witness(alpha, apart).n)
         except InputError:
             continue

@@ -1,0 +1,30 @@
+"""Walks over cases and outputs: lists and tables that are nested in one another."""
+
+from collections.abc import Callable, Collection, Iterator
+
+from quasistatic_ref.lab.vectors.expected import Json
+
+Path = tuple[str | int, ...]
+"""Keys and indices that lead to a part."""
+
+
+def nodes(value: Json, path: Path = ()) -> Iterator[tuple[Path, Json]]:
+    """Every part with its place, the whole before what is in it."""
+    yield path, value
+    inside = enumerate(value) if isinstance(value, list) else ()
+    for key, inner in value.items() if isinstance(value, dict) else inside:
+        yield from nodes(inner, (*path, key))
+
+
+def named(value: Json, name: str) -> Iterator[Json]:
+    """Every value of a field, at any depth."""
+    return (inner for path, inner in nodes(value) if path[-1:] == (name,))
+
+
+def mapped(value: Json, leaf: Callable[[Json], Json], kept: Collection[str] = ()) -> Json:
+    """The same nesting with another value in the place of each leaf; fields `kept` stay."""
+    if isinstance(value, dict):
+        return {key: v if key in kept else mapped(v, leaf, kept) for key, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [mapped(v, leaf, kept) for v in value]
+    return leaf(value)
