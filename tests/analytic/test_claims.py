@@ -7,7 +7,7 @@ from quasistatic_ref.lab.claims.registry import BY_NAME
 
 QUICK = (
     "free_impedance pressed_impedance free_fall approach spinning_sphere_step sliding_point "
-    "incline_tipping flat_patch locked_guide spurious_couple"
+    "incline_tipping flat_patch locked_guide spurious_couple inertia_and_time_step"
 )
 
 

@@ -29,6 +29,7 @@ MODULES: Final = {
         "closed_forms.peg",
         "closed_forms.locked_guide",
         "closed_forms.lift",
+        "closed_forms.inertia",
         "closed_forms.couple",
         "closed_forms.planar_push",
     ),
