@@ -13,7 +13,7 @@ import numpy as np
 from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.lab.examples.shared import Numbers, script
 from quasistatic_ref.lab.examples.which_cone_is_real import measured
-from quasistatic_ref.lab.figures.labels import caption, labelled
+from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.lab.grasp import CLOSED
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.pairs import Pair
@@ -36,8 +36,8 @@ PUSH = 4
 """Of the pushes of ``which_cone_is_real``."""
 ADVANCE, STEPS = 2e-3, 300
 """Of the finger in a step [m]; of the grasp."""
-MARKS = {CONVEX: "o", COULOMB: "^"}
-LINES = {CONVEX: "-", COULOMB: "--"}
+STYLES = {CONVEX: "o-", COULOMB: "^--"}
+PEN: dict[str, Any] = {"color": "black", "markerfacecolor": "none", "linewidth": 0.9}
 
 
 def block(load: float) -> StepData:
@@ -104,30 +104,32 @@ def figure(ax: Any = None, *, h: float = H) -> Figure:
     page, axes = panels(6.3, 5.2, columns=2, rows=2, within=ax)
     beyond = h**2 * GRAVITY * np.maximum(LOADS - 1, 0)
     scenes = (
-        (block, 0, MU_V, r"push / ($\mu_v m g$) [-]", "slip of a step [mm]"),
+        (block, 0, MU_V, r"push / ($\mu_v m g$) [-]", "slip [mm]"),
         (sphere, 5, MU_OMEGA * M / INERTIA, r"torque / ($\mu_\omega m g$) [-]", "turn [mrad]"),
     )
     for one, (scene, i, per, x, y) in zip(axes, scenes, strict=False):
-        one.plot(LOADS, 1e3 * per * beyond, color="0.6", label="Coulomb's formula")
-        for law, mark in MARKS.items():
+        one.plot(LOADS, 1e3 * per * beyond, color="0.6", linewidth=3, label="Coulomb's formula")
+        for law, style in STYLES.items():
             moved = [1e3 * motion(scene(load).replace(h=h), law)[i] for load in LOADS]
-            one.plot(LOADS, moved, mark, color="black", markerfacecolor="none", label=law)
-        labelled(one, x, y, caption(h))
-    for law, style in LINES.items():
+            one.plot(LOADS, moved, style, label=law, **PEN)
+        labelled(one, x, y, key=False)
+    pair, (before, after, _) = push(CONVEX)
+    outlines = {law: pair.outline.drawn(push(law)[1][2], before) for law in LAWS}
+    for law, style in STYLES.items():
         time, angle = rotation_of_the_bunny(law)
         since = time >= CLOSED
-        axes[2].plot(time[since], angle[since], style, color="black", label=law)
-    labelled(axes[2], "t [s]", "turn of the bunny in the grip [deg]")
-    for law, style in LINES.items():
-        pair, poses = push(law)
-        before, after, end = (pair.outline.drawn(pose, poses[0]) for pose in poses)
-        if law == CONVEX:
-            axes[3].plot(*before, color="0.6", linestyle=":", label="before")
-            axes[3].fill(*after, color="0.85", label="measured")
-        axes[3].plot(*end, style, color="black", linewidth=0.9, label=law)
+        axes[2].plot(time[since], angle[since], style, markevery=0.2, **PEN)
+    labelled(axes[2], "t [s]", "bunny's turn [deg]", key=False)
+    axes[3].plot(*pair.outline.drawn(before, before), color="0.6", linestyle=":", label="before")
+    axes[3].fill(*pair.outline.drawn(after, before), color="0.85", label="measured")
+    for law, style in STYLES.items():
+        axes[3].plot(*outlines[law], style, markevery=0.2, **PEN)
     axes[3].set_aspect("equal", adjustable="datalim")
-    apart = 1e3 * np.linalg.norm((push(CONVEX)[1] - push(COULOMB)[1])[2, :2])
-    labelled(axes[3], "x [mm]", "y [mm]", f"ends {apart:.2f} mm apart")
+    labelled(axes[3], "x [mm]", "y [mm]", key=False)
+    for one in axes:
+        one.locator_params(nbins=4)
+    handles = [*axes[0].get_legend_handles_labels()[0], *axes[3].get_legend_handles_labels()[0]]
+    legend_below(axes, handles)
     return page
 
 

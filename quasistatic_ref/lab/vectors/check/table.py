@@ -58,6 +58,6 @@ def _mistake(name: str, sentence: str) -> Mistake:
 
 _ENTRIES = tomllib.loads((files(check) / TABLE).read_text(encoding="utf-8"))["mistake"]
 PATCHES: Final = {entry["name"]: _patches(entry) for entry in _ENTRIES}
-"""Of each mistake by layer: lines as :func:`patched_texts` takes them, one or several ways."""
+"""Of each mistake by layer: lines as ``patched_texts`` takes them, one or several ways."""
 TABLED: Final = tuple(_mistake(entry["name"], entry["sentence"]) for entry in _ENTRIES)
 """The mistakes of mistakes.toml."""
