@@ -127,6 +127,7 @@ class CloudPairs:
         Parameters
         ----------
         relative : ndarray, shape (P, 3, 4)
+            [R, t] from the clouds' frames to the solids' [-, m].
 
         Returns
         -------
@@ -147,7 +148,7 @@ class CloudPairs:
         return np.concatenate([closest(phi[own], pair.k) + own.start for pair, own in each])
 
     def limits(self, relative: Array) -> Array:
-        """As of each list, shape (P,) [m], at poses (P, 3, 4)."""
+        """The limit of each list, shape (P,) [m], at `relative` (P, 3, 4) [-, m]."""
         bounds = (self.slope @ relative.reshape(-1, 12, 1))[:, :, 0] + self.offset
         return np.asarray(bounds.min(axis=1))
 
@@ -159,10 +160,10 @@ class CloudPairs:
         Parameters
         ----------
         world, relative : ndarray, shapes (2 P, 3, 4) and (P, 3, 4)
-            As of :meth:`poses`.
+            As of :meth:`poses` [-, m].
         kept : ndarray of int, shape (n_c,)
         x, phi, normal : ndarray, shapes (n_c, 3), (n_c,) and (n_c, 3)
-            As of :meth:`measured`, of the points that are kept.
+            As of :meth:`measured`, of the points that are kept [m], [m] and [-].
         """
         tie = np.full(len(phi), OWN)
         for i in self.open_pairs(world, x, phi):
@@ -201,8 +202,8 @@ class CloudPairs:
 
         Parameters
         ----------
-        world, x, phi
-            As of :meth:`contacts`.
+        world, x, phi : ndarray, shapes (2 P, 3, 4), (n_c, 3) and (n_c,)
+            As of :meth:`contacts` [-, m], [m] and [m].
         """
         within = TIED_FACES * max(self.extent, float(np.abs(world[:, :, 3]).max()))
         touching = (phi <= within) & self.has_edges

@@ -102,7 +102,7 @@ class ContactTracker:
         )
 
     def of_clouds(self, R: Array, t: Array) -> ClosestPoints:
-        """The contacts of the pairs with a cloud, of which there are some."""
+        """The contacts of the pairs with a cloud, of which there are some; ContactError as above."""
         clouds = self.clouds
         world, relative = clouds.poses(R, t)
         self.steps += 1
@@ -159,35 +159,34 @@ class CloudList:
         self.made_at = 0
 
     def start(self, relative: Array, step: int) -> None:
-        """Make the first list, at a pose (3, 4) of the cloud in the solid's frame, in a step."""
+        """Make the first list, in a step, at `relative`, shape (3, 4) [-, m], as of :meth:`renew`."""
         some = self.points[:: max(1, len(self.points) // SOME)]
         x = rotated(relative[:, :3], some) + relative[:, 3]
         phi, normal = self.solid.signed_distance(x)
-        self.make(relative, normal[phi.argmin()], np.inf, self.width, step)
+        self._make(relative, normal[phi.argmin()], np.inf, self.width, step)
 
     def renew(self, relative: Array, n: Array, phi_k: float, step: int, whole: bool) -> None:
-        """Make another list, from the nearest point's normal and the k-th distance.
+        """Make another list; of all points if `whole`.
 
         Parameters
         ----------
         relative : ndarray, shape (3, 4)
             [R, t] of the cloud in the solid's frame [-, m].
         n : ndarray, shape (3,)
-            [-].
+            The normal at the nearest point [-].
         phi_k : float
-            [m].
+            The k-th smallest distance [m].
         step : int
             The number of this step.
         whole : bool
-            Whether the list is of all points.
         """
         if step - self.made_at < SHORT:
             self.width = min(2 * self.width, WIDE)
         width = len(self.points) if whole else self.width
-        self.make(relative, n, phi_k, width, step)
+        self._make(relative, n, phi_k, width, step)
 
-    def make(self, relative: Array, n: Array, phi_k: float, width: int, step: int) -> None:
-        """Make a list of a width, as above."""
+    def _make(self, relative: Array, n: Array, phi_k: float, width: int, step: int) -> None:
+        """Make a list of a width; all else as above."""
         R = relative[:, :3]
         t = relative[:, 3]
         self.list = shortlist(self.tree, self.solid, R, t, n, phi_k, self.n_c, width)
