@@ -102,7 +102,7 @@ class ContactTracker:
         )
 
     def of_clouds(self, R: Array, t: Array) -> ClosestPoints:
-        """The contacts of the pairs with a cloud, of which there are some; ContactError as above."""
+        """The contacts of pairs with a cloud, of which there are some; ContactError as above."""
         clouds = self.clouds
         world, relative = clouds.poses(R, t)
         self.steps += 1
@@ -159,7 +159,7 @@ class CloudList:
         self.made_at = 0
 
     def start(self, relative: Array, step: int) -> None:
-        """Make the first list, in a step, at `relative`, shape (3, 4) [-, m], as of :meth:`renew`."""
+        """Make the first list, at `relative`, shape (3, 4) [-, m], as of :meth:`renew`."""
         some = self.points[:: max(1, len(self.points) // SOME)]
         x = rotated(relative[:, :3], some) + relative[:, 3]
         phi, normal = self.solid.signed_distance(x)
