@@ -98,10 +98,10 @@ def columns_at(columns: Array, r: Array, n: Array) -> Array:
     nu_origin = columns[:3]
     omega = columns[3:]
     at = r[..., None]
-    found = np.empty((*r.shape[:-1], 4, columns.shape[1]))
-    found[..., :3, :] = nu_origin + (omega[YZX] * at[..., ZXY, :] - omega[ZXY] * at[..., YZX, :])
-    found[..., 3, :] = product(n, omega)
-    return found
+    J = np.empty((*r.shape[:-1], 4, columns.shape[1]))
+    J[..., :3, :] = nu_origin + (omega[YZX] * at[..., ZXY, :] - omega[ZXY] * at[..., YZX, :])
+    J[..., 3, :] = product(n, omega)
+    return J
 
 
 def tangents(n: Array) -> tuple[Array, Array]:

@@ -53,9 +53,9 @@ class MassMatrix:
     ) -> None:
         self.n_u = motion.n_v - n_a
         self.known = read_only(known)
-        free = (motion.owner >= n_a) & ~constant[motion.owner]
+        unactuated = (motion.owner >= n_a) & ~constant[motion.owner]
         # Each link once for each column that moves it.
-        self.link, self.column = np.nonzero((motion.moves[:, 0] > 0) & free)
+        self.link, self.column = np.nonzero((motion.moves[:, 0] > 0) & unactuated)
         self.centre = centres[self.link]
         self.inertia = inertias[self.link]
         owner = motion.owner[self.column] - n_a
@@ -90,17 +90,17 @@ class MassMatrix:
 
 def mass_matrix(
     model: Any,
-    free: Sequence[Joint],
+    unactuated: Sequence[Joint],
     at: Kinematics,
     n_a: int,
     inertias: tuple[Array, Array, Array],
 ) -> MassMatrix:
-    """The M_u of a model with un-actuated joints `free`.
+    """The M_u of a model with un-actuated joints `unactuated`.
 
     Parameters
     ----------
     model : pinocchio.Model
-    free : sequence of Joint
+    unactuated : sequence of Joint
     at : Kinematics
         Of any configuration, with their motion.
     n_a : int
@@ -111,19 +111,19 @@ def mass_matrix(
     assert motion is not None
     n_u = motion.n_v - n_a
     constant = np.zeros(motion.n_v, dtype=bool)
-    whole = MassMatrix(motion, n_a, *inertias, np.zeros((n_u, n_u)), constant).at(at)
+    full_matrix = MassMatrix(motion, n_a, *inertias, np.zeros((n_u, n_u)), constant).at(at)
     known = np.zeros((n_u, n_u))
-    for joint in free:
-        own = (joint.v.start <= motion.owner) & (motion.owner < joint.v.stop)
-        moved = (motion.moves[:, 0, own] > 0).any(axis=1)
-        shared = (motion.moves[moved][:, 0, (motion.owner >= n_a) & ~own] > 0).any()
-        mimicked = np.count_nonzero(own) > joint.v.stop - joint.v.start
+    for joint in unactuated:
+        of_joint = (joint.v.start <= motion.owner) & (motion.owner < joint.v.stop)
+        moved = (motion.moves[:, 0, of_joint] > 0).any(axis=1)
+        shared = (motion.moves[moved][:, 0, (motion.owner >= n_a) & ~of_joint] > 0).any()
+        mimicked = np.count_nonzero(of_joint) > joint.v.stop - joint.v.start
         if shared or mimicked or not moves_alone(model, joint):
             continue
         constant[joint.v] = True
         block = (slice(joint.v.start - n_a, joint.v.stop - n_a),) * 2
         floating = joint.kind == "floating"
-        known[block] = rigid_masses(model, [joint])[0] if floating else whole[block]
+        known[block] = rigid_masses(model, [joint])[0] if floating else full_matrix[block]
     return MassMatrix(motion, n_a, *inertias, known, constant)
 
 
@@ -133,13 +133,13 @@ def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:
     return np.array(masses).reshape(-1, 6, 6) + 0.0  # never -0.0
 
 
-def constant_mass(model: Any, free: Sequence[Joint]) -> bool:
+def constant_mass(model: Any, unactuated: Sequence[Joint]) -> bool:
     """Whether M_u is the same at every q: every un-actuated joint is a lone rigid body's base.
 
     The mass matrix of a free rigid body is constant in the body's own frame, unless a moving joint
     connects another link to the body.
     """
-    return all(joint.kind == "floating" and moves_alone(model, joint) for joint in free)
+    return all(joint.kind == "floating" and moves_alone(model, joint) for joint in unactuated)
 
 
 def moves_alone(model: Any, joint: Joint) -> bool:
@@ -156,14 +156,14 @@ def regular(M: Array) -> bool:
     return True
 
 
-def check_mass(M_u: Array, free: Sequence[Coordinate], bodies: Iterable[str]) -> None:
+def check_mass(M_u: Array, coordinates: Sequence[Coordinate], bodies: Iterable[str]) -> None:
     """Refuse a body whose M_u is singular: Eq. :eq:`eq-13` needs it positive definite.
 
     Parameters
     ----------
     M_u : ndarray, shape (n_u, n_u)
         [kg, kg m, kg m^2].
-    free : sequence of Coordinate, length n_u
+    coordinates : sequence of Coordinate, length n_u
         The un-actuated ones.
     bodies : iterable of str
 
@@ -172,11 +172,11 @@ def check_mass(M_u: Array, free: Sequence[Coordinate], bodies: Iterable[str]) ->
     ModelError
     """
     for body in bodies:
-        own = [k for k, c in enumerate(free) if c.name.startswith(f"{body}/")]
-        if not regular(M_u[np.ix_(own, own)]):
+        indices = [k for k, c in enumerate(coordinates) if c.name.startswith(f"{body}/")]
+        if not regular(M_u[np.ix_(indices, indices)]):
             problem = (
                 "its mass matrix M_u is singular in float64 at the start: an un-actuated "
                 "coordinate moves next to no mass"
             )
-            names = [free[k].name for k in own]
+            names = [coordinates[k].name for k in indices]
             raise ModelError(problem, field=body, value=names)

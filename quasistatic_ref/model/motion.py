@@ -46,8 +46,8 @@ class Motion:
         self.n_v = int(model.nv)
         self.mimics = model.nvExtended > model.nv
         # A mimic joint comes after the one that it mimics.
-        self.own = np.unique(self.owner, return_index=True)[1]
-        self.copies = np.setdiff1d(np.arange(model.nvExtended), self.own)
+        self.owned = np.unique(self.owner, return_index=True)[1]
+        self.copies = np.setdiff1d(np.arange(model.nvExtended), self.owned)
 
     @cached_property
     def coordinates(self) -> Array:
@@ -59,7 +59,7 @@ class Motion:
         # Without mimics it is a permutation, which costs less for many coordinates.
         if not self.mimics:
             return self.order.paper_v(columns)
-        of_joints = columns.take(self.own, axis=-1)
+        of_joints = columns.take(self.owned, axis=-1)
         for x in self.copies.tolist():
             of_joints[..., self.owner[x]] += columns[..., x]
         return of_joints

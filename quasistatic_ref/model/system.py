@@ -152,15 +152,15 @@ class System(Shown):
         self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.joints if joint.actuated)
         self.q_start = read_only(self._order.paper_q(world.start))
         self.motion = Motion(self._model, world.frames, self._order)
-        free = [joint for joint in self.joints if not joint.actuated]
-        self.constant_mass_matrix = constant_mass(self._model, free)
+        unactuated = [joint for joint in self.joints if not joint.actuated]
+        self.constant_mass_matrix = constant_mass(self._model, unactuated)
         self._mass: MassMatrix | None = None  # if M_u is constant
         if not self.constant_mass_matrix:
             inertias = (self.masses, self.centres, self.inertias)
             at = self.kinematics(self.neutral())
-            self._mass = mass_matrix(self._model, free, at, self.n_a, inertias)
-            free = []
-        self.mass_blocks = read_only(rigid_masses(self._model, free))
+            self._mass = mass_matrix(self._model, unactuated, at, self.n_a, inertias)
+            unactuated = []
+        self.mass_blocks = read_only(rigid_masses(self._model, unactuated))
         if not (self.constant_mass_matrix and regular(self.mass_blocks)):
             check_mass(self.M_u(self.q_start), self.coordinates[self.n_a :], self._roots)
 

@@ -22,7 +22,7 @@ class StepProblem(Shown):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         A step of that kind.
 
     Attributes
@@ -49,19 +49,19 @@ class StepProblem(Shown):
     True
     """
 
-    def __init__(self, like: StepData) -> None:
-        self.like = like
+    def __init__(self, template: StepData) -> None:
+        self.template = template
         self.check_kind()
-        n_a = like.n_a
-        n_u = like.n_u
-        n_v = like.n_v
-        n_c = like.contacts.n_c
+        n_a = template.n_a
+        n_u = template.n_u
+        n_v = template.n_v
+        n_c = template.contacts.n_c
 
         # What all these steps have in common.
-        h = like.h
-        mu_v = like.contacts.mu[:, 0]
-        mu_omega = like.contacts.mu[:, 2]
-        torsional = like.contacts.rows == 6
+        h = template.h
+        mu_v = template.contacts.mu[:, 0]
+        mu_omega = template.contacts.mu[:, 2]
+        torsional = template.contacts.rows == 6
 
         # What changes from step to step.
         K_q = cp.Parameter((n_a, n_a), "K_q", PSD=True)  # stiffness of the actuated coordinates
@@ -133,15 +133,15 @@ class StepProblem(Shown):
 
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
-        for name in differences(self.like, step):
-            own, other = KIND[name](self.like), KIND[name](step)
+        for name in differences(self.template, step):
+            own, other = KIND[name](self.template), KIND[name](step)
             problem = f"is {own} in this problem; make a problem like this step"
             raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
 
     def check_kind(self) -> None:
         """Refuse steps that are not the paper's, with StepDataError."""
-        cone = self.like.cone
-        names = list(self.like.extra.names)
+        cone = self.template.cone
+        names = list(self.template.extra.names)
         elsewhere = "solve/cvxpy_problem.py has what is not in the paper"
         if cone != PYRAMID:
             raise StepDataError(f"is not the pyramid; {elsewhere}", field="cone", value=cone)
