@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.coordinates import Coordinate, Joint, joint_key
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.step.arrays import Array, Mask, read_only
 from quasistatic_ref.step.ordered import crossed, dot, rotated
 
@@ -27,7 +27,7 @@ class MassMatrix:
 
     Parameters
     ----------
-    motion : Motion
+    column_map : ColumnMap
     n_a : int
     masses : ndarray, shape (L,)
         [kg]
@@ -43,7 +43,7 @@ class MassMatrix:
 
     def __init__(
         self,
-        motion: Motion,
+        column_map: ColumnMap,
         n_a: int,
         masses: Array,
         centres: Array,
@@ -51,14 +51,14 @@ class MassMatrix:
         known: Array,
         constant: Mask,
     ) -> None:
-        self.n_u = motion.n_v - n_a
+        self.n_u = column_map.n_v - n_a
         self.known = read_only(known)
-        unactuated = (motion.owner >= n_a) & ~constant[motion.owner]
+        unactuated = (column_map.owner >= n_a) & ~constant[column_map.owner]
         # Each link once for each column that moves it.
-        self.link, self.column = np.nonzero((motion.moves[:, 0] > 0) & unactuated)
+        self.link, self.column = np.nonzero((column_map.moves[:, 0] > 0) & unactuated)
         self.centre = centres[self.link]
         self.inertia = inertias[self.link]
-        owner = motion.owner[self.column] - n_a
+        owner = column_map.owner[self.column] - n_a
         # Two columns of a link at a time, for the entries on the diagonal and above it. A joint and
         # its mimic have one coordinate: both orders of their columns count in the same entry.
         of_links = np.split(np.arange(len(owner)), np.flatnonzero(np.diff(self.link)) + 1)
@@ -102,21 +102,21 @@ def mass_matrix(
     model : pinocchio.Model
     unactuated : sequence of Joint
     at : Kinematics
-        Of any configuration, with their motion.
+        Of any configuration, with their columns.
     n_a : int
     inertias : tuple of ndarray, shapes (L,), (L, 3) and (L, 3, 3)
         Masses, centres and inertias of the links, as in :class:`MassMatrix` [kg, m, kg m^2].
     """
-    motion = at.motion
-    assert motion is not None
-    n_u = motion.n_v - n_a
-    constant = np.zeros(motion.n_v, dtype=bool)
-    full_matrix = MassMatrix(motion, n_a, *inertias, np.zeros((n_u, n_u)), constant).at(at)
+    column_map = at.column_map
+    assert column_map is not None
+    n_u = column_map.n_v - n_a
+    constant = np.zeros(column_map.n_v, dtype=bool)
+    full_matrix = MassMatrix(column_map, n_a, *inertias, np.zeros((n_u, n_u)), constant).at(at)
     known = np.zeros((n_u, n_u))
     for joint in unactuated:
-        of_joint = (joint.v.start <= motion.owner) & (motion.owner < joint.v.stop)
-        moved = (motion.moves[:, 0, of_joint] > 0).any(axis=1)
-        shared = (motion.moves[moved][:, 0, (motion.owner >= n_a) & ~of_joint] > 0).any()
+        of_joint = (joint.v.start <= column_map.owner) & (column_map.owner < joint.v.stop)
+        moved = (column_map.moves[:, 0, of_joint] > 0).any(axis=1)
+        shared = (column_map.moves[moved][:, 0, (column_map.owner >= n_a) & ~of_joint] > 0).any()
         mimicked = np.count_nonzero(of_joint) > joint.v.stop - joint.v.start
         if shared or mimicked or not moves_alone(model, joint):
             continue
@@ -124,7 +124,7 @@ def mass_matrix(
         block = (slice(joint.v.start - n_a, joint.v.stop - n_a),) * 2
         floating = joint.kind == "floating"
         known[block] = rigid_masses(model, [joint])[0] if floating else full_matrix[block]
-    return MassMatrix(motion, n_a, *inertias, known, constant)
+    return MassMatrix(column_map, n_a, *inertias, known, constant)
 
 
 def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:

@@ -205,7 +205,7 @@ class Simulator(Shown):
         system = self.system
         M_u = definite("M_u", system.M_u(system.q_start), system.n_u)
         hessian(self.h, self.K_q, M_u)  # of Eq. (13): refused where it leaves float64's range
-        self.geometry = ContactGeometry(self.layout, system.motion)
+        self.geometry = ContactGeometry(self.layout, system.column_map)
 
     def __reduce__(self) -> tuple[Any, ...]:
         same = ("h", "K_q", "gravity", "fast", "accuracy", "certify", "cone", "law", "extension",

@@ -29,7 +29,7 @@ class CvxpyProblem(StepProblem):
     def __init__(self, template: StepData, constraints: Own = none, costs: Own = none) -> None:
         super().__init__(template)
         if template.cone != PYRAMID:
-            self.contact_rows = cone(template.cone).constraints(self.motion, template.mask)
+            self.contact_rows = cone(template.cone).constraints(self.contact_motion, template.mask)
         A_x = cp.Parameter(template.extra.A.shape, "A_x")
         b_x = cp.Parameter(template.extra.b.shape, "b_x")
         self.parameters |= {"A_x": A_x, "b_x": b_x}

@@ -29,7 +29,7 @@ class StepProblem(Shown):
     ----------
     parameters : dict of str to cvxpy.Parameter
         What changes from step to step, by name; :meth:`fill` sets it.
-    motion : tuple of cvxpy.Expression
+    contact_motion : tuple of cvxpy.Expression
         gap, slip_1, slip_2 and spin [m], shapes (n_c,), mu included in the last three.
     contact_rows : list of cvxpy.Constraint
         Eq. :eq:`eq-4` in the paper's order, one constraint for that row of the contacts that have
@@ -106,7 +106,7 @@ class StepProblem(Shown):
         self.delta_q = delta_q
         self.delta_q_a = delta_q_a
         self.delta_q_u = delta_q_u
-        self.motion = (gap, slip_1, slip_2, spin)
+        self.contact_motion = (gap, slip_1, slip_2, spin)
         named = (K_q, M_u, tau_k, tau_a, tau_u, phi, J_n, J_1, J_2, J_w)
         self.parameters = {parameter.name(): parameter for parameter in named}
 

@@ -10,7 +10,7 @@ from quasistatic_ref.model.coordinates import Order
 from quasistatic_ref.step.arrays import Array
 
 
-class Motion:
+class ColumnMap:
     """Which columns of pinocchio's Jacobian ``data.J`` move a link, and with which coordinate.
 
     A link is moved by the joints between it and the world. A mimic joint has columns, but no
