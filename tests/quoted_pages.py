@@ -112,13 +112,7 @@ QUOTED = {
         f"{tracker.WIDE} points",
     ],
     "docs/exactness.md": lambda: [
-        "of `sphere_spin`, and on {:,} random steps".format(*of.steps_with_equal_bits()[-1:]),
         f"more than 1e{math.log10(ILL_POSED):.0f} times longer",
-        "each backend claims at least one answer without a single correct digit; OSQP leaves "
-        "{} unsolved, PIQP {}.".format(*of.unsolved_random_steps("osqp", "piqp")),
-    ],
-    "docs/release.md": lambda: [
-        f"equal bits of all backends on {sum(of.steps_with_equal_bits()):,} steps",
     ],
     "docs/studies.md": lambda: [
         "HiGHS 1.15 solves {} of {} random problems of 13 x 80 in raw units".format(
