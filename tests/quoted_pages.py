@@ -20,7 +20,6 @@ from tests import quoted_reality as reality
 from tests import quoted_sources as of
 from tests import quoted_speed as speed
 from tests import quoted_vectors as vectors
-from tests.lab import test_digits_figure as digits
 from tests.lab.study import test_known_issues as known_issues
 from tests.quoted import claim, word
 from tests.quoted_sources import G
@@ -140,7 +139,6 @@ QUOTED = {
 
 OTHERS = {
     "docs/speed.md": speed.held,
-    "docs/exactness.md": digits.quoted,
     **vectors.HELD,
     "docs/reality.md": reality.held,
 }

@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[2]
 CLI = "quasistatic_ref.cli.main"
 FIGURES = (
     "grasp cone_surfaces pinch_threshold gradient_of_a_push where_no_gradient_is "
-    "what_smoothing_does plan_a_push both_laws"
+    "what_smoothing_does plan_a_push both_laws solver_digits"
 )
 """Of README and docs, by ``quasistatic-ref figures``."""
 REALITY = ("pushes", "identified", "loads", "errors", "ablations", "tripods")
@@ -93,11 +93,6 @@ RESULTS = (
         f"{CLI} figures {FIGURES} --out {{temporary}}",
         ("docs/figures",),
         (("*.png", "docs/figures"),),
-    ),
-    Result(
-        "digits_of_backends",
-        "validation.make.digits_of_backends",
-        ("validation/results/digits_of_backends.csv", "docs/figures/digits_of_backends.png"),
     ),
     printed("large_steps", "large_steps.md"),
     printed("grouped_proofs", "grouped_proofs.md"),
