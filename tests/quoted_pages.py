@@ -20,7 +20,6 @@ from tests import quoted_reality as reality
 from tests import quoted_sources as of
 from tests import quoted_speed as speed
 from tests import quoted_vectors as vectors
-from tests.lab import test_digits_figure as digits
 from tests.lab.study import test_known_issues as known_issues
 from tests.quoted import claim, word
 from tests.quoted_sources import G
@@ -112,13 +111,7 @@ QUOTED = {
         f"{tracker.WIDE} points",
     ],
     "docs/exactness.md": lambda: [
-        "of `sphere_spin`, and on {:,} random steps".format(*of.steps_with_equal_bits()[-1:]),
         f"more than 1e{math.log10(ILL_POSED):.0f} times longer",
-        "each backend claims at least one answer without a single correct digit; OSQP leaves "
-        "{} unsolved, PIQP {}.".format(*of.unsolved_random_steps("osqp", "piqp")),
-    ],
-    "docs/release.md": lambda: [
-        f"equal bits of all backends on {sum(of.steps_with_equal_bits()):,} steps",
     ],
     "docs/studies.md": lambda: [
         "HiGHS 1.15 solves {} of {} random problems of 13 x 80 in raw units".format(
@@ -146,7 +139,6 @@ QUOTED = {
 
 OTHERS = {
     "docs/speed.md": speed.held,
-    "docs/exactness.md": digits.quoted,
     **vectors.HELD,
     "docs/reality.md": reality.held,
 }

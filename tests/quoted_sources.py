@@ -182,23 +182,3 @@ def native_gains():
     at = {(r["engine"], r["backend"]): float(r["solve"]) for r in laps}
     gains = [at["cvxpy", b] / at["native", b] for _, b in at]
     return min(gains), max(gains)
-
-
-def equal_bits():
-    text = (ROOT / "validation/results/exact_everywhere.txt").read_text()
-    assert text.endswith("all bits equal\n")
-    return text
-
-
-def steps_with_equal_bits():
-    """How many of each family."""
-    return [int(n) for n in re.findall(r"^\w.*: (\d+) optimal", equal_bits(), re.MULTILINE)]
-
-
-def unsolved_random_steps(*backends):
-    """Random steps that backends leave; each has an answer without a correct digit, too."""
-    line = re.search(r"random, until.*?own answer[^:]*: ([^\n]+)", equal_bits(), re.DOTALL)[1]
-    found = re.findall(r"(\w+) ([\d.]+) \((\d+)\)", line)
-    assert {digits for _, digits, _ in found} == {"0.0"}
-    left = {backend: int(count) for backend, _, count in found}
-    return [left[backend] or "none" for backend in backends]
