@@ -35,8 +35,8 @@ def random_mechanism(rng: np.random.Generator) -> Json:
     """One tree of bodies or two; about half of the joints that can follow another one do."""
     bodies = []
     for name in ("arm", "hand")[: rng.integers(1, 3)]:
-        base = str(rng.choice(["fixed", "floating", "planar"]))
-        tree = random_tree(rng, int(rng.integers(2, 11)), base, masses=True)["bodies"]
+        size, base = int(rng.integers(1, 11)), str(rng.choice(["fixed", "floating", "planar"]))
+        tree = random_tree(rng, size, base if size > 1 else "floating", masses=True)["bodies"]
         for body in tree:
             body["name"] = f"{name} {body['name']}"
             body["parent"] = body["parent"] and f"{name} {body['parent']}"
