@@ -70,11 +70,3 @@ def test_only_the_exceptions_use_sums_and_sines_of_an_order_that_is_not_written(
             for owner in unordered(ast.parse(path.read_text("utf-8"))):
                 found.add(file if file in excepted else f"{file}:{owner}")
     assert found == excepted
-
-
-def test_what_is_planted_is_found():
-    planted = "a @ b", "a @= b", "np.dot(a, b)", "a.sum()", "np.linalg.norm(a)", "math.sin(a)"
-    for line in planted:
-        tree = ast.parse(f"class C:\n    def f(self):\n        {line}")
-        assert list(unordered(tree)) == ["C.f"]
-    assert list(unordered(ast.parse("a + b * total(c)"))) == []
