@@ -1,6 +1,7 @@
 """Phenomena for engines: committed results are those that reproductions and the page show."""
 
 import json
+import math
 import re
 import subprocess
 import sys
@@ -80,7 +81,7 @@ def test_a_servo_of_mujoco_is_a_spring_and_a_damper_with_the_stated_rule(implici
         expected.append(x)
     finger = {"name": "finger", "joint": "servo", "K": K, "mass": m, "inertia": [1e-4] * 3,
               "xyz": [0.0, 0.0, 0.0], "shapes": []}  # fmt: skip
-    scene = {"gravity": [0, 0, -G], "mu_v": 0.5, "mu_omega": 0.0, "floor": False, "loads": [],
+    scene = {"gravity": [0, 0, -9.81], "mu_v": 0.5, "mu_omega": 0.0, "floor": False, "loads": [],
              "bodies": [finger], "times": [h * (k + 1) for k in range(steps)],
              "targets": {"finger": [[0, 0, 0, 0], [1, 0, w, 0]]}}  # fmt: skip
     setting = {"h": h, "option": {"integrator": "implicitfast"}, "implicit_spring": implicit}
