@@ -14,6 +14,10 @@ AROUND, UP = 48, 24
 DECIMALS = 12
 """To which corners that are found several times agree [m]."""
 
+ROUND = 0.8
+"""Cosine of the angle between a triangle and the surface around its corner, above which the
+surface is round there: at the corners of a box it is 0.58, along its edges 0.71."""
+
 SAME_PLANE = 9
 """Decimals to which the planes of two triangles agree that are parts of one face."""
 
@@ -69,6 +73,29 @@ def triangles(points: Array) -> Array:
     inward = np.einsum("ti,ti->t", normal, hull.equations[:, :3]) < 0
     corners[inward] = corners[inward][:, [0, 2, 1]]
     return np.asarray(corners.reshape(-1, 3))
+
+
+def normals(corners: Array) -> Array:
+    """Normals of a surface at the corners of its triangles, (3T, 3): its own where it is round.
+
+    Parameters
+    ----------
+    corners : ndarray, shape (3T, 3)
+        Three of each triangle.
+    """
+    first, second, third = corners.reshape(-1, 3, 3).transpose(1, 0, 2)
+    flat = np.cross(second - first, third - first).repeat(3, axis=0)
+    _, place = np.unique(corners.round(DECIMALS), axis=0, return_inverse=True)
+    mean = np.zeros((place.max(initial=-1) + 1, 3))
+    np.add.at(mean, place.ravel(), flat)
+    smooth = _unit(mean)[place.ravel()]
+    flat = _unit(flat)
+    sharp = np.einsum("ci,ci->c", flat, smooth) < ROUND
+    return np.where(sharp[:, None], flat, smooth)
+
+
+def _unit(vectors: Array) -> Array:
+    return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-300))
 
 
 def faces(points: Array) -> list[Array]:
