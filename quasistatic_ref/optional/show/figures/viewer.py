@@ -197,7 +197,8 @@ def scene_commands(
     for j in contacts:
         commands.append(object_set(f"/contacts/{j}", _ball(DOT * half)))
         commands.append(object_set(f"/forces/{j}", _spike(THICK * half)))
-    moving = sorted({own.link for own in (*moments[0].shapes, *looks)} - {0})
+    links = {shape.link for shape in moments[0].shapes} | {visual.link for visual in looks}
+    moving = sorted(links - {0})
     clips = []
     for link in moving:
         t, R = (
