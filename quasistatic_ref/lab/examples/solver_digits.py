@@ -29,7 +29,7 @@ SPREAD = 0.17
 
 @cache
 def digits(backend: str, accuracy: str) -> Array:
-    """Correct digits of delta_q at each step [-]."""
+    """Correct digits of delta_q at each step, shape (N,) [-]."""
     run = grasp("with torsion")[1]
     steps = [run.step_data(k) for k in range(0, run.steps, EVERY)]
     answers = [solve_step(step, backend, accuracy=float(accuracy)) for step in steps]
