@@ -107,11 +107,11 @@ def random_steps(count: int) -> Iterator[tuple[str, StepData]]:
         yield f"random {seed - 1}", step
 
 
-def vector_steps(every: int) -> Iterator[tuple[str, StepData]]:
+def vector_steps() -> Iterator[tuple[str, StepData]]:
     """Steps of the layers `step` and `derivative` of the vectors that have a solution."""
     for name in ("step", "derivative"):
         solved = expected_read(VECTORS, name)
-        for case in inputs_read(VECTORS, name)[::every]:
+        for case in inputs_read(VECTORS, name):
             if "farkas" not in solved[case.id]["output"]:
                 yield case.id, posed_case(case.input).step
 
@@ -129,14 +129,16 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--random", type=int, default=2000, help="random steps")
     parser.add_argument("--oracle", type=int, default=300, help="of them in 60 digits")
-    parser.add_argument("--every", type=int, default=1, help="every so many of the other steps")
+    parser.add_argument(
+        "--every", type=int, default=1, help="every so many of the scenarios' steps"
+    )
     parser.add_argument("--log", type=Path, help="where records are kept")
     parser.add_argument("--out", type=Path, default=RESULT, help="the table")
     given = parser.parse_args(arguments)
     log = Log(given.log, lambda record: record["step"])
     families = {
         "random": random_steps(given.random),
-        "vectors": vector_steps(given.every),
+        "vectors": vector_steps(),
         "scenarios": scenario_steps(given.every),
     }
     rows, failed = [], 0
