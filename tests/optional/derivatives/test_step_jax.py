@@ -17,8 +17,7 @@ from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step_jax import smoothed_jax, step_jax
 from quasistatic_ref.shapes.placed_shape import Sphere
-from tests.optional.derivatives.free_bodies import BOX, FLOOR, free
-from tests.oracles.pushes import pushed
+from tests.optional.derivatives.free_bodies import BOX, FLOOR, free, vector_scene
 from tests.tolerances import JAX_GRADIENT, JAX_STEP, ROUNDING
 
 G, NONE, UP = 9.81, np.zeros(0), np.eye(6)[2]
@@ -39,7 +38,7 @@ def checked(function, *given):
 
 def floating():
     """A hand and a body, both floating: quaternions in q and in q_bar_a."""
-    return pushed(np.random.default_rng(5), "ellipsoid", "capsule", k=4)
+    return vector_scene("floating/push")
 
 
 def turning():
