@@ -109,5 +109,5 @@ def test_at_a_kink_the_reach_is_zero_and_a_smoothed_step_has_none():
 
 def test_a_few_of_the_states_and_kinks_of_the_long_comparison():
     assert state("state door 20")["error"] <= ERROR
-    for what in ("block", "pushed"):
+    for what in ("block", "pair"):
         assert kink(f"kink {what} 3")["named"]
