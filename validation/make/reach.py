@@ -31,9 +31,9 @@ from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
-from tests.oracles.differences import after, rate
 from tests.lab.vectors.material import cases
 from tests.optional.derivatives.free_bodies import vector_scene
+from tests.oracles.differences import after, rate
 from validation.tools.scripts import asked, shown
 
 SCENES = {
