@@ -26,7 +26,6 @@ EXCEPTIONS = {
     "angles by balls of flint, rounded correctly": ("model/angles.py:angle_of",),
     "sums of whole numbers": ("step/data.py:row_layout",),
     "a check that refuses; no number goes on from it": (
-        "model/mass.py:regular",
         "simulate/limits.py:Limits.out_of_reach",
         "step/arrays.py:finite",
         "step/contacts.py:Contacts._check_frames",
