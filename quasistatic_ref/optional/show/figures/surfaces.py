@@ -3,6 +3,7 @@
 from functools import lru_cache
 
 import numpy as np
+from scipy.sparse import csr_array
 from scipy.spatial import ConvexHull
 
 from quasistatic_ref.contact.solids.polytope import polytope
@@ -15,8 +16,7 @@ DECIMALS = 12
 """To which corners that are found several times agree [m]."""
 
 ROUND = 0.8
-"""Cosine of the angle between a triangle and the surface around its corner, above which the
-surface is round there: at the corners of a box it is 0.58, along its edges 0.71."""
+"""Cosine of the angle between triangles at a corner above which the surface is round there [-]."""
 
 SAME_PLANE = 9
 """Decimals to which the planes of two triangles agree that are parts of one face."""
@@ -76,7 +76,7 @@ def triangles(points: Array) -> Array:
 
 
 def normals(corners: Array) -> Array:
-    """Normals of a surface at the corners of its triangles, (3T, 3): its own where it is round.
+    """Normals of a surface at the corners of its triangles, (3T, 3): means where it is round.
 
     Parameters
     ----------
@@ -86,12 +86,11 @@ def normals(corners: Array) -> Array:
     first, second, third = corners.reshape(-1, 3, 3).transpose(1, 0, 2)
     flat = np.cross(second - first, third - first).repeat(3, axis=0)
     _, place = np.unique(corners.round(DECIMALS), axis=0, return_inverse=True)
-    mean = np.zeros((place.max(initial=-1) + 1, 3))
-    np.add.at(mean, place.ravel(), flat)
-    smooth = _unit(mean)[place.ravel()]
-    flat = _unit(flat)
-    sharp = np.einsum("ci,ci->c", flat, smooth) < ROUND
-    return np.where(sharp[:, None], flat, smooth)
+    at = csr_array((np.ones(len(corners)), (np.arange(len(corners)), place.ravel())))
+    one, other = (at @ at.T).nonzero()  # corners that are at one place
+    alike = np.einsum("ci,ci->c", _unit(flat)[one], _unit(flat)[other]) > ROUND
+    near = csr_array((np.ones(alike.sum()), (one[alike], other[alike])), shape=(len(corners),) * 2)
+    return _unit(near @ flat)
 
 
 def _unit(vectors: Array) -> Array:
