@@ -65,13 +65,13 @@ THICK, DOT = 0.02, 0.012
 NOTHING = 1e-9
 """Length of a force that is zero [m]: an object that is scaled by zero has no inside."""
 
-POINT = 0.06
+POINT = 0.07
 """Size of a cloud's point over half that size [-]."""
 
 REPETITIONS = 1000
 HIDDEN: Final = ("/Grid", "/Axes")
 SKY: Final = {"top_color": [1.0, 1.0, 1.0], "bottom_color": [0.85, 0.9, 0.95]}
-EYE: Final = 4.3 * CAMERA.axes()[2]
+EYE: Final = 5.0 * CAMERA.axes()[2]
 """The eye from the middle of what is looked at, over half its size [-]."""
 ANGLE: Final = 40
 """Of what the eye sees from top to bottom [deg]: so far away, little is distorted."""
