@@ -14,7 +14,7 @@ from quasistatic_ref.lab.vectors import versions
 from quasistatic_ref.lab.vectors.files import lines
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.pack import packed
-from quasistatic_ref.lab.vectors.versions import RELEASE, edition, frozen_lines, release_of
+from quasistatic_ref.lab.vectors.versions import RELEASE, edition, frozen, frozen_lines, release_of
 from tests.lab.vectors.material import ROOT, VECTORS
 
 

@@ -7,8 +7,9 @@ from matplotlib.text import Text
 
 from quasistatic_ref.cli.measures import rotation_angle
 from quasistatic_ref.lab.examples import boundary_layer
-from quasistatic_ref.lab.figures.grasp import CAMERA, grasp_strip, rotation_plot
+from quasistatic_ref.lab.figures.grasp import grasp_strip, rotation_plot
 from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
