@@ -21,7 +21,7 @@ from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.solve.solver import NaturalAnswer
 from quasistatic_ref.solve.units import NaturalHessian
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
-from quasistatic_ref.step.groups import Group, groups, own_rows, split
+from quasistatic_ref.step.groups import Group, extra_rows, groups, split
 from quasistatic_ref.tolerances import ILL_POSED
 
 SMALL = 24
@@ -150,8 +150,8 @@ class Part:
     def _step(self, step: StepData, constant: Constants) -> PosedStep:
         group, given = self.group, step.contacts
         (a, u), j = split(step, group), group.contacts
-        if len(group.own):
-            constant = constant._replace(extra=own_rows(step, group))
+        if len(group.extra_rows):
+            constant = constant._replace(extra=extra_rows(step, group))
         contacts = PosedContacts(
             name=tuple([given.name[i] for i in j.tolist()]),
             phi=given.phi[j],

@@ -139,7 +139,7 @@ shapes/frozen.py
     shapes plain_data SYSTEM
 model/kinematics.py
     system CONTACT
-model/motion.py
+model/column_map.py
     system simulator CONTACT
 model/screw.py
     rotation system

@@ -64,9 +64,10 @@ class Scene(Structure):
         weighs: Array,
         tracker: ContactTracker | None,
     ) -> None:
-        motion, layout = geometry.motion, constant.layout
+        column_map = geometry.column_map
+        layout = constant.layout
         n_c, m, n_a = len(layout.counts), int(layout.offsets[-1]), len(constant.K_q)
-        n_x, n_v = len(motion.owner), motion.n_v
+        n_x, n_v = len(column_map.owner), column_map.n_v
         super().__init__(NUMBERS, ARRAYS, library().scene_size)
         self.given = given = np.dtype(
             [
@@ -83,9 +84,9 @@ class Scene(Structure):
         self.put(
             {
                 "pairs": 0, "n_c": n_c, "n_v": n_v, "n_a": n_a, "n_x": n_x,
-                "links": len(poses.R), "mimics": int(motion.mimics),
+                "links": len(poses.R), "mimics": int(column_map.mimics),
                 "R": poses.R, "t": poses.t, "column": poses.columns,
-                "owner": motion.owner,
+                "owner": column_map.owner,
                 "moves_alpha": alpha, "moves_beta": beta,
                 "mu_v": geometry.mu[:, 0], "mu_omega": geometry.mu[:, 2], "rows": layout.counts,
                 **cone_terms(constant.cone), **{name: written[name] for name in given.names or ()},
