@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.digits import BackendDigits, digits_of_backends
 from quasistatic_ref.lab.runs import grasp
 from quasistatic_ref.optional.show.figures import Figure
@@ -59,7 +59,3 @@ def figure(
     found = records(tuple(backends), tuple(accuracies))
     subject = f"{found[0].steps} steps of bunny_grasp, h = 10 ms, friction pyramid"
     return digits_of_backends(found, subject, ax)
-
-
-if __name__ == "__main__":
-    script(main, figure)
