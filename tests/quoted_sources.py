@@ -23,7 +23,6 @@ from quasistatic_ref.optional.fast.tracker import ball_tree, tracker_bound
 from quasistatic_ref.optional.fast.tracker import tracker as tracked
 from quasistatic_ref.tolerances import ILL_POSED, SLOW, UNSEEN
 from tests.lab.study.test_known_issues import highs_solved
-from validation.make import digits_of_backends as backends
 from validation.make.challenges import ANSWERS
 
 ROOT = Path(__file__).parents[1]
@@ -354,41 +353,6 @@ def large():
         "bound": max(float(row["largest error bound"]) for row in of_piqp),
         "clarabel dense": float(eight["clarabel dense"]) / float(eight["clarabel sparse"]),
         "whole": {bodies: 8e-6 * (6 * bodies) ** 2 for bodies in (100, 300)},  # MB
-    }
-
-
-def equal_bits():
-    """Steps of each family, and random steps that backends leave.
-
-    Each of them has an answer without a correct digit, too.
-    """
-    found = text("exact_everywhere.txt")
-    assert found.endswith("all bits equal\n")
-    steps = [int(n) for n in re.findall(r"^\w.*: (\d+) optimal", found, re.MULTILINE)]
-    line = re.search(r"random, until.*?own answer[^:]*: ([^\n]+)", found, re.DOTALL)[1]
-    own = re.findall(r"(\w+) ([\d.]+) \((\d+)\)", line)
-    assert {digits for _, digits, _ in own} == {"0.0"}
-    left = {backend: int(count) or "none" for backend, _, count in own}
-    return {"steps": steps, "all": sum(steps), "left": left}
-
-
-def digits():
-    """Of backends' own answers."""
-    at = {(r.units, r.backend, r.accuracy): r for r in backends.records_read()}
-    raw, natural = backends.RAW, backends.NATURAL
-
-    def worst(units, accuracy):
-        return {backend: at[units, backend, accuracy].worst for backend in backends.BACKENDS}
-
-    settings = [(b, a) for b in backends.BACKENDS for a in backends.ACCURACIES]
-    gains = {one: at[natural, *one].worst - at[raw, *one].worst for one in settings}
-    return {
-        "raw": {name: ends(worst(raw, name).values()) for name in ("default", "1e-3")},
-        "osqp at 1e-3": gains.pop(("osqp", "1e-3")),
-        "gains": ends(gains.values()),
-        "daqp": at[raw, "daqp", "1e-6"],
-        "osqp": at[raw, "osqp", "default"],
-        "tight": worst(natural, "1e-12"),
     }
 
 

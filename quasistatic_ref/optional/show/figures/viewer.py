@@ -33,7 +33,14 @@ from quasistatic_ref.optional.show.figures.three import (
     transform_set,
     z_along,
 )
-from quasistatic_ref.optional.show.figures.visuals import AROUND, FIXED, UP, colours, visuals
+from quasistatic_ref.optional.show.figures.visuals import (
+    AROUND,
+    FIXED,
+    UP,
+    Visual,
+    colours,
+    visuals,
+)
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -58,8 +65,10 @@ FARTHEST = 0.35
 """Brightness of the farthest point of a cloud; that of the nearest is 1 [-]."""
 HIDDEN: Final = ("/Grid", "/Axes")
 SKY: Final = {"top_color": [1.0, 1.0, 1.0], "bottom_color": [0.85, 0.9, 0.95]}
-EYE: Final = np.array([0.85, -1.7, 0.75])
+EYE: Final = np.array([1.8, -3.6, 1.6])
 """The eye from the middle of what is looked at, over half its size [-]."""
+ANGLE: Final = 40
+"""Of what the eye sees from top to bottom [deg]: so far away, little is distorted."""
 PAGE: Final = Path(__file__).parent / "viewer.html"
 
 
@@ -96,14 +105,16 @@ def view_written(
     viewer = viewer_script()
     scene, run = _scene(shown, run)
     moments, fps = ([still(scene)], 1.0) if run is None else frames(scene, run, FRAMES_PER_SECOND)
-    box = focus(moments)
+    looks = visuals(scene)
+    box = focus(moments, looks)
     centre, half = box.mean(axis=0), float(np.ptp(box, axis=0).max()) / 2
     scale = force_scale(moments, None, half, LONGEST)
+    commands = scene_commands(scene, moments, fps, half, scale, looks)
     title = scene.path.stem if isinstance(scene, Scenario) else "scene"
     page = Template(PAGE.read_text("utf-8")).substitute(
         title=escape(title), caption=_caption(title, scene, run, scale), viewer=viewer,
-        commands=json_text(scene_commands(scene, moments, fps, half, scale)).replace("</", "<\\/"),
-        eye=_y_up(centre + half * EYE), centre=_y_up(centre),
+        commands=json_text(commands).replace("</", "<\\/"),
+        eye=_y_up(centre + half * EYE), angle=ANGLE, centre=_y_up(centre),
     )  # fmt: skip
     return text_written(path, page)
 
@@ -145,7 +156,12 @@ def viewer_script() -> str:
 
 
 def scene_commands(
-    scene: HasScene, moments: list[Moment], fps: float, half: float, scale: float
+    scene: HasScene,
+    moments: list[Moment],
+    fps: float,
+    half: float,
+    scale: float,
+    looks: Sequence[Visual] = (),
 ) -> list[dict[str, Any]]:
     """Commands for the viewer: every object once, where it is at first, and how all move.
 
@@ -160,6 +176,7 @@ def scene_commands(
         Half the size of what is looked at [m].
     scale : float
         [m/N].
+    looks : sequence of Visual
 
     Returns
     -------
@@ -176,11 +193,12 @@ def scene_commands(
         {"type": "set_property", "path": "/Background", "property": name, "value": colour}
         for name, colour in SKY.items()
     ]
-    commands += _links(scene, moments[0], half)
+    commands += _links(scene, moments[0], half, looks)
     for j in contacts:
         commands.append(object_set(f"/contacts/{j}", _ball(DOT * half)))
         commands.append(object_set(f"/forces/{j}", _spike(THICK * half)))
-    moving = sorted({placed.link for placed in moments[0].shapes} - {0})
+    links = {shape.link for shape in moments[0].shapes} | {visual.link for visual in looks}
+    moving = sorted(links - {0})
     clips = []
     for link in moving:
         t, R = (
@@ -212,15 +230,14 @@ def _contact_clips(
     yield colour_clip(f"/forces/{j}", fps, colour)
 
 
-def _links(scene: HasScene, first: Moment, half: float) -> Iterator[dict[str, Any]]:
+def _links(
+    scene: HasScene, first: Moment, half: float, looks: Sequence[Visual]
+) -> Iterator[dict[str, Any]]:
     """Objects of all links: what their URDFs show, or else what touches."""
     colour = colours(scene)
-    seen = visuals(scene)
-    shown = {scene.system.link(visual.link) for visual in seen}
-    for k, visual in enumerate(seen):
-        own = colour[visual.link.partition("/")[0]] if visual.colour is None else visual.colour
-        link = scene.system.link(visual.link)
-        yield object_set(f"/links/{link}/visual{k}", _lit(visual.corners, own))
+    shown = {visual.link for visual in looks}
+    for k, visual in enumerate(looks):
+        yield object_set(f"/links/{visual.link}/visual{k}", _lit(visual.corners, visual.colour))
     for k, placed in enumerate(first.shapes):
         cloud = isinstance(placed.shape, PointCloud)
         if placed.link in shown and not cloud:
@@ -253,8 +270,8 @@ def _cloud(points: Array, world: Array, half: float, colour: int) -> dict[str, A
 
 
 def _lit(corners: Array, colour: int) -> dict[str, Any]:
-    """A surface that is lit, so that contacts and forces within are seen through it."""
-    return thing(corners, "Mesh", material(colour, 0.75))
+    """A surface that is lit; through what is fixed in the world, what it hides is seen."""
+    return thing(corners, "Mesh", material(colour, 0.5 if colour == FIXED else 1.0))
 
 
 def _ball(radius: float) -> dict[str, Any]:

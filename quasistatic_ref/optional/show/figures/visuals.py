@@ -10,6 +10,7 @@ import numpy as np
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_path, triangles_of
+from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.urdf_file import FileMesh, urdf_file, written_shape
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
@@ -29,17 +30,16 @@ class Visual(NamedTuple):
 
     Parameters
     ----------
-    link : str
-        ``arm/tool``.
+    link : int
     corners : ndarray, shape (3T, 3)
         Triangles, in the link's frame [m].
-    colour : int or None
-        Red, green and blue of the URDF, a byte each.
+    colour : int
+        Red, green and blue, a byte each: of the URDF, or else of the body.
     """
 
-    link: str
+    link: int
     corners: Array
-    colour: int | None
+    colour: int
 
 
 def colours(scene: HasScene) -> dict[str, int]:
@@ -50,10 +50,15 @@ def colours(scene: HasScene) -> dict[str, int]:
 
 def visuals(scene: HasScene) -> list[Visual]:
     """Visual elements of all bodies; those that cannot be read are left out: they bear no load."""
-    return [visual for body in scene.system.bodies for visual in _of_body(body)]
+    own = colours(scene)
+    return [
+        visual
+        for body in scene.system.bodies
+        for visual in _of_body(body, scene.system, own[body.name])
+    ]
 
 
-def _of_body(body: Body) -> Iterator[Visual]:
+def _of_body(body: Body, system: System, own: int) -> Iterator[Visual]:
     file = urdf_file(body.urdf)
     robot = xml_root(file.text)
     named = {material.get("name"): material for material in robot.findall("material")}
@@ -66,8 +71,9 @@ def _of_body(body: Body) -> Iterator[Visual]:
                 corners = _corners(shape, file.path.parent, body.package_dirs)
             except ModelError:
                 continue
-            name = f"{body.name}/{link.get('name')}"
-            yield Visual(name, corners @ R.T + t, _colour(element.find("material"), named))
+            colour = _colour(element.find("material"), named)
+            number = system.link(f"{body.name}/{link.get('name')}")
+            yield Visual(number, corners @ R.T + t, own if colour is None else colour)
 
 
 def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
