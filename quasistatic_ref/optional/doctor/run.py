@@ -78,7 +78,7 @@ class Run(Start):
 
         Where the step cannot be solved once more, what its multipliers combine to.
         """
-        wrench = self["wrench"][k]
+        wrench: Array = self["wrench"][k]
         if not self.searched:
             return wrench
         return contact_forces(self.step_data(k), near=(self["delta_q"][k], wrench)).wrench
