@@ -97,9 +97,11 @@ def columns_at(columns: Array, r: Array, n: Array) -> Array:
     """
     nu_origin = columns[:3]
     omega = columns[3:]
-    at = r[..., None]
     J = np.empty((*r.shape[:-1], 4, columns.shape[1]))
-    J[..., :3, :] = nu_origin + (omega[YZX] * at[..., ZXY, :] - omega[ZXY] * at[..., YZX, :])
+    r_yzx = r.take(YZX, axis=-1)[..., None]
+    r_zxy = r.take(ZXY, axis=-1)[..., None]
+    turning = omega.take(YZX, axis=0) * r_zxy - omega.take(ZXY, axis=0) * r_yzx
+    J[..., :3, :] = nu_origin + turning
     J[..., 3, :] = product(n, omega)
     return J
 

@@ -15,6 +15,7 @@ from quasistatic_ref.model.coordinates import Coordinate, Joint, joint_key
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.step.arrays import Array, Mask, read_only
 from quasistatic_ref.step.ordered import crossed, dot, rotated
+from quasistatic_ref.step.pivots import positive_pivots
 
 
 class MassMatrix:
@@ -147,15 +148,6 @@ def moves_alone(model: Any, joint: Joint) -> bool:
     return model.getJointId(joint_key(joint.name)) not in list(model.parents)
 
 
-def regular(M: Array) -> bool:
-    """Whether each matrix M, shape (..., n, n) [any unit], has a Cholesky factor in float64."""
-    try:
-        np.linalg.cholesky(M)
-    except np.linalg.LinAlgError:
-        return False
-    return True
-
-
 def check_mass(M_u: Array, coordinates: Sequence[Coordinate], bodies: Iterable[str]) -> None:
     """Refuse a body whose M_u is singular: Eq. :eq:`eq-13` needs it positive definite.
 
@@ -173,7 +165,7 @@ def check_mass(M_u: Array, coordinates: Sequence[Coordinate], bodies: Iterable[s
     """
     for body in bodies:
         indices = [k for k, c in enumerate(coordinates) if c.name.startswith(f"{body}/")]
-        if not regular(M_u[np.ix_(indices, indices)]):
+        if not positive_pivots(M_u[np.ix_(indices, indices)]):
             problem = (
                 "its mass matrix M_u is singular in float64 at the start: an un-actuated "
                 "coordinate moves next to no mass"

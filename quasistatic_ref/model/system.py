@@ -29,13 +29,13 @@ from quasistatic_ref.model.mass import (
     check_mass,
     constant_mass,
     mass_matrix,
-    regular,
     rigid_masses,
 )
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
 from quasistatic_ref.step.arrays import Array, read_only, whole
 from quasistatic_ref.step.ordered import product
+from quasistatic_ref.step.pivots import positive_pivots
 
 __all__ = ["Body", "Kinematics", "System"]
 
@@ -161,7 +161,7 @@ class System(Shown):
             self._mass = mass_matrix(self._model, unactuated, at, self.n_a, inertias)
             unactuated = []
         self.mass_blocks = read_only(rigid_masses(self._model, unactuated))
-        if not (self.constant_mass_matrix and regular(self.mass_blocks)):
+        if not (self.constant_mass_matrix and positive_pivots(self.mass_blocks)):
             check_mass(self.M_u(self.q_start), self.coordinates[self.n_a :], self._roots)
 
     def workspace(self) -> Workspace:

@@ -34,7 +34,7 @@ SAMPLE = (
     f"{FRICTION} row_gaps: cone(name).matrix[:, 0] -> cone(name).matrix[:, 1]",
     f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "
     "row_gaps(step.contacts, step.cone)[step.mask]",
-    f"{FORM} load: tau_k + step.tau_a -> tau_k - step.tau_a",
+    f"{FORM} linear_term: tau_k + step.tau_a -> tau_k - step.tau_a",
     f"{FORM} standard_form: [A, step.extra.A] -> [step.extra.A, A]",
     f"{CONES} row_violations: -slack -> slack",
     f"{ELLIPSOID} cone_violations: mu * s[:, 1:] -> mu / s[:, 1:]",

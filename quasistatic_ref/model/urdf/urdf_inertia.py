@@ -4,6 +4,9 @@ M_u is the only mass matrix of the model. A link is part of it where an un-actua
 link; there the inertia of all links that fixed joints weld together must be physically consistent:
 mass > 0, positive definite, principal moments with the triangle inequality. Elsewhere moments of
 inertia have no effect. A mass still has: gravity on actuated joints that are not compensated.
+
+Links without inertia and shapes that only connect joints of links with mass are accepted: whether
+M_u is definite depends on the axes of these joints, and is found from M_u itself.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -12,7 +15,12 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.urdf.urdf_file import Defect, FileLink, UrdfFile, inertia_defect
+from quasistatic_ref.model.urdf.urdf_file import (
+    Defect,
+    FileLink,
+    UrdfFile,
+    inertia_defect,
+)
 from quasistatic_ref.model.urdf.urdf_tree import Pose, link_poses, rigid_groups
 from quasistatic_ref.step.arrays import Array
 
@@ -51,12 +59,14 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
     """
     group = rigid_groups(file.root, file.joints)
     mover = _movers(file, unactuated, base)
+    loaded = _loaded(file)
     notes = []
     poses = link_poses(file.root, file.joints, {joint.name: 0.0 for joint in file.joints})
     for first in dict.fromkeys(group.values()):
         links = [link for link in group if group[link] == first]
         defects = [(link, file.links[link].defect) for link in links]
-        if mover[first] is not None:
+        connects = first in loaded and not any(_has_substance(file.links[link]) for link in links)
+        if mover[first] is not None and not connects:
             composite = _composite(file, links, poses)
             if not composite.mass > 0 and defects[0][1] is None:
                 problem = f"is missing, but {mover[first]} moves this link: it needs a mass"
@@ -72,6 +82,19 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
             if defect
         ]
     return tuple(notes)
+
+
+def _has_substance(link: FileLink) -> bool:
+    return bool(link.mass or link.defect or link.collisions)
+
+
+def _loaded(file: UrdfFile) -> set[str]:
+    """The links that carry a link with mass."""
+    loaded: set[str] = set()
+    for joint in reversed(file.joints):  # children before parents
+        if file.links[joint.child].mass or joint.child in loaded:
+            loaded.add(joint.parent)
+    return loaded
 
 
 def _accepted(defect: Defect, mover: str | None) -> str:

@@ -7,8 +7,6 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.forces import COMPLIANCE
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.distances.candidates import chosen
-from quasistatic_ref.lab.vectors.exact.entered import entered
-from quasistatic_ref.lab.vectors.families.mechanisms import link
 from quasistatic_ref.lab.vectors.families.scenario_mechanism import mechanism_of, pairs_of
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.own.step import posed_case
@@ -49,31 +47,6 @@ def test_where_rounding_decides_what_is_kept_it_is_said():
 def test_corners_that_depend_on_the_other_solid_make_one_contact_only():
     with pytest.raises(InputError, match="use k = 1"):
         chosen(FLOOR, {"kind": "cylinder", "radius": 0.1, "length": 0.2}, HERE, HERE, 2)
-
-
-def follower(**more):
-    mimic = {"of": "drive", "multiplier": -0.5, "offset": 0.25}
-    finger = link("finger", "palm", "prismatic", axis=[1.0, 0.0, 0.0], mimic=mimic)
-    drive = link("drive", "palm", "prismatic", actuated=True)
-    return [link("palm", None, "fixed"), drive, {**finger, **more}]
-
-
-def test_a_joint_that_follows_another_has_no_coordinate_of_its_own():
-    # The finger is at x = 0.25 - q / 2 and moves at -1/2 of the drive's pace.
-    point = {"alpha": [0.0, 0.0, 0.0], "beta": [0.15, 0.0, 0.0], "n": [1.0, 0.0, 0.0]}
-    point |= {"d1": [0.0, 1.0, 0.0], "d2": [0.0, 0.0, 1.0]}
-    case = {"mechanism": {"bodies": follower()}, "q": [0.2]}
-    case["contacts"] = [{**point, "alpha_body": None, "beta_body": "finger"}]
-    J = [[[-0.5], [0.0], [0.0], [0.0]]]
-    assert layer("jacobian").expected(case).output == layer("jacobian").own(case) == {"J": J}
-    case["delta_q"] = [0.125]
-    assert layer("integrate").expected(case).output["q"] == [0.2 + 0.125]
-
-
-@pytest.mark.parametrize("more", [{"joint": "continuous"}, {"mimic": {"of": "finger"}}])
-def test_what_cannot_be_followed_is_refused(more):
-    with pytest.raises(InputError, match="must follow a revolute or prismatic joint"):
-        entered({"mechanism": {"bodies": follower(**more)}})
 
 
 def test_a_step_of_a_scenario_is_that_of_the_simulator():

@@ -99,7 +99,7 @@ contact/jacobian.py
 contact/pairs.py
     jacobian
 optional/fast/tracker/tracker.py optional/fast/tracker/tracker_bound.py
-optional/fast/tracker/ball_tree.py
+optional/fast/tracker/ball_tree.py optional/fast/tracker/cloud_pairs.py
     FOLLOWED
 optional/curved/settle.py optional/curved/faces.py optional/curved/by_coal.py
     CURVED
