@@ -34,7 +34,7 @@ SAMPLE = (
     f"{FRICTION} row_gaps: cone(name).matrix[:, 0] -> cone(name).matrix[:, 1]",
     f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "
     "row_gaps(step.contacts, step.cone)[step.mask]",
-    f"{FORM} load: tau_k + step.tau_a -> tau_k - step.tau_a",
+    f"{FORM} linear_term: tau_k + step.tau_a -> tau_k - step.tau_a",
     f"{FORM} standard_form: [A, step.extra.A] -> [step.extra.A, A]",
     f"{CONES} row_violations: -slack -> slack",
     f"{ELLIPSOID} cone_violations: mu * s[:, 1:] -> mu / s[:, 1:]",
@@ -42,8 +42,8 @@ SAMPLE = (
     f"{CONES} row_violations: -lam -> lam",
     f"{JUDGE} optimality_residuals: A @ delta_q - b -> A @ delta_q + b",
     f"{RATIONAL} friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
-    f"{RATIONAL} contact_motion: [contacts.n[of], contacts.d1[of], contacts.d2[of]] -> "
-    "[contacts.n[of], contacts.d2[of], contacts.d1[of]]",
+    f"{RATIONAL} contact_motion: [contacts.n[which], contacts.d1[which], contacts.d2[which]] -> "
+    "[contacts.n[which], contacts.d2[which], contacts.d1[which]]",
     f"{RATIONAL} in_integers: two_to(H.e + e_x) / h -> two_to(H.e + e_x) * h",
     f"{POINT} rational_solution: -form.A[i, j] -> form.A[i, j]",
     f"{DEPENDENCE} combination: solution[j, 0] -> solution[0, j]",

@@ -248,11 +248,3 @@ def test_a_mimic_has_no_target(tmp_path):
     )
     with pytest.raises(InputError, match=r"bodies.m.targets\[0\].m: is not an actuated joint"):
         load_scenario(path)
-
-
-def fields(table, above=()):
-    """The dotted name of every field of a table and of the tables in it."""
-    for key, value in table.items():
-        yield ".".join((*above, key))
-        if isinstance(value, dict):
-            yield from fields(value, (*above, key))

@@ -165,19 +165,6 @@ def test_rows_are_formed_without_rounding(name, rng):
     np.testing.assert_allclose(np.array(b, float), form.b, rtol=EXACT, atol=EXACT)
 
 
-@pytest.mark.parametrize("name", [*POLYHEDRAL, "ellipsoid"])
-@pytest.mark.parametrize("mu", [(0.0, 0.02), (0.5, 0.0), (0.0, 0.0)])
-def test_zero_friction_coefficients_are_legal_in_every_cone(name, mu, rng):
-    step = random_step(rng)
-    contacts = changed(step.contacts, mu_v=np.full(3, mu[0]), mu_omega=np.full(3, mu[1]))
-    step = step.replace(contacts=contacts, cone=name)
-    answer = solve_step(step, "clarabel" if name == "ellipsoid" else "none")
-    assert answer.certificate.kind in ("exact", "enclosure")
-    f = answer.wrench
-    assert not (mu[0] == 0 and f[:, :2].any())
-    assert not (mu[1] == 0 and f[:, 3].any())
-
-
 @pytest.mark.parametrize("name", ["pyramid", "product", "facets-8"])
 @pytest.mark.parametrize("seed", range(3))
 def test_with_mu_omega_zero_six_rows_and_four_give_the_same_bits(name, seed):

@@ -13,7 +13,7 @@ from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian, scaled_by
-from quasistatic_ref.step.standard_form import load
+from quasistatic_ref.step.standard_form import linear_term
 
 GUESSES: Final = 30
 """Newton iterations, at most; one to five do on the scenarios in models/."""
@@ -80,7 +80,7 @@ class FloatStep:
         self.gap = np.zeros(self.B.shape[:2])
         self.gap[:, 0] = contacts.phi
         self.H = step.H
-        self.g = load(step)
+        self.g = linear_term(step)
         self.stiffness = step.h / compliance
 
     def place(self, x: Array, faces: list[Rows], held: Mask, more: Array | float = 0.0) -> Place:

@@ -62,12 +62,14 @@ def loads(case, at):
 
 
 def objective(case, M, tau):
-    """H and g."""
+    """H and g; a case may have a further generalised force, ``tau``."""
     h, n_a = case["h"], len(case["K_q"])
     K_q = np.array(case["K_q"]).reshape(n_a, n_a)
     delta_q_bar_a = way(case["mechanism"], case["q"], case["q_bar_a"])
     tau_k = K_q @ delta_q_bar_a
     g = h * tau
+    if "tau" in case:
+        g = g + h * case["tau"]
     g[:n_a] += h * tau_k
     H = np.zeros(M.shape, dtype=g.dtype)
     H[:n_a, :n_a] = h * K_q
@@ -77,9 +79,13 @@ def objective(case, M, tau):
 
 def step(case):
     """Layer 8: all of it."""
+    at = kinematics(case["mechanism"], np.array(case["q"]))
+    return step_at(case, at, contacts_of(case, at))
+
+
+def step_at(case, at, contacts):
+    """The step of these bodies with these contacts."""
     mechanism, h, cone = case["mechanism"], case["h"], case["cone"]
-    at = kinematics(mechanism, np.array(case["q"]))
-    contacts = contacts_of(case, at)
     blocks = jacobian({"mechanism": mechanism, "q": case["q"], "contacts": contacts})["J"]
     for contact, J in zip(contacts, blocks, strict=True):
         contact["J"] = J

@@ -111,7 +111,7 @@ def test_measured_and_expected_stand_side_by_side_and_agree(name, rtol, atol):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 35
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 33
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -164,12 +164,6 @@ def test_the_smooth_block_slides_by_the_formula_and_the_rough_one_stays():
     np.testing.assert_allclose(smooth, formula, rtol=SCENARIO)
 
 
-def test_the_push_is_friction_and_drag():
-    push, friction, drag, _, layer = numbers("pushed_block").values()
-    np.testing.assert_allclose(push, friction + drag, rtol=SCENARIO)
-    np.testing.assert_allclose(layer, 1e6 * 0.4 * 0.01 * 0.01, rtol=SCENARIO)  # mu_v h v
-
-
 def test_the_gradient_of_a_push_is_that_of_its_difference():
     slope, difference, flat = numbers("gradient_of_a_push").values()
     np.testing.assert_allclose(slope, difference, rtol=DIFFERENCE_OF_STEPS)
@@ -213,16 +207,13 @@ def test_phi_of_the_cloud_is_predicted_to_first_order():
     np.testing.assert_allclose(exponent, order, atol=FITTED)
 
 
-def test_a_sphere_does_not_turn_up_to_mu_omega_m_g():
-    stuck, limit, spin, lift = numbers("boundary_layer").values()
+def test_a_sphere_does_not_turn_up_to_mu_omega_m_g_and_its_layer_has_both_laws():
+    stuck, limit, spin, lift, *exponents = numbers("boundary_layer").values()
     np.testing.assert_allclose(stuck, limit, rtol=SCENARIO)
     # phi = mu_omega h omega, in mm.
     np.testing.assert_allclose(lift, 1e3 * 0.01 * 0.01 * spin, rtol=SCENARIO)
     assert 1 < lift < 10  # a fraction of a centimetre
-
-
-def test_the_laws_of_the_boundary_layer_are_h_and_h_squared():
-    np.testing.assert_allclose(list(numbers("boundary_layer_laws").values()), [1, 2], atol=FITTED)
+    np.testing.assert_allclose(exponents, [1, 2], atol=FITTED)  # of h, at a rate and at a torque
 
 
 def test_the_grasp_lifts_and_the_bunny_turns_without_torsion_only():

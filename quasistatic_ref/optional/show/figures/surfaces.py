@@ -81,7 +81,7 @@ def normals(corners: Array) -> Array:
     Parameters
     ----------
     corners : ndarray, shape (3T, 3)
-        Three of each triangle.
+        Three of each triangle [m].
     """
     first, second, third = corners.reshape(-1, 3, 3).transpose(1, 0, 2)
     flat = np.cross(second - first, third - first).repeat(3, axis=0)
