@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import sphere_step
@@ -89,7 +89,3 @@ def figure(
         axes.label_outer(remove_inner_ticks=True)
     grid[0].get_figure(root=False).legend(loc="outside upper center", title=caption(h))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

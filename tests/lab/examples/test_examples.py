@@ -4,11 +4,6 @@ The runs of the grasp are those of ``demo``; what is slow is run in full by
 validation/tools/notebooks.py.
 """
 
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -33,7 +28,6 @@ from tests.legible import faults
 from tests.tolerances import DIFFERENCE_OF_STEPS, EXACT, FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
 
 G = 9.81
-ROOT = Path(__file__).parents[3]
 BISECTED = 1e-3
 """Where the bisections of a patch end here [-]."""
 
@@ -257,17 +251,6 @@ def test_the_finger_rolls_on_the_drum_and_slides_without_friction():
     np.testing.assert_allclose(turn, 0.945, atol=0.005)
     assert difference < 2 * FIRST_ORDER
     assert smooth < SCENARIO
-
-
-def test_an_example_is_a_script(tmp_path):
-    command = [sys.executable, "-W", "error", "-m", "quasistatic_ref.lab.examples.cone_surfaces"]
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    done = subprocess.run(
-        command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr
-    assert "volume of the pyramid [-]: 1.33333" in done.stdout
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["cone_surfaces.pdf", "cone_surfaces.png"]
 
 
 def test_friction_used_rises_with_a_push_without_a_jump():
