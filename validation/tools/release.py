@@ -109,6 +109,7 @@ RESULTS = (
     printed("step_profile", "step_profile.md"),
     printed("random_mechanisms", "random_mechanisms.md"),
     printed("run_hashes", "run_hashes.md"),
+    to_file("attacks", "attacks.md"),
     to_file("verifier", "verifier.md", "validation.tools.check_verifier --all"),
     to_file("confirmed_bits", "confirmed_bits.txt"),
     to_file("same_bits", "same_bits.json"),
