@@ -118,11 +118,13 @@ RESULTS = (
     script("second_order", "jsonl", "md"),
     to_file("reach", "reach.md"),
     script("mjcf", "md"),
+    to_file("environments", "environments.md"),
     fuzzed("fuzzing"),
     fuzzed("hostile_steps", "--readers validation.make.hostile_steps --inputs 105000"),
     script("aligned_poses", "md"),
     printed("forces_by_hand", "forces_by_hand.md"),
     to_file("forces", "forces.md"),
+    script("outputs", "md"),
     Result("mutations", "validation.tools.mutations --stale", ("validation/results/mutations.md",)),
     script("reality_identified", "json"),
     Result(
