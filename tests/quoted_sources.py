@@ -220,8 +220,8 @@ def claims():
 
 
 def problem_set():
-    """Problems of the set that comes along, and its families."""
-    manifest = json.loads((ROOT / "validation/contact_qp_1/manifest.json").read_text())
+    """Problems of contact-qp-2, and its families."""
+    manifest = json.loads((ROOT / "validation/contact_qp_2/manifest.json").read_text())
     count = sum(family["count"] for family in manifest["families"].values())
     return {"count": count, "families": len(manifest["families"])}
 

@@ -96,15 +96,8 @@ RESULTS = (
     ),
     printed("large_steps", "large_steps.md"),
     printed("grouped_proofs", "grouped_proofs.md"),
-    Result(
-        "contact_qp",
-        "validation.make.contact_qp",
-        (
-            "validation/results/contact_qp.csv",
-            "validation/results/contact_qp.md",
-            "docs/figures/contact_qp.png",
-        ),
-    ),
+    to_file("contact_qp", "contact_qp.md"),
+    to_file("proved_problems", "proved_problems.md"),
     printed("pair_distances", "pair_distances.md"),
     printed("step_profile", "step_profile.md"),
     printed("random_mechanisms", "random_mechanisms.md"),
