@@ -12,6 +12,8 @@ OPTIONAL: Final = {
     "step": ("A_lam",),
 }
 """Fields that follow from others, and need not be answered."""
+NO_NUMBERS: Final = ("certificate", "differentiable", "reasons")
+"""Fields that have a verdict of their own."""
 
 CONTACT: Final = ("pair", "index", "phi", "n", "alpha", "beta", "d1", "d2", "J")
 ORDER: Final = (
