@@ -2,25 +2,28 @@
 
     python -m validation.make.random_mechanisms [--count COUNT]
 
-The program, quasistatic_ref/lab/program/, shares no code with the package's model, which reads the
-mechanisms from URDFs.
+The program, quasistatic_ref/lab/program, shares no code with the package's model.
 """
 
+from __future__ import annotations
+
 from collections import Counter
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.program.mechanism import kinematics, point_jacobian
+from quasistatic_ref.lab.program.mechanism import kinematics, point_jacobian, slices
 from quasistatic_ref.lab.program.step import loads
-from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.families.mechanisms import random_q, random_tree
 from quasistatic_ref.lab.vectors.own.system import OwnSystem, own_system
 from validation.tools.scripts import asked
 
-GRAVITY = (1.0, -2.0, -9.81)
-FORCE, TORQUE = (1.0, 2.0, 3.0), (4.0, 5.0, 6.0)
+Json = dict[str, Any]
 CALLS = 10
+GRAVITY = np.array([1.0, -2.0, -9.81])
+FORCE, TORQUE = np.array([1.0, 2.0, 3.0]), np.array([4.0, 5.0, 6.0])
+"""A wrench at the centre of mass of each root [N, N m]."""
 QUANTITIES = ("R, t", "J", "gravity", "wrench", "M_u")
 WORDS = """Errors are the largest difference over the largest entry of a quantity. Each mechanism is
 evaluated ten times by one `System`, at three configurations in turn; the first call and the tenth
@@ -29,91 +32,102 @@ are at the same one.
 
 
 def random_mechanism(rng: np.random.Generator) -> Json:
-    """A tree or two; about half of the joints that can follow another one do."""
+    """One tree of bodies or two; about half of the joints that can follow another one do."""
     bodies = []
-    for tree in range(int(rng.integers(1, 3))):
-        base = str(rng.choice(["fixed", "floating", "planar"]))
-        own = random_tree(rng, int(rng.integers(2, 11)), base, masses=True)["bodies"]
-        own[0]["actuated"] = base != "fixed" and bool(rng.integers(2))
-        able = []
-        for body in depth_first(own, own[0]):
-            if body["joint"] in ("revolute", "prismatic"):
-                if not able or rng.random() < 0.5:
-                    able.append(body["name"])
-                else:
-                    body["mimic"] = random_mimic(rng, str(rng.choice(able)))
-            bodies.append(body)
-        for body in own:
-            body["name"] += f"/{tree}"
-            body["parent"] = body["parent"] and f"{body['parent']}/{tree}"
-            if "mimic" in body:
-                body["mimic"]["of"] += f"/{tree}"
+    for name in ("arm", "hand")[: rng.integers(1, 3)]:
+        size, base = int(rng.integers(1, 11)), str(rng.choice(["fixed", "floating", "planar"]))
+        tree = random_tree(rng, size, base if size > 1 else "floating", masses=True)["bodies"]
+        for body in tree:
+            body["name"] = f"{name} {body['name']}"
+            body["parent"] = body["parent"] and f"{name} {body['parent']}"
+        bodies += with_mimics(rng, tree)
     return {"bodies": bodies}
 
 
-def depth_first(bodies: Json, root: Json) -> list[Json]:
-    """A body and those below it, as URDF's reader visits them: a leader has to come first."""
-    below = [body for body in bodies if body["parent"] == root["name"]]
-    return [root, *(one for body in below for one in depth_first(bodies, body))]
+def with_mimics(rng: np.random.Generator, tree: list[Json]) -> list[Json]:
+    """A tree with mimic joints; URDF's reader wants a leader before those that follow it."""
+    leaders: list[Json] = []
+    for body in depth_first(tree, tree[0]):
+        if body["joint"] not in ("revolute", "prismatic", "continuous"):
+            continue
+        endless = body["joint"] == "continuous"
+        able = [one["name"] for one in leaders if (one["joint"] == "continuous") == endless]
+        if not able or rng.random() < 0.5:
+            leaders.append(body)
+            continue
+        multiplier = float(rng.choice([-1, 1]) * rng.choice([1.0, rng.uniform(0.1, 2)]))
+        follow = {"of": str(rng.choice(able)), "multiplier": multiplier}
+        body |= {"actuated": False, "mimic": follow | {"offset": float(rng.uniform(-1, 1))}}
+    return tree
 
 
-def random_mimic(rng: np.random.Generator, leader: str) -> Json:
-    """How a joint follows another one."""
-    multiplier = float(rng.choice([-1, 1]) * rng.choice([1.0, rng.uniform(0.1, 2)]))
-    return {"of": leader, "multiplier": multiplier, "offset": float(rng.uniform(-1, 1))}
+def depth_first(tree: list[Json], at: Json) -> Iterator[Json]:
+    """The bodies at and below one of them, as URDF's reader visits them."""
+    yield at
+    for body in tree:
+        if body["parent"] == at["name"]:
+            yield from depth_first(tree, body)
 
 
-def roots(mechanism: Json) -> list[Json]:
-    """The bodies that move by a base."""
-    return [body for body in mechanism["bodies"] if body["joint"] in ("floating", "planar")]
-
-
-def centre(mechanism: Json, root: Json, at: Json) -> np.ndarray:
-    """Centre of mass, in the world, of a root and of what fixed joints weld to it."""
-    welded = [root]
+def by_angles(mechanism: Json, q: list[float]) -> tuple[Json, np.ndarray]:
+    """The same with revolute in place of continuous joints, in which the program has no mimics."""
+    at, revolute = slices(mechanism)[0], []
+    own = {}
     for body in mechanism["bodies"]:
+        endless = body["joint"] == "continuous"
+        revolute.append(body | {"joint": "revolute"} if endless else body)
+        if body["name"] in at:
+            start, values = at[body["name"]][0].start, q[at[body["name"]][0]]
+            own[start] = [np.arctan2(values[1], values[0])] if endless else values
+    return {"bodies": revolute}, np.concatenate([own[start] for start in sorted(own)])
+
+
+def expected(of: Json, q: list[float]) -> list[np.ndarray]:
+    """Each of QUANTITIES, by the plain program."""
+    mechanism, angles = by_angles(of, q)
+    bodies, at = mechanism["bodies"], kinematics(mechanism, angles)
+    none = np.zeros(3)
+    weights = [{"body": b["name"], "force": b["mass"] * GRAVITY, "torque": none} for b in bodies]
+    M, weight = loads({"mechanism": mechanism, "gravity": none, "wrenches": weights}, at)
+    pushed = np.zeros(len(weight))
+    for root in free_roots(mechanism):
+        v, w = point_jacobian(at[root["name"]], root_centre(bodies, root, at))
+        pushed += v.T @ FORCE + w.T @ TORQUE
+    poses = [np.column_stack(at[b["name"]][:2]) for b in bodies]
+    J = [at[b["name"]][2] for b in bodies]
+    n_a = slices(mechanism)[1]
+    return [np.array(poses), np.array(J), weight, pushed, M[n_a:, n_a:]]
+
+
+def free_roots(mechanism: Json) -> list[Json]:
+    """The bodies that move in the world without a joint."""
+    return [b for b in mechanism["bodies"] if b["joint"] in ("floating", "planar")]
+
+
+def root_centre(bodies: list[Json], root: Json, at: Any) -> np.ndarray:
+    """Centre of mass of a root and of the bodies that are welded to it."""
+    welded = [root]
+    for body in bodies:
         if body["joint"] == "fixed" and body["parent"] in [one["name"] for one in welded]:
             welded.append(body)
-    masses = [body["mass"] for body in welded]
-    return np.average([mass_centre(body, at) for body in welded], axis=0, weights=masses)
+    centres = [at[b["name"]][0] @ b["com"] + at[b["name"]][1] for b in welded]
+    return np.average(centres, axis=0, weights=[b["mass"] for b in welded])
 
 
-def mass_centre(body: Json, at: Json) -> np.ndarray:
-    """Centre of mass of a body in the world."""
-    R, t, _ = at[body["name"]]
-    return R @ body["com"] + t
-
-
-def expected(mechanism: Json, q: list[float]) -> list[np.ndarray]:
-    """Each of QUANTITIES by the plain program."""
-    at, bodies = kinematics(mechanism, np.array(q)), mechanism["bodies"]
-    places = [np.column_stack(at[body["name"]][:2]) for body in bodies]
-    J = [at[body["name"]][2] for body in bodies]
-    M, _ = loads({"mechanism": mechanism, "gravity": GRAVITY, "wrenches": []}, at)
-    gravity, pushed = np.zeros(len(M)), np.zeros(len(M))
-    for body in bodies:
-        v, _ = point_jacobian(at[body["name"]], mass_centre(body, at))
-        gravity += body["mass"] * v.T @ GRAVITY
-    for root in roots(mechanism):
-        v, w = point_jacobian(at[root["name"]], centre(mechanism, root, at))
-        pushed += v.T @ FORCE + w.T @ TORQUE
-    return [np.array(places), np.array(J), gravity, pushed, M]
-
-
-def found(mine: OwnSystem, mechanism: Json, q: list[float]) -> list[np.ndarray]:
-    """The same, as the package has it; of M the un-actuated block alone."""
-    own_q, v = mine.model_q(q), mine.v
-    at = mine.system.kinematics(own_q)
-    links = [mine.links[body["name"]] for body in mechanism["bodies"]]
-    places = np.concatenate([at.R, at.t[:, :, None]], axis=2)[links]
-    gravity, pushed = mine.system.gravity_force(own_q, GRAVITY), np.zeros(mine.system.n_v)
-    for root in roots(mechanism):
-        tree = mine.system.links[mine.links[root["name"]]].partition("/")[0]
-        pushed += mine.system.centre_of_mass_force(own_q, tree, FORCE, TORQUE)
-    n_a = mine.system.n_a
-    M = np.zeros((len(v), len(v)))
-    M[n_a:, n_a:] = mine.system.M_u(own_q)
-    return [places, at.J[links][:, :, v], gravity[v], pushed[v], M[np.ix_(v, v)]]
+def found(own: OwnSystem, mechanism: Json, q: np.ndarray) -> list[np.ndarray]:
+    """The same as the package has it, in the mechanism's order of bodies and coordinates."""
+    system = own.system
+    at = system.kinematics(q)
+    links = [own.links[body["name"]] for body in mechanism["bodies"]]
+    poses = np.concatenate([at.R, at.t[:, :, None]], axis=2)[links]
+    pushed = np.zeros(system.n_v)
+    for root in free_roots(mechanism):
+        body = system.links[own.links[root["name"]]].partition("/")[0]
+        pushed += system.centre_of_mass_force(q, body, FORCE, TORQUE)
+    free = own.v[system.n_a :] - system.n_a
+    M_u = system.M_u(q)[np.ix_(free, free)]
+    weight = system.gravity_force(q, GRAVITY)
+    return [poses, at.J[links][:, :, own.v], weight[own.v], pushed[own.v], M_u]
 
 
 def error(a: np.ndarray, b: np.ndarray) -> float:
@@ -125,12 +139,10 @@ def compare(seed: int) -> tuple[Counter[str], np.ndarray, bool]:
     """What a mechanism has, its errors (calls, quantities), whether its bits stay the same."""
     rng = np.random.default_rng(seed)
     mechanism = random_mechanism(rng)
-    mine = own_system(mechanism)
-    at = [random_q(rng, mechanism) for _ in range(3)]
-    truth = [expected(mechanism, q) for q in at]
-    for one in truth:
-        one[-1][: mine.system.n_a] = one[-1][:, : mine.system.n_a] = 0.0
-    answers = [found(mine, mechanism, at[call % 3]) for call in range(CALLS)]
+    own = own_system(mechanism)
+    q = [random_q(rng, mechanism) for _ in range(3)]
+    truth = [expected(mechanism, one) for one in q]
+    answers = [found(own, mechanism, own.model_q(q[call % 3])) for call in range(CALLS)]
     errors = np.array([
         [error(a, b) for a, b in zip(answers[call], truth[call % 3], strict=True)]
         for call in range(CALLS)
@@ -141,15 +153,15 @@ def compare(seed: int) -> tuple[Counter[str], np.ndarray, bool]:
 
 def features(mechanism: Json) -> Counter[str]:
     """How many mimic joints there are, and of which kinds."""
-    count, by_name = Counter[str](), {body["name"]: body for body in mechanism["bodies"]}
-    for body in mechanism["bodies"]:
+    count = Counter[str]()
+    of = {body["name"]: body for body in mechanism["bodies"]}
+    for body in of.values():
         if "mimic" not in body:
             continue
-        above, parent = [], body["parent"]
+        leader, above, parent = of[body["mimic"]["of"]], [], body["parent"]
         while parent is not None:
-            above.append(by_name[parent])
-            parent = by_name[parent]["parent"]
-        leader = by_name[body["mimic"]["of"]]
+            above.append(of[parent])
+            parent = of[parent]["parent"]
         count["mimic joints"] += 1
         count["negative"] += body["mimic"]["multiplier"] < 0
         count["passive"] += not leader["actuated"]
@@ -161,24 +173,24 @@ def features(mechanism: Json) -> Counter[str]:
 
 def report(count: int) -> str:
     """The committed result."""
-    made = [compare(seed) for seed in range(count)]
-    kinds = sum((own for own, _, _ in made), Counter[str]())
-    with_mimic = sum(own["mimic joints"] > 0 for own, _, _ in made)
-    worst = np.max([errors for _, errors, _ in made], axis=0)
-    rows = [
-        (name, *(f"{value:.0e}" for value in (one[0], one[-1], one.max())))
-        for name, one in zip(QUANTITIES, worst.T, strict=True)
-    ]
-    return "\n".join([
-        f"{count} random mechanisms, {with_mimic} of them with mimic joints.",
-        "",
-        WORDS,
-        *markdown_table(("quantity", "first call", "tenth call", "any call"), rows),
-        "",
-        f"Equal bits at the first and the tenth call: {sum(same for *_, same in made)} of {count}.",
-        "",
-        "; ".join(f"{name}: {number}" for name, number in kinds.items()) + ".",
-    ])  # fmt: skip
+    kinds, errors, same, with_mimic = Counter[str](), [], 0, 0
+    for seed in range(count):
+        own, off, equal = compare(seed)
+        kinds += own
+        errors.append(off)
+        same += equal
+        with_mimic += own["mimic joints"] > 0
+    worst = np.array(errors)
+    lines = [f"{count} random mechanisms, {with_mimic} of them with mimic joints.", "", WORDS]
+    lines += ["| quantity | first call | tenth call | any call |", "|---|---|---|---|"]
+    for k, name in enumerate(QUANTITIES):
+        one = worst[:, :, k]
+        lines.append(
+            f"| {name} | {one[:, 0].max():.0e} | {one[:, -1].max():.0e} | {one.max():.0e} |"
+        )
+    lines += ["", f"Equal bits at the first and the tenth call: {same} of {count}.", ""]
+    lines += ["; ".join(f"{name}: {number}" for name, number in kinds.items()) + "."]
+    return "\n".join(lines)
 
 
 def main() -> None:

@@ -1,6 +1,7 @@
 """Layers are frozen within a version of the vectors; its archive has the same bytes each time."""
 
 import hashlib
+import json
 import os
 import shutil
 import tomllib
@@ -10,9 +11,10 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors import versions
+from quasistatic_ref.lab.vectors.files import lines
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.pack import packed
-from quasistatic_ref.lab.vectors.versions import RELEASE, edition, frozen_lines, release_of
+from quasistatic_ref.lab.vectors.versions import RELEASE, edition, frozen, frozen_lines, release_of
 from tests.lab.vectors.material import ROOT, VECTORS
 
 
@@ -23,6 +25,18 @@ def copy(tmp_path):
 
 
 PARTS = ("inputs", "expected")
+
+
+def test_version_6_without_forces_is_version_5():
+    text = (VECTORS / "expected" / "step.json").read_text()
+    record = json.loads(text)
+    assert lines(record) == text
+    for case in record["cases"]:
+        for part in ("output", "digits", "tolerance"):
+            case[part].pop("forces", None)
+    both = (VECTORS / "inputs" / "step.json").read_bytes() + lines(record).encode()
+    assert frozen(6) == {**frozen(5), "step": frozen(6)["step"]}
+    assert hashlib.sha256(both).hexdigest() == frozen(5)["step"]
 
 
 def test_the_version_is_the_same_wherever_it_is_said():

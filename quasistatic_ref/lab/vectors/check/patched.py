@@ -12,7 +12,7 @@ from quasistatic_ref.lab.vectors.expected import Json
 
 MODULES: Final = (
     *("number", "rotation", "mechanism", "integration", "curved", "distance", "candidates"),
-    *("rows", "wrench", "optimum", "step", "derivative", "layers"),
+    *("rows", "wrench", "optimum", "forces", "step", "derivative", "layers"),
 )
 """Files of the program, each after those that it imports from."""
 
