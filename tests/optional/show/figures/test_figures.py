@@ -96,16 +96,6 @@ def test_the_rotation_plot_shows_the_trajectories(figures, grasp, runs):
     assert [t.get_text() for t in axes.get_legend().get_texts()] == list(runs)
 
 
-def test_the_boundary_layer_starts_at_the_limit_of_friction(figures):
-    lifted = figures["boundary layer"].axes[0]
-    limit = 1e3 * 0.01 * 0.3 * 9.81
-    torque, lift = lifted.lines[0].get_data()
-    np.testing.assert_allclose(torque, np.linspace(147.15 / 200, 147.15, 200), rtol=ROUNDING)
-    assert (np.abs(lift[torque < 0.999 * limit]) < 1e-6).all()
-    assert (lift[torque > 1.001 * limit] > 1e-4).all()
-    np.testing.assert_allclose(lifted.lines[1].get_xdata(), [limit, limit], rtol=ROUNDING)
-
-
 def plain_figure():
     figure, axes = plt.subplots()
     axes.plot([0, 1], [0, 1])
