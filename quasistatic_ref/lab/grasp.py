@@ -19,7 +19,7 @@ CASES: Final[dict[str, list[str]]] = {
 CLOSED, TOP = 0.7, 2.9
 """When the grip is closed, and when the lift ends [s]; see bunny_grasp.toml."""
 
-INSTANTS = (0.3, CLOSED, 1.4, 2.1, TOP)
+INSTANTS = (0.3, 1.4, TOP)
 """Columns of Figure 1 [s]."""
 
 

@@ -30,7 +30,7 @@ SAMPLE = {
     "certify/test_optimality.py::test_a_planted_optimum_has_no_residual": (
         f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "
         "row_gaps(step.contacts, step.cone)[step.mask]",
-        f"{FORM} load: tau_k + step.tau_a -> tau_k - step.tau_a",
+        f"{FORM} linear_term: tau_k + step.tau_a -> tau_k - step.tau_a",
         f"{CONES} row_violations: -slack -> slack",
         f"{CONES} row_violations: -lam -> lam",
         f"{JUDGE} optimality_residuals: A @ delta_q - b -> A @ delta_q + b",
@@ -61,8 +61,8 @@ SAMPLE = {
     ),
     "certify/test_exact.py::test_limit_of_friction_is_a_kink": (
         f"{CONES} pyramid: gap - slip_1 -> gap + slip_1",
-        f"{RATIONAL} contact_motion: [contacts.n[of], contacts.d1[of], contacts.d2[of]] -> "
-        "[contacts.n[of], contacts.d2[of], contacts.d1[of]]",
+        f"{RATIONAL} contact_motion: [contacts.n[which], contacts.d1[which], contacts.d2[which]] "
+        "-> [contacts.n[which], contacts.d2[which], contacts.d1[which]]",
     ),
     "certify/test_exact.py::test_grasp_is_decided_by_balls_alone": (
         f"{POINT} Point.zero_coordinates: i == v -> i != v",

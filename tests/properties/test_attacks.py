@@ -2,7 +2,7 @@
 
 import json
 from fractions import Fraction
-from itertools import cycle, islice, pairwise
+from itertools import cycle, pairwise
 
 import numpy as np
 import pytest
@@ -30,7 +30,6 @@ from tests.oracles.solution_truth import (
     wrenches,
 )
 
-PROVES_NOTHING = "proves nothing"
 BACKENDS = ("daqp", "clarabel", "osqp", "piqp", "quadprog")
 COUNT = 2
 """Of each family."""
@@ -70,7 +69,8 @@ def files(family, backends, certify, claims):
         if claims(record := json.loads(text)):
             found.append((step, text, record))
         if len(found) == COUNT:
-            return found
+            break
+    return found
 
 
 def right_file(step, record):
@@ -106,38 +106,19 @@ def test_exact_answers_are_those_of_fractions(refused, family):
         assert refused(step, text) is None
 
 
-def bound_holds(step, record):
-    """Whether the error that a file bounds is within the bound, by fractions."""
-    bound = record["certificate"]["error_bound"]
-    try:
-        judged = Judge(step, record)
-        square = judged.off(record) + 2 * judged.gap(record) / judged.free
-    except ArithmeticError:  # without an optimum, or without a load
-        return False
-    return 0 <= bound <= 1 and square <= Fraction(bound) ** 2
-
-
-def bounded(family):
-    """Files of backends' own answers, with bounds."""
-    return files(family, BACKENDS, "residual", lambda record: bound_of(record) is not None)
-
-
 def bound_of(record):
     return record["certificate"]["error_bound"] if "certificate" in record else None
 
 
 @pytest.mark.parametrize("family", FAMILIES)
 def test_bounds_hold_by_fractions(refused, family):
-    for step, text, record in bounded(family):
-        assert bound_holds(step, record)
+    """Of backends' own answers."""
+    for step, text, record in files(family, BACKENDS, "residual", bound_of):
+        judged = Judge(step, record)
+        square = judged.off(record) + 2 * judged.gap(record) / judged.free
+        assert square <= Fraction(bound_of(record)) ** 2 <= 1
         assert record["wrench"] == wrenches(step, record["lam"])
         assert refused(step, text) is None
-
-
-def test_bounds_that_are_too_small_are_found(monkeypatch):
-    monkeypatch.setattr(Solver, "error_bound", lambda *_: 0.0)
-    monkeypatch.setattr(fast_solvers, "BOUNDED", -1.0)
-    assert not any(bound_holds(step, record) for step, _, record in bounded("all scales"))
 
 
 def test_no_nearly_singular_matrix_is_judged_wrongly(refused, tmp_path):
@@ -160,33 +141,6 @@ def test_no_nearly_singular_matrix_is_judged_wrongly(refused, tmp_path):
             continue
         assert refused(read, text) is None
     assert {True, False} == set(said)
-
-
-@pytest.mark.parametrize(
-    ("family", "cone"),
-    [
-        ("ordinary", "ellipsoid"),
-        ("all scales", "product"),
-    ],
-)
-def test_what_is_written_is_verified_in_every_mode(refused, family, cone):
-    """Or it claims nothing: certify = "off", no useful bound, no bound in the ellipsoid."""
-    for step in islice(steps(family), 1, 4):
-        posed = step.replace(cone=cone)
-        for certify in ("full", "residual", "off"):
-            try:
-                solver = solver_for(posed, "clarabel", fast=True)
-                solution = solve_step(posed, solver, certify=certify)
-                text, claims = solution_text(solution), solution.certificate
-                kind = json.loads(text)["certificate"]["kind"]
-                claimed = kind == "residual" and claims.error_bound is not None
-                claimed = claimed or kind in ("exact", "enclosure")
-            except StepInfeasible as said:
-                text, claimed = infeasible_text(posed, said.farkas.exact), True
-            except QuasistaticError:
-                continue
-            refusal = refused(posed, text)
-            assert refusal is None if claimed else PROVES_NOTHING in refusal
 
 
 @pytest.mark.parametrize("tau", [1e-323, 1e-312])

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli.measures import link_motion
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.examples.which_cone_is_real import measured
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.lab.grasp import CLOSED
@@ -131,7 +131,3 @@ def figure(ax: Any = None, *, h: float = H) -> Figure:
     handles = [*axes[0].get_legend_handles_labels()[0], *axes[3].get_legend_handles_labels()[0]]
     legend_below(axes, handles)
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.scenes.free_pair import capsule_and_box, geometry, outline
 from quasistatic_ref.optional.show.figures import Figure
@@ -47,7 +47,3 @@ def figure(ax: Any = None) -> Figure:
         Where to draw; a figure of its own by default.
     """
     return PICTURES["contact_geometry"]({"outline": outline()}, ax)
-
-
-if __name__ == "__main__":
-    script(main, figure)

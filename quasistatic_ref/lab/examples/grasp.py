@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from quasistatic_ref.lab.clouds.rows import spread
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.grasp import grasp_strip
 from quasistatic_ref.lab.grasp import CASES, INSTANTS
 from quasistatic_ref.lab.runs import grasp, lift
@@ -39,7 +39,3 @@ def figure(ax: Any = None, *, instants: Sequence[float] = INSTANTS) -> Figure:
     """
     runs = {case: grasp(case)[1] for case in CASES}
     return grasp_strip(grasp("with torsion")[0], runs, instants, spread(), ax)
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.grasp import rotation_plot
 from quasistatic_ref.lab.grasp import CASES, CLOSED
 from quasistatic_ref.lab.runs import grasp, lift
@@ -33,7 +33,3 @@ def figure(ax: Any = None, *, since: float = CLOSED) -> Figure:
     """
     runs = {case: grasp(case)[1] for case in CASES}
     return rotation_plot(grasp("with torsion")[0], runs, "bunny", since, ax)
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -7,7 +7,7 @@ or a tracker leaves out those that cannot matter. The times are those of this ma
 
 from typing import Any
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.study.bench.profile import measured
 from quasistatic_ref.optional.show.figures import Figure
@@ -35,7 +35,3 @@ def figure(ax: Any = None) -> Figure:
         Where to draw; a figure of its own by default.
     """
     return PICTURES["step_time"](measured(), ax)
-
-
-if __name__ == "__main__":
-    script(main, figure)

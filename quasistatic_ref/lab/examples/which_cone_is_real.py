@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import pose_errors
@@ -90,7 +90,3 @@ def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) ->
         first = k == chosen[0]
         labelled(one, "x [mm]", "y [mm]", key=first)
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -15,7 +15,7 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.step.standard_form import load
+from quasistatic_ref.step.standard_form import linear_term
 from quasistatic_ref.tolerances import BEARING, DEPENDENT, FILLED, TOUCHING
 
 
@@ -104,7 +104,10 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     rows = np.einsum("ki,kiv->kv", table[every[:, 1]], generators[every[:, 0]])
     length = np.linalg.norm(np.linalg.solve(L, rows.T), axis=0) if len(every) else np.zeros(0)
     length = np.where(length > 0, length, 1.0)
-    load_size, step_size = np.linalg.norm(np.linalg.solve(L, load(step))), np.linalg.norm(L.T @ x)
+    load_size, step_size = (
+        np.linalg.norm(np.linalg.solve(L, linear_term(step))),
+        np.linalg.norm(L.T @ x),
+    )
     size = float(max(load_size, step_size))
     if not size and len(every):  # nothing moves: what the nearest contact is away
         size = float((np.abs(contacts.phi[every[:, 0]]) / length).min())
