@@ -18,8 +18,6 @@ FUZZED = 80
 """Random steps with answers made to look good."""
 
 
-
-
 def test_wedged_or_broken_answers_are_not_bounded():
     pair = Extra(("left", "right"), np.array([[1.0, 0, 0], [-1.0, 0, 0]]), np.zeros(2))
     step = point_between_walls([EAST], [1.0], force=(1.0, 0.0, 0.0)).replace(extra=pair)
