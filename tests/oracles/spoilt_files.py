@@ -99,9 +99,11 @@ def spoilt_array(rng: Rng, good: NDArray[Any]) -> NDArray[Any]:
     if array.dtype.kind != "f" or not array.size or rng.random() < 0.5:
         return rng.choice(kinds)()
     try:
-        array.flat[rng.randrange(array.size)] = any_number(rng)
+        number = float(any_number(rng))
     except OverflowError:  # a whole number of many digits
-        array.flat[0] = np.inf
+        number = np.inf
+    with np.errstate(over="ignore"):  # in single precision
+        array.flat[rng.randrange(array.size)] = number
     return array
 
 
