@@ -140,7 +140,16 @@ def outside(conditions: Array, z: Array, noise: Array) -> bool:
 
 
 def lengths_of(wrench: Array, step: StepData, compliance: float) -> Array:
-    """The s of wrenches, both of shape (n_c, 4) [m], [N, N m]; 0 where a coefficient is 0."""
+    """The s of wrenches, both of shape (n_c, 4) [m], [N, N m]; 0 where a coefficient is 0.
+
+    Parameters
+    ----------
+    wrench : ndarray, shape (n_c, 4)
+        [N, N m].
+    step : StepData
+    compliance : float
+        [m/N].
+    """
     mu = scaled_by(step.contacts)
     return np.divide(compliance * wrench[:, P_OF_WRENCH], mu, out=0.0 * mu, where=mu > 0)
 
