@@ -160,6 +160,23 @@ def one_pair(shape, points, k):
     return [ContactPair("p", solid, some, 0.5, 0.0, 4, k)]
 
 
+@pytest.mark.parametrize("name", ["sphere", "cylinder"])
+def test_points_from_the_side_are_seen_once_they_are_nearer(name, rng):
+    points = rng.uniform(-0.01, 0.01, size=(300, 3))
+    above = following.WIDTH  # so that the first list is these, and the others are far
+    points[:above, 2] += 0.4
+    points[above:, 0] -= 0.6
+    pairs = one_pair(SHAPES[name], points, 5)
+    tracker, seen = ContactTracker(pairs), []
+    for x in np.linspace(0, 0.5, 26):
+        R, t = poses((0, 0, 0), (x, 0, 0))
+        same_bits(tracker, pairs, R, t)
+        seen.append(tracker.closest_points(R, t).point.min() >= above)
+    assert not seen[0]
+    assert seen[-1]
+    assert tracker.lists_made < 26
+
+
 def test_a_sheet_that_comes_and_goes_above_a_floor_needs_no_new_list(rng):
     points = sheet(40, 1 / 256)
     points[:, 2] = rng.uniform(0, 0.01, size=len(points))

@@ -8,9 +8,14 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.compliance.faces import Rows, face, float_multipliers, nearest_face
+from quasistatic_ref.certify.compliance.faces import (
+    Rows,
+    face,
+    float_multipliers,
+    nearest_face,
+    rows_of,
+)
 from quasistatic_ref.step.arrays import Array, Mask, finite
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian, scaled_by
 from quasistatic_ref.step.standard_form import linear_term
@@ -74,8 +79,7 @@ class FloatStep:
         motion = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
         self.step = step
         self.compliance = compliance
-        self.C = cone(step.cone).matrix
-        self.counts = step.counts.tolist()
+        self.C = [rows_of(step.cone, count) for count in step.counts.tolist()]
         self.B = scaled_by(contacts)[:, :, None] * motion
         self.gap = np.zeros(self.B.shape[:2])
         self.gap[:, 0] = contacts.phi
@@ -83,20 +87,19 @@ class FloatStep:
         self.g = linear_term(step)
         self.stiffness = step.h / compliance
 
-    def place(self, x: Array, faces: list[Rows], held: Mask, more: Array | float = 0.0) -> Place:
-        """Where x is, from faces that may be right for z + `more`, shape (n_c, 4) [m]."""
+    def place(self, x: Array, faces: list[Rows], held: Mask, give: Array | float = 0.0) -> Place:
+        """Where x is, from faces that may be right for z - `give`, shape (n_c, 4) [m]."""
         H = self.H
         g = self.g
         k = self.stiffness
         own = self.step.extra
-        z = self.B @ x + self.gap + more
-        noise = ROUNDING * (np.abs(self.B) @ np.abs(x) + np.abs(self.gap) + np.abs(more))
+        z = self.B @ x + self.gap - give
+        noise = ROUNDING * (np.abs(self.B) @ np.abs(x) + np.abs(self.gap) + np.abs(give))
         before = faces
         faces = list(faces)
         wrong = [j for j, M in enumerate(self.linear(faces)) if outside(M[:-4], z[j], noise[j])]
         for j in wrong:
-            C = self.C[: self.counts[j]]
-            faces[j] = nearest_face(C, z[j], float_multipliers, 4 * float(noise[j].max()))
+            faces[j] = nearest_face(self.C[j], z[j], float_multipliers, 4 * float(noise[j].max()))
         S = np.array([M[-4:] for M in self.linear(faces)]).reshape(-1, 4, 4)
         s = np.einsum("cab,cb->ca", S, z)
         broken = np.minimum(own.A @ x - own.b, 0.0)
@@ -109,8 +112,7 @@ class FloatStep:
     def linear(self, faces: list[Rows]) -> list[Array]:
         """Of each contact the conditions of its face and s, per z, shape (R + 4, 4) each."""
         return [
-            face(self.step.cone, count, rows).floats
-            for count, rows in zip(self.counts, faces, strict=True)
+            face(self.step.cone, len(C), rows).floats for C, rows in zip(self.C, faces, strict=True)
         ]
 
     def newton(self, at: Place) -> Array:
@@ -137,6 +139,21 @@ def outside(conditions: Array, z: Array, noise: Array) -> bool:
     return bool((conditions @ z < -(np.abs(conditions) @ noise)).any())
 
 
+def lengths_of(wrench: Array, step: StepData, compliance: float) -> Array:
+    """The s of wrenches, both of shape (n_c, 4) [m], [N, N m]; 0 where a coefficient is 0.
+
+    Parameters
+    ----------
+    wrench : ndarray, shape (n_c, 4)
+        [N, N m].
+    step : StepData
+    compliance : float
+        [m/N].
+    """
+    mu = scaled_by(step.contacts)
+    return np.divide(compliance * wrench[:, P_OF_WRENCH], mu, out=0.0 * mu, where=mu > 0)
+
+
 def guessed_faces(
     step: StepData, compliance: float, near: tuple[Array, Array]
 ) -> tuple[list[Rows], list[int]]:
@@ -160,10 +177,9 @@ def guessed_faces(
     list of int
     """
     program = FloatStep(step, compliance)
-    mu = scaled_by(step.contacts)
     x, wrench = near
-    give = np.divide(-compliance * wrench[:, P_OF_WRENCH], mu, out=0.0 * mu, where=mu > 0)
-    here = program.place(x, [()] * len(mu), step.extra.A @ x < step.extra.b, give)
+    give = lengths_of(wrench, step, compliance)
+    here = program.place(x, [()] * len(give), step.extra.A @ x < step.extra.b, give)
     for _ in range(GUESSES):
         way = program.newton(here) - here.x
         if not finite(way):

@@ -8,16 +8,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.looks import CONE_EDGE, CONE_FACE, FORCE
 from quasistatic_ref.optional.show.figures.moments import BEARING, DrawnContact, Moment, extent
 from quasistatic_ref.optional.show.figures.pens import (
-    CONE_EDGE,
-    CONE_FACE,
-    CONTACT,
     MILLI,
     PLANES,
     Pen,
-    Pen2D,
-    Pen3D,
 )
 from quasistatic_ref.optional.show.figures.style import room, scaled
 from quasistatic_ref.step.data import Array
@@ -46,20 +42,20 @@ def draw_scene(
     around: tuple[Array, float] | None = None,
     legend: bool = True,
 ) -> None:
-    """Draw a moment on axes, in millimetres: in 3D if the axes are, else as a camera sees it.
+    """Draw a moment on axes, in millimetres, as a camera sees it.
 
-    Bodies are grey, clouds blue dots. At each contact that bears load: its frame (n solid, d1
-    dashed, d2 dotted), the cone of forces that friction allows at its normal force, and the force
-    on beta's body. Where mu_omega is not zero, a circle of that radius in the tangent plane: drawn
-    in full when the torque about n is at its limit, in part below.
+    Robots are grey, what they act on is coloured. At each contact that bears load: its frame (n
+    solid, d1 dashed, d2 dotted), the cone of forces that friction allows at its normal force, and
+    the force on beta's body. Where mu_omega is not 0, a circle of that radius in the tangent plane:
+    drawn in full when the torque about n is at its limit, in part below.
 
     Parameters
     ----------
-    axes : Axes or Axes3D
+    axes : Axes
     of : Moment
     view : str or Camera
-        Of axes that are not 3D: ``"xy"``, ``"xz"``, ``"yz"``, or any orthographic camera, whose
-        axes have no coordinates.
+        ``"xy"``, ``"xz"``, ``"yz"``, or any orthographic camera, whose axes have no coordinates:
+        ``CAMERA`` of ``looks`` is that of all figures here.
     parts : collection of str
         Of ``PARTS``.
     metres_per_newton : float, optional
@@ -73,10 +69,9 @@ def draw_scene(
     if around is not None:
         box = around[0] + around[1] * SIGNS
     centre, half = box.mean(axis=0), MARGIN * float(np.ptp(box, axis=0).max()) / 2
-    flat = axes.name != "3d"
     if metres_per_newton is None:
-        metres_per_newton = force_scale([of], view if flat else None, half)
-    pen: Pen = Pen2D(axes, camera_of(view)) if flat else Pen3D(axes)
+        metres_per_newton = force_scale([of], view, half)
+    pen = Pen(axes, camera_of(view))
     pen.bodies(of, centre, half)
     for contact, bears in zip(of.contacts, of.bearing, strict=True):
         if "contacts" in parts:
@@ -159,7 +154,7 @@ def _legend(axes: Any, of: Moment, parts: Collection[str], scale: float) -> None
     handles: list[Any] = []
     if "forces" in parts and scale > 0:
         label = f"1 N is {MILLI * scale:g} mm"
-        handles.append(Line2D([], [], color=CONTACT, marker=">", markersize=scaled(4), label=label))
+        handles.append(Line2D([], [], color=FORCE, marker=">", markersize=scaled(4), label=label))
     rough = [c for c, bears in zip(of.contacts, of.bearing, strict=True) if bears and c.mu_v > 0]
     if "cones" in parts and rough:
         label = "friction cone"
