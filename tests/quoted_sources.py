@@ -1,105 +1,173 @@
-"""Where the numbers of tests/quoted_pages.py come from: runs of the grasp, committed results."""
+"""Where the numbers of tests/quoted.toml come from: runs of the grasp, committed results, code.
+
+Each function is a source, which phrases name: a number, or numbers by what they are.
+"""
 
 import json
 import math
 import re
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 
 from quasistatic_ref.cli.measures import link_motion
-from quasistatic_ref.lab.examples.grasp_against_mu_omega import needed, rotations
+from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.claims.registry import BY_NAME
+from quasistatic_ref.lab.examples import grasp_against_mu_omega
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
-from quasistatic_ref.lab.runs import grasp
-from tests.quoted import ROOT, cells, claim
+from quasistatic_ref.lab.runs import grasp as run_of
+from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.versions import RELEASE
+from quasistatic_ref.optional.fast.tracker import ball_tree, tracker_bound
+from quasistatic_ref.optional.fast.tracker import tracker as tracked
+from quasistatic_ref.tolerances import ILL_POSED, SLOW, UNSEEN
+from tests.lab.study.test_known_issues import highs_solved
+from validation.make.challenges import ANSWERS
 
-G, H = 9.81, 0.01
-"""m/s^2, and the time step of the scenes [s]."""
+ROOT = Path(__file__).parents[1]
+RESULTS = ROOT / "validation" / "results"
+G, H, MASS, SPEED = 9.81, 0.01, 0.2, 0.04 / 2.2
+"""m/s^2, the time step [s] of the grasp, the bunny's mass [kg] and its speed in the lift [m/s]."""
 LIFTING = 137
 """The step of the grasp that the exercises take."""
-BENCH = "validation/results/benchmarks/bench.md"
-SWEEP = "validation/studies/bunny_torsion/report.md"
+PAPERS = 90
+"""The paper's bound of its average step [us]."""
+STUDENT_17 = 2.1098
+"""The 97.5 % quantile of Student's distribution with 17 degrees of freedom."""
+WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
-# -- The grasp -----------------------------------------------------------------------------------
-def turned(mu_omega):
-    """How far the bunny turns in the lift [deg], with mu_omega in mm."""
-    at, found = rotations()
-    return found[np.abs(at - 1e-3 * mu_omega).argmin()]
+# -- Files that phrases reach into ----------------------------------------------------------------
+def plain(name):
+    """A name whose unit stands after a comma: brackets are what a phrase asks with."""
+    return name.replace(" [", ", ").removesuffix("]")
 
 
-def both_turns():
-    return [claim("grasp", f"rotation {case} torsion [deg]") for case in ("without", "with")]
+class Cell(str):
+    """A cell of a table: its text, and where a format asks for one, its number."""
+
+    def __float__(self):
+        return float(self.replace(",", "").rstrip(" %"))
+
+    def __format__(self, form):
+        return format(float(self), form) if form else str(self)
+
+
+class Rows(list):
+    """Rows of a table: those with a cell, or a column of the only one."""
+
+    def __getitem__(self, name):
+        if kept := [row for row in self if name in map(plain, row.values())]:
+            return Rows(kept)
+        (row,) = self
+        (found,) = [cell for column, cell in row.items() if plain(column) == name]
+        return found
 
 
 @cache
-def levers():
-    """Lengths at step 137 [mm]: levers behind the centre of mass, its height, tau_n over a force.
+def text(file):
+    return (RESULTS / file).read_text("utf-8")
 
-    The levers are those of the middle of the fingertips and of the two points that bear load; the
-    height is over the origin of the bunny; the force is the vertical one.
+
+@cache
+def table(file, heading=""):
+    """The first Markdown table after a heading that starts so."""
+    after = text(file)
+    if heading:
+        after = after[re.search(rf"^#+ {re.escape(heading)}.*$", after, re.MULTILINE).end() :]
+    lines = re.search(r"(?:^\|.*\n)+", after, re.MULTILINE)[0].splitlines()
+    head, _, *rows = ([Cell(c.strip()) for c in line.strip("|").split(" | ")] for line in lines)
+    return Rows(dict(zip(map(str.strip, head), row, strict=True)) for row in rows)
+
+
+@cache
+def record(name):
+    """A committed JSON file."""
+    return json.loads(
+        text(f"{name}.json"), object_hook=lambda own: {plain(k): v for k, v in own.items()}
+    )
+
+
+def ends(values):
+    return min(values), max(values)
+
+
+def in_words(share):
+    """A share in words."""
+    return {3: "a third", 5: "a fifth"}[round(1 / share)]
+
+
+# -- The grasp ------------------------------------------------------------------------------------
+def turned():
+    """How far the bunny turns in the lift [deg], by mu_omega."""
+    at, found = grasp_against_mu_omega.rotations()
+    return {f"{1e3 * mu_omega:g} mm": angle for mu_omega, angle in zip(at, found, strict=True)}
+
+
+def forces():
+    """Those of the fingers' contacts at step 137, (f_1, f_2, f_n, tau_n) [N, N m]."""
+    _, run = run_of("with torsion")
+    return run.step_forces(LIFTING)[run["rows"] == 6]
+
+
+def levers():
+    """Lengths at step 137 [mm].
+
+    Levers behind the centre of mass, of the middle of the fingertips and of the two points that
+    bear load; its height over the origin of the bunny; torque over the vertical force.
     """
-    scenario, run = grasp("with torsion")
+    scenario, run = run_of("with torsion")
     urdf = (ROOT / "models" / "bunny_grasp" / "bunny.urdf").read_text()
     c = np.array(re.search(r'xyz="([^"]+)"', urdf)[1].split(), float)
     kinematics, link = scenario.system.kinematics(run["q"][LIFTING]), scenario.system.link("bunny")
     centre = kinematics.R[link] @ c + kinematics.t[link]
     wrench, fingers = run["wrench"][LIFTING], run["rows"] == 6
     loaded = np.flatnonzero(fingers & (wrench[:, 2] > 0))
-    points = np.sort(run["beta"][LIFTING][loaded, 0] - centre[0])
+    first, second = np.sort(run["beta"][LIFTING][loaded, 0] - centre[0])
     middle = run["q_bar_a"][LIFTING][0] - centre[0]
-    up = np.abs(wrench[loaded, 1]).sum()
-    return 1e3 * np.array([middle, *points, c[2], np.abs(wrench[loaded, 3]).sum() / up])
+    torque = np.abs(wrench[loaded, 3]).sum() / np.abs(wrench[loaded, 1]).sum()
+    found = {"middle": middle, "first": first, "second": second, "height": c[2], "torque": torque}
+    return {name: 1e3 * length for name, length in found.items()}
 
 
-def pressed():
-    """With how much each finger presses at step 137 [N]: their mean."""
-    _, run = grasp("with torsion")
-    return run.step_forces(LIFTING)[run["rows"] == 6, 2].sum() / 2
+def grasp():
+    """What the two runs come to, in the units of the phrases."""
+    scenario, run = run_of("with torsion")
+    _, without = run_of("without torsion")
+    standing = np.flatnonzero(without["wrench"][:, without["rows"] == 4, 2].sum(axis=1))
+    return {
+        "lift": 1e3 * float(claims()["grasp"]["lift, m"]["measured"]),
+        "pressed": forces()[:, 2].sum() / 2,
+        "speed": 1e3 * SPEED,
+        "carried": 1e3 * H * SPEED,
+        "foot": without["t"][standing[-1]],
+        "since the start": np.degrees(link_motion(scenario.system, run, "bunny").largest_rotation),
+    }
 
 
-def weight_alone():
+def needed():
     """mu_omega [mm] that (R9) asks for where step 137's load is that of the weight alone."""
-    _, run = grasp("with torsion")
-    f_1, f_2, f_n, tau_n = np.abs(run.step_forces(LIFTING)[run["rows"] == 6]).sum(axis=0)
-    share = 0.2 * G / f_2
-    return 1e3 * share * tau_n / (f_n - share * (f_1 + f_2) / 0.6)
-
-
-def least():
-    """mu_omega [mm] that (R9) asks for with the forces of that step."""
-    return 1e3 * needed(grasp("with torsion")[1])
-
-
-def one_in(share):
-    """A share in words."""
-    return {3: "a third", 5: "a fifth"}[round(1 / share)]
-
-
-def foot_on_the_floor():
-    """Until when the bunny without torsion stands on the floor [s]."""
-    _, run = grasp("without torsion")
-    load = run["wrench"][:, run["rows"] == 4, 2].sum(axis=1)
-    return run["t"][np.flatnonzero(load)[-1]]
+    f_1, f_2, f_n, tau_n = np.abs(forces()).sum(axis=0)
+    share = MASS * G / f_2
+    alone = share * tau_n / (f_n - share * (f_1 + f_2) / 0.6)
+    least = grasp_against_mu_omega.needed(run_of("with torsion")[1])
+    return {"weight alone": 1e3 * alone, "artifact": in_words(1 - alone / least)}
 
 
 def drag():
-    """Halfway through the lift [N], over weight, over friction; the run's largest share."""
-    _, run = grasp("with torsion")
-    force = 0.2 * 0.04 / 2.2 / H
+    """Halfway through the lift [N], and its shares [%]; the run's largest share."""
+    _, run = run_of("with torsion")
+    force, largest = MASS * SPEED / H, run.header["largest_drag_share"]
     friction = run["mu_v"] @ run["wrench"][150, :, 2]
-    return force, force / (0.2 * G), force / friction, run.header["largest_drag_share"]
-
-
-def since_the_start():
-    """How far the bunny turns [deg], from the first step on."""
-    scenario, run = grasp("with torsion")
-    return np.degrees(link_motion(scenario.system, run, "bunny").largest_rotation)
+    return {"force": force, "weight": MASS * G, "of weight": 100 * force / (MASS * G),
+            "of friction": 100 * force / friction, "largest": 100 * largest,
+            "largest share": largest}  # fmt: skip
 
 
 def demo_lines():
     """The lines of what demo prints that the quickstart shows."""
-    reports = [grasp_report(*grasp(case)) for case in CASES]
+    reports = [grasp_report(*run_of(case)) for case in CASES]
     angle, lift = ([r[key] for r in reports] for key in ("rotation_deg", "lift_mm"))
     label = f"t = 0.7 to {TOP:g} s"
     return (
@@ -108,97 +176,274 @@ def demo_lines():
     )
 
 
-# -- Committed results ---------------------------------------------------------------------------
-def sweep_turns(*mu_omega):
-    """Rotations of the sweep at these mu_omega [m] and every h."""
-    rows = cells(SWEEP, "mu_omega and h")
-    found = [(float(r["mu_omega [m]"]), float(r["largest rotation [deg]"])) for r in rows]
-    return [degrees for at, degrees in found if at in mu_omega]
+# -- The code -------------------------------------------------------------------------------------
+def package():
+    """What is counted or set in it."""
+    return {
+        "claims": len(BY_NAME),
+        "scenarios": WORDS[len(scenario_names())].capitalize(),
+        "layers": WORDS[len(LAYERS)],
+        "layer count": len(LAYERS),
+        "cases": sum(cases().values()),
+        "release": RELEASE,
+        "challenges": ANSWERS,
+        "top": TOP,
+        "limit": 1e3 * grasp_against_mu_omega.physical_limit(),
+        "slow share": SLOW,
+        "slow": 100 * SLOW,
+        "ill-posed": math.log10(ILL_POSED),
+    }
 
 
-def sweep_of(section, column):
-    """A column of another sweep, by its first column."""
-    rows = cells(SWEEP, section)
-    return {next(iter(r.values())): float(r[column]) for r in rows}
+@cache
+def cases():
+    """How many cases each layer of the vectors has."""
+    folder = ROOT / "validation" / "vectors" / "inputs"
+    return {
+        layer: len(json.loads((folder / f"{layer}.json").read_text())["cases"]) for layer in LAYERS
+    }
+
+
+def tracker():
+    return vars(ball_tree) | vars(tracker_bound) | vars(tracked) | {"UNSEEN": UNSEEN}
+
+
+def highs():
+    return highs_solved()
+
+
+# -- Committed results ----------------------------------------------------------------------------
+@cache
+def claims():
+    """The table of each claim."""
+    return {name: table("claims.md", f"{name}: ") for name in BY_NAME}
 
 
 def problem_set():
     """Problems of contact-qp-2, and its families."""
     manifest = json.loads((ROOT / "validation/contact_qp_2/manifest.json").read_text())
-    return [sum(family["count"] for family in manifest["families"].values()),
-            len(manifest["families"])]  # fmt: skip
+    count = sum(family["count"] for family in manifest["families"].values())
+    return {"count": count, "families": len(manifest["families"])}
 
 
-@cache
-def cases_of(layer):
-    return len(json.loads((ROOT / f"validation/vectors/inputs/{layer}.json").read_text())["cases"])
+def sweep():
+    """Rotations [deg] and the deepest penetration [mm] of the sweep."""
+    report = "../studies/bunny_torsion/report.md"
+    at = {}
+    for row in table(report, "mu_omega and h"):
+        found = float(row["largest rotation [deg]"])
+        at.setdefault(float(row["mu_omega [m]"]), []).append(found)
+
+    def column(section, name):
+        return {next(iter(row.values())): float(row[name]) for row in table(report, section)}
+
+    turns, light = (column(name, "largest rotation [deg]") for name in ("cone", "stiffness"))
+    deepest = column("closest points", "deepest penetration [um]")
+    return {
+        "no torsion": at[0.0],
+        "1 mm": ends(at[1e-3]),
+        "more": max(angle for mu_omega in at if mu_omega >= 2e-3 for angle in at[mu_omega]),
+        "light": min(light["250"], light["500"]),
+        "deepest": max(deepest.values()) / 1e3,
+        "pyramid": turns["pyramid"],
+        "other cones": math.ceil(1e3 * (max(turns.values()) - turns["pyramid"])) / 1e3,
+    }
 
 
-def largest_error(wanted, *of):
-    """Over the pairs of the table of distances that are wanted, of some columns [m]."""
-    rows = [
-        r
-        for r in cells("validation/results/pair_distances.md")
-        if wanted(set(r["pair"].split(" - ")))
-    ]
-    return max(float(row[column]) for row in rows for column in of)
+def distances():
+    """Powers of ten above the largest errors of pairs in closed form [m].
 
-
-def two_capsules():
-    return largest_error(lambda pair: pair == {"capsule"}, "phi", "normal")
-
-
-def closed_forms():
-    """Without two capsules: a sphere or a half-space and anything, and boxes, capsules, meshes."""
-    flat = {"box", "capsule", "mesh"}
-    return largest_error(
-        lambda pair: pair != {"capsule"} and (pair & {"sphere", "half-space"} or pair <= flat),
-        "phi",
-    )
-
-
-def decade(x):
-    """The exponent of the power of ten above."""
-    return math.ceil(math.log10(x))
+    Two capsules; and a sphere or a half-space and anything, and boxes, capsules, meshes.
+    """
+    flat, both = {"box", "capsule", "mesh"}, {"closed forms": [], "two capsules": []}
+    for row in table("pair_distances.md"):
+        pair = set(row["pair"].split(" - "))
+        if pair == {"capsule"}:
+            both["two capsules"] += [float(row["phi"]), float(row["normal"])]
+        elif pair & {"sphere", "half-space"} or pair <= flat:
+            both["closed forms"].append(float(row["phi"]))
+    return {name: math.ceil(math.log10(max(found))) for name, found in both.items()}
 
 
 def base():
     """Size of the base [GB, rounded], the share of its largest part, and the next three."""
-    row = next(r for r in cells("validation/results/installs.md") if r["versions"] == "newest")
+    (row, *_) = table("installs.md")["newest"]
     parts = [part.rsplit(" ", 1) for part in row["largest parts [MB]"].split(", ")]
     (boost, size), *more = parts[:4]
     assert boost == "cmeel-boost"
     names = {"scs": "SCS", "scipy": "SciPy", "numpy": "NumPy"}
     whole = float(row["MB"])
     gigabytes = "a" if round(whole / 1000) == 1 else f"{whole / 1000:.0f}"
-    return [gigabytes, one_in(float(size) / whole), *(names[name] for name, _ in more)]
+    return {"gigabytes": gigabytes, "Boost": in_words(float(size) / whole),
+            "next": [names[name] for name, _ in more]}  # fmt: skip
+
+
+def bench():
+    return table("benchmarks/bench.md")
+
+
+def like_for_like():
+    """Steps with PIQP and with Clarabel, all distances evaluated [us]."""
+    found = re.search(r"takes (\d+) us with piqp .* and (\d+) us with clarabel",
+                      text("benchmarks/bench.md"))  # fmt: skip
+    return [float(us) for us in found.groups()]
 
 
 def native_gains():
     """The lap `solve` through CVXPY over that of the native engine, least and largest."""
-    laps = [
-        r for r in cells(BENCH, "By part") if r["backend"] in ("clarabel", "osqp", "piqp", "daqp")
-    ]
-    at = {(r["engine"], r["backend"]): float(r["solve"]) for r in laps}
-    gains = [at["cvxpy", b] / at["native", b] for _, b in at]
-    return min(gains), max(gains)
+    laps = table("benchmarks/bench.md", "By part")
+    names = ("clarabel", "osqp", "piqp", "daqp")
+    return ends([float(laps["cvxpy"][b]["solve"]) / float(laps["native"][b]["solve"])
+                 for b in names])  # fmt: skip
 
 
-def equal_bits():
-    text = (ROOT / "validation/results/exact_everywhere.txt").read_text()
-    assert text.endswith("all bits equal\n")
-    return text
+@cache
+def profile():
+    """The tables, mean steps over the paper's, and signed distances of a step."""
+    means = table("step_profile.md", "Means")
+    steps = {row["backend, distances"]: float(row["step"]) for row in means}
+    words = r"evaluates (\d+) signed distances, with the tracker (\d+) in the mean"
+    return {
+        "medians": table("step_profile.md", "Medians"),
+        "means": means,
+        "times": {name: us / PAPERS for name, us in steps.items()},
+        "proved": steps["clarabel certified, tracker"] / 1e3,
+        "distances": [float(n) for n in re.search(words, text("step_profile.md")).groups()],
+    }
 
 
-def steps_with_equal_bits():
-    """How many of each family."""
-    return [int(n) for n in re.findall(r"^\w.*: (\d+) optimal", equal_bits(), re.MULTILINE)]
+def profile_rows():
+    """Of each backend, with the tracker and with all distances."""
+    names = {
+        "DAQP, nothing certified, warm": "daqp", "PIQP, nothing certified": "piqp",
+        "OSQP, nothing certified, warm": "osqp", "Clarabel, nothing certified": "clarabel",
+        "Clarabel, certified": "clarabel certified",
+    }  # fmt: skip
+    found = {}
+    for name, backend in names.items():
+        own = [profile()["medians"][f"{backend}, {way}"] for way in ("tracker", "brute force")]
+        steps = [float(row["step"]) for row in own]
+        found[name] = {
+            "step": [f"{us:.0f} us" if us < 995 else f"{us / 1e3:.1f} ms" for us in steps],
+            "solve": [row["solve, %"] for row in own],
+            "call alone": [row["call alone, %"] for row in own],
+            "words": " (with the certificate)" if "certified" in backend else "",
+        }
+    return found
 
 
-def unsolved_random_steps(*backends):
-    """Random steps that backends leave; each has an answer without a correct digit, too."""
-    line = re.search(r"random, until.*?own answer[^:]*: ([^\n]+)", equal_bits(), re.DOTALL)[1]
-    found = re.findall(r"(\w+) ([\d.]+) \((\d+)\)", line)
-    assert {digits for _, digits, _ in found} == {"0.0"}
-    left = {backend: int(count) for backend, _, count in found}
-    return [left[backend] or "none" for backend in backends]
+def dense_and_sparse():
+    """Rows of the boxes that the page shows."""
+    shown = ("1", "3", "8", "16", "24", "32", "3 x 3 x 3", "4 x 4 x 3")
+    every = {row["boxes"]: row for row in table("large_steps.md", "Dense and sparse")}
+    return {boxes: every[boxes] for boxes in shown}
+
+
+def large():
+    """What the page says of large steps."""
+    sparse = table("large_steps.md", "Sparse steps")
+    of_piqp, eight = sparse["piqp"], dense_and_sparse()["8"]
+    assert {row["without bound"] for row in of_piqp} == {"0"}
+    assert {row["unsolved"] for row in of_piqp} == {"0"}
+    chains = [float(of_piqp[boxes]["off, ms"]) for boxes in ("10", "20", "40", "80", "160")]
+    return {
+        "chains": ", ".join(f"{ms:.1f}" if ms < 9.95 else f"{ms:.0f}" for ms in chains),
+        "promises": table("large_steps.md", "Promises"),
+        "heap": sparse["5 x 5 x 4"],
+        "bound": max(float(row["largest error bound"]) for row in of_piqp),
+        "clarabel dense": float(eight["clarabel dense"]) / float(eight["clarabel sparse"]),
+        "whole": {bodies: 8e-6 * (6 * bodies) ** 2 for bodies in (100, 300)},  # MB
+    }
+
+
+# -- Measured pushes ------------------------------------------------------------------------------
+def reality():
+    """What each pair came to."""
+    labels = {"all": "mean over pairs"}
+    return {name: entry | {"label": labels.get(name, name)}
+            for name, entry in record("reality")["pairs"].items()}  # fmt: skip
+
+
+def between_pairs():
+    """Student's 95 % intervals of the mean difference over pairs: mm, degrees."""
+    pairs = [entry for name, entry in record("reality")["pairs"].items() if name != "all"]
+    mean = np.array([pair["more"]["mean"] for pair in pairs])
+    half = STUDENT_17 * mean.std(axis=0, ddof=1) / np.sqrt(len(pairs))
+    assert len(pairs) == 17 + 1
+    return np.transpose([mean.mean(axis=0) - half, mean.mean(axis=0) + half])
+
+
+def certified():
+    """Steps of each kind."""
+    steps = record("reality")["steps"]
+    bound = record("reality")["largest_error_bound"]
+    return steps | {"all": sum(steps.values()), "bound": bound}
+
+
+def ratios():
+    """What was identified in the ellipsoid, lengths in mm."""
+    found = {}
+    for name, entry in record("reality_identified").items():
+        own = entry | entry["cones"]["ellipsoid"]
+        lengths = ("ratio", "low", "high", "reverse", "published", "uniform")
+        found[name] = own | {key: 1e3 * own[key] for key in lengths}
+        found[name]["torsion"] = own["friction"] * own["ratio"]
+    return found
+
+
+def identified():
+    """Ratios of the ellipsoid [mm], lost dissipation [%], pairs that are not identifiable."""
+    every = record("reality_identified").values()
+    least, most = ends([own["ratio"] for own in ratios().values()])
+    cones = ("ellipsoid", "product", "pyramid", "facets-8", "facets-16")
+    of = {cone: [entry["cones"][cone] for entry in every] for cone in cones}
+    return {
+        "least": least,
+        "most": most,
+        "lost": {cone: 100 * np.mean([own["misfit"] for own in of[cone]]) for cone in cones},
+        "best axes": 100 * np.mean([entry["pyramid, best axes"] for entry in every]),
+        "not": {cone: sum(not own["identifiable"] for own in of[cone]) for cone in cones},
+    }
+
+
+def ablations():
+    return record("reality_ablations")["variants"]
+
+
+def ablated():
+    """Errors (mm, degrees) over several variants, and their largest changes."""
+    mean = {name: np.array(own["error"]["mean"]) for name, own in ablations().items()}
+
+    def farthest(names, other):
+        return np.abs([mean[name] - mean[other] for name in names]).max(0)
+
+    cancel = ("mass 10 kg", "h 0.2 s", "mu_v 0.6", "gyration 20 mm", "finger's stiffness 1e5 N/m")
+    upright = "pyramid, axes at 0 degrees"
+    pyramids = [mean[f"pyramid, axes at {angle} degrees"] for angle in ("0", "22.5", "45")]
+    spread = record("reality_ablations")["spread over the pyramid's ties"]
+    return {
+        "pyramids": [ends(errors) for errors in np.transpose(pyramids)],
+        "cancel": farthest(cancel, "ellipsoid") + 0.005,
+        "short steps": farthest(["steps of 0.5 mm"], "ellipsoid"),
+        "tie breaks": farthest([name for name in mean if "tie broken" in name], upright),
+        "ties": [spread["95th percentile, mm"], spread["95th percentile, deg"]],
+    }
+
+
+def tripod():
+    return record("reality_tripods")
+
+
+def tripods():
+    """The sets of the ellipsoid, with the median error over the median turn [%]."""
+    return {name: own | {"share": 100 * own["median error over median turn"]}
+            for name, own in tripod()["variants"]["ellipsoid"].items()}  # fmt: skip
+
+
+def shares():
+    """Median error over median turn of the sets that calibrated nothing [%], by cone."""
+    found = {}
+    for name, sets in tripod()["variants"].items():
+        own = [100 * entry["median error over median turn"] for entry in list(sets.values())[1:]]
+        found.setdefault(name.partition(", axes")[0], []).extend(own)
+    return {cone: ends(own) for cone, own in found.items()}

@@ -1,8 +1,5 @@
 """Errors are sentences that carry the data behind them."""
 
-import copy
-import pickle
-
 import pytest
 
 from quasistatic_ref import errors
@@ -87,13 +84,3 @@ def test_the_nearest_name_is_suggested_and_the_known_ones_are_listed():
     )
     assert suggestion("zzz", ["osqp"]) == "; known: osqp"
     assert suggestion("zzz", []) == "; known: none"
-
-
-def test_an_input_error_survives_a_process_boundary():
-    error = pickle.loads(pickle.dumps(InputError("is bad", field="h", value=0)))
-    assert str(error) == "h: is bad (got 0)"
-
-
-def test_an_unsolved_step_survives_a_process_boundary():
-    error = StepNotSolved("osqp", "user_limit", point_on_floor(), 1e-9)
-    assert copy.copy(error).backend == "osqp"

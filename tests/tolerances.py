@@ -51,19 +51,11 @@ SIGNED_DISTANCE: Final = 1e-12
 """Closed-form distances [m] and normals against another closed form or coal, at sizes of a metre:
 some ten operations, each of 1e-16."""
 
-NORMAL_NEAR_AXIS: Final = 1e-9
-"""Normals [-] of points as near as 1e-3 to where the normal turns: 1e-12 m over that distance."""
 
 BRUTE_FORCE: Final = 2e-3
 """A distance as the least over a surface sampled every 2 mm at most: never below the truth, and
 above it by at most the spacing."""
 
-FORCE_BALANCE: Final = 1e-8
-"""H delta_q - g - A' lam in SI units against the largest entry of g: 1e-12 in natural units, whose
-lengths and angles differ by up to a thousand."""
-
-NO_PENETRATION: Final = 1e-10
-"""A delta_q - b of a solved step [m]: 1e-12 in natural units of about a centimetre, with room."""
 
 CLOSED_FORM: Final = 1e-12
 """Distances [m] and normals of shapes of 0.1 m by closed forms: rounding is 1e-16."""

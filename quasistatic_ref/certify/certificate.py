@@ -119,16 +119,16 @@ def verify(
     solved = []
     for group, part in parts(step):
         form = exact_form(part)
-        own = tuple(group.within(working))
+        working_rows = tuple(group.within(working))
         try:
-            solution = rational_solution(form, own)
+            solution = rational_solution(form, working_rows)
         except ZeroDivisionError:
             return Verdict(False, "the rows of the working set are not independent")
         x, lam_w, _, slack = rounded_solution(form, solution)
         delta_q_exact[group.coordinates] = x
-        lam_exact[group.rows[list(own)]] = lam_w
-        reason = reason or _wrong_sign(step, group, own, solution)
-        solved.append((form, own, solution, slack))
+        lam_exact[group.rows[list(working_rows)]] = lam_w
+        reason = reason or _wrong_sign(step, group, working_rows, solution)
+        solved.append((form, working_rows, solution, slack))
     reason = reason or wrong_bits("delta_q", delta_q, delta_q_exact)
     if lam is not None and not reason:
         reason = wrong_bits("lam", lam, lam_exact)

@@ -213,16 +213,16 @@ def group_optimum(
     return optimum
 
 
-def joined(step: StepData, of: Sequence[Group], optima: Sequence[ExactOptimum]) -> ExactOptimum:
+def joined(step: StepData, groups: Sequence[Group], optima: Sequence[ExactOptimum]) -> ExactOptimum:
     """The optimum of a step from the `optima` of all of its groups."""
-    if len(of) == 1 and len(of[0].rows) == step.m:
+    if len(groups) == 1 and len(groups[0].rows) == step.m:
         return optima[0]
     delta_q = np.zeros(step.n_v)
     net = np.zeros(step.n_v)
     lam = np.zeros(step.m)
     slack = np.zeros(step.m)
     working: list[int] = []
-    for group, optimum in zip(of, optima, strict=True):
+    for group, optimum in zip(groups, optima, strict=True):
         delta_q[group.coordinates] = optimum.delta_q
         net[group.coordinates] = optimum.net
         lam[group.rows] = optimum.lam
@@ -296,9 +296,9 @@ def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = No
     n_a = step.n_a
     norm = energy_norm(form.H) if norm is None else norm
     b = np.maximum(form.b, 0.0)
-    asked = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, b])
+    parameters = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, b])
     # All lengths are linear in these and delta_q. Of subnormal loads h tau could be zero.
-    scale = 2.0 ** min(-math.frexp(np.abs(asked).max(initial=0.0))[1], 1000)
+    scale = 2.0 ** min(-math.frexp(np.abs(parameters).max(initial=0.0))[1], 1000)
     loads = np.zeros((3, step.n_v))
     loads[0, :n_a] = h * step.K_q @ (scale * step.delta_q_bar_a)
     loads[1, :n_a] = h * (scale * step.tau_a)
@@ -306,6 +306,8 @@ def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = No
     pushed = b > 0
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         push_out = scale * b[pushed] / norm.impulses(form.A[pushed])
-        wanted = float(max(norm.impulses(loads).max(), push_out.max(initial=0.0)))
+        scene_length = float(max(norm.impulses(loads).max(), push_out.max(initial=0.0)))
         length = norm.displacement(scale * delta_q)
-        return length / wanted if wanted else (0.0 if length == 0 else float("inf"))
+        if scene_length:
+            return length / scene_length
+        return 0.0 if length == 0 else float("inf")

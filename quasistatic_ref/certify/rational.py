@@ -221,18 +221,18 @@ def h_times_hessian(step: StepData) -> Dyadic:
     return block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
 
 
-def contact_motion(contacts: Contacts, of: Which = ALL) -> Dyadic:
+def contact_motion(contacts: Contacts, which: Which = ALL) -> Dyadic:
     """The motion along n, d1, d2 and spin per unit of delta_q, shape (n_c, 4, n_v), `of` some."""
-    J = dyadic(contacts.J[of])
-    axes = dyadic(np.stack([contacts.n[of], contacts.d1[of], contacts.d2[of]], axis=1))
+    J = dyadic(contacts.J[which])
+    axes = dyadic(np.stack([contacts.n[which], contacts.d1[which], contacts.d2[which]], axis=1))
     return joined([axes @ J[:, :3], J[:, 3:]], axis=1)
 
 
-def friction_rows(contacts: Contacts, name: str, of: Which = ALL) -> Dyadic:
+def friction_rows(contacts: Contacts, name: str, which: Which = ALL) -> Dyadic:
     """The rows n~' J + d~_i' J of Eq. :eq:`eq-4`, all of each contact, shape (n_c, R, n_v)."""
-    motion = contact_motion(contacts, of)
+    motion = contact_motion(contacts, which)
     kind = cone(name)
-    mu = dyadic(kind.in_rows(contacts.mu[of]))
+    mu = dyadic(kind.in_rows(contacts.mu[which]))
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
     mu_v = mu[:, :1, None]
     mu_omega = mu[:, 2:, None]

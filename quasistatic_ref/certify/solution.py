@@ -16,7 +16,7 @@ from quasistatic_ref.step.arrays import QUIET, read_only
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.files import step_sha256
 from quasistatic_ref.step.friction import contact_wrenches
-from quasistatic_ref.step.standard_form import load
+from quasistatic_ref.step.standard_form import linear_term
 
 UNKNOWN = "are not known: a step holds no costs, nonlinear constraints or smoothing"
 
@@ -193,7 +193,7 @@ class StepSolution(Plain, Shown):
         """
         norm = energy_norm(self.step.H)
         off = norm.displacement(self.delta_q - self.compliant.delta_q)
-        return off / norm.impulse(load(self.step)) if off else 0.0
+        return off / norm.impulse(linear_term(self.step)) if off else 0.0
 
     @cached_property
     def compliant(self) -> ContactForces:

@@ -28,6 +28,9 @@ from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.ordered import dot, norm, product, rotated
 from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
 
+FEW = 128
+"""Numbers that are sorted in less time than the smallest of them are searched for."""
+
 
 class ClosestPoints(NamedTuple):
     """Candidate contacts, in the world frame.
@@ -127,12 +130,11 @@ def closest(phi: Array, k: int) -> Indices:
     -------
     ndarray of int, shape (min(k, N),)
     """
-    if k < len(phi):
+    if k < len(phi) > FEW:
         # Only what can be among the k smallest is sorted; every tie stays in the running.
         candidates = np.flatnonzero(~(phi > np.partition(phi, k - 1)[k - 1]))
-    else:
-        candidates = np.arange(len(phi))
-    return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
+        return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
+    return phi.argsort(kind="stable")[:k]
 
 
 def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.motion import Motion
+from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array
@@ -22,15 +22,15 @@ class ContactGeometry:
     ----------
     layout : ContactLayout
         Which links the points belong to; 0 is the world.
-    motion : Motion
+    column_map : ColumnMap
         How the links move.
     """
 
-    def __init__(self, layout: ContactLayout, motion: Motion) -> None:
+    def __init__(self, layout: ContactLayout, column_map: ColumnMap) -> None:
         self.layout = layout
-        self.motion = motion
+        self.column_map = column_map
         # 1 where a column of J moves alpha's (first) or beta's link, else 0.
-        self.moves = motion.moves[np.stack([layout.link_alpha, layout.link_beta])]
+        self.moves = column_map.moves[np.stack([layout.link_alpha, layout.link_beta])]
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
         """The contacts of one step, from the closest points of all pairs.
@@ -76,7 +76,7 @@ class ContactGeometry:
         # [nu; n'omega] of alpha's body and of beta's
         of_alpha, of_beta = self.moves * columns_at(columns, np.array([alpha, beta]), n)
         f = of_beta - of_alpha  # Eq. (2): nu_beta - nu_alpha and n'(omega_beta - omega_alpha)
-        return self.motion.of_coordinates(f) + 0.0  # Eq. (3); zero is 0.0, never -0.0
+        return self.column_map.of_coordinates(f) + 0.0  # Eq. (3); zero is 0.0, never -0.0
 
 
 def columns_at(columns: Array, r: Array, n: Array) -> Array:
@@ -97,11 +97,13 @@ def columns_at(columns: Array, r: Array, n: Array) -> Array:
     """
     nu_origin = columns[:3]
     omega = columns[3:]
-    at = r[..., None]
-    found = np.empty((*r.shape[:-1], 4, columns.shape[1]))
-    found[..., :3, :] = nu_origin + (omega[YZX] * at[..., ZXY, :] - omega[ZXY] * at[..., YZX, :])
-    found[..., 3, :] = product(n, omega)
-    return found
+    J = np.empty((*r.shape[:-1], 4, columns.shape[1]))
+    r_yzx = r.take(YZX, axis=-1)[..., None]
+    r_zxy = r.take(ZXY, axis=-1)[..., None]
+    turning = omega.take(YZX, axis=0) * r_zxy - omega.take(ZXY, axis=0) * r_yzx
+    J[..., :3, :] = nu_origin + turning
+    J[..., 3, :] = product(n, omega)
+    return J
 
 
 def tangents(n: Array) -> tuple[Array, Array]:
@@ -144,7 +146,7 @@ def contact_jacobian(
     nothing = np.zeros(len(n))
     names = ("",) * len(n)
     layout = ContactLayout(names, link_alpha, link_beta, nothing, nothing, link_alpha)
-    if kinematics.motion is None:
+    if kinematics.column_map is None:
         raise ContactError("has no Jacobian, because no link moves", field="kinematics")
-    geometry = ContactGeometry(layout, kinematics.motion)
+    geometry = ContactGeometry(layout, kinematics.column_map)
     return geometry.jacobian(kinematics.columns, alpha, beta, n)

@@ -48,11 +48,11 @@ def pair_normal(name: str, a: ShapeInWorld, b: ShapeInWorld) -> tuple[Witness, i
         If the solids are as deep in each other along two normals, or have no trustworthy one.
     """
     (found, every), within = pair_and_gaps(name, a, b), rounding(a, b)
-    ways = tied_normals(a, b, found, within, every)
-    if len(ways) == 1:
+    normals = tied_normals(a, b, found, within, every)
+    if len(normals) == 1:
         return found, OWN
-    refuse_unless_touching(name, found.phi, ways, within)
-    n = mean_direction(ways)
+    refuse_unless_touching(name, found.phi, normals, within)
+    n = mean_direction(normals)
     phi = float(gaps(a._replace(t=a.t - b.t), b._replace(t=0 * b.t), n[None])[0])
     return Witness(phi, found.alpha, found.alpha + phi * n, n), BISECTOR
 
@@ -77,18 +77,18 @@ def tied_normals(
         Of two polytopes, all gaps (N,) [m] and normals (N, 3) [-].
     """
     shapes = (a.shape, b.shape)
-    own = found.n[None]
+    normal = found.n[None]
     if found.phi > within or any(isinstance(shape, HalfSpace) for shape in shapes):
-        return own
+        return normal
     if any(isinstance(shape, Sphere) for shape in shapes):
-        out, ways = _of_centre(a, b, found)
+        gaps_along, normals = _of_centre(a, b, found)
     elif all(isinstance(shape, Capsule) for shape in shapes):
         radii = sum(shape.radius for shape in shapes if isinstance(shape, Capsule))
-        out = np.array([-found.phi - 2 * radii])
-        ways = -own
+        gaps_along = np.array([-found.phi - 2 * radii])
+        normals = -normal
     else:
-        out, ways = _of_curved(a, b, found) if every is None else every
-    tied = distinct([*ways[out >= found.phi - within]])
+        gaps_along, normals = _of_curved(a, b, found) if every is None else every
+    tied = distinct([*normals[gaps_along >= found.phi - within]])
     if len(tied) > 1:
         return tied
     return distinct([found.n, *tied])
@@ -115,22 +115,22 @@ def gaps(a: ShapeInWorld, b: ShapeInWorld, directions: Array) -> Array:
     return -b.reach(-directions) - a.reach(directions)
 
 
-def distinct(ways: list[Array]) -> Array:
-    """Unit vectors `ways` (3,) [-] without those that are an earlier one again, shape (T, 3)."""
+def distinct(normals: list[Array]) -> Array:
+    """Unit vectors `normals` (3,) [-] without those that are an earlier one again, shape (T, 3)."""
     found: list[Array] = []
-    for way in ways:
-        if all(np.abs(way - other).max() > SAME_NORMAL for other in found):
-            found.append(way)
+    for normal in normals:
+        if all(np.abs(normal - other).max() > SAME_NORMAL for other in found):
+            found.append(normal)
     return np.array(found)
 
 
-def mean_direction(ways: Array) -> Array:
-    """The unit vector of the mean of `ways` (T, 3) [-]: of two, their bisector."""
-    mean = total(ways)
+def mean_direction(normals: Array) -> Array:
+    """The unit vector of the mean of `normals` (T, 3) [-]: of two, their bisector."""
+    mean = total(normals)
     return np.asarray(mean / norm(mean))
 
 
-def refuse_unless_touching(name: str, phi: float, ways: Array, within: float) -> None:
+def refuse_unless_touching(name: str, phi: float, normals: Array, within: float) -> None:
     """Refuse bodies that are as deep in each other along several normals, or along opposite ones.
 
     Parameters
@@ -138,8 +138,8 @@ def refuse_unless_touching(name: str, phi: float, ways: Array, within: float) ->
     name : str
         Of the pair.
     phi : float
-    ways : ndarray, shape (T, 3)
-        The normals, in the world frame [-].
+    normals : ndarray, shape (T, 3)
+        In the world frame [-].
     within : float
         What is rounding, TIED_FACES of the sizes and places [m].
 
@@ -148,10 +148,12 @@ def refuse_unless_touching(name: str, phi: float, ways: Array, within: float) ->
     ContactError
         If phi is not about zero, or the normals have no mean: a body is thinner than rounding.
     """
-    mean = total(ways)
+    mean = total(normals)
     opposite = dot(mean, mean) < SAME_NORMAL
     if opposite or phi < -TOUCHING_FACES / TIED_FACES * within:
-        one, other = (np.array2string(way + 0.0, precision=4, separator=", ") for way in ways[:2])
+        one, other = (
+            np.array2string(normal + 0.0, precision=4, separator=", ") for normal in normals[:2]
+        )
         raise ContactError(
             f"the bodies are as deep in each other along {one} as along {other}, {-phi:.3g} m: "
             "the normal is not defined; start them less deep along one of the two",

@@ -59,10 +59,10 @@ def npz_arrays(path: str | Path, what: str, only: str = "") -> dict[str, NDArray
     content = bytes_read(path)
     problem = f"is not {what}"
     with _readable(path, problem), zipfile.ZipFile(io.BytesIO(content)) as archive:
-        members = {_name(one, problem): one for one in _checked_sizes(archive)}
+        members = {_name(member, problem): member for member in _checked_sizes(archive)}
         return {
-            name: _array(archive.read(one), one.filename)
-            for name, one in members.items()
+            name: _array(archive.read(member), member.filename)
+            for name, member in members.items()
             if only in ("", name)
         }
 

@@ -63,8 +63,8 @@ def bits(value: Any) -> Any:
         compares itself.
     """
     if isinstance(value, Plain):
-        own = [f.name for f in _declared(value) if f.compare]
-        return value.compared_as(), tuple(bits(getattr(value, name)) for name in own)
+        compared = [f.name for f in _declared(value) if f.compare]
+        return value.compared_as(), tuple(bits(getattr(value, name)) for name in compared)
     if isinstance(value, np.ndarray):
         numbers = value + 0.0 if value.dtype.kind == "f" else value
         return value.dtype.str, value.shape, numbers.tobytes()

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from quasistatic_ref.model.motion import Motion
+from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import crossed
 
@@ -24,14 +24,14 @@ class Kinematics:
         One column for each degree of freedom of the joints, in the world frame: the spatial
         velocity of the body that the joint moves, per unit of the joint's coordinate. Rows 0-2:
         velocity of the body's point at the world's origin [m]; rows 3-5: angular velocity [rad].
-    motion : Motion, optional
+    column_map : ColumnMap, optional
         Which columns move a link; without it nothing moves.
     """
 
     R: Array
     t: Array
     columns: Array
-    motion: Motion | None = None
+    column_map: ColumnMap | None = None
 
     @cached_property
     def J(self) -> Array:
@@ -40,8 +40,8 @@ class Kinematics:
         Rows 0-2: velocity of the link's origin, rows 3-5: angular velocity, both in the world
         frame, per unit of delta_q.
         """
-        if self.motion is None:
+        if self.column_map is None:
             return np.zeros((len(self.t), 6, 0))
-        J = self.motion.of_coordinates(self.columns * self.motion.moves)
+        J = self.column_map.of_coordinates(self.columns * self.column_map.moves)
         J[:, :3] += crossed(J[:, 3:], self.t[:, :, None])  # nu + omega x t
         return J

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.coordinates import Coordinate, Joint, joint_key
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.step.arrays import Array, Mask, read_only
 from quasistatic_ref.step.ordered import crossed, dot, rotated
+from quasistatic_ref.step.pivots import positive_pivots
 
 
 class MassMatrix:
@@ -27,7 +28,7 @@ class MassMatrix:
 
     Parameters
     ----------
-    motion : Motion
+    column_map : ColumnMap
     n_a : int
     masses : ndarray, shape (L,)
         [kg]
@@ -43,7 +44,7 @@ class MassMatrix:
 
     def __init__(
         self,
-        motion: Motion,
+        column_map: ColumnMap,
         n_a: int,
         masses: Array,
         centres: Array,
@@ -51,14 +52,14 @@ class MassMatrix:
         known: Array,
         constant: Mask,
     ) -> None:
-        self.n_u = motion.n_v - n_a
+        self.n_u = column_map.n_v - n_a
         self.known = read_only(known)
-        free = (motion.owner >= n_a) & ~constant[motion.owner]
+        unactuated = (column_map.owner >= n_a) & ~constant[column_map.owner]
         # Each link once for each column that moves it.
-        self.link, self.column = np.nonzero((motion.moves[:, 0] > 0) & free)
+        self.link, self.column = np.nonzero((column_map.moves[:, 0] > 0) & unactuated)
         self.centre = centres[self.link]
         self.inertia = inertias[self.link]
-        owner = motion.owner[self.column] - n_a
+        owner = column_map.owner[self.column] - n_a
         # Two columns of a link at a time, for the entries on the diagonal and above it. A joint and
         # its mimic have one coordinate: both orders of their columns count in the same entry.
         of_links = np.split(np.arange(len(owner)), np.flatnonzero(np.diff(self.link)) + 1)
@@ -90,41 +91,41 @@ class MassMatrix:
 
 def mass_matrix(
     model: Any,
-    free: Sequence[Joint],
+    unactuated: Sequence[Joint],
     at: Kinematics,
     n_a: int,
     inertias: tuple[Array, Array, Array],
 ) -> MassMatrix:
-    """The M_u of a model with un-actuated joints `free`.
+    """The M_u of a model with un-actuated joints `unactuated`.
 
     Parameters
     ----------
     model : pinocchio.Model
-    free : sequence of Joint
+    unactuated : sequence of Joint
     at : Kinematics
-        Of any configuration, with their motion.
+        Of any configuration, with their columns.
     n_a : int
     inertias : tuple of ndarray, shapes (L,), (L, 3) and (L, 3, 3)
         Masses, centres and inertias of the links, as in :class:`MassMatrix` [kg, m, kg m^2].
     """
-    motion = at.motion
-    assert motion is not None
-    n_u = motion.n_v - n_a
-    constant = np.zeros(motion.n_v, dtype=bool)
-    whole = MassMatrix(motion, n_a, *inertias, np.zeros((n_u, n_u)), constant).at(at)
+    column_map = at.column_map
+    assert column_map is not None
+    n_u = column_map.n_v - n_a
+    constant = np.zeros(column_map.n_v, dtype=bool)
+    full_matrix = MassMatrix(column_map, n_a, *inertias, np.zeros((n_u, n_u)), constant).at(at)
     known = np.zeros((n_u, n_u))
-    for joint in free:
-        own = (joint.v.start <= motion.owner) & (motion.owner < joint.v.stop)
-        moved = (motion.moves[:, 0, own] > 0).any(axis=1)
-        shared = (motion.moves[moved][:, 0, (motion.owner >= n_a) & ~own] > 0).any()
-        mimicked = np.count_nonzero(own) > joint.v.stop - joint.v.start
+    for joint in unactuated:
+        of_joint = (joint.v.start <= column_map.owner) & (column_map.owner < joint.v.stop)
+        moved = (column_map.moves[:, 0, of_joint] > 0).any(axis=1)
+        shared = (column_map.moves[moved][:, 0, (column_map.owner >= n_a) & ~of_joint] > 0).any()
+        mimicked = np.count_nonzero(of_joint) > joint.v.stop - joint.v.start
         if shared or mimicked or not moves_alone(model, joint):
             continue
         constant[joint.v] = True
         block = (slice(joint.v.start - n_a, joint.v.stop - n_a),) * 2
         floating = joint.kind == "floating"
-        known[block] = rigid_masses(model, [joint])[0] if floating else whole[block]
-    return MassMatrix(motion, n_a, *inertias, known, constant)
+        known[block] = rigid_masses(model, [joint])[0] if floating else full_matrix[block]
+    return MassMatrix(column_map, n_a, *inertias, known, constant)
 
 
 def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:
@@ -133,13 +134,13 @@ def rigid_masses(model: Any, joints: Sequence[Joint]) -> Array:
     return np.array(masses).reshape(-1, 6, 6) + 0.0  # never -0.0
 
 
-def constant_mass(model: Any, free: Sequence[Joint]) -> bool:
+def constant_mass(model: Any, unactuated: Sequence[Joint]) -> bool:
     """Whether M_u is the same at every q: every un-actuated joint is a lone rigid body's base.
 
     The mass matrix of a free rigid body is constant in the body's own frame, unless a moving joint
     connects another link to the body.
     """
-    return all(joint.kind == "floating" and moves_alone(model, joint) for joint in free)
+    return all(joint.kind == "floating" and moves_alone(model, joint) for joint in unactuated)
 
 
 def moves_alone(model: Any, joint: Joint) -> bool:
@@ -147,23 +148,14 @@ def moves_alone(model: Any, joint: Joint) -> bool:
     return model.getJointId(joint_key(joint.name)) not in list(model.parents)
 
 
-def regular(M: Array) -> bool:
-    """Whether each matrix M, shape (..., n, n) [any unit], has a Cholesky factor in float64."""
-    try:
-        np.linalg.cholesky(M)
-    except np.linalg.LinAlgError:
-        return False
-    return True
-
-
-def check_mass(M_u: Array, free: Sequence[Coordinate], bodies: Iterable[str]) -> None:
+def check_mass(M_u: Array, coordinates: Sequence[Coordinate], bodies: Iterable[str]) -> None:
     """Refuse a body whose M_u is singular: Eq. :eq:`eq-13` needs it positive definite.
 
     Parameters
     ----------
     M_u : ndarray, shape (n_u, n_u)
         [kg, kg m, kg m^2].
-    free : sequence of Coordinate, length n_u
+    coordinates : sequence of Coordinate, length n_u
         The un-actuated ones.
     bodies : iterable of str
 
@@ -172,11 +164,11 @@ def check_mass(M_u: Array, free: Sequence[Coordinate], bodies: Iterable[str]) ->
     ModelError
     """
     for body in bodies:
-        own = [k for k, c in enumerate(free) if c.name.startswith(f"{body}/")]
-        if not regular(M_u[np.ix_(own, own)]):
+        indices = [k for k, c in enumerate(coordinates) if c.name.startswith(f"{body}/")]
+        if not positive_pivots(M_u[np.ix_(indices, indices)]):
             problem = (
                 "its mass matrix M_u is singular in float64 at the start: an un-actuated "
                 "coordinate moves next to no mass"
             )
-            names = [free[k].name for k in own]
+            names = [coordinates[k].name for k in indices]
             raise ModelError(problem, field=body, value=names)

@@ -9,6 +9,7 @@ divided by a power of a, are wrong by 5e-13 of themselves at 2e-4 rad, those of 
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from quasistatic_ref.model.angles import angle_of, cos_sin
 from quasistatic_ref.model.coordinates import Joint
@@ -29,15 +30,20 @@ def moved(joint: Joint, q: list[float], delta_q: list[float]) -> list[float]:
     q : list of n_q floats
     delta_q : list of n_v floats
     """
-    here = q[joint.q]
-    own = delta_q[joint.v]
+    q_joint = q[joint.q]
+    increment = delta_q[joint.v]
     if joint.kind == "continuous":
-        return _heading(here, own[0])
+        return _heading(q_joint, increment[0])
     if joint.kind == "planar":
-        v = [own[0], own[1], 0.0]
-        w = [0.0, 0.0, own[2]]
-        return [*_carried(joint, here, v, w)[:2], *_heading(here[2:], own[2])]
-    return [*_carried(joint, here, own[:3], own[3:]), *_quaternion(here[3:], own[3:])]
+        v = [increment[0], increment[1], 0.0]
+        w = [0.0, 0.0, increment[2]]
+        t = translation(v, w, half_turn(w))
+        return [*_carried(joint, q_joint, t)[:2], *_heading(q_joint[2:], increment[2])]
+    v = increment[:3]
+    w = increment[3:]
+    half = half_turn(w)
+    t = translation(v, w, half)
+    return [*_carried(joint, q_joint, t), *_quaternion(q_joint[3:], w, half)]
 
 
 def change(joint: Joint, q: list[float], q_next: list[float]) -> list[float]:
@@ -48,23 +54,46 @@ def change(joint: Joint, q: list[float], q_next: list[float]) -> list[float]:
     joint : Joint
     q, q_next : list of n_q floats
     """
-    here = q[joint.q]
-    there = q_next[joint.q]
+    q_joint = q[joint.q]
+    q_joint_next = q_next[joint.q]
     if joint.kind == "continuous":
-        return [_turn(here, there)]
+        return [_turn(q_joint, q_joint_next)]
     planar = joint.kind == "planar"
-    z = 0.0 if planar else there[2] - here[2]
-    apart = [there[0] - here[0], there[1] - here[1], z]
-    columns = zip(*_rotation(joint, here), strict=True)  # of R: the base's own axes in the world
-    own = [dot(axis, apart) for axis in columns]
+    z = 0.0 if planar else q_joint_next[2] - q_joint[2]
+    apart = [q_joint_next[0] - q_joint[0], q_joint_next[1] - q_joint[1], z]
+    columns = zip(*_rotation(joint, q_joint), strict=True)  # of R: the base's own axes in the world
+    displacement = [dot(axis, apart) for axis in columns]
     if planar:
-        angle = _turn(here[2:], there[2:])
-        return [*linear_part(own, [0.0, 0.0, angle])[:2], angle]
-    w, a, twice = _rotation_between(here[3:], there[3:])
-    return [*_combined(own, w, a, -0.5, twice), *w]
+        angle = _turn(q_joint[2:], q_joint_next[2:])
+        return [*linear_part(displacement, [0.0, 0.0, angle])[:2], angle]
+    w, a, twice = _rotation_between(q_joint[3:], q_joint_next[3:])
+    return [*_combined(displacement, w, a, -0.5, twice), *w]
 
 
-def translation(v: Vector, w: Vector) -> list[float]:
+class HalfTurn(NamedTuple):
+    """Half of a turn by an angle a.
+
+    Parameters
+    ----------
+    angle : float
+        a [rad], all of it.
+    C, ratio : float
+        cos(a / 2) and sin(a / 2) / (a / 2) [-].
+    """
+
+    angle: float
+    C: float
+    ratio: float
+
+
+def half_turn(w: Vector) -> HalfTurn:
+    """Half of the turn by |w|, of 3 floats [rad]."""
+    a = length(w)
+    C, S = cos_sin(a / 2)
+    return HalfTurn(a, C, S / (a / 2) if a / 2 else 1.0)
+
+
+def translation(v: Vector, w: Vector, half: HalfTurn) -> list[float]:
     """Translation of exp6 of a twist, in the frame that it starts from [m].
 
     V v = v + (1 - cos a) / a^2 w x v + (1 - sin a / a) e x (e x v), with a = |w| and e = w / a.
@@ -73,10 +102,11 @@ def translation(v: Vector, w: Vector) -> list[float]:
     ----------
     v, w : sequence of 3 floats
         Linear [m] and angular [rad] part of the twist.
+    half : HalfTurn
+        Of w.
     """
-    a = length(w)
-    C, half = _half(a)
-    return _combined(v, w, a, half * half / 2, 1 - half * C)  # sin a = 2 sin(a/2) cos(a/2)
+    a, C, ratio = half
+    return _combined(v, w, a, ratio * ratio / 2, 1 - ratio * C)  # sin a = 2 sin(a/2) cos(a/2)
 
 
 def linear_part(t: Vector, w: Vector) -> list[float]:
@@ -89,9 +119,8 @@ def linear_part(t: Vector, w: Vector) -> list[float]:
     t, w : sequence of 3 floats
         Translation [m] and rotation vector [rad].
     """
-    a = length(w)
-    C, half = _half(a)
-    return _combined(t, w, a, -0.5, 1 - C / half)
+    a, C, ratio = half_turn(w)
+    return _combined(t, w, a, -0.5, 1 - C / ratio)
 
 
 def dot(w: Vector, v: Vector) -> float:
@@ -105,12 +134,6 @@ def length(w: Vector) -> float:
     return math.sqrt(dot(w, w))
 
 
-def _half(a: float) -> tuple[float, float]:
-    """Cosine of a / 2, and its sine divided by a / 2."""
-    C, S = cos_sin(a / 2)
-    return C, S / (a / 2) if a / 2 else 1.0
-
-
 def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> list[float]:
     """Sum of v, once w x v and twice e x (e x v), where w = a e; the last is (e . v) e - v."""
     (x, y, z), (p, q, r), rest = v, w, 1 - twice
@@ -122,20 +145,19 @@ def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> list
     ]
 
 
-def _carried(joint: Joint, here: list[float], v: Vector, w: Vector) -> list[float]:
-    """Where a base is that starts here and is carried by a twist, 3 numbers [m]."""
-    t = translation(v, w)
-    rows = zip(here, _rotation(joint, here), strict=False)  # the quaternion comes after
+def _carried(joint: Joint, q_joint: list[float], t: Vector) -> list[float]:
+    """Where a base is that starts here and is carried by a translation of its own, 3 floats [m]."""
+    rows = zip(q_joint, _rotation(joint, q_joint), strict=False)  # the quaternion comes after
     return [at + dot(row, t) for at, row in rows]
 
 
-def _quaternion(here: Vector, w: Vector) -> list[float]:
+def _quaternion(q_joint: Vector, w: Vector, half: HalfTurn) -> list[float]:
     """A quaternion times that of a rotation vector, of length one; without a turn as it is."""
-    C, half = _half(length(w))
-    p, q, r = (half / 2 * part for part in w)
+    _, C, ratio = half
+    p, q, r = (ratio / 2 * part for part in w)
     if p == q == r == 0:
-        return [*here]
-    x, y, z, s = here
+        return [*q_joint]
+    x, y, z, s = q_joint
     product = [
         s * p + x * C + y * r - z * q,
         s * q + y * C + z * p - x * r,
@@ -147,10 +169,10 @@ def _quaternion(here: Vector, w: Vector) -> list[float]:
     return [shorter * part for part in product]
 
 
-def _rotation_between(here: Vector, there: Vector) -> tuple[list[float], float, float]:
+def _rotation_between(q_joint: Vector, q_joint_next: Vector) -> tuple[list[float], float, float]:
     """What turns one quaternion into another: w, a = |w| <= pi [rad], and 1 - (a/2) cot(a/2)."""
-    x, y, z, s = here
-    p, q, r, k = there
+    x, y, z, s = q_joint
+    p, q, r, k = q_joint_next
     v = [
         s * p - x * k - y * r + z * q,
         s * q - y * k - z * p + x * r,
@@ -165,11 +187,11 @@ def _rotation_between(here: Vector, there: Vector) -> tuple[list[float], float, 
     return [scale * part for part in v], 2 * b, 1 - ratio * C if S else 0.0
 
 
-def _heading(here: Vector, angle: float) -> list[float]:
+def _heading(q_joint: Vector, angle: float) -> list[float]:
     """(cos, sin) turned by an angle, of length one; without a turn as it is."""
     if angle == 0:
-        return [*here]
-    (c, s), (C, S) = here, cos_sin(angle / 2)
+        return [*q_joint]
+    (c, s), (C, S) = q_joint, cos_sin(angle / 2)
     cosine = 1 - 2 * (S * S)
     sine = 2 * (S * C)
     x = c * cosine - s * sine
@@ -178,12 +200,12 @@ def _heading(here: Vector, angle: float) -> list[float]:
     return [shorter * x, shorter * y]
 
 
-def _rotation(joint: Joint, here: list[float]) -> list[list[float]]:
+def _rotation(joint: Joint, q_joint: list[float]) -> list[list[float]]:
     """Rows of the rotation matrix of a base, from its entries of q."""
     if joint.kind == "planar":
-        c, s = here[2:]
+        c, s = q_joint[2:]
         return [[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]
-    x, y, z, w = here[3:]
+    x, y, z, w = q_joint[3:]
     return [
         [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],

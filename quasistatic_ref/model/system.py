@@ -20,6 +20,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.configuration import configuration
 from quasistatic_ref.model.coordinates import Coordinate, Joint, of_shape, paper_order
 from quasistatic_ref.model.kinematics import Kinematics
@@ -28,14 +29,13 @@ from quasistatic_ref.model.mass import (
     check_mass,
     constant_mass,
     mass_matrix,
-    regular,
     rigid_masses,
 )
-from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.model.workspace import Workspace
 from quasistatic_ref.model.world import World, world_of
 from quasistatic_ref.step.arrays import Array, read_only, whole
 from quasistatic_ref.step.ordered import product
+from quasistatic_ref.step.pivots import positive_pivots
 
 __all__ = ["Body", "Kinematics", "System"]
 
@@ -69,7 +69,7 @@ class System(Shown):
         Each link's centre of mass, in its frame [m].
     inertias : ndarray, shape (L, 3, 3)
         About each link's centre of mass, along the axes of its frame [kg m^2].
-    motion : Motion
+    column_map : ColumnMap
         How links move with the coordinates.
     constant_mass_matrix : bool
         Whether M_u is the same array at every q: un-actuated joints are bases of rigid bodies.
@@ -151,17 +151,17 @@ class System(Shown):
         self.n_u = self.n_v - self.n_a
         self.n_q_a = sum(joint.q.stop - joint.q.start for joint in self.joints if joint.actuated)
         self.q_start = read_only(self._order.paper_q(world.start))
-        self.motion = Motion(self._model, world.frames, self._order)
-        free = [joint for joint in self.joints if not joint.actuated]
-        self.constant_mass_matrix = constant_mass(self._model, free)
+        self.column_map = ColumnMap(self._model, world.frames, self._order)
+        unactuated = [joint for joint in self.joints if not joint.actuated]
+        self.constant_mass_matrix = constant_mass(self._model, unactuated)
         self._mass: MassMatrix | None = None  # if M_u is constant
         if not self.constant_mass_matrix:
             inertias = (self.masses, self.centres, self.inertias)
             at = self.kinematics(self.neutral())
-            self._mass = mass_matrix(self._model, free, at, self.n_a, inertias)
-            free = []
-        self.mass_blocks = read_only(rigid_masses(self._model, free))
-        if not (self.constant_mass_matrix and regular(self.mass_blocks)):
+            self._mass = mass_matrix(self._model, unactuated, at, self.n_a, inertias)
+            unactuated = []
+        self.mass_blocks = read_only(rigid_masses(self._model, unactuated))
+        if not (self.constant_mass_matrix and positive_pivots(self.mass_blocks)):
             check_mass(self.M_u(self.q_start), self.coordinates[self.n_a :], self._roots)
 
     def workspace(self) -> Workspace:
@@ -281,7 +281,7 @@ class System(Shown):
         at = np.asarray(q, dtype=np.float64).tobytes()
         if self._latest is None or self._latest[0] != at:
             poses = self._workspace.poses(self._order.model_q(q))
-            self._latest = at, Kinematics(*poses, self.motion)
+            self._latest = at, Kinematics(*poses, self.column_map)
         return self._latest[1]
 
     def centre_of_mass_force(

@@ -29,7 +29,7 @@ class Part(NamedTuple):
     model, data : pinocchio.Model, pinocchio.Data
     R, t : list of ndarray, shapes (3, 3) and (3,)
         Poses of the links of these bodies: views of the workspace, which pinocchio overwrites.
-    of : slice or ndarray of int
+    entries : slice or ndarray of int
         For each entry of the part's own q, the entry of the whole q that it is, or is made of.
     turns : list of int
         Where in the part's own q the cosines of revolute joints are; their sines follow.
@@ -39,15 +39,15 @@ class Part(NamedTuple):
     data: Any
     R: list[Array]
     t: list[Array]
-    of: slice | Indices
+    entries: slice | Indices
     turns: list[int]
 
-    def own(self, q: Array) -> Array:
+    def part_q(self, q: Array) -> Array:
         """The part's own q, from the whole, shape (n_q,)."""
-        own: Array = q[self.of]
+        q_part: Array = q[self.entries]
         for i in self.turns:
-            own[i], own[i + 1] = cos_sin(float(own[i]))
-        return own
+            q_part[i], q_part[i + 1] = cos_sin(float(q_part[i]))
+        return q_part
 
 
 class Workspace:
@@ -55,7 +55,7 @@ class Workspace:
 
     Parameters
     ----------
-    whole : pinocchio.Model
+    all_bodies : pinocchio.Model
         All bodies.
     models : sequence of pinocchio.Model
         Of groups of bodies, in the order in which the whole model has them, with cosine and sine in
@@ -64,7 +64,7 @@ class Workspace:
         Of the links of each group.
     """
 
-    def __init__(self, whole: Any, models: Sequence[Any], frames: Sequence[list[int]]) -> None:
+    def __init__(self, all_bodies: Any, models: Sequence[Any], frames: Sequence[list[int]]) -> None:
         self.parts: list[Part] = []
         before = 0
         for model, links in zip(models, frames, strict=True):
@@ -73,7 +73,7 @@ class Workspace:
             placements = [data.oMf[link] for link in links]
             R = [p.rotation for p in placements]
             t = [p.translation for p in placements]
-            self.parts.append(Part(model, data, R, t, *_entries(whole, model, before)))
+            self.parts.append(Part(model, data, R, t, *_entries(all_bodies, model, before)))
             before += model.njoints - 1
         self._turns = any(part.turns for part in self.parts)
         self._at: tuple[bytes, list[Array]] | None = None
@@ -82,17 +82,17 @@ class Workspace:
 
     def move(self, q: Array) -> None:
         """Have pinocchio write the poses and the columns at q, shape (n_q,), into the parts."""
-        for part, own in zip(self.parts, self._own(q), strict=True):
-            pin.computeJointJacobians(part.model, part.data, own)
+        for part, q_part in zip(self.parts, self._part_qs(q), strict=True):
+            pin.computeJointJacobians(part.model, part.data, q_part)
             pin.updateFramePlacements(part.model, part.data)
 
-    def _own(self, q: Array) -> list[Array]:
+    def _part_qs(self, q: Array) -> list[Array]:
         """Each part's own q, kept for the next call at the same q."""
         if not self._turns:
-            return [q[part.of] for part in self.parts]
+            return [q[part.entries] for part in self.parts]
         at = q.tobytes()
         if self._at is None or self._at[0] != at:
-            self._at = at, [part.own(q) for part in self.parts]
+            self._at = at, [part.part_q(q) for part in self.parts]
         return self._at[1]
 
     def poses(self, q: Array) -> tuple[Array, Array, Array]:
@@ -109,10 +109,10 @@ class Workspace:
             t += part.t
             columns.append(part.data.J.reshape(6, -1))  # a single column comes as a vector
         all_columns = columns[0].copy() if len(columns) == 1 else np.hstack([self._none, *columns])
-        found = np.array(R), np.array(t), all_columns
-        for array in found:
+        arrays = np.array(R), np.array(t), all_columns
+        for array in arrays:
             array.setflags(write=False)
-        return found
+        return arrays
 
     def gravity_torque(self, q: Array, gravity: tuple[float, ...]) -> Array:
         """What stands for gravity on the left of M dv + g = tau, shape (n_v,) [N, N m].
@@ -124,23 +124,23 @@ class Workspace:
                 part.model.gravity.linear = np.array(gravity)
             self._gravity = gravity
         torques: list[Array] = [
-            pin.computeGeneralizedGravity(part.model, part.data, own)
-            for part, own in zip(self.parts, self._own(q), strict=True)
+            pin.computeGeneralizedGravity(part.model, part.data, q_part)
+            for part, q_part in zip(self.parts, self._part_qs(q), strict=True)
         ]
         return torques[0] if len(torques) == 1 else np.concatenate([self._none[0], *torques])
 
 
-def _entries(whole: Any, model: Any, before: int) -> tuple[slice | Indices, list[int]]:
-    """Fields `of` and `turns` of a part, whose joints are in the whole after `before` others."""
-    of = np.zeros(model.nq, dtype=np.int64)
+def _entries(all_bodies: Any, model: Any, before: int) -> tuple[slice | Indices, list[int]]:
+    """Fields `entries` and `turns` of a part, whose joints come after `before` others."""
+    entries = np.zeros(model.nq, dtype=np.int64)
     turns = []
     for joint in range(1, model.njoints):
         start = model.idx_qs[joint]
         size = model.nqs[joint]
-        there = whole.idx_qs[joint + before] + np.arange(size)
-        if size > whole.nqs[joint + before]:
+        sources = all_bodies.idx_qs[joint + before] + np.arange(size)
+        if size > all_bodies.nqs[joint + before]:
             turns.append(start)
-            there[1] = there[0]
-        of[start : start + size] = there
-    first = int(of.min(initial=whole.nq))
-    return of if turns else slice(first, first + model.nq), turns
+            sources[1] = sources[0]
+        entries[start : start + size] = sources
+    first = int(entries.min(initial=all_bodies.nq))
+    return entries if turns else slice(first, first + model.nq), turns

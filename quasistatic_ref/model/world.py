@@ -244,7 +244,7 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
     """Joints with coordinates of one body, each with its start."""
     kinds = {} if urdf.base == "fixed" else {BASE: urdf.base}
     kinds |= {j.name: j.kind for j in urdf.file.joints if j.kind != "fixed" and j.mimic is None}
-    found = []
+    joints = []
     for name, kind in kinds.items():
         joint = model.joints[model.getJointId(joint_key(f"{body.name}/{name}"))]
         position = body.positions.get(name, 0.0)
@@ -263,8 +263,8 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
         q = slice(joint.idx_q, joint.idx_q + joint.nq)
         v = slice(joint.idx_v, joint.idx_v + joint.nv)
         limits = _limits(model, joint) if kind in ("revolute", "prismatic") else None
-        found.append((Joint(f"{body.name}/{name}", kind, actuated, q, v, limits), start))
-    return found
+        joints.append((Joint(f"{body.name}/{name}", kind, actuated, q, v, limits), start))
+    return joints
 
 
 def _limits(model: Any, joint: Any) -> tuple[float, float] | None:

@@ -97,8 +97,8 @@ class BodyEntry(Plain):
 
     def actuated(self, system: System) -> list[Joint]:
         """The actuated joints of this body, in the order of q."""
-        own = f"{self.body.name}/"
-        return [j for j in system.joints if j.actuated and j.name.startswith(own)]
+        prefix = f"{self.body.name}/"
+        return [j for j in system.joints if j.actuated and j.name.startswith(prefix)]
 
     def short(self, joint: Joint) -> str:
         """A joint's name without the body's."""
@@ -122,7 +122,7 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     xyz, rpy = pose(value(table, BODY, "pose"))
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names()}
-    folders = [folder / given for given in value(table, BODY, "package_dirs")]
+    folders = [folder / folder_name for folder_name in value(table, BODY, "package_dirs")]
     moved = "gravity_compensated" in table
     if moved and not actuated:
         raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
@@ -172,16 +172,16 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
         raise table.fail("K_q", f"is missing for {', '.join(entry.short(j) for j in joints)}")
     if isinstance(entry.K_q, list):
         index = np.array([i for j in joints for i in range(j.v.start, j.v.stop)], dtype=np.int64)
-        whole = Fields({"K_q": entry.K_q}, table.where, ScenarioError)
-        block = whole.array("K_q", (len(index), len(index)))
+        wrapped = Fields({"K_q": entry.K_q}, table.where, ScenarioError)
+        block = wrapped.array("K_q", (len(index), len(index)))
         positive_definite(table.name("K_q"), block)  # refused here rather than in the first step
         K_q[np.ix_(index, index)] = block
         return
-    given = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
-    given.only(entry.short(joint) for joint in joints)
+    stiffnesses = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
+    stiffnesses.only(entry.short(joint) for joint in joints)
     for joint in joints:
-        block = _joint_stiffness(given, entry.short(joint), joint)
-        positive_definite(given.name(entry.short(joint)), block)
+        block = _joint_stiffness(stiffnesses, entry.short(joint), joint)
+        positive_definite(stiffnesses.name(entry.short(joint)), block)
         K_q[joint.v, joint.v] = block
 
 
@@ -229,17 +229,17 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
     ]
 
 
-def _joint_stiffness(given: Fields, name: str, joint: Joint) -> Array:
+def _joint_stiffness(stiffnesses: Fields, name: str, joint: Joint) -> Array:
     n = joint.v.stop - joint.v.start
-    value = given.take(name)
-    wrapped = Fields({name: value}, given.where, ScenarioError)
+    value = stiffnesses.take(name)
+    wrapped = Fields({name: value}, stiffnesses.where, ScenarioError)
     if not isinstance(value, list):
         return wrapped.number(name, above=0.0) * np.eye(n)
     if value and isinstance(value[0], list):
         return wrapped.array(name, (n, n))
     diagonal = wrapped.array(name, (n,))
     if not (diagonal > 0).all():
-        raise given.fail(name, "must be greater than 0 in every entry", value)
+        raise stiffnesses.fail(name, "must be greater than 0 in every entry", value)
     return np.diag(diagonal)
 
 
@@ -276,12 +276,12 @@ def _wrenches(name: str, table: Fields) -> Wrenches | None:
     times = []
     values = []
     for i, record in enumerate(value(table, BODY, "wrenches")):
-        one = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
-        check_names(one, WRENCH)
-        times.append(value(one, WRENCH, "t"))
-        if not {"force", "torque"} & set(one.names()):
+        entry = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
+        check_names(entry, WRENCH)
+        times.append(value(entry, WRENCH, "t"))
+        if not {"force", "torque"} & set(entry.names()):
             raise table.fail(f"wrenches[{i}]", "holds neither force nor torque", record)
-        values.append(np.concatenate([value(one, WRENCH, key) for key in ("force", "torque")]))
+        values.append(np.concatenate([value(entry, WRENCH, key) for key in ("force", "torque")]))
     if not times:
         return None
     if not (np.diff(times) > 0).all():

@@ -30,11 +30,13 @@ def check_names(table: Fields, kind: str) -> None:
         Naming the nearest name of the table; or, if only another kind of table holds one that is
         near, that one and its table.
     """
-    own = TABLES[kind]
+    known = TABLES[kind]
     for name in table.names():
-        if name not in own:
-            near = nearest_name(name, own) or _inside(name, table) or _elsewhere(name, kind)
-            raise table.fail(name, f"is unknown{near or ';'} {known_names(own)}", table.take(name))
+        if name not in known:
+            near = nearest_name(name, known) or _inside(name, table) or _elsewhere(name, kind)
+            raise table.fail(
+                name, f"is unknown{near or ';'} {known_names(known)}", table.take(name)
+            )
 
 
 def _inside(name: str, table: Fields) -> str:
@@ -68,8 +70,8 @@ def check_made(made: Collection[tuple[str, str]], tables: dict[str, Any]) -> Non
     """
     for kind, name in made:
         if kind in NAMED and NAMED[kind] not in tables[kind][name]:
-            there = [other for other in tables[kind] if (kind, other) not in made]
-            near = f"{nearest_name(name, there) or ';'} {known_names(there)}"
+            existing = [other for other in tables[kind] if (kind, other) not in made]
+            near = f"{nearest_name(name, existing) or ';'} {known_names(existing)}"
             raise ScenarioError(f"is not a table of this file{near}", field=f"{kind}.{name}")
 
 

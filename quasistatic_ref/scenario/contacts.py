@@ -107,11 +107,11 @@ def contact_pairs(tables: Fields, shapes: Shapes, start: Kinematics) -> tuple[Co
         mu_omega = value(table, CONTACT, "mu_omega", 0.0 if rows == 4 else REQUIRED)
         if rows == 4 and mu_omega > 0:
             raise table.fail("mu_omega", "does nothing with rows = 4; use 6, or leave it", mu_omega)
-        given = value(table, CONTACT, "k")
-        within = _within(given, table.name("k"))
+        k_given = value(table, CONTACT, "k")
+        within = _within(k_given, table.name("k"))
         k = 1
         if within is None:
-            k = Fields({"k": given}, table.where, ScenarioError).integer("k", least=1)
+            k = Fields({"k": k_given}, table.where, ScenarioError).integer("k", least=1)
         hull = value(table, CONTACT, "hull")
         for alpha in sides[0]:
             for beta in sides[1]:
@@ -126,51 +126,51 @@ def contact_pairs(tables: Fields, shapes: Shapes, start: Kinematics) -> tuple[Co
     return tuple(pairs)
 
 
-def _within(given: Any, where: str) -> float | None:
+def _within(k_given: Any, where: str) -> float | None:
     """The distance [m] of a k such as ``{ within = "5 mm" }``; None of anything but a table."""
-    if not isinstance(given, dict):
+    if not isinstance(k_given, dict):
         return None
-    table = Fields(given, where, ScenarioError)
+    table = Fields(k_given, where, ScenarioError)
     check_names(table, WITHIN)
     text = table.take("within")
-    found = re.fullmatch(r" *(\d[\d.eE-]*) *([a-z]+) *", text if isinstance(text, str) else "")
-    if found is None or found[2] not in METRES:
+    length = re.fullmatch(r" *(\d[\d.eE-]*) *([a-z]+) *", text if isinstance(text, str) else "")
+    if length is None or length[2] not in METRES:
         raise table.fail("within", f"must be a length in {', '.join(METRES)}, as '5 mm'", text)
     with about_field(table.name("within")):
-        return decimal(found[1]) * METRES[found[2]]
+        return decimal(length[1]) * METRES[length[2]]
 
 
 def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
     given = value(table, CONTACT, key)
-    found: list[PlacedShape] = []
+    placed: list[PlacedShape] = []
     for name in given if isinstance(given, list) else [given]:
         if not isinstance(name, str):
             raise table.fail(key, "must be a name or a list of names", given)
         if any(c in name for c in "*?["):
-            found += _matching(table, key, name, shapes)
+            placed += _matching(table, key, name, shapes)
             continue
         if name not in shapes:
             raise table.fail(key, f"names nothing here{suggestion(name, shapes)}", name)
         if not shapes[name]:
             raise table.fail(key, "has no collision shape; add one, or give a cloud", name)
-        found += shapes[name]
-    if not found:
+        placed += shapes[name]
+    if not placed:
         raise table.fail(key, "must name at least one shape", given)
-    names = [shape.name for shape in found]
+    names = [shape.name for shape in placed]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise table.fail(key, f"names {twice} twice: its friction would count twice", given)
-    return found
+    return placed
 
 
 def _matching(table: Fields, key: str, pattern: str, shapes: Shapes) -> list[PlacedShape]:
     """Shapes of all links that a pattern matches, in the order of the links."""
-    single = {shape.name for found in shapes.values() for shape in found}
+    single = {shape.name for matched in shapes.values() for shape in matched}
     links = [name for name in shapes if "/" in name and name not in single]
     names = [name for name in links if fnmatchcase(name, pattern)]
     if not names:
         raise table.fail(key, "matches no link; a pattern looks like 'hand/*'", pattern)
-    found = [shape for name in names for shape in shapes[name]]
-    if not found:
+    matched = [shape for name in names for shape in shapes[name]]
+    if not matched:
         raise table.fail(key, "matches no link with a collision shape", pattern)
-    return found
+    return matched

@@ -35,7 +35,7 @@ def apply_settings(
     ScenarioError
         If a key is none, or leads to no table; or a value is nested without end.
     """
-    there = _second_level(tables)
+    before = _second_level(tables)
     if isinstance(settings, str) or not isinstance(settings, Mapping | Iterable):
         problem = "must be a list of dotted.key=value, or a mapping of dotted keys to values"
         raise ScenarioError(problem, field="settings", value=settings)
@@ -49,7 +49,7 @@ def apply_settings(
                 problem = "must have the form dotted.key=value"
                 raise ScenarioError(problem, field="--set", value=setting)
             _put(tables, key, parsed(text), "--set", setting)
-    made = _second_level(tables) - there
+    made = _second_level(tables) - before
     for key, value in named.items():
         tables[key] = _own(key, value)
     return made & _second_level(tables)

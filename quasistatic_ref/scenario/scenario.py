@@ -155,8 +155,8 @@ class Scenario(Plain, Shown):
             If there is no ``optional/doctor``.
         """
         doctor = needed_part("doctor.table", "findings")
-        found: list[Finding] = doctor.scene_findings(self.simulator(), self.system.q_start)
-        return tuple(found)
+        findings: list[Finding] = doctor.scene_findings(self.simulator(), self.system.q_start)
+        return tuple(findings)
 
     def run(self, progress: bool = True, **saving: Any) -> Trajectory:
         """Simulate the whole scenario.
@@ -305,10 +305,10 @@ def _backend(solver: Fields, certify: str, cone_name: str, entries: int, fast: b
     name: str | None = value(solver, SOLVER, "backend")
     try:
         if fast:
-            found: str = needed_part("fast.backends", "fast").fast_backend(
+            backend: str = needed_part("fast.backends", "fast").fast_backend(
                 name, cone_name, certify, entries
             )
-            return found
+            return backend
         name = DEFAULT if name is None else name
         check_backend(name, cone_name, certify)
     except BackendError as error:

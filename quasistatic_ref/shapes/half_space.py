@@ -62,7 +62,9 @@ class HalfSpace(Shape):
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
         """Height of `points`, shape (N, 3) [m], above the plane, and its normal."""
         phi = dot(points, self.normal) - self.offset
-        return phi, np.broadcast_to(self.normal, points.shape)
+        normal = np.empty(points.shape)
+        normal[:] = self.normal
+        return phi, normal
 
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], above its plane."""

@@ -44,14 +44,14 @@ def by_one_thread(step: Step) -> Step:
     """
 
     @wraps(step)
-    def alone(simulator: Any, *given: Any, **named: Any) -> Any:
+    def alone(simulator: Any, *arguments: Any, **named: Any) -> Any:
         lock = simulator.system.lock
         if not lock.acquire(blocking=False):
             problem = "another thread is using the same system; "
             problem += "give each thread its own copy, copy.deepcopy(simulator)"
             raise InputError(problem, field="simulator")
         try:
-            return step(simulator, *given, **named)
+            return step(simulator, *arguments, **named)
         finally:
             lock.release()
 
@@ -144,7 +144,7 @@ class Simulator(Shown):
     array([0.  , 0.  , 0.05, 0.  , 0.  , 0.  , 1.  ])
     """
 
-    def __new__(cls, *given: Any, fast: bool = False, **settings: Any) -> Simulator:
+    def __new__(cls, *arguments: Any, fast: bool = False, **settings: Any) -> Simulator:
         """A simulator, or the one of `optional/fast`; its arguments are those of the class."""
         kind: type[Simulator] = needed_part("fast.simulator", "fast").FastSimulator if fast else cls
         return super().__new__(kind)
@@ -205,7 +205,7 @@ class Simulator(Shown):
         system = self.system
         M_u = definite("M_u", system.M_u(system.q_start), system.n_u)
         hessian(self.h, self.K_q, M_u)  # of Eq. (13): refused where it leaves float64's range
-        self.geometry = ContactGeometry(self.layout, system.motion)
+        self.geometry = ContactGeometry(self.layout, system.column_map)
 
     def __reduce__(self) -> tuple[Any, ...]:
         same = ("h", "K_q", "gravity", "fast", "accuracy", "certify", "cone", "law", "extension",

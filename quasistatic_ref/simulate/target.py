@@ -75,8 +75,8 @@ class JointTrack(Plain):
         if s == 0:
             return np.asarray(start[self.joint.q])
         # The geodesic of (+): a screw when the base both moves and turns.
-        whole = self.system.difference(start, self._placed(self.values[i + 1]))
-        return np.asarray(self.system.integrate(start, s * whole)[self.joint.q])
+        displacement = self.system.difference(start, self._placed(self.values[i + 1]))
+        return np.asarray(self.system.integrate(start, s * displacement)[self.joint.q])
 
     def _placed(self, value: Array) -> Array:
         q = self.system.neutral().copy()

@@ -14,7 +14,7 @@ class CvxpyProblem(StepProblem):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         A step of the same kind: its h, mu_v, mu_omega, cone and sizes are constants of the problem.
     constraints, costs : callable, optional
         Functions of this problem that return a list of additional constraints, or costs. Where
@@ -26,14 +26,14 @@ class CvxpyProblem(StepProblem):
         The rows of the step's own ``extra``: one constraint, or none.
     """
 
-    def __init__(self, like: StepData, constraints: Own = none, costs: Own = none) -> None:
-        super().__init__(like)
-        if like.cone != PYRAMID:
-            self.contact_rows = cone(like.cone).constraints(self.motion, like.mask)
-        A_x = cp.Parameter(like.extra.A.shape, "A_x")
-        b_x = cp.Parameter(like.extra.b.shape, "b_x")
+    def __init__(self, template: StepData, constraints: Own = none, costs: Own = none) -> None:
+        super().__init__(template)
+        if template.cone != PYRAMID:
+            self.contact_rows = cone(template.cone).constraints(self.contact_motion, template.mask)
+        A_x = cp.Parameter(template.extra.A.shape, "A_x")
+        b_x = cp.Parameter(template.extra.b.shape, "b_x")
         self.parameters |= {"A_x": A_x, "b_x": b_x}
-        self.extra = [A_x @ self.delta_q >= b_x] if like.extra.names else []
+        self.extra = [A_x @ self.delta_q >= b_x] if template.extra.names else []
         objective = self.problem.objective
         for cost in costs(self):
             objective += cp.Minimize(cost)
@@ -60,6 +60,8 @@ class CvxpyProblem(StepProblem):
 
     def dual(self) -> Array:
         """Multipliers of the last solve, contact-major, the user's own rows last; shape (m,)."""
-        like = self.like
-        lam = cone(like.cone).multipliers(self.contact_rows, like.mask, like.contacts.mu)
+        template = self.template
+        lam = cone(template.cone).multipliers(
+            self.contact_rows, template.mask, template.contacts.mu
+        )
         return np.concatenate([lam, *(row.dual_value for row in self.extra)])

@@ -86,7 +86,7 @@ class Solver(ABC):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         A step of that kind.
     name : str
         Of the backend.
@@ -107,15 +107,15 @@ class Solver(ABC):
     fixed: ClassVar[tuple[str, ...]]
     remembers: ClassVar[bool] = False
 
-    def __init__(self, like: StepData, name: str) -> None:
-        self.like = like
+    def __init__(self, template: StepData, name: str) -> None:
+        self.template = template
         self.name = name
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
         self._attempts: dict[float, list[OptionSet]] = {}
         self._fitting: StepData | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.like, self.name)
+        return type(self), (self.template, self.name)
 
     def fits(self, step: StepData) -> bool:
         """Whether a step is of the kind that the problem was compiled for."""
@@ -140,7 +140,7 @@ class Solver(ABC):
 
     def differences(self, step: StepData) -> list[str]:
         """In what of ``fixed`` a step is not like the one that the problem was compiled for."""
-        return differences(self.like, step, self.fixed)
+        return differences(self.template, step, self.fixed)
 
     def takes(self, step: StepData) -> bool:
         """Whether the numbers of a step can be written into the problem."""
@@ -195,7 +195,7 @@ class Solver(ABC):
         if accuracy not in self._attempts:
             entry = BACKENDS[self.name.removeprefix(QPSOLVERS)]
             least = max(accuracy, entry.floor)
-            steps = (1.0,) if cone(self.like.cone).polyhedral else RELAXED
+            steps = (1.0,) if cone(self.template.cone).polyhedral else RELAXED
             tried = [k * least for k in steps]
             self._attempts[accuracy] = [OptionSet(a, o) for a in tried for o in entry.attempts(a)]
         return self._attempts[accuracy]
@@ -249,7 +249,7 @@ class NoSolver(Solver):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         Any step.
     name : str
         ``"none"``.
@@ -258,8 +258,8 @@ class NoSolver(Solver):
     engine = "none"
     fixed = ()
 
-    def __init__(self, like: StepData, name: str = NONE) -> None:
-        super().__init__(like, name)
+    def __init__(self, template: StepData, name: str = NONE) -> None:
+        super().__init__(template, name)
 
     def attempts(self, accuracy: float) -> list[OptionSet]:
         """One, without options."""

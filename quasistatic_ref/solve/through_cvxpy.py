@@ -37,7 +37,7 @@ class CvxpySolver(Solver):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         A step of the kind that is to be solved.
     name : str
         Of the backend, without ``qpsolvers:``.
@@ -46,9 +46,9 @@ class CvxpySolver(Solver):
     engine = "cvxpy"
     fixed = tuple(KIND)
 
-    def __init__(self, like: StepData, name: str = DEFAULT) -> None:
-        super().__init__(like, name)
-        self.problem = CvxpyProblem(like)
+    def __init__(self, template: StepData, name: str = DEFAULT) -> None:
+        super().__init__(template, name)
+        self.problem = CvxpyProblem(template)
 
     def write(self, scaled: DenseStep) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""

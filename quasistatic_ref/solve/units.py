@@ -128,17 +128,17 @@ def units_of(form: StandardForm, of_H: NaturalHessian) -> Units:
     return units_from(of_H.coordinate, squares, math.ldexp(energy, power), form.b)
 
 
-def small_power(load: Array) -> int:
+def small_power(g: Array) -> int:
     """A power of two near the largest of small loads, at most 0.
 
     Of loads over that power the squares do not vanish.
 
     Parameters
     ----------
-    load : ndarray, shape (n_v,)
+    g : ndarray, shape (n_v,)
         [N s, N m s].
     """
-    return min(int(np.frexp(np.abs(load).max(initial=0.0))[1]), 0)
+    return min(int(np.frexp(np.abs(g).max(initial=0.0))[1]), 0)
 
 
 def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Units:

@@ -264,9 +264,9 @@ KIND: dict[str, Callable[[StepData], Any]] = {
 """What the steps of one compiled problem may have in common."""
 
 
-def differences(like: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
+def differences(template: StepData, step: StepData, names: Iterable[str] = KIND) -> list[str]:
     """In what of those `names` of ``KIND`` a step is not like another."""
-    every = ((name, KIND[name](like), KIND[name](step)) for name in names)
+    every = ((name, KIND[name](template), KIND[name](step)) for name in names)
     return [name for name, own, other in every if not np.array_equal(own, other)]
 
 

@@ -128,8 +128,12 @@ def _contact(one: Fields, n_v: int) -> dict[str, Any]:
 
 
 def _extra(top: Fields, n_v: int) -> Extra:
-    own = top.table("extra", {"names": [], "A": [], "b": []})
-    names = own.words("names")
-    extra = Extra(tuple(names), own.array("A", (len(names), n_v)), own.array("b", (len(names),)))
-    own.close()
+    extra_table = top.table("extra", {"names": [], "A": [], "b": []})
+    names = extra_table.words("names")
+    extra = Extra(
+        tuple(names),
+        extra_table.array("A", (len(names), n_v)),
+        extra_table.array("b", (len(names),)),
+    )
+    extra_table.close()
     return extra

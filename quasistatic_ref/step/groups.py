@@ -21,7 +21,7 @@ class Group(NamedTuple):
     ----------
     coordinates : ndarray of int, shape (n,)
     contacts : ndarray of int, shape (c,)
-    own : ndarray of int, shape (e,)
+    extra_rows : ndarray of int, shape (e,)
         Rows of the user's own.
     rows : ndarray of int, shape (m,)
         Rows of A: those of its contacts, then its own.
@@ -29,14 +29,14 @@ class Group(NamedTuple):
 
     coordinates: Indices
     contacts: Indices
-    own: Indices
+    extra_rows: Indices
     rows: Indices
 
     def within(self, rows: Sequence[int]) -> list[int]:
         """Those of some rows of the step that are in the group, counted in it, in their order."""
-        given = np.array(rows, dtype=np.int64)
-        own = given[np.isin(given, self.rows)]
-        return [int(i) for i in np.searchsorted(self.rows, own)]
+        indices = np.array(rows, dtype=np.int64)
+        in_group = indices[np.isin(indices, self.rows)]
+        return [int(i) for i in np.searchsorted(self.rows, in_group)]
 
 
 def groups(step: StepData, near: Mask | None = None) -> list[Group]:
@@ -57,22 +57,22 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
     """
     n_c = step.contacts.n_c
     n_extra = len(step.extra.names)
-    own, of_row = np.nonzero(step.extra.A)
+    extra_row, of_extra = np.nonzero(step.extra.A)
     near = np.ones(n_c, dtype=bool) if near is None else near
     contact, of_contact, _ = step.contacts.entries()
     contact, of_contact = contact[near[contact]], of_contact[near[contact]]
-    one, other = step.coupled()
-    pairs = np.arange(len(one)) + n_c + n_extra
-    link = np.concatenate([contact, n_c + own, pairs, pairs])
-    coordinate = np.concatenate([of_contact, of_row, one, other])
-    label, of_link = _labels(step.n_v, n_c + n_extra + len(one), link, coordinate)
+    first, second = step.coupled()
+    pairs = np.arange(len(first)) + n_c + n_extra
+    link = np.concatenate([contact, n_c + extra_row, pairs, pairs])
+    coordinate = np.concatenate([of_contact, of_extra, first, second])
+    label, of_link = _labels(step.n_v, n_c + n_extra + len(first), link, coordinate)
     firsts = np.unique(label) if step.n_v else np.zeros(1, np.int64)
     of_contacts = np.where(near, of_link[:n_c], -1)
-    of_own = of_link[n_c : n_c + n_extra]
-    of_rows = np.concatenate([np.repeat(of_contacts, step.counts), of_own])
-    labels = (label, of_contacts, of_own, of_rows)
+    of_extra_rows = of_link[n_c : n_c + n_extra]
+    of_rows = np.concatenate([np.repeat(of_contacts, step.counts), of_extra_rows])
+    labels = (label, of_contacts, of_extra_rows, of_rows)
     members = zip(*(_members(part, firsts) for part in labels), strict=True)
-    return [Group(*found) for found in members]
+    return [Group(*parts) for parts in members]
 
 
 def _labels(n: int, links: int, link: Indices, coordinate: Indices) -> tuple[Indices, Indices]:
@@ -123,7 +123,7 @@ def _part(step: StepData, group: Group) -> StepData:
         delta_q_bar_a=step.delta_q_bar_a[a],
         contacts=step.contacts.some(group.contacts, group.coordinates),
         cone=step.cone,
-        extra=own_rows(step, group),
+        extra=extra_rows(step, group),
     )
 
 
@@ -133,9 +133,9 @@ def split(step: StepData, group: Group) -> tuple[Indices, Indices]:
     return c[c < step.n_a], c[c >= step.n_a] - step.n_a
 
 
-def own_rows(step: StepData, group: Group) -> Extra:
+def extra_rows(step: StepData, group: Group) -> Extra:
     """The user's own rows of a group."""
     extra = step.extra
-    own = group.own
-    names = tuple(extra.names[i] for i in own)
-    return Extra(names, extra.A[np.ix_(own, group.coordinates)], extra.b[own])
+    rows = group.extra_rows
+    names = tuple(extra.names[i] for i in rows)
+    return Extra(names, extra.A[np.ix_(rows, group.coordinates)], extra.b[rows])

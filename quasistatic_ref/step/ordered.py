@@ -3,7 +3,8 @@
 ``@`` leaves to a BLAS in which order the products of an entry are added, and whether a product and
 its sum are rounded together: its kernels, chosen by processor, do otherwise. Here the numbers are
 multiplied and added elementwise, from the first index to the last, and each operation is rounded as
-IEEE 754 says. Loops run over what is summed (3 coordinates, 6 of a twist), never over points.
+IEEE 754 says: by loops over what is summed (3 coordinates, 6 of a twist), never over points, or by
+``np.add.accumulate``, whose last partial sum is that of all numbers, added in their order.
 docs/exactness.md says which numbers of a run are formed so.
 """
 
@@ -51,15 +52,21 @@ def product(A: Array, B: Array) -> Array:
     if B.ndim == 1:
         if not len(B):
             return np.zeros(A.shape[:-1])
-        return total(A[..., i] * B[i] for i in range(len(B)))
+        return np.asarray(np.add.accumulate(A * B, axis=-1)[..., -1])
     if A.ndim == 1:
-        return total(A[i] * B[..., i, :] for i in range(len(A)))
-    return total(A[..., i, None] * B[..., None, i, :] for i in range(A.shape[-1]))
+        return np.asarray(np.add.accumulate(A[:, None] * B, axis=-2)[..., -1, :])
+    found: Array = A[..., :1] * B[..., None, 0, :]
+    for i in range(1, A.shape[-1]):
+        found += A[..., i : i + 1] * B[..., None, i, :]
+    return found
 
 
 def rotated(R: Array, points: Array) -> Array:
     """Points (..., 3) turned by R, shape (3, 3), or one for each, shape (..., 3, 3) [any unit]."""
-    return total(points[..., i, None] * R[..., i] for i in range(3))
+    turned: Array = points[..., :1] * R[..., 0]
+    turned += points[..., 1:2] * R[..., 1]
+    turned += points[..., 2:] * R[..., 2]
+    return turned
 
 
 def dot(a: Array, b: Array) -> Array:
@@ -70,8 +77,7 @@ def dot(a: Array, b: Array) -> Array:
 
 def norm(vectors: Array) -> Array:
     """Lengths, shape (...), of vectors of shape (..., n) [their unit]."""
-    squares = vectors * vectors
-    return np.sqrt(total(squares[..., i] for i in range(vectors.shape[-1])))
+    return np.sqrt(np.add.accumulate(vectors * vectors, axis=-1)[..., -1])
 
 
 def length(vector: Array) -> float:
@@ -88,7 +94,7 @@ def crossed(a: Array, b: Array) -> Array:
     a, b : ndarray, shape (N, 3, ...)
         Of any units; an axis of length 1 in the one stands for all of the other [-].
     """
-    products: Array = a[:, YZX] * b[:, ZXY] - a[:, ZXY] * b[:, YZX]
+    products: Array = a.take(YZX, 1) * b.take(ZXY, 1) - a.take(ZXY, 1) * b.take(YZX, 1)
     return products
 
 

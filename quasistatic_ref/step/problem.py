@@ -22,14 +22,14 @@ class StepProblem(Shown):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         A step of that kind.
 
     Attributes
     ----------
     parameters : dict of str to cvxpy.Parameter
         What changes from step to step, by name; :meth:`fill` sets it.
-    motion : tuple of cvxpy.Expression
+    contact_motion : tuple of cvxpy.Expression
         gap, slip_1, slip_2 and spin [m], shapes (n_c,), mu included in the last three.
     contact_rows : list of cvxpy.Constraint
         Eq. :eq:`eq-4` in the paper's order, one constraint for that row of the contacts that have
@@ -49,19 +49,19 @@ class StepProblem(Shown):
     True
     """
 
-    def __init__(self, like: StepData) -> None:
-        self.like = like
+    def __init__(self, template: StepData) -> None:
+        self.template = template
         self.check_kind()
-        n_a = like.n_a
-        n_u = like.n_u
-        n_v = like.n_v
-        n_c = like.contacts.n_c
+        n_a = template.n_a
+        n_u = template.n_u
+        n_v = template.n_v
+        n_c = template.contacts.n_c
 
         # What all these steps have in common.
-        h = like.h
-        mu_v = like.contacts.mu[:, 0]
-        mu_omega = like.contacts.mu[:, 2]
-        torsional = like.contacts.rows == 6
+        h = template.h
+        mu_v = template.contacts.mu[:, 0]
+        mu_omega = template.contacts.mu[:, 2]
+        torsional = template.contacts.rows == 6
 
         # What changes from step to step.
         K_q = cp.Parameter((n_a, n_a), "K_q", PSD=True)  # stiffness of the actuated coordinates
@@ -106,7 +106,7 @@ class StepProblem(Shown):
         self.delta_q = delta_q
         self.delta_q_a = delta_q_a
         self.delta_q_u = delta_q_u
-        self.motion = (gap, slip_1, slip_2, spin)
+        self.contact_motion = (gap, slip_1, slip_2, spin)
         named = (K_q, M_u, tau_k, tau_a, tau_u, phi, J_n, J_1, J_2, J_w)
         self.parameters = {parameter.name(): parameter for parameter in named}
 
@@ -133,15 +133,15 @@ class StepProblem(Shown):
 
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
-        for name in differences(self.like, step):
-            own, other = KIND[name](self.like), KIND[name](step)
+        for name in differences(self.template, step):
+            own, other = KIND[name](self.template), KIND[name](step)
             problem = f"is {own} in this problem; make a problem like this step"
             raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
 
     def check_kind(self) -> None:
         """Refuse steps that are not the paper's, with StepDataError."""
-        cone = self.like.cone
-        names = list(self.like.extra.names)
+        cone = self.template.cone
+        names = list(self.template.extra.names)
         elsewhere = "solve/cvxpy_problem.py has what is not in the paper"
         if cone != PYRAMID:
             raise StepDataError(f"is not the pyramid; {elsewhere}", field="cone", value=cone)

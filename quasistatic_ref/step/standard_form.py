@@ -63,10 +63,10 @@ def standard_form(step: StepData) -> StandardForm:
     if step.extra.names:
         A = np.vstack([A, step.extra.A])
         b = np.concatenate([b, step.extra.b])
-    return StandardForm(step.H, load(step), A, b)
+    return StandardForm(step.H, linear_term(step), A, b)
 
 
-def load(step: StepData) -> Array:
+def linear_term(step: StepData) -> Array:
     """The linear term g of Eq. :eq:`eq-13`, shape (n_v,) [N s of a length, N m s of an angle]."""
     tau_k = product(step.K_q, step.delta_q_bar_a)  # Eq. (1)
     g: Array = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])

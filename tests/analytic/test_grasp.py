@@ -160,25 +160,6 @@ def test_the_committed_files_are_what_the_script_writes(build, tmp_path):
         assert (tmp_path / name).read_bytes() == (FOLDER / name).read_bytes()
 
 
-def box_mesh(sizes, centre, rng):
-    """The twelve triangles of a box, outwards, in a random order and turned round at random."""
-    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
-    triangles = np.array([np.roll(t, rng.integers(3)) for t in triangles])
-    return (corners - 0.5) * sizes + centre, rng.permutation(triangles)
-
-
-def test_the_inertia_of_a_box_mesh_is_the_closed_form(build, rng):
-    (a, b, c), centre, mass = (0.2, 0.3, 0.5), np.array([1.0, -2.0, 0.7]), 4.0
-    vertices, triangles = box_mesh(np.array([a, b, c]), centre, rng)
-    found_centre, inertia = build.solid_inertia(vertices, triangles, mass)
-    expected = mass / 12 * np.diag([b**2 + c**2, a**2 + c**2, a**2 + b**2])
-    np.testing.assert_allclose(found_centre, centre, rtol=ROUNDING)
-    # Moments about the far origin cancel: 4 kg at 2.3 m is 21 kg m^2.
-    np.testing.assert_allclose(inertia, expected, rtol=0, atol=21 * ROUNDING)
-
-
 def test_each_point_of_the_sample_is_the_farthest_from_those_before(build, rng):
     points = rng.normal(size=(60, 3))
     chosen = build.farthest_point_sample(points, 20, 7).tolist()

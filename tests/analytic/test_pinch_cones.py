@@ -48,9 +48,3 @@ def test_it_slips_below_the_threshold_and_not_at_all_above_it(name, d):
     still = slipped(name, d, threshold(name, d) * (1 + THRESHOLD))
     np.testing.assert_allclose(still, 0.0, rtol=EXACT, atol=EXACT)
     assert np.abs(slipped(name, d, threshold(name, d) * (1 - THRESHOLD))).max() > 1e-12
-
-
-def test_the_ellipsoid_needs_least_but_for_the_product():
-    for d in OFFSETS[1:]:
-        needed = {name: threshold(name, d) for name in ("pyramid", "ellipsoid", "product")}
-        assert needed["product"] < needed["ellipsoid"] < needed["pyramid"]

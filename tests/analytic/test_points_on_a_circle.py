@@ -38,22 +38,3 @@ def test_a_rigid_body_is_held_by_the_point_whose_slip_is_nearest_to_a_tangent(n,
     held = np.maximum(np.abs(np.cos(angles)), np.abs(np.sin(angles))).max()
     assert turn(angles, 0.999 * held) < STILL
     assert turn(angles, 1.001 * held) > STILL
-
-
-@pytest.mark.parametrize("n", [16, 64])
-@pytest.mark.parametrize("offset", [0.0, 0.05])
-def test_given_loads_hold_two_sqrt_two_over_pi_of_a_circle(n, offset):
-    """The mean of f = max(|cos t|, |sin t|) is 2 sqrt(2) / pi, and n points differ by its kinks.
-
-    A sum over points k = 2 pi / n apart is the trapezoid rule. By Euler and Maclaurin a kink whose
-    slope jumps by s, at the share theta of a step, makes it larger than the integral by
-    s k^2 (theta (1 - theta) - 1/6) / 2, and by terms of k^4. f has four kinks, at odd multiples of
-    pi / 4, where s = sqrt(2). (So the mean is off by less than sqrt(2) pi / n^2.)
-    """
-    k = 2 * np.pi / n
-    angles = offset + k * np.arange(n)
-    mean = np.maximum(np.abs(np.cos(angles)), np.abs(np.sin(angles))).mean()
-    theta = (np.pi / 4 - offset) / k % 1
-    expected = 4 * np.sqrt(2) * k**2 * (theta * (1 - theta) - 1 / 6) / 2 / (2 * np.pi)
-    np.testing.assert_allclose(mean - 2 * np.sqrt(2) / np.pi, expected, rtol=k**2, atol=0)
-    assert abs(expected) < np.sqrt(2) * np.pi / n**2

@@ -10,7 +10,6 @@ import pytest
 from quasistatic_ref.certify.certificate import exact_certificate, verify
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
-from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
@@ -44,21 +43,6 @@ def test_words_count_all_rows_and_name_the_margins(step, optimum):
     assert f"smallest active multiplier {claims.smallest_active_multiplier:.1e} N s" in words
     bare = replace(claims, smallest_inactive_slack=None, smallest_active_multiplier=None)
     assert "smallest" not in in_words(bare)
-
-
-def test_words_for_what_is_not_exact(step):
-    known = Certificate("residual", {"primal": 2e-9, "dual": 1e-9}, error_bound=3e-8)
-    words = in_words(known)
-    assert words.startswith("not exact: worst residual 2.0e-09 in natural units")
-    assert words.endswith("error of delta_q in the norm of H is at most 3.0e-08")
-    words = in_words(replace(known, error_bound=None))
-    assert words.endswith("no useful bound of its error")
-    read = Certificate("residual", error_bound=3e-8)
-    assert (
-        in_words(read)
-        == "not exact: the relative error of delta_q in the norm of H is at most 3.0e-08"
-    )
-    assert in_words(Certificate("none")) == "nothing is certified"
 
 
 def test_rows_have_a_contact_and_a_number_in_it(step):

@@ -5,7 +5,7 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.rational import dyadic, exact_form, joined
+from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
@@ -59,24 +59,3 @@ def test_matrices_that_are_not_symmetric_or_finite_are_refused():
         exact_form_of(np.array([[1.0, 1e-17], [0.0, 1.0]]), one, none, np.zeros(0))
     with pytest.raises(StepDataError, match="finite"):
         exact_form_of(np.eye(2), np.array([np.nan, 0]), none, np.zeros(0))
-
-
-def test_dyadic_arithmetic_is_that_of_fractions():
-    rng = np.random.default_rng(3)
-    a = rng.standard_normal((3, 4)) * 2.0 ** rng.integers(-300, 300, (3, 4))
-    c = rng.standard_normal((3, 4))
-    fractions = [[F(v) for v in row] for row in a], [[F(v) for v in row] for row in c]
-
-    def value(d):
-        return [[int(m) * F(2) ** d.e for m in row] for row in d.m]
-
-    pairs = [list(zip(p, q, strict=True)) for p, q in zip(*fractions, strict=True)]
-    assert value(dyadic(a) + dyadic(c)) == [[p + q for p, q in row] for row in pairs]
-    assert value(dyadic(a) - dyadic(c)) == [[p - q for p, q in row] for row in pairs]
-    assert value(dyadic(a) * dyadic(c)) == [[p * q for p, q in row] for row in pairs]
-    product = [
-        [sum(p * q for p, q in zip(row, other, strict=True)) for other in fractions[1]]
-        for row in fractions[0]
-    ]
-    assert value(dyadic(a) @ dyadic(c.T)) == product
-    assert value(joined([dyadic(a), dyadic(np.zeros((1, 4)))])) == [*fractions[0], [0] * 4]

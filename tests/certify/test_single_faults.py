@@ -18,8 +18,3 @@ def test_one_fault_is_enough_to_be_refused_and_a_rare_rounding_is_none(
     for path, text in zip(files, (step, solution), strict=True):
         path.write_text(text)
     assert (verify_refusal(*files) is None) == (reason == PROVED)
-
-
-def test_most_of_the_files_have_a_fault():
-    right = [reason for *_, reason in FAULTS if reason == PROVED]
-    assert 0 < len(right) < len(FAULTS) / 5

@@ -1,7 +1,6 @@
 """``inspect``: what of a URDF or a scenario is used, and what is ignored."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -59,18 +58,6 @@ def test_inspect_shows_a_scenario(scene, capsys):
     assert "2.5 N m/rad" in text
 
 
-def test_inspect_passes_over_a_byte_order_mark_as_run_does(scene, capsys):
-    path = Path(scene)
-    assert main(["inspect", scene]) == 0
-    plain = capsys.readouterr().out
-    path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes())
-    assert main(["inspect", scene]) == 0
-    assert capsys.readouterr().out == plain
-    path.write_bytes(b"\xff" + path.read_bytes())
-    assert main(["inspect", scene]) == 2
-    assert capsys.readouterr().err.endswith("scene.toml: line 1: is not UTF-8 text\n")
-
-
 def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, capsys):
     assert main(["inspect", scene, "--json"]) == 0
     fields = json.loads(capsys.readouterr().out)["fields"]
@@ -116,17 +103,6 @@ def test_inspect_shows_inertias_along_the_axes_of_their_link(tmp_path, capsys):
     out = capsys.readouterr().out
     assert "inertias: about the centre of mass, along the link's axes" in out
     assert "0.5 0.25 0.125" in out
-
-
-def test_inspect_counts_the_rows_of_the_scenario_s_cone(scene, capsys):
-    assert main(["inspect", scene, "--set", "cone=product", "--json"]) == 0
-    said = json.loads(capsys.readouterr().out)
-    assert said["cone"] == "product"
-    expected = {6: 8, 4: 4}
-    assert main(["inspect", scene, "--json"]) == 0
-    pyramid = json.loads(capsys.readouterr().out)
-    for one, two in zip(said["pairs"], pyramid["pairs"], strict=True):
-        assert one["rows"] == expected[two["rows"]]
 
 
 def test_findings_are_listed_before_a_run(capsys):

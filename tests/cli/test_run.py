@@ -56,11 +56,6 @@ def test_options_change_the_scenario(scene, out, capsys):
     np.testing.assert_allclose(trajectory_read(out / "scene.npz")["t"], [0.02, 0.04], rtol=EXACT)
 
 
-def test_a_run_of_no_steps_is_good(scene, out, capsys):
-    assert main(["run", scene, "--out", str(out), "--set", "steps=0"]) == 0
-    assert capsys.readouterr().out.startswith("0 steps of 8 variables x 0 rows")
-
-
 def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
     honest, calls = simulator.Simulator.step, []
 

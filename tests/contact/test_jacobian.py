@@ -65,7 +65,7 @@ def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
     ]
     kinematics, layout = system.kinematics(system.q_start), contact_layout(pairs)
     points = closest_points(pairs, kinematics)
-    found = ContactGeometry(layout, system.motion).contacts(points, kinematics)
+    found = ContactGeometry(layout, system.column_map).contacts(points, kinematics)
     assert layout.names == ("a", "a", "a", "b", "b", "c")
     assert layout.link_alpha.tolist() == [0, 0, 0, upper, upper, 0]
     assert layout.link_beta.tolist() == [box] * 5 + [upper]
@@ -85,7 +85,7 @@ def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
 def test_no_pairs_make_no_contacts(tmp_path):
     system = chain_scene(tmp_path)
     kinematics = system.kinematics(system.q_start)
-    nowhere = ContactGeometry(contact_layout([]), system.motion)
+    nowhere = ContactGeometry(contact_layout([]), system.column_map)
     found = nowhere.contacts(closest_points([], kinematics), kinematics)
     assert found.n_c == 0
     assert found.J.shape == (0, 4, system.n_v)

@@ -21,7 +21,7 @@ def shares_of_the_problem(step, delta_q):
     problem = StepProblem(step)
     problem.fill(step)
     problem.delta_q_a.value, problem.delta_q_u.value = delta_q[: step.n_a], delta_q[step.n_a :]
-    gap = problem.motion[0].value
+    gap = problem.contact_motion[0].value
     # CVXPY keeps a >= 0 as 0 - a <= 0.
     return [-constraint.expr.value - gap for constraint in problem.contact_rows]
 

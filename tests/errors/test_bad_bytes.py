@@ -4,8 +4,7 @@ import os
 
 import pytest
 
-from tests.errors.scene import SCENE, scene_written
-from tests.oracles.records import toml_text
+from tests.errors.scene import scene_written
 
 READERS = ("scene.toml", "step.json", "ball.urdf", "run.npz", "cloud.xyz")
 DEEP = 100_000
@@ -20,27 +19,17 @@ CAUSES = {
     "empty TOML": ("scene.toml", b"", "format: is missing"),
     "empty JSON": ("step.json", b"", "is not JSON: Expecting value: line 1"),
     "empty trajectory": ("run.npz", b"", NO_TRAJECTORY),
-    "binary JSON": ("step.json", bytes(range(128, 256)), NOT_UTF8),
     "binary trajectory": ("run.npz", bytes(range(128, 256)), NO_TRAJECTORY),
-    "binary cloud": ("cloud.xyz", bytes(range(128, 256)), NOT_UTF8),
-    "UTF-16 JSON": ("step.json", "{}".encode("utf-16"), NOT_UTF8),
-    "Latin-1 TOML": ("scene.toml", "# f = µ N".encode("latin-1"), NOT_UTF8),
     "Latin-1 XML": ("ball.urdf", '<robot name="Jürgen"/>'.encode("latin-1"), NOT_UTF8),
-    "NUL in TOML": ("scene.toml", b"h = 1\x00", "is not TOML: "),
     "NUL in JSON": ("step.json", b'{"h": 1\x00}', "is not JSON: "),
-    "half of a TOML": ("scene.toml", toml_text(SCENE)[:-20], "is not TOML: "),
-    "half of a JSON": ("step.json", b'{"format": "quasi', "is not JSON: Unterminated string"),
     "TOML without end": ("scene.toml", b"a = " + b"[" * DEEP, "is nested too deeply"),
     "a key without end": ("scene.toml", b"a" + b".a" * DEEP + b" = 1", "line 1: holds a key of"),
     "a word without end": ("scene.toml", b"a" * 2**20, "is not TOML: "),
-    "a list without end": ("scene.toml", b"h = [" + b"1," * 500_000 + b"]", "format: is missing"),
     "very many keys": (
         "scene.toml", b"".join(b"a%d=1\n" % i for i in range(90_000)),
         "a0: is unknown; known: bodies, cone",
     ),
-    "deep TOML": ("scene.toml", b"h = " + b"{a=" * 200 + b"1" + b"}" * 200, "format: is missing"),
     "JSON without end": ("step.json", b"[" * DEEP + b"]" * DEEP, "is not usable JSON: too deep"),
-    "deep JSON": ("step.json", b'{"a":' * 900 + b"1" + b"}" * 900, "format: is missing"),
     "XML without end": ("ball.urdf", b"<a>" * DEEP + b"</a>" * DEEP, "line 1: is nested deeper"),
     "a number of many digits in TOML": ("scene.toml", b"h = " + b"1" * 5000, "an unusable number"),
     "a number of many digits in JSON": ("step.json", b'{"h": ' + b"1" * 5000 + b"}", "too long"),

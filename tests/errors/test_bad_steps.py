@@ -17,20 +17,9 @@ ONE = "contacts/1/"
 EYE = np.eye(3).tolist()
 CAUSES = {
     # name: (changes to the step, the field named, words of the sentence)
-    "h zero": (("h", 0), "h", "must be greater than 0 (got 0)"),
     "n_a without end": (("n_a", 10**12), "K_q", "must be 1000000000000 x 1000000000000 numbers"),
     "K_q ragged": (("K_q", [[1, 0], [0], [0]]), "K_q", "must be 3 x 3 numbers, in lists of equal"),
-    "K_q zero": (("K_q", np.zeros((3, 3)).tolist()), "K_q", "must be positive definite"),
-    "K_q indefinite": (("K_q", np.diag([1.0, -1, 1]).tolist()), "K_q", "positive definite (no"),
-    "K_q not symmetric": (("K_q", np.triu(np.ones((3, 3))).tolist()), "K_q", "must be symmetric"),
-    "M_u massless": (("M_u", np.diag([1.0, 1, 0, 1]).tolist()), "M_u", "no massless link"),
     "tau_u of words": (("tau_u", ["1", "2", "3", "4"]), "tau_u", "must contain numbers only (4)"),
-    "an unknown cone": (("cone", "pyramide"), "cone", "did you mean 'pyramid'"),
-    "n not unit": ((ONE + "n", [0, 0, 2]), "contacts[c1]", "a right-handed orthonormal frame"),
-    "a left-handed frame": (
-        (ONE + "d1", EYE[1]), (ONE + "d2", EYE[0]), (ONE + "n", EYE[2]),
-        "contacts[c1]", "a right-handed orthonormal frame",
-    ),
     "negative friction": ((ONE + "mu_v", -0.5), "contacts[1].mu_v", "at least 0 (got -0.5)"),
     "five rows": ((ONE + "rows", 5), "contacts[1].rows", "must be 4 or 6 (got 5)"),
 }  # fmt: skip
@@ -64,35 +53,8 @@ def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field):
         assert sentence.startswith(tuple(f"{tmp_path / 'step.json'}: {field}: " for field in known))
 
 
-BEYOND = {
-    # Found by fuzzing: products of these leave the range of float64, or come near its ends.
-    "J": ("contacts/1/J/0/0", 1.34e154),
-    "a tiny J": ("contacts/1/J/2/2", 5e-324),
-    "friction": ("contacts/1/mu_v", 4.3e151),
-    "a force": ("tau_u/0", 7.4e156),
-    "a stiffness": ("K_q/1/1", 1e300),
-    "a gap": ("contacts/1/phi", 1.7e308),
-    "a short step": ("h", 5e-324),
-}
-
-
-@pytest.mark.parametrize("certify", ["full", "residual", "off"])
-@pytest.mark.parametrize("cause", BEYOND)
-def test_numbers_out_of_range_are_refused_or_answered(tmp_path, capsys, cause, certify):
-    path, output = written(tmp_path, changed(STEP, BEYOND[cause])), tmp_path / "solution.json"
-    status = main(["solve", str(path), "-o", str(output), "--certify", certify])
-    said = capsys.readouterr().err
-    assert len(said.splitlines()) == 1
-    if status == 0:
-        assert np.isfinite(json.loads(output.read_text())["delta_q"]).all()
-    else:
-        assert status in (2, 3)
-        assert said.startswith("quasistatic-ref: ")
-        assert not output.exists()
-
-
 def test_a_step_whose_products_leave_the_range_says_so(tmp_path, refused):
-    path = written(tmp_path, changed(STEP, BEYOND["a force"]))
+    path = written(tmp_path, changed(STEP, ("tau_u/0", 7.4e156)))
     sentence = refused("solve", path)
     assert "their products leave the range of float64; look for a wrong unit" in sentence
 
@@ -112,27 +74,20 @@ def test_the_solution_is_good_before_it_is_spoilt(tmp_path, solved, capsys):
     assert capsys.readouterr().out.startswith("verified: exact")
 
 
-NO_FRACTIONS = ("0.5", "1e999999999", "1/0", "1/-1", "", " 1", "١", "1/2/3")
 PROOF = (("status", "infeasible"), *((key, ...) for key in (
     "delta_q", "lam", "lam_extra", "wrench", "certificate",
 )))  # fmt: skip
 FALSE = {
     "another step's": (("step_sha256", "0" * 64), "belongs to another step"),
     "one digit off": (("delta_q/0", 0.125), "delta_q[0] is 0.125; the exact one rounds to"),
-    "a contact that does not exist": (("certificate/active", [[9, 0]]), "9"),
-    "all rows": (("certificate/active", [[0, i] for i in range(6)]), "not independent"),
-    "no rows": (("certificate/active", []), "violated"),
     "nothing certified": (("certificate", {"kind": "none"}), "proves nothing; solve with full"),
     "a bound that is none": (
         ("certificate", {"kind": "residual", "error_bound": None}), "without a bound proves",
     ),
     "a proof too short": (*PROOF, ("farkas", ["1"]), "has 1 entries, the step 16 rows"),
-    "a proof of nothing": (*PROOF, ("farkas", ["0"] * 16), "b'y is not positive"),
-    "a proof below zero": (*PROOF, ("farkas", ["-1"] + ["0"] * 15), "a negative entry"),
-    **{
-        f"a proof of {text!r}": (*PROOF, ("farkas", [text] * 16), "entries that are no fractions")
-        for text in NO_FRACTIONS
-    },
+    "a proof of 1e999999999": (
+        *PROOF, ("farkas", ["1e999999999"] * 16), "entries that are no fractions",
+    ),
 }  # fmt: skip
 
 

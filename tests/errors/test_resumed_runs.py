@@ -197,18 +197,6 @@ def test_ctrl_c_keeps_the_saved_steps_of_a_run_that_was_long(tmp_path, scene, ev
     assert saved_folder(path).exists() == kept
 
 
-def test_a_full_disk_ends_no_run(tmp_path, scene, monkeypatch, capsys):
-    def full(path, write):
-        raise InputError("cannot be written: No space left on device", file=path)
-
-    monkeypatch.setattr(saved, "written_whole", full)
-    run = ran(load_scenario(scene, fast=True), tmp_path / "run.npz")
-    said = capsys.readouterr().err.splitlines()
-    assert len(said) == 1
-    assert said[0].endswith("No space left on device; the run goes on")
-    assert (run.steps, (tmp_path / "run.npz").exists()) == (3, True)
-
-
 def test_steps_that_could_not_be_saved_are_saved_with_the_next(tmp_path, scene, monkeypatch):
     honest, calls = saved.written_whole, []
 

@@ -4,9 +4,7 @@ import ast
 import re
 from textwrap import dedent
 
-import pytest
-
-from validation.tools.check_site import ROOT, equation_faults, markdown_faults
+from validation.tools.check_site import ROOT, markdown_faults
 
 
 def test_every_relative_link_of_the_repository_s_markdown_leads_to_a_file(tmp_path):
@@ -26,11 +24,3 @@ def test_every_python_fence_of_our_pages_parses():
     for fence in fences:
         ast.parse(dedent(fence))
     assert len(fences) > 15
-
-
-@pytest.mark.parametrize(
-    ("numbers", "count"), [(range(1, 14), 0), (range(1, 13), 1), ((2, 1, *range(3, 14)), 1)]
-)
-def test_equations_are_numbered_as_in_the_paper(numbers, count):
-    one = '<div class="math" id="equation-eq-{0}">\n<span class="eqno">({0})<a></a></span></div>'
-    assert len(list(equation_faults("".join(map(one.format, numbers))))) == count

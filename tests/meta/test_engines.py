@@ -1,4 +1,4 @@
-"""Phenomena for engines: answers judged, and committed results that reproductions show."""
+"""Phenomena for engines: committed results are those that reproductions and the page show."""
 
 import json
 import math
@@ -18,49 +18,8 @@ from validation.programs.engines.judge import ENGINES, HERE, RESULTS
 from validation.programs.engines.reproduce import FOLDER, LIST, missing, unlike
 from validation.programs.engines.tables import phenomena_page
 
-G, M = 9.81, 0.3
 RECORDS = {name: json.loads((RESULTS / f"{name}.json").read_text("utf-8")) for name in ENGINES}
 MUJOCO = sorted(e["file"] for e in LIST if e["engines"][0] == "mujoco" and e["phenomena"])
-
-
-def test_the_grips_lie_about_the_limits_of_the_three_cones():
-    # (R21) to (R23): u = m g / (2 mu_v), w = m g d / (2 mu_omega).
-    u, w = 0.2 * G / (2 * 0.6), 0.2 * G * 0.03 / (2 * 0.005)
-    limits = [max(u, w), math.hypot(u, w), u + w]
-    pinch = phenomena.PHENOMENA["pinch"]
-    assert np.allclose(pinch["expected"], limits, rtol=1e-9, atol=0)
-    grips = [run["x"] for run in pinch["runs"][:-1]]
-    assert np.allclose(grips, [k * N for N in limits for k in (0.99, 1.01)], rtol=2e-4)
-
-
-def coulomb(scene):
-    """A stick-slip body by the closed form: at rest below the limit, else uniformly accelerated."""
-    poses = []
-    (load,) = scene["loads"] or [{"from": 0.0, "force": [0, 0, 0], "torque": [0, 0, 0]}]
-    pull, normal = np.hypot(*load["force"][:2]), M * G - load["force"][2]
-    a = max(0.0, pull - 0.5 * normal) / M
-    spin = max(0.0, load["torque"][2] - 0.01 * M * G) / 3e-4
-    way = np.array(load["force"][:2]) / (pull or 1)
-    body = scene["bodies"][0]
-    floor = body["xyz"][2] - (0.001 if body["xyz"][2] > 0.05 else 0)
-    for time in scene["times"]:
-        t = max(0.0, time - load["from"])
-        z = max(floor, body["xyz"][2] - G / 2 * time**2)
-        half = spin * t**2 / 4
-        poses.append([*(way * a * t**2 / 2), z, 0, 0, math.sin(half), math.cos(half)])
-    return {"poses": {body["name"]: poses}}
-
-
-def one_body(scene):
-    if len(scene["bodies"]) > 1:
-        raise ValueError("not asked")
-    return coulomb(scene)
-
-
-def test_coulomb_s_law_itself_holds_in_every_cell():
-    found = {cell.phenomenon: cell for cell in phenomena.cells(one_body, 1e-3)}
-    assert [name for name, cell in found.items() if not cell.holds] == ["pinch"]
-    assert "not asked" in found["pinch"].words
 
 
 def test_the_engine_of_the_page_is_asked_everything(capsys):
@@ -106,3 +65,27 @@ def test_a_run_of_the_study_of_second_order_simulators_is_the_committed_one(scen
         found = engines.row(run)
     (committed,) = second_order_page.chosen(**run._asdict())
     assert found | {"cost": 0.0} == committed | {"cost": 0.0}
+
+
+@pytest.mark.parametrize("implicit", [False, True])
+def test_a_servo_of_mujoco_is_a_spring_and_a_damper_with_the_stated_rule(implicit):
+    # m (v' - v) / h = K (r - x) + d (w - v'), x and r at the start of the step, w = dr/dt; with
+    # an implicit spring x' = x + h v' and the end's r stand in their place.
+    h, m, K, w, steps = 0.02, 0.1, 2000.0, 0.05, 10
+    d = 2 * math.sqrt(K * m)
+    x, v, expected = 0.0, 0.0, []
+    for k in range(steps):
+        r = w * h * (k + implicit)
+        v = (m * v + h * (K * (r - x) + d * w)) / (m + h * d + implicit * h**2 * K)
+        x += h * v
+        expected.append(x)
+    finger = {"name": "finger", "joint": "servo", "K": K, "mass": m, "inertia": [1e-4] * 3,
+              "xyz": [0.0, 0.0, 0.0], "shapes": []}  # fmt: skip
+    scene = {"gravity": [0, 0, -9.81], "mu_v": 0.5, "mu_omega": 0.0, "floor": False, "loads": [],
+             "bodies": [finger], "times": [h * (k + 1) for k in range(steps)],
+             "targets": {"finger": [[0, 0, 0, 0], [1, 0, w, 0]]}}  # fmt: skip
+    setting = {"h": h, "option": {"integrator": "implicitfast"}, "implicit_spring": implicit}
+    with Program(f"{sys.executable} {HERE / 'mujoco_adapter.py'}", 60.0) as mujoco:
+        reply = mujoco.ask("run", "phenomena", {"scene": scene, "setting": setting})
+    found = np.array(reply.output["poses"]["finger"])[:, :3]
+    assert np.allclose(found, np.outer(expected, [0, 1, 0]), rtol=0, atol=1e-12)

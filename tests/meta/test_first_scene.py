@@ -31,13 +31,6 @@ def folder(tmp_path_factory):
     return place
 
 
-def test_the_page_has_five_files_and_a_command_for_each_step(folder):
-    assert {*WALK_FILES} == {"gripper.urdf", "can.urdf", "cloud.py", "scene.toml", "picture.py"}
-    assert [line.split()[1] for line in shell_lines(WALK)] == [
-        "inspect", "cloud.py", "inspect", "run", "picture.py",
-    ]  # fmt: skip
-
-
 def test_the_can_rises_with_the_lift_less_the_stretch_of_the_spring(folder):
     run = trajectory_read(folder / "results" / "scene.npz")
     assert run.header["findings"] == []

@@ -24,29 +24,17 @@ def test_a_file_of_tests_has_the_name_of_the_module_that_it_tests(folder):
 
 
 PLANTED = {
-    "a later folder": ("step/a.py", "from quasistatic_ref.solve import units", "later folder"),
-    "a later folder, relative": ("step/a.py", "from ..solve import units", "later folder"),
-    "a later folder in a function": (
-        "step/a.py",
-        "def f():\n    from quasistatic_ref.certify import optimality",
+    "the lab in the core": (
+        "simulate/a.py",
+        "def f():\n    from quasistatic_ref.lab.study import run",
         "later folder",
     ),
     "a lazy import": ("step/a.py", "import_module('quasistatic_ref.cli')", "later folder"),
-    "the face": ("__init__.py", "from quasistatic_ref.step import data", "later folder"),
-    "an optional part in the core": (
-        "solve/a.py",
-        "from quasistatic_ref.optional.ellipsoid import apex",
-        "later folder",
-    ),
+    "the face": ("__init__.py", "from .step import data", "later folder"),
     "an optional part in another": (
         "optional/runs/a.py",
         "from quasistatic_ref.optional.show import words",
         "another part",
-    ),
-    "the lab in the core": (
-        "simulate/a.py",
-        "from quasistatic_ref.lab.study import run",
-        "later folder",
     ),
     "the lab as a string": ("cli/run.py", "x = 'quasistatic_ref.lab.commands'", "names the lab"),
     "an optional part as a string": (
@@ -59,39 +47,12 @@ PLANTED = {
         "if TYPE_CHECKING:\n    from quasistatic_ref.optional.show import words",
         "types by a part",
     ),
-    "a later folder of the lab": (
-        "lab/vectors/a.py",
-        "from quasistatic_ref.lab.claims import claim",
-        "later folder",
-    ),
-    "an unknown folder of the lab": ("lab/attic/a.py", "x = 1", "no folder"),
     "from an unknown folder": ("step/a.py", "import quasistatic_ref.attic", "no folder"),
     "cvxpy in the judge": ("certify/a.py", "import cvxpy as cp", "imports cvxpy"),
-    "a solver in figures": (
-        "optional/show/figures/a.py",
-        "from quasistatic_ref.solve.solve import solve_step",
-        "closed to optional/show",
-    ),
     "a claim in an example": (
         "lab/examples/a.py",
         "from quasistatic_ref.lab.claims.paper.grasp import evidence",
         "closed to lab/examples",
-    ),
-}
-
-ALLOWED = {
-    "an earlier folder": ("solve/a.py", "from quasistatic_ref.step import data"),
-    "its own folder": ("step/a.py", "from . import data"),
-    "the version": ("cli/a.py", "from quasistatic_ref import __version__"),
-    "cvxpy in problem.py": ("step/problem.py", "import cvxpy as cp"),
-    "the core in an optional part": (
-        "optional/runs/a.py",
-        "from quasistatic_ref.simulate import rollout",
-    ),
-    "the lab's name in the door": ("cli/main.py", "x = 'quasistatic_ref.lab.commands'"),
-    "for a type checker": (
-        "errors.py",
-        "if TYPE_CHECKING:\n    from quasistatic_ref.step.data import StepData",
     ),
 }
 
@@ -108,11 +69,6 @@ def test_the_checker_catches_a_planted_violation(tmp_path, file, source, says):
     found = violations(package(tmp_path, file, source))
     assert len(found) == 1
     assert says in found[0]
-
-
-@pytest.mark.parametrize(("file", "source"), ALLOWED.values(), ids=ALLOWED)
-def test_the_checker_lets_pass_what_is_allowed(tmp_path, file, source):
-    assert violations(package(tmp_path, file, source)) == []
 
 
 def printed(*lines):

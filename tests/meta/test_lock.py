@@ -39,9 +39,3 @@ def test_every_declared_dependency_is_locked_at_versions_that_it_admits():
 def command():
     """The command that its head says it was made by."""
     return re.search(r"^# +(uv pip compile .*)$", LOCK.read_text("utf-8"), re.MULTILINE)[1]
-
-
-def test_the_command_that_makes_it_is_documented():
-    page = (ROOT / "docs" / "contributing.md").read_text("utf-8")
-    assert command() in page
-    assert "--universal" in command()

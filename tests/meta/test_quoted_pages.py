@@ -7,20 +7,15 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.patched import program
 from tests.lab.vectors.material import answer_file, cases
-from tests.quoted import ROOT, flat, printed, stale
-from tests.quoted_pages import OTHERS, QUOTED
+from tests.quoted import QUOTED, ROOT, flat, held, printed, stale
 
-ELSEWHERE: dict[str, str] = {}
 PAGES = sorted(
-    name
-    for path in (ROOT / "README.md", *(ROOT / "docs").rglob("*.md"))
-    if (name := str(path.relative_to(ROOT))) not in ELSEWHERE
+    str(path.relative_to(ROOT)) for path in (ROOT / "README.md", *(ROOT / "docs").rglob("*.md"))
 )
-
 
 PRINTED = {
     "README.md": "tests/meta/test_readme.py",
-    "docs/quickstart.md": "tests/quoted_pages.py: the lines of demo",
+    "docs/quickstart.md": "tests/quoted.toml: the lines of demo",
     "docs/guides/check_your_implementation.md": "below",
     "docs/guides/run_a_study.md": "below",
     "docs/findings.md": "tests/optional/doctor/test_observer.py and test_findings.py",
@@ -32,12 +27,7 @@ def text(page):
     return (ROOT / page).read_text("utf-8")
 
 
-def held(page):
-    """The phrases of a page that a test holds, as they ought to read."""
-    return [phrase for table in (QUOTED, OTHERS) if page in table for phrase in table[page]()]
-
-
-@pytest.mark.parametrize("page", sorted({*QUOTED, *OTHERS} - set(ELSEWHERE)))
+@pytest.mark.parametrize("page", QUOTED)
 def test_every_quoted_number_is_that_of_its_source(page):
     wrong = stale(text(page), held(page))
     assert not wrong, f"{page} ought to read:\n" + "\n".join(wrong)

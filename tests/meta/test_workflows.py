@@ -1,7 +1,6 @@
 """The workflow files call the parts of .ci/run, all of them, on every Python that is declared."""
 
 import re
-import tomllib
 from pathlib import Path
 
 import yaml
@@ -35,14 +34,3 @@ def test_every_part_is_a_function_and_the_workflows_call_each():
     assert functions - {"environment", "site"} == {*parts()}
     assert {part for job in JOBS.values() for part in called(job)} == {*parts()}
     assert len(parts()) > 5
-
-
-def test_the_tests_run_on_linux_and_macos_with_every_python():
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
-    declared = [line.rpartition(" ")[2] for line in project["classifiers"] if ":: 3." in line]
-    (job,) = (job for job in JOBS.values() if [*called(job)] == ["tests"])
-    matrix = job["strategy"]["matrix"]
-    assert matrix["python"] == declared
-    assert {name.partition("-")[0] for name in matrix["os"]} == {"ubuntu", "macos"}
-    (setup,) = (step for step in job["steps"] if "setup-python" in step.get("uses", ""))
-    assert setup["with"]["python-version"] == "${{ matrix.python }}"

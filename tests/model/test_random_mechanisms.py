@@ -7,8 +7,8 @@ from validation.make.random_mechanisms import CALLS, compare
 
 
 def test_random_mechanisms_move_and_weigh_as_their_links_do() -> None:
-    kinds = Counter[str]()
-    for seed in range(8):
+    kinds = Counter[str]()  # in 38, joints of one chain follow a passive one next to it
+    for seed in range(31, 39):
         own, errors, same = compare(seed)
         kinds += own
         assert errors.shape[0] == CALLS

@@ -1,29 +1,11 @@
 """System: inertia, gravity and wrenches against formulas, differences and the files' numbers."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from quasistatic_ref.model.system import Body, System
-from tests.model.urdf.urdf_texts import BOX, inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import BOX, inertial, joint, link, robot
 from tests.tolerances import ROUNDING
-
-PENDULUM = robot(
-    link("pivot", inertial=""),
-    '<link name="bob"><inertial><origin xyz="0 0 -0.7"/><mass value="3"/>'
-    '<inertia ixx="0.01" iyy="0.01" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>',
-    joint("swing", "pivot", "bob", "continuous", "0 1 0"),
-)
-
-
-@pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 2, -2.5])
-def test_gravity_turns_a_pendulum_by_m_g_l_sin(tmp_path: Path, angle: float) -> None:
-    body = Body("p", written(tmp_path, PENDULUM), actuated="all", positions={"swing": angle})
-    system = System([body])
-    force = system.gravity_force(system.q_start, [0, 0, -9.81])
-    assert force == pytest.approx([-3 * 9.81 * 0.7 * np.sin(angle)], abs=20 * ROUNDING)
-
 
 CART = robot(
     link("rail", inertial=""),

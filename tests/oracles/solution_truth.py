@@ -1,6 +1,7 @@
 """What a solution file claims, decided by fractions from the equations: the judge of forgeries.
 
-H, g, A and b are formed by plain loops, solutions of linear systems are checked. The optimum of a
+H, g, A and b are formed by plain loops, which no rounding and no line of the core enters, from the
+plain program's table of each cone; solutions of linear systems are checked. The optimum of a
 polyhedral cone is proved here from the working set that a file or the package names: all
 multipliers and slacks are at least zero. In the ellipsoid the package encloses it to 40 digits.
 """
@@ -18,6 +19,7 @@ from flint import arb, fmpz_mat
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
 from quasistatic_ref.step.data import StepData
 
@@ -77,26 +79,14 @@ def exact(values: Any) -> Any:
 
 def combinations(step: StepData) -> list[Matrix]:
     """Of each contact: what its rows take of n, d1, d2 and spin, with the friction coefficients."""
-    found = []
-    for j in range(step.contacts.n_c):
-        mu, six = exact(step.contacts.mu_v)[j], step.contacts.rows[j] == 6
-        omega = exact(step.contacts.mu_omega)[j] if six else Fraction(0)
-        one, none = Fraction(1), Fraction(0)
-        if step.cone == "ellipsoid":
-            rows = [[Fraction(i == k) for k in range(4)] for i in range(4)]
-        elif step.cone == "pyramid":
-            rows = [[one, s * mu * (k == 0), s * mu * (k == 1), none]
-                    for s in (1, -1) for k in (0, 1)]  # fmt: skip
-            rows += [[one, none, none, s * omega] for s in (1, -1)] if six else []
-        elif step.cone == "frictionless":
-            rows = [[one, none, none, none]]
-        elif step.cone == "product":
-            slides = [(s * mu * (k == 0), s * mu * (k == 1)) for s in (1, -1) for k in (0, 1)]
-            rows = [[one, a, b, t * omega] for t in (1, -1)[: 1 + six] for a, b in slides]
-        else:
-            raise ValueError(step.cone)
-        found.append(rows)
-    return found
+    c, one = step.contacts, Fraction(1)
+    if step.cone == "ellipsoid":
+        return [[[Fraction(i == k) for k in range(4)] for i in range(4)]] * c.n_c
+    return [
+        [[one, mu * along_1, mu * along_2, omega * spin]
+         for along_1, along_2, spin in cone_table(step.cone, rows, 1).tolist()]
+        for mu, omega, rows in zip(exact(c.mu_v), exact(c.mu_omega), c.rows, strict=True)
+    ]  # fmt: skip
 
 
 def program(step: StepData) -> Program:

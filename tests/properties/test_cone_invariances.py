@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import changed, error, pinch, point_on_floor, random_step
+from tests.helpers import changed, error, point_on_floor, random_step
 from tests.tolerances import ACTIVE_SET, EXACT
 
 STEPS = [random_step(np.random.default_rng(seed), rows=(6, 4, 6)) for seed in range(4)]
@@ -85,24 +85,3 @@ def test_facets_converge_as_K_to_the_minus_2_and_motions_as_1_over_K():
     np.testing.assert_allclose(
         np.log2(motions[0] / motions[-1]) / doublings, 1.0, rtol=0.0, atol=0.2
     )
-
-
-def test_the_holding_force_of_facets_converges_like_one_over_K_squared():
-    # Turned half a side, the weight meets the middle of a side, where the polygon loses most:
-    # slipping starts at N = m g / (2 mu_v cos(pi / K)) + m g d / (2 mu_omega).
-    m, d, mu_v, mu_omega, weight = 0.2, 0.02, 0.5, 0.02, 0.2 * 9.81
-    excess = []
-    for K in (4, 8, 16, 32):
-        low, high = 1.0, 20.0
-        for _ in range(30):
-            grip = (low + high) / 2
-            step = pinch(m=m, grip=grip, offset=d, mu_v=mu_v, mu_omega=mu_omega)
-            step = turned(step.replace(cone=f"facets-{K}"), np.pi / K)
-            # Turned tangents are rounded: rest is not exact any more.
-            slips = np.abs(solve_step(step, "none").delta_q[2:]).max() > 1e-12
-            low, high = (grip, high) if slips else (low, grip)
-        excess.append(high - weight / (2 * mu_v) - weight * d / (2 * mu_omega))
-    expected = [weight / (2 * mu_v) * (1 / np.cos(np.pi / K) - 1) for K in (4, 8, 16, 32)]
-    np.testing.assert_allclose(excess, expected, rtol=1e-4, atol=0.0)
-    rates = -np.diff(np.log2(excess))
-    np.testing.assert_allclose(rates[1:], 2.0, rtol=0.0, atol=0.1)

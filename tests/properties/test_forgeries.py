@@ -2,19 +2,16 @@
 
 import json
 from collections import Counter
-from dataclasses import fields, replace
+from dataclasses import fields
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
-from quasistatic_ref.tolerances import ENCLOSED
-from tests.helpers import pinch, point_on_floor
 from tests.oracles import forgeries
 from tests.oracles.forged_scenes import between_walls, scenes
 from tests.oracles.forgeries import at_random, good_file, outcomes, refused
@@ -109,42 +106,3 @@ def test_a_force_between_walls_that_nothing_touches_is_refused(path):
         for error in (record["certificate"]["error_bound"], 1e9):
             reason = forged(step, path, **both, gap=gap, error_bound=error)
             assert "error_bound is 1" in reason or "presses where nothing touches" in reason
-
-
-PINCH, SLIDE = pinch(grip=5.0, offset=0.02), point_on_floor(force=(4.0, 1.0, -2.943))
-CLAIMS = [
-    *((SLIDE, ELLIPSOID, "error_bound", bound) for bound in (1e9, 2 * ENCLOSED, -1.0, 0.0)),
-    *((PINCH, cone, "error_bound", bound) for cone in (PYRAMID, ELLIPSOID)
-      for bound in (-1.0, 5e-324, -0.0)),
-    (PINCH, ELLIPSOID, "multipliers_unique", True),
-    (PINCH, ELLIPSOID, "differentiable", True),
-    (PINCH, ELLIPSOID, "smallest_inactive_slack", 0.0),
-    (PINCH, ELLIPSOID, "smallest_active_multiplier", 1.0),
-    (PINCH, ELLIPSOID, "residuals", {}),
-    (PINCH, ELLIPSOID, "active", [[0, 0]]),
-]  # fmt: skip
-"""Of an enclosure, another bound than its own; of an exact answer, any error; what the ellipsoid
-does not prove, and other rows than those of the loaded contacts."""
-
-
-@pytest.mark.parametrize(("step", "cone", "claim", "value"), CLAIMS)
-def test_a_claim_that_is_not_proved_is_refused(path, step, cone, claim, value):
-    posed = step.replace(cone=cone)
-    record = json.loads(solution_text(solve_step(posed)))
-    assert not refused(posed, record, path)
-    record["certificate"][claim] = value
-    assert refused(posed, record, path)
-
-
-def test_verify_in_python_holds_an_uncertified_answer_to_its_bound():
-    """The bound that comes with an answer holds; a tenth of a correct one does not."""
-    step = SCENES["residual", "slides"]
-    answer = solve_step(step, certify="residual")
-    lam = np.maximum(np.concatenate([answer.lam, answer.lam_extra]), 0.0)
-    claims = answer.certificate
-    assert verify(step, answer.delta_q, (), lam, claims)
-    short = replace(claims, error_bound=claims.error_bound * 1e-3)
-    assert "the error is larger" in verify(step, answer.delta_q, (), lam, short).reason
-    wide = replace(claims, error_bound=1.5)
-    assert "from 0 to 1" in verify(step, answer.delta_q, (), lam, wide).reason
-    assert "negative" in verify(step, answer.delta_q, (), lam - 1e-3, claims).reason

@@ -38,15 +38,6 @@ def test_strings_mappings_and_keywords_say_the_same(path):
         np.testing.assert_allclose(scenario.K_q, np.diag([7, 8.5]), rtol=EXACT)
 
 
-def test_the_same_run_comes_of_both(path):
-    one = load_scenario(path, ["contacts.push.mu_v=0.1"]).run(progress=False)
-    two = load_scenario(path, {"contacts.push.mu_v": 0.1}).run(progress=False)
-    three = load_scenario(path).run(progress=False)
-    np.testing.assert_array_equal(one["q"], two["q"])
-    np.testing.assert_array_equal(one["mu_v"], [0.5, 0.1])
-    np.testing.assert_array_equal(three["mu_v"], [0.5, 0.3])
-
-
 def test_keywords_are_made_last_and_a_table_may_be_given_whole(path):
     scenario = load_scenario(path, {"steps": 3, "solver": {"backend": "osqp"}}, steps=4)
     assert (scenario.steps, scenario.backend) == (4, "osqp")

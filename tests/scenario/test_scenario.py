@@ -203,24 +203,6 @@ def test_a_body_with_a_cloud_is_its_cloud_by_name(load, tmp_path):
     assert (floor.beta.link, floor.n_c) == (scenario.system.link("ball"), 2)
 
 
-SETTINGS = {
-    "a whole number": ("steps = 7", lambda s: s.steps == 7),
-    "a word in quotes": ('record="light"', lambda s: s.record == "light"),
-    "an inline table's field": ("bodies.rail.K_q.slide=600", lambda s: s.K_q[0, 0] == 600),
-    "true": ("bodies.rail.gravity_compensated=false", lambda s: s.gravity_acts.all()),
-}
-
-
-@pytest.mark.parametrize(("setting", "holds"), SETTINGS.values(), ids=SETTINGS)
-def test_a_setting_changes_one_field(load, setting, holds):
-    assert not holds(load())
-    assert holds(load(settings=[setting]))
-
-
-def test_the_last_of_two_settings_counts(load):
-    assert load(settings=["h=0.02", "h=0.03"]).h == 0.03
-
-
 def test_scenarios_that_come_along_are_found_by_name():
     assert set(scenario_names()) >= {"bunny_grasp", "sphere_spin"}
     assert scenario_path("sphere_spin") == models_folder() / "sphere_spin" / "sphere_spin.toml"
@@ -248,11 +230,3 @@ def test_a_mimic_has_no_target(tmp_path):
     )
     with pytest.raises(InputError, match=r"bodies.m.targets\[0\].m: is not an actuated joint"):
         load_scenario(path)
-
-
-def fields(table, above=()):
-    """The dotted name of every field of a table and of the tables in it."""
-    for key, value in table.items():
-        yield ".".join((*above, key))
-        if isinstance(value, dict):
-            yield from fields(value, (*above, key))

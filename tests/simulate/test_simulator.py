@@ -39,7 +39,7 @@ def test_a_step_is_the_hand_assembled_one_solved(scenario, rng):
     kinematics = system.kinematics(q)
     points = closest_points(scenario.pairs, kinematics)
     gravity = [0.0] * 4 + [-0.3 * GRAVITY] + [0.0] * 3  # on the ball, whose frame is the world's
-    geometry = ContactGeometry(contact_layout(scenario.pairs), system.motion)
+    geometry = ContactGeometry(contact_layout(scenario.pairs), system.column_map)
     expected = StepData(
         h=0.01,
         K_q=np.diag([500.0, 2.5]),

@@ -62,13 +62,6 @@ def test_the_plain_path_imports_nothing_of_fast():
     assert done.stdout == "1 []\n"
 
 
-def test_a_step_solved_alone_has_the_same_bits_at_both_speeds():
-    step = pinch()
-    one, other = solve_step(step), solve_step(step, fast=True)
-    assert (one.backend, other.backend) == ("clarabel", "daqp")
-    assert one.delta_q.tobytes() == other.delta_q.tobytes()
-
-
 def test_without_the_folder_of_fast_the_word_gets_one_sentence(monkeypatch):
     missing = "quasistatic_ref.optional.fast"
 

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import BackendError, InputError, StepDataError, StepNotSolved
-from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.fast.backends import DEFAULT_OF_FAST
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import (
@@ -36,15 +35,6 @@ from tests.tolerances import EXACT, MULTIPLIERS, OPTIMUM
 solve_step = functools.partial(solve.solve_step, certify="residual")  # what backends say
 
 every_interface = pytest.mark.parametrize("interface", INTERFACES)
-
-
-def opposing_walls():
-    """A point 1 mm deep in a floor and 1 mm deep in a ceiling: no delta_q is feasible."""
-    step = point_on_floor(phi=-1e-3)
-    walls = repeated(step.contacts, [0, 0])
-    n, d2 = walls.n.copy(), walls.d2.copy()
-    n[1], d2[1] = -n[1], -d2[1]
-    return step.replace(contacts=changed(walls, n=n, d2=d2, mu_v=[0.0, 0.0]))
 
 
 def test_the_solvers_of_these_tests_are_installed_so_that_green_means_ran():

@@ -3,14 +3,12 @@
 import copy
 import inspect
 import pickle
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.optional.fast import adapters
 from quasistatic_ref.optional.fast.adapters.clarabel import Clarabel
 from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.solver import FastSolver
@@ -35,7 +33,6 @@ from tests.helpers import (
 from tests.tolerances import EXACT, OPTIMUM
 
 ROWS = (6, 4, 6)
-ADAPTERS = Path(adapters.__file__).parent
 
 
 @pytest.fixture

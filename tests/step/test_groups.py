@@ -53,7 +53,7 @@ def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
     own = Extra(("a", "b"), np.array([[0, 0, 0, 0, 0.0], [0, 0, 1, 1, 0]]), np.array([-1.0, -1.0]))
     tied = groups(step.replace(extra=own))
     assert [g.coordinates.tolist() for g in tied] == [[0, 2, 3], [1, 4]]
-    assert [g.own.tolist() for g in tied] == [[0, 1], []]
+    assert [g.extra_rows.tolist() for g in tied] == [[0, 1], []]
     assert tied[0].rows.tolist() == [4, 5, 6, 7, 8, 9]
     assert parts(step.replace(extra=own))[0][1].extra.A.tolist() == [[0, 0, 0], [0, 1, 1]]
 

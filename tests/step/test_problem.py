@@ -123,45 +123,6 @@ def test_multipliers_of_extra_rows_come_after_those_of_contacts(rng):
     np.testing.assert_allclose(problem.dual(), expected, rtol=0.0, atol=MULTIPLIERS * lam.max())
 
 
-OTHERS = {
-    "another mu_v": (
-        "contacts.mu_v",
-        lambda step, rng: step.replace(
-            contacts=changed(step.contacts, mu_v=[*step.contacts.mu_v[:2], 2.0])
-        ),
-    ),
-    "another mu_omega": (
-        "contacts.mu_omega",
-        lambda step, rng: step.replace(
-            contacts=changed(step.contacts, mu_omega=[*step.contacts.mu_omega[:2], 2.0])
-        ),
-    ),
-    "another cone": ("cone", lambda step, rng: step.replace(cone="facets-4")),
-    "another h": ("h", lambda step, rng: step.replace(h=2 * step.h)),
-    "another n_a": ("n_a", lambda step, rng: random_step(rng, 2, 4)),
-    "another n_u": ("n_u", lambda step, rng: random_step(rng, 3, 5)),
-    "the same n_v, split otherwise": ("n_a", lambda step, rng: random_step(rng, 4, 3)),
-    "fewer contacts": ("contacts.rows", lambda step, rng: random_step(rng, 3, 4, (6, 4))),
-    "as many rows, on other contacts": (
-        "contacts.rows",
-        lambda step, rng: random_step(rng, 3, 4, (4, 6, 6)),
-    ),
-    "a row of the user's own": (
-        "extra",
-        lambda step, rng: step.replace(extra=Extra(("a",), np.ones((1, 7)), [0.0])),
-    ),
-}
-
-
-@pytest.mark.parametrize(("field", "other"), OTHERS.values(), ids=OTHERS)
-def test_a_step_of_another_kind_is_refused(field, other, rng):
-    step = random_step(rng, 3, 4, (6, 4, 6))
-    problem = StepProblem(step)
-    problem.fill(with_mu_of(step, random_step(np.random.default_rng(1), 3, 4, (6, 4, 6))))
-    with pytest.raises(StepDataError, match=f"^{field}: is .* in this problem; make a problem"):
-        problem.fill(other(step, rng))
-
-
 def test_mu_omega_does_not_matter_where_it_is_not_used(rng):
     step = random_step(rng, 3, 4, (6, 4, 6))
     mu_omega = step.contacts.mu_omega * [1.0, 2.0, 1.0]

@@ -50,19 +50,6 @@ def test_what_proved_nothing_is_refused_or_held_to_its_bound(tmp_path, kind):
     assert (refutation(step, solution) is None) == (kind == "residual")
 
 
-FALSE = {
-    "multipliers_unique": False, "differentiable": False, "smallest_inactive_slack": 1e-3,
-    "smallest_active_multiplier": None, "error_bound": 5.0, "active": [], "kind": "enclosure",
-    "delta_q": [0.0] * 3, "lam": [[0.0] * 4] * 3, "lam_extra": [1.0],
-}  # fmt: skip
-
-
-@pytest.mark.parametrize("name", FALSE)
-def test_what_is_not_listed_is_proved(tmp_path, name):
-    step, solution = read(tmp_path / "x.json", "exact", **{name: FALSE[name]})
-    assert refutation(step, solution)
-
-
 @pytest.mark.parametrize("kind", ["exact", "exact in the ellipsoid", "enclosure", "residual"])
 def test_a_claim_that_is_null_is_a_claim_that_is_missing(tmp_path, kind):
     record = FILES[kind]["solution"]

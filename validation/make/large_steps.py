@@ -82,7 +82,7 @@ def cost(shape: Shape, way: str, steps: int = STEPS, k: int = 4, certify: str = 
     simulator = some.simulator
     simulator.compiled = None  # compiled rows are dense ones'
     geometry = BlockGeometry if form == "sparse" else PosedGeometry
-    simulator.geometry = geometry(simulator.layout, simulator.system.motion)
+    simulator.geometry = geometry(simulator.layout, simulator.system.column_map)
     system = simulator.system
     M_u = system.mass_blocks if form == "sparse" else system.M_u(some.q)
     simulator.constant = constants(simulator.h, simulator.K_q, 0, M_u, simulator.layout.rows)

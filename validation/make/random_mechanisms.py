@@ -1,35 +1,29 @@
-"""M_u, gravity's force and J of random mechanisms with mimic joints, against a reference.
+"""M_u, gravity's force and J of random mechanisms with mimic joints, against the plain program.
 
     python -m validation.make.random_mechanisms [--count COUNT]
 
-The reference, tests/oracles/mechanisms.py, shares no code with the package.
+The program, quasistatic_ref/lab/program, shares no code with the package's model.
 """
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.model.system import Body, System
-from tests.oracles.mechanisms import (
-    GRAVITY,
-    Mechanism,
-    State,
-    about,
-    cross_matrix,
-    dynamics,
-    jacobians,
-    of_quaternion,
-    poses,
-    random_mechanisms,
-    root_centre,
-    turned,
-    urdf,
-)
+from quasistatic_ref.lab.program.mechanism import kinematics, point_jacobian, slices
+from quasistatic_ref.lab.program.step import loads
+from quasistatic_ref.lab.vectors.families.mechanisms import random_q, random_tree
+from quasistatic_ref.lab.vectors.own.system import OwnSystem, own_system
 from validation.tools.scripts import asked
 
+Json = dict[str, Any]
 CALLS = 10
+GRAVITY = np.array([1.0, -2.0, -9.81])
+FORCE, TORQUE = np.array([1.0, 2.0, 3.0]), np.array([4.0, 5.0, 6.0])
+"""A wrench at the centre of mass of each root [N, N m]."""
 QUANTITIES = ("R, t", "J", "gravity", "wrench", "M_u")
 WORDS = """Errors are the largest difference over the largest entry of a quantity. Each mechanism is
 evaluated ten times by one `System`, at three configurations in turn; the first call and the tenth
@@ -37,73 +31,103 @@ are at the same one.
 """
 
 
-def random_state(rng: np.random.Generator, mechanism: Mechanism, body: Body) -> State:
-    """The pose that the body has in its scene if it is fixed, else a random one."""
-    p, t = rng.normal(size=4), rng.uniform(-1, 1, 3)
-    p /= np.linalg.norm(p)
-    R = of_quaternion(p)
-    if mechanism.base == "fixed":
-        R, t = turned(np.array(body.rpy)), np.array(body.xyz)
-    if mechanism.base == "planar":
-        R, t[2] = about(np.eye(3)[2], rng.uniform(-3, 3)), body.xyz[2]
-    return State(p, R, t, rng.uniform(-2, 2, len(mechanism.links)).tolist())
+def random_mechanism(rng: np.random.Generator) -> Json:
+    """One tree of bodies or two; about half of the joints that can follow another one do."""
+    bodies = []
+    for name in ("arm", "hand")[: rng.integers(1, 3)]:
+        size, base = int(rng.integers(1, 11)), str(rng.choice(["fixed", "floating", "planar"]))
+        tree = random_tree(rng, size, base if size > 1 else "floating", masses=True)["bodies"]
+        for body in tree:
+            body["name"] = f"{name} {body['name']}"
+            body["parent"] = body["parent"] and f"{name} {body['parent']}"
+        bodies += with_mimics(rng, tree)
+    return {"bodies": bodies}
 
 
-def configuration(system: System, mechanisms: list[Mechanism], states: list[State]) -> np.ndarray:
-    """The q of these states."""
-    q = np.full(system.n_q, np.nan)
-    for joint in system.joints:
-        name, short = joint.name.split("/")
-        k = [mechanism.name for mechanism in mechanisms].index(name)
-        R, t = states[k].R, states[k].t
-        if joint.kind == "floating":
-            q[joint.q] = [*t, *states[k].quaternion]
-        elif joint.kind == "planar":
-            q[joint.q] = [t[0], t[1], R[0, 0], R[1, 0]]
-        else:
-            position = states[k].positions[int(short[1:])]
-            endless = joint.kind == "continuous"
-            q[joint.q] = [np.cos(position), np.sin(position)] if endless else position
-    return q
+def with_mimics(rng: np.random.Generator, tree: list[Json]) -> list[Json]:
+    """A tree with mimic joints; URDF's reader wants a leader before those that follow it."""
+    leaders: list[Json] = []
+    for body in depth_first(tree, tree[0]):
+        if body["joint"] not in ("revolute", "prismatic", "continuous"):
+            continue
+        endless = body["joint"] == "continuous"
+        able = [one["name"] for one in leaders if (one["joint"] == "continuous") == endless]
+        if not able or rng.random() < 0.5:
+            leaders.append(body)
+            continue
+        multiplier = float(rng.choice([-1, 1]) * rng.choice([1.0, rng.uniform(0.1, 2)]))
+        follow = {"of": str(rng.choice(able)), "multiplier": multiplier}
+        body |= {"actuated": False, "mimic": follow | {"offset": float(rng.uniform(-1, 1))}}
+    return tree
 
 
-def expected(system: System, mechanisms: list[Mechanism], states: list[State]) -> list[np.ndarray]:
-    """The reference of each of QUANTITIES, in the system's order of links and coordinates."""
-    n = system.n_v
-    at, all_J = [np.hstack([np.eye(3), np.zeros((3, 1))])], [np.zeros((1, 6, n))]
-    M, force, pushed = np.zeros((n, n)), np.zeros(n), np.zeros(n)
-    for mechanism, state in zip(mechanisms, states, strict=True):
-        own = [
-            k for k, c in enumerate(system.coordinates) if c.name.startswith(f"{mechanism.name}/")
-        ]
-        names = [system.coordinates[k].name.partition("/")[2] for k in own]
-        J, placed = jacobians(mechanism, state, names), poses(mechanism, state, None)
-        M[np.ix_(own, own)], force[own] = dynamics(mechanism, placed, J)
-        if mechanism.base != "fixed":
-            arm = placed[0][0] @ root_centre(mechanism)
-            J_c = J[0, :3] - cross_matrix(arm) @ J[0, 3:]
-            pushed[own] = J_c.T @ [1, 2, 3] + J[0, 3:].T @ [4, 5, 6]
-        order = [
-            int(link.partition("/")[2][1:])
-            for link in system.links
-            if link.startswith(f"{mechanism.name}/")
-        ]
-        at += [np.column_stack(placed[i]) for i in order]
-        whole = np.zeros((len(order), 6, n))
-        whole[:, :, own] = J[order]
-        all_J.append(whole)
-    return [np.array(at), np.concatenate(all_J), force, pushed, M[system.n_a :, system.n_a :]]
+def depth_first(tree: list[Json], at: Json) -> Iterator[Json]:
+    """The bodies at and below one of them, as URDF's reader visits them."""
+    yield at
+    for body in tree:
+        if body["parent"] == at["name"]:
+            yield from depth_first(tree, body)
 
 
-def found(system: System, mechanisms: list[Mechanism], q: np.ndarray) -> list[np.ndarray]:
-    """The same, as the package has it."""
-    kinematics = system.kinematics(q)
-    at = np.concatenate([kinematics.R, kinematics.t[:, :, None]], axis=2)
+def by_angles(mechanism: Json, q: list[float]) -> tuple[Json, np.ndarray]:
+    """The same with revolute in place of continuous joints, in which the program has no mimics."""
+    at, revolute = slices(mechanism)[0], []
+    own = {}
+    for body in mechanism["bodies"]:
+        endless = body["joint"] == "continuous"
+        revolute.append(body | {"joint": "revolute"} if endless else body)
+        if body["name"] in at:
+            start, values = at[body["name"]][0].start, q[at[body["name"]][0]]
+            own[start] = [np.arctan2(values[1], values[0])] if endless else values
+    return {"bodies": revolute}, np.concatenate([own[start] for start in sorted(own)])
+
+
+def expected(of: Json, q: list[float]) -> list[np.ndarray]:
+    """Each of QUANTITIES, by the plain program."""
+    mechanism, angles = by_angles(of, q)
+    bodies, at = mechanism["bodies"], kinematics(mechanism, angles)
+    none = np.zeros(3)
+    weights = [{"body": b["name"], "force": b["mass"] * GRAVITY, "torque": none} for b in bodies]
+    M, weight = loads({"mechanism": mechanism, "gravity": none, "wrenches": weights}, at)
+    pushed = np.zeros(len(weight))
+    for root in free_roots(mechanism):
+        v, w = point_jacobian(at[root["name"]], root_centre(bodies, root, at))
+        pushed += v.T @ FORCE + w.T @ TORQUE
+    poses = [np.column_stack(at[b["name"]][:2]) for b in bodies]
+    J = [at[b["name"]][2] for b in bodies]
+    n_a = slices(mechanism)[1]
+    return [np.array(poses), np.array(J), weight, pushed, M[n_a:, n_a:]]
+
+
+def free_roots(mechanism: Json) -> list[Json]:
+    """The bodies that move in the world without a joint."""
+    return [b for b in mechanism["bodies"] if b["joint"] in ("floating", "planar")]
+
+
+def root_centre(bodies: list[Json], root: Json, at: Any) -> np.ndarray:
+    """Centre of mass of a root and of the bodies that are welded to it."""
+    welded = [root]
+    for body in bodies:
+        if body["joint"] == "fixed" and body["parent"] in [one["name"] for one in welded]:
+            welded.append(body)
+    centres = [at[b["name"]][0] @ b["com"] + at[b["name"]][1] for b in welded]
+    return np.average(centres, axis=0, weights=[b["mass"] for b in welded])
+
+
+def found(own: OwnSystem, mechanism: Json, q: np.ndarray) -> list[np.ndarray]:
+    """The same as the package has it, in the mechanism's order of bodies and coordinates."""
+    system = own.system
+    at = system.kinematics(q)
+    links = [own.links[body["name"]] for body in mechanism["bodies"]]
+    poses = np.concatenate([at.R, at.t[:, :, None]], axis=2)[links]
     pushed = np.zeros(system.n_v)
-    for mechanism in mechanisms:
-        if mechanism.base != "fixed":
-            pushed += system.centre_of_mass_force(q, mechanism.name, [1, 2, 3], [4, 5, 6])
-    return [at, kinematics.J, system.gravity_force(q, GRAVITY), pushed, system.M_u(q)]
+    for root in free_roots(mechanism):
+        body = system.links[own.links[root["name"]]].partition("/")[0]
+        pushed += system.centre_of_mass_force(q, body, FORCE, TORQUE)
+    free = own.v[system.n_a :] - system.n_a
+    M_u = system.M_u(q)[np.ix_(free, free)]
+    weight = system.gravity_force(q, GRAVITY)
+    return [poses, at.J[links][:, :, own.v], weight[own.v], pushed[own.v], M_u]
 
 
 def error(a: np.ndarray, b: np.ndarray) -> float:
@@ -114,50 +138,36 @@ def error(a: np.ndarray, b: np.ndarray) -> float:
 def compare(seed: int) -> tuple[Counter[str], np.ndarray, bool]:
     """What a mechanism has, its errors (calls, quantities), whether its bits stay the same."""
     rng = np.random.default_rng(seed)
-    mechanisms = random_mechanisms(rng)
-    bodies = []
-    for m in mechanisms:
-        own = [link.joint for link in m.links[1:] if link.actuated and link.kind != "fixed"]
-        if m.base != "fixed" and m.base_actuated:
-            own.append("base")
-        pose = {"xyz": tuple(rng.uniform(-1, 1, 3)), "rpy": tuple(rng.uniform(-3, 3, 3))}
-        if m.base == "planar":
-            pose["rpy"] = (0.0, 0.0, pose["rpy"][2])
-        bodies.append(Body(m.name, urdf(m), m.base, tuple(own), **pose))
-    system = System(bodies)
-    states = [
-        [random_state(rng, *both) for both in zip(mechanisms, bodies, strict=True)]
-        for _ in range(3)
-    ]
-    at = [configuration(system, mechanisms, one) for one in states]
-    truth = [expected(system, mechanisms, one) for one in states]
-    answers = [found(system, mechanisms, at[call % 3]) for call in range(CALLS)]
+    mechanism = random_mechanism(rng)
+    own = own_system(mechanism)
+    q = [random_q(rng, mechanism) for _ in range(3)]
+    truth = [expected(mechanism, one) for one in q]
+    answers = [found(own, mechanism, own.model_q(q[call % 3])) for call in range(CALLS)]
     errors = np.array([
         [error(a, b) for a, b in zip(answers[call], truth[call % 3], strict=True)]
         for call in range(CALLS)
     ])  # fmt: skip
     same = all(np.array_equal(a, b) for a, b in zip(answers[0], answers[-1], strict=True))
-    return features(mechanisms), errors, same
+    return features(mechanism), errors, same
 
 
-def features(mechanisms: list[Mechanism]) -> Counter[str]:
+def features(mechanism: Json) -> Counter[str]:
     """How many mimic joints there are, and of which kinds."""
     count = Counter[str]()
-    for mechanism in mechanisms:
-        links = mechanism.links
-        for link in links:
-            if link.leader is None:
-                continue
-            above, parent = [], link.parent
-            while parent > 0:
-                above.append(parent)
-                parent = links[parent].parent
-            count["mimic joints"] += 1
-            count["negative"] += link.multiplier < 0
-            count["passive"] += not links[link.leader].actuated
-            count["below another mimic joint"] += any(links[k].leader is not None for k in above)
-            count["below its leader"] += link.leader in above
-            count["of another kind than its leader"] += link.kind != links[link.leader].kind
+    of = {body["name"]: body for body in mechanism["bodies"]}
+    for body in of.values():
+        if "mimic" not in body:
+            continue
+        leader, above, parent = of[body["mimic"]["of"]], [], body["parent"]
+        while parent is not None:
+            above.append(of[parent])
+            parent = of[parent]["parent"]
+        count["mimic joints"] += 1
+        count["negative"] += body["mimic"]["multiplier"] < 0
+        count["passive"] += not leader["actuated"]
+        count["below another mimic joint"] += any("mimic" in one for one in above)
+        count["below its leader"] += leader in above
+        count["of another kind than its leader"] += body["joint"] != leader["joint"]
     return count
 
 
@@ -171,11 +181,8 @@ def report(count: int) -> str:
         same += equal
         with_mimic += own["mimic joints"] > 0
     worst = np.array(errors)
-    lines = [
-        f"{count} random mechanisms, {with_mimic} of them with mimic joints.",
-        "",
-    ]
-    lines += [WORDS, "| quantity | first call | tenth call | any call |", "|---|---|---|---|"]
+    lines = [f"{count} random mechanisms, {with_mimic} of them with mimic joints.", "", WORDS]
+    lines += ["| quantity | first call | tenth call | any call |", "|---|---|---|---|"]
     for k, name in enumerate(QUANTITIES):
         one = worst[:, :, k]
         lines.append(

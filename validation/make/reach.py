@@ -2,7 +2,8 @@
 
 In settled scenes, where the reach along a random direction of q, targets and forces exceeds 1e-6
 natural units, a central difference over a tenth of it is compared with the derivatives.
-Along random forces, of which a step is a piecewise linear function, the rows that touch in the
+Along random forces on blocks and on pairs of the vectors, of which a step is a piecewise linear
+function, the rows that touch in the
 exact steps just before and just after the next kink are to differ by the rows that are named.
 Exit status 1 if a difference is off, or other rows are named. ``--count`` is that of states a
 scene; records are kept in ``--log FILE``, from which the same command goes on.
@@ -30,8 +31,9 @@ from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
+from tests.lab.vectors.material import cases
+from tests.optional.derivatives.free_bodies import vector_scene
 from tests.oracles.differences import after, rate
-from tests.oracles.pushes import SHAPES, pushed
 from validation.tools.scripts import asked, shown
 
 SCENES = {
@@ -131,9 +133,9 @@ def kink(key: str) -> Record:
     if what == "block":
         simulator, q, target = block(rng)
     else:
-        pusher, moved = rng.permutation(list(SHAPES))[:2].tolist()
-        simulator, q, target = pushed(rng, pusher, moved, k=4)
-    arms = np.tile(ARM, simulator.system.n_v // len(ARM))
+        names = [case.id for case in cases("derivative") if "/pair/" in case.id]
+        simulator, q, target = vector_scene(str(rng.choice(names)).partition("/")[2])
+    arms = np.resize(ARM, simulator.system.n_v)
     force, way = 0.1 * arms * rng.normal(size=(2, len(arms)))
     here = derivatives(simulator, q, target, force)
     ahead = here.reach_along(tau=way) if here.differentiable else None
@@ -165,7 +167,7 @@ def keys(count: int) -> tuple[list[str], list[str]]:
         for k in sorted({*np.linspace(FIRST, steps - 1, count).astype(int).tolist()})
     ]
     return states, [
-        f"kink {what} {seed}" for what in ("block", "pushed") for seed in range(3 * count)
+        f"kink {what} {seed}" for what in ("block", "pair") for seed in range(3 * count)
     ]
 
 

@@ -21,7 +21,7 @@ ROOT = Path(__file__).parents[2]
 CLI = "quasistatic_ref.cli.main"
 FIGURES = (
     "grasp cone_surfaces pinch_threshold gradient_of_a_push where_no_gradient_is "
-    "what_smoothing_does plan_a_push both_laws"
+    "what_smoothing_does plan_a_push both_laws solver_digits"
 )
 """Of README and docs, by ``quasistatic-ref figures``."""
 REALITY = ("pushes", "identified", "loads", "errors", "ablations", "tripods")
@@ -94,11 +94,6 @@ RESULTS = (
         ("docs/figures",),
         (("*.png", "docs/figures"),),
     ),
-    Result(
-        "digits_of_backends",
-        "validation.make.digits_of_backends",
-        ("validation/results/digits_of_backends.csv", "docs/figures/digits_of_backends.png"),
-    ),
     printed("large_steps", "large_steps.md"),
     printed("grouped_proofs", "grouped_proofs.md"),
     to_file("contact_qp", "contact_qp.md"),
@@ -107,7 +102,6 @@ RESULTS = (
     printed("step_profile", "step_profile.md"),
     printed("random_mechanisms", "random_mechanisms.md"),
     printed("run_hashes", "run_hashes.md"),
-    to_file("exact_everywhere", "exact_everywhere.txt"),
     to_file("attacks", "attacks.md"),
     to_file("verifier", "verifier.md", "validation.tools.check_verifier --all"),
     to_file("confirmed_bits", "confirmed_bits.txt"),

@@ -1,12 +1,11 @@
 """Every figure in every style and in a grid, read for what is not legible.
 
 Run ``python -m validation.tools.restyled [NAME ...] [--out FOLDER]`` (some three minutes). These
-are the figures of the examples, of the tour and of the claims, and what is drawn from committed
-results, in the style of paper. Those of examples and the tour are also drawn in
-``docs/styles/two_columns.mplstyle`` (3.4 inches, 8 pt), in slides, on a poster, and into one cell
-of a user's own grid of 2 x 2 axes, a page wide. Exit status 1 if any of them has a fault; with
---out each is kept as a PNG, and those on paper stand on one sheet, in colour and in grey: look at
-it for what no program sees.
+are the figures of the examples, of the tour and of the claims, in the style of paper. Those of
+examples and the tour are also drawn in ``docs/styles/two_columns.mplstyle`` (3.4 inches, 8 pt), in
+slides, on a poster, and into one cell of a user's own grid of 2 x 2 axes, a page wide. Exit status
+1 if any of them has a fault; with --out each is kept as a PNG, and those on paper stand on one
+sheet, in colour and in grey: look at it for what no program sees.
 """
 
 import sys
@@ -21,12 +20,10 @@ from docs.six_figures import corner_loads, the_program
 from quasistatic_ref.lab.claims.claim import finding
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example
-from quasistatic_ref.lab.figures.digits import digits_of_backends
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import PAGE
 from tests.legible import faults
-from validation.make.digits_of_backends import SUBJECT, records_read
 from validation.tools.scripts import asked
 
 ROOT = Path(__file__).parents[2]
@@ -49,12 +46,11 @@ def drawer(name: str) -> Callable[..., Figure]:
 
 
 def on_paper() -> Iterator[tuple[str, Figure]]:
-    """The figures of claims, each measured again, and what is drawn from committed results."""
+    """The figures of claims, each measured again."""
     for name, draw in PICTURES.items():
         evidence = finding(BY_NAME[name]).evidence
         assert evidence is not None, f"the claim {name} could not be measured"
         yield f"claim_{name}", draw(evidence.picture)
-    yield "digits_of_backends", digits_of_backends(records_read(), SUBJECT)
 
 
 def in_styles(name: str) -> dict[str, tuple[Figure, list[str]]]:

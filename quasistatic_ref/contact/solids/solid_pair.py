@@ -49,9 +49,9 @@ def pair_and_gaps(
     R = product(a.R.T, b.R)
     t = product(a.R.T, b.t - a.t)
     every, normals = gaps_between(P, Q.moved(R, t))
-    found = polytope_pair(P, Q, R, t, (every, normals))
-    alpha, beta, n = rotated(a.R, np.array([found.alpha, found.beta, found.n]))
-    points = Witness(found.phi, alpha + a.t, beta + a.t, n)
+    witness = polytope_pair(P, Q, R, t, (every, normals))
+    alpha, beta, n = rotated(a.R, np.array([witness.alpha, witness.beta, witness.n]))
+    points = Witness(witness.phi, alpha + a.t, beta + a.t, n)
     return points, (every - P.margin - Q.margin, rotated(a.R, normals))
 
 
@@ -65,10 +65,10 @@ def _curved_pair(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     if isinstance(b.shape, HalfSpace):
         return _solid_on_plane(b, b.shape, a).swapped()
     kinds = " and ".join(type(solid.shape).__name__.lower() for solid in (a, b))
-    found: Witness = needed_part("curved.by_coal", f"{name}: contact of {kinds}").coal_witness(
+    witness: Witness = needed_part("curved.by_coal", f"{name}: contact of {kinds}").coal_witness(
         name, a, b
     )
-    return found
+    return witness
 
 
 def _sphere_on_solid(solid: ShapeInWorld, sphere: ShapeInWorld, radius: float) -> Witness:

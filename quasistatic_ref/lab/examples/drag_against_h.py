@@ -1,7 +1,9 @@
 """What a block that is pushed at one speed pays for small steps, and what for large ones.
 
-The drag m v / h grows as steps shrink: over friction, mu_v m g, it is the quasi-dynamic number
-v / (mu_v g h). What grows with the step is the boundary layer, mu_v h v, (R13).
+A plate on a spring pushes it; how far the plate lags behind its target measures the force. It is
+friction, mu_v m g, and m v / h more: a block starts every step from rest. This drag grows as steps
+shrink: over friction it is the quasi-dynamic number v / (mu_v g h). What grows with the step is the
+boundary layer, mu_v h v, (R13).
 """
 
 from collections.abc import Sequence
@@ -9,13 +11,15 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.pushed_block import MU_V, G, M, V
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.runs import ran
+from quasistatic_ref.lab.scenes.contacts import GRAVITY as G
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.step.data import Array
 
+M, MU_V, V = 0.5, 0.4, 0.01
+"""Of the block [kg], of block and floor [-], of the plate's target [m/s]."""
 TIME_STEPS = tuple(np.geomspace(0.5e-3, 0.1, 6).tolist())
 """h [s]."""
 K_Q = 1e7
@@ -83,7 +87,3 @@ def figure(ax: Any = None, *, h: Sequence[float] = TIME_STEPS, mu_v: float = MU_
     right.loglog(ms, 1e3 * mu_v * V * ms, "k-", label=r"$\mu_v h v$")
     labelled(right, "time step h [ms]", r"boundary layer [$\mu$m]", "friction pyramid")
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -4,7 +4,7 @@ import json
 import sys
 from pathlib import Path
 
-from .layers import LAYERS, plain
+from .layers import LAYERS, TO_SIX_DIGITS, plain
 
 IMPLEMENTATION = "plain NumPy program"
 
@@ -20,9 +20,9 @@ def whole(value, shapes):
 
 def answers(layer, inputs):
     """The content of answers/LAYER.json."""
-    shapes = inputs.get("shapes", {})
+    shapes, known = inputs.get("shapes", {}), LAYERS | TO_SIX_DIGITS
     found = [
-        {"id": case["id"], "output": plain(LAYERS[layer](whole(case["input"], shapes)))}
+        {"id": case["id"], "output": plain(known[layer](whole(case["input"], shapes)))}
         for case in inputs["cases"]
     ]
     return {"format": "quasistatic-ref/vectors-answers", "version": 1, "layer": layer,

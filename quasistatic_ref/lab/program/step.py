@@ -3,6 +3,7 @@
 import numpy as np
 
 from .candidates import candidates, chosen, tangents
+from .forces import forces
 from .integration import integrate, way
 from .mechanism import jacobian, kinematics, point_jacobian, slices
 from .optimum import qp_answer
@@ -62,12 +63,14 @@ def loads(case, at):
 
 
 def objective(case, M, tau):
-    """H and g."""
+    """H and g; a case may have a further generalised force, ``tau``."""
     h, n_a = case["h"], len(case["K_q"])
     K_q = np.array(case["K_q"]).reshape(n_a, n_a)
     delta_q_bar_a = way(case["mechanism"], case["q"], case["q_bar_a"])
     tau_k = K_q @ delta_q_bar_a
     g = h * tau
+    if "tau" in case:
+        g = g + h * case["tau"]
     g[:n_a] += h * tau_k
     H = np.zeros(M.shape, dtype=g.dtype)
     H[:n_a, :n_a] = h * K_q
@@ -77,9 +80,13 @@ def objective(case, M, tau):
 
 def step(case):
     """Layer 8: all of it."""
+    at = kinematics(case["mechanism"], np.array(case["q"]))
+    return step_at(case, at, contacts_of(case, at))
+
+
+def step_at(case, at, contacts):
+    """The step of these bodies with these contacts."""
     mechanism, h, cone = case["mechanism"], case["h"], case["cone"]
-    at = kinematics(mechanism, np.array(case["q"]))
-    contacts = contacts_of(case, at)
     blocks = jacobian({"mechanism": mechanism, "q": case["q"], "contacts": contacts})["J"]
     for contact, J in zip(contacts, blocks, strict=True):
         contact["J"] = J
@@ -98,4 +105,5 @@ def step(case):
     wrenches = wrench({"h": h, "cone": cone, "contacts": loaded, "bodies": {}})["wrench"]
     q_next = integrate({"mechanism": mechanism, "q": case["q"], "delta_q": delta_q})["q"]
     output |= {"delta_q": delta_q, "lam": lam, "A_lam": A_lam}
-    return {**output, "wrench": wrenches, "q_next": q_next}
+    output |= {"wrench": wrenches, "forces": forces(H, g, A, b, contacts, cone, h)}
+    return {**output, "q_next": q_next}

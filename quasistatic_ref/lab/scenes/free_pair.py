@@ -24,7 +24,7 @@ def geometry(system: System, pair: ContactPair, q: Array) -> tuple[ClosestPoints
     """Closest points of a pair at q, and the contacts made of them."""
     kinematics = system.kinematics(q)
     points = closest_points((pair,), kinematics)
-    between = ContactGeometry(contact_layout((pair,)), system.motion)
+    between = ContactGeometry(contact_layout((pair,)), system.column_map)
     return points, between.contacts(points, kinematics)
 
 

@@ -51,21 +51,21 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Pat
     else:
         places = [folder / uri]
     try:
-        found = next((place.resolve() for place in places if place.is_file()), None)
+        path = next((place.resolve() for place in places if place.is_file()), None)
     except (OSError, ValueError, RuntimeError):  # a NUL, a name too long, a ring of links
-        found = None
-    if found is None:
+        path = None
+    if path is None:
         where = ", ".join(str(package) for package in packages) or str(folder)
         raise ModelError(f"no such file (looked for in {where})", value=uri)
-    if not any(found.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
+    if not any(path.is_relative_to(allowed.resolve()) for allowed in [folder, *packages]):
         problem = (
-            f"leads to {found}, outside the folder of this file and of package_dirs; "
+            f"leads to {path}, outside the folder of this file and of package_dirs; "
             "move the mesh, or name its folder in package_dirs"
         )
         raise ModelError(problem, value=uri)
-    if found.suffix.lower() == ".dae":
-        needed_part("readers.dae", "a .dae mesh").check_dae(found)
-    return found
+    if path.suffix.lower() == ".dae":
+        needed_part("readers.dae", "a .dae mesh").check_dae(path)
+    return path
 
 
 def mesh_hull(path: Path, scale: Array) -> ConvexMesh:

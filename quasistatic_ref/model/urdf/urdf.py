@@ -90,8 +90,8 @@ def loaded_urdf(
     file = urdf_file(path)
     with about_file(file.path):
         moving = _moving_joints(file, base)
-        free = [] if actuated == "all" else [name for name in moving if name not in actuated]
-        inertias = checked_inertias(file, free, base)
+        unactuated = [] if actuated == "all" else [name for name in moving if name not in actuated]
+        inertias = checked_inertias(file, unactuated, base)
         text = resolved_text(file, package_dirs)
         model, geometry = _loaded(text, base)
         _check_names(file, model, moving)

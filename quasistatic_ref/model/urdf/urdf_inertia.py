@@ -4,6 +4,9 @@ M_u is the only mass matrix of the model. A link is part of it where an un-actua
 link; there the inertia of all links that fixed joints weld together must be physically consistent:
 mass > 0, positive definite, principal moments with the triangle inequality. Elsewhere moments of
 inertia have no effect. A mass still has: gravity on actuated joints that are not compensated.
+
+Links without inertia and shapes that only connect joints of links with mass are accepted: whether
+M_u is definite depends on the axes of these joints, and is found from M_u itself.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -12,7 +15,12 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.model.urdf.urdf_file import Defect, FileLink, UrdfFile, inertia_defect
+from quasistatic_ref.model.urdf.urdf_file import (
+    Defect,
+    FileLink,
+    UrdfFile,
+    inertia_defect,
+)
 from quasistatic_ref.model.urdf.urdf_tree import Pose, link_poses, rigid_groups
 from quasistatic_ref.step.arrays import Array
 
@@ -33,13 +41,13 @@ def group_inertias(file: UrdfFile) -> dict[str, Array]:
     return total
 
 
-def checked_inertias(file: UrdfFile, free: Collection[str], base: str) -> tuple[str, ...]:
+def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> tuple[str, ...]:
     """Notes on inertias that no rigid body can have and that M_u does not need.
 
     Parameters
     ----------
     file : UrdfFile
-    free : collection of str
+    unactuated : collection of str
         The un-actuated joints, the base's name among them where it moves and is un-actuated.
     base : str
         Kind of the base, for messages.
@@ -50,18 +58,20 @@ def checked_inertias(file: UrdfFile, free: Collection[str], base: str) -> tuple[
         If an un-actuated joint moves a group of links whose inertia no rigid body can have.
     """
     group = rigid_groups(file.root, file.joints)
-    mover = _movers(file, free, base)
+    mover = _movers(file, unactuated, base)
+    loaded = _loaded(file)
     notes = []
     poses = link_poses(file.root, file.joints, {joint.name: 0.0 for joint in file.joints})
     for first in dict.fromkeys(group.values()):
         links = [link for link in group if group[link] == first]
         defects = [(link, file.links[link].defect) for link in links]
-        if mover[first] is not None:
-            whole = _whole(file, links, poses)
-            if not whole.mass > 0 and defects[0][1] is None:
+        connects = first in loaded and not any(_has_substance(file.links[link]) for link in links)
+        if mover[first] is not None and not connects:
+            composite = _composite(file, links, poses)
+            if not composite.mass > 0 and defects[0][1] is None:
                 problem = f"is missing, but {mover[first]} moves this link: it needs a mass"
                 raise ModelError(problem, field=f"link[{first}].inertial")
-            defect = inertia_defect(whole.inertia)
+            defect = inertia_defect(composite.inertia)
             if defect is not None:
                 named = next(((link, d) for link, d in defects if d is not None), (first, defect))
                 link, (field, problem, value) = named
@@ -74,6 +84,19 @@ def checked_inertias(file: UrdfFile, free: Collection[str], base: str) -> tuple[
     return tuple(notes)
 
 
+def _has_substance(link: FileLink) -> bool:
+    return bool(link.mass or link.defect or link.collisions)
+
+
+def _loaded(file: UrdfFile) -> set[str]:
+    """The links that carry a link with mass."""
+    loaded: set[str] = set()
+    for joint in reversed(file.joints):  # children before parents
+        if file.links[joint.child].mass or joint.child in loaded:
+            loaded.add(joint.parent)
+    return loaded
+
+
 def _accepted(defect: Defect, mover: str | None) -> str:
     """Why a defect of a link's inertia is no error, and what it may change nevertheless."""
     if mover is not None:
@@ -83,18 +106,18 @@ def _accepted(defect: Defect, mover: str | None) -> str:
     return f"{accepted}; {lost}" if defect[0] == "mass" else accepted
 
 
-def _movers(file: UrdfFile, free: Collection[str], base: str) -> dict[str, str | None]:
+def _movers(file: UrdfFile, unactuated: Collection[str], base: str) -> dict[str, str | None]:
     """For every link, an un-actuated joint that moves it, in words, or None."""
-    root = next((name for name in free if not any(j.name == name for j in file.joints)), None)
+    root = next((name for name in unactuated if not any(j.name == name for j in file.joints)), None)
     mover: dict[str, str | None] = {file.root: f"the {base} base" if root else None}
     for joint in file.joints:
-        by = joint.mimic.of if joint.mimic else joint.name
-        own = f"joint {joint.name!r}" if joint.kind != "fixed" and by in free else None
-        mover[joint.child] = own or mover[joint.parent]
+        source = joint.mimic.of if joint.mimic else joint.name
+        label = f"joint {joint.name!r}" if joint.kind != "fixed" and source in unactuated else None
+        mover[joint.child] = label or mover[joint.parent]
     return mover
 
 
-def _whole(file: UrdfFile, links: Sequence[str], poses: Mapping[str, Pose]) -> FileLink:
+def _composite(file: UrdfFile, links: Sequence[str], poses: Mapping[str, Pose]) -> FileLink:
     """Links welded together as one, in the frame of the root link."""
     parts = [(file.links[link], *poses[link]) for link in links if file.links[link].mass]
     mass = sum(link.mass for link, _, _ in parts)

@@ -72,8 +72,8 @@ def checked_shapes(
             if solid is None:
                 problem = "was not loaded as written"
                 raise ModelError(problem, field=f"{where}[{count}]", value=shape)
-            own = file.links[link].named[count]
-            name = own if own and _usable(own, every) else f"{link}#{count}"
+            given_name = file.links[link].named[count]
+            name = given_name if given_name and _usable(given_name, every) else f"{link}#{count}"
             if isinstance(shape, FileMesh):
                 notes.append(hull_note(name, solid))
             at = (placement.rotation, placement.translation)

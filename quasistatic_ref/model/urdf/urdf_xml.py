@@ -146,21 +146,21 @@ class Tag:
 
         Two are a ModelError, since urdfdom reads the first only.
         """
-        found = self.element.findall(tag)
+        children = self.element.findall(tag)
         where = f"{self.where}.{tag}"
-        if len(found) > 1:
-            raise ModelError("is given more than once", field=where, value=len(found))
-        child = Tag(found[0], where) if found else None
+        if len(children) > 1:
+            raise ModelError("is given more than once", field=where, value=len(children))
+        child = Tag(children[0], where) if children else None
         if child is not None and attributes:
             child.only(*attributes)
         return child
 
     def child(self, tag: str, *attributes: str) -> "Tag":
         """The only child of that name; a missing one is a ModelError."""
-        found = self.perhaps(tag, *attributes)
-        if found is None:
+        child = self.perhaps(tag, *attributes)
+        if child is None:
             raise ModelError("is missing", field=f"{self.where}.{tag}")
-        return found
+        return child
 
     def ignored(self, *read: str) -> list[str]:
         """Names of the children that are not read; ModelError if one looks like a misprint."""

@@ -53,7 +53,7 @@ class StepRates:
         system, step, points = simulator.system, result.step, result.points
         x = result.solution.delta_q
         kinematics = system.kinematics(q)
-        self.motion = MotionRates(kinematics, system.motion)
+        self.motion = MotionRates(kinematics, system.column_map)
         self.couples = couples(simulator.pairs, points, kinematics.R, kinematics.t)
         tangents = step.contacts.d1, step.contacts.d2
         self.contacts = contact_rates(self.couples, tangents, self.motion.J)

@@ -76,8 +76,8 @@ def _free_links(start: Start) -> Iterator[tuple[int, str, list[PlacedShape]]]:
     A cloud is no shape here: it may be a part of a surface.
     """
     system = start.system
-    free = np.flatnonzero(system.motion.owner >= system.n_a)
-    moved = np.any(system.motion.moves[:, 0][:, free], axis=1)
+    free = np.flatnonzero(system.column_map.owner >= system.n_a)
+    moved = np.any(system.column_map.moves[:, 0][:, free], axis=1)
     for link, name in enumerate(system.links):
         shapes = [placed for placed in system.shapes if placed.link == link]
         if moved[link] and shapes and system.masses[link] > 0:

@@ -64,7 +64,7 @@ def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
         elif mu_omega[j] > 0 and turns[j].any():
             yield Guide((j,), turns[j], float(clearance[j]), float(mu_omega[j]), True)
     # Of what stands nothing moves: all of J is the other body's.
-    layout, moves = start.simulator.layout, np.any(start.system.motion.moves, axis=(1, 2))
+    layout, moves = start.simulator.layout, np.any(start.system.column_map.moves, axis=(1, 2))
     links = np.column_stack([layout.link_alpha, layout.link_beta])
     standing = ~moves[links]
     near = (standing.sum(axis=1) == 1) & (mu_v > 0) & (clearance < CRAWL * start.h * 2 * mu_v)
@@ -154,7 +154,7 @@ def locked(run: Run) -> Iterator[Said]:
     if not run.searched or not rubbing.any():
         return
     k = int(rubbing.argmax())
-    contacts, wrench = run.contacts(k), run["wrench"][k]
+    contacts, wrench = run.contacts(k), run.forces(k)
     bears = wrench[:, 2] > BEARS * wrench[:, 2].max()
     found = [x for x in guides(run, contacts) if bears[list(x.contacts)].any()]
     if not found:

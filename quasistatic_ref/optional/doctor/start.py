@@ -87,7 +87,7 @@ def contacts_of(
     system: System, pairs: Iterable[ContactPair], points: ClosestPoints, kinematics: Kinematics
 ) -> Contacts:
     """Contacts with a dense J."""
-    geometry = ContactGeometry(contact_layout(tuple(pairs)), system.motion)
+    geometry = ContactGeometry(contact_layout(tuple(pairs)), system.column_map)
     return geometry.contacts(points, kinematics)
 
 

@@ -232,7 +232,8 @@ def _symbols(problem: CvxpyProblem, step: StepData, units: Units, private: int =
         delta_q_u=cp.multiply(coordinate[step.n_a :], problem.delta_q_u[:own]),
         delta_q_bar_a=cp.Constant(step.delta_q_bar_a),
         slack=tuple(
-            length * row[j] for row, j in zip(rows(*problem.motion), step.mask.T, strict=False)
+            length * row[j]
+            for row, j in zip(rows(*problem.contact_motion), step.mask.T, strict=False)
         ),
     )
 

@@ -5,7 +5,7 @@ from typing import Any
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry, tangents
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.model.motion import Motion
+from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.fast.posed import PosedContacts
 from quasistatic_ref.parts import part
@@ -19,7 +19,7 @@ class PosedGeometry(ContactGeometry):
     Parameters
     ----------
     layout : ContactLayout
-    motion : Motion
+    column_map : ColumnMap
 
     Attributes
     ----------
@@ -29,8 +29,8 @@ class PosedGeometry(ContactGeometry):
 
     in_blocks = False
 
-    def __init__(self, layout: ContactLayout, motion: Motion) -> None:
-        super().__init__(layout, motion)
+    def __init__(self, layout: ContactLayout, column_map: ColumnMap) -> None:
+        super().__init__(layout, column_map)
         self.mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
         self.named: tuple[list[int], tuple[str, ...]] = [], ()
 
@@ -51,18 +51,18 @@ class PosedGeometry(ContactGeometry):
         return self.named[1]
 
 
-def posed_geometry(layout: ContactLayout, motion: Motion, sparse_from: int) -> Any:
+def posed_geometry(layout: ContactLayout, column_map: ColumnMap, sparse_from: int) -> Any:
     """The geometry of contacts: in blocks where J is large, if `optional/large` is there.
 
     Parameters
     ----------
     layout : ContactLayout
-    motion : Motion
+    column_map : ColumnMap
     sparse_from : int
         Entries of J from which the steps' solver takes blocks; 0 if it takes none.
     """
-    entries = 4 * len(layout.rows) * motion.n_v
+    entries = 4 * len(layout.rows) * column_map.n_v
     large = part("large.sparse_jacobian")
     if large is not None and 0 < sparse_from <= entries:
-        return large.BlockGeometry(layout, motion)
-    return PosedGeometry(layout, motion)
+        return large.BlockGeometry(layout, column_map)
+    return PosedGeometry(layout, column_map)

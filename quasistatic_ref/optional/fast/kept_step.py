@@ -14,7 +14,7 @@ class KeptStep(DenseStep):
     Parameters
     ----------
     step : StepData
-    like : NaturalHessian or None
+    template : NaturalHessian or None
         Of an earlier step: taken over if H is the same array.
     form : StandardForm, optional
         That of the step, where it is known.
@@ -25,15 +25,17 @@ class KeptStep(DenseStep):
     def __init__(
         self,
         step: StepData,
-        like: NaturalHessian | None,
+        template: NaturalHessian | None,
         form: StandardForm | None = None,
         units: Units | None = None,
     ) -> None:
         self.step = step
         self.form = standard_form(step) if form is None else form
         try:
-            same = like is not None and like.H is self.form.H
-            self.metric = like if like is not None and same else natural_hessian(self.form.H)
+            same = template is not None and template.H is self.form.H
+            self.metric = (
+                template if template is not None and same else natural_hessian(self.form.H)
+            )
             self.units = units_of(self.form, self.metric) if units is None else units
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None

@@ -49,7 +49,7 @@ class NativeSolver(Solver):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         A step of that kind.
     name : str
         Of a backend with an adapter.
@@ -64,23 +64,23 @@ class NativeSolver(Solver):
     remembers = True
     fixed = ("n_a", "n_u", "cone", "contacts.rows", "extra")
 
-    def __init__(self, like: StepData, name: str) -> None:
-        check_native(name, like.cone)
-        super().__init__(like, name)
+    def __init__(self, template: StepData, name: str) -> None:
+        check_native(name, template.cone)
+        super().__init__(template, name)
         # Needs its package.
         module = import_module(f"quasistatic_ref.optional.fast.adapters.{name}")
         self.adapter: type[Adapter] = getattr(module, BACKENDS[name].adapter)
-        self.sizes = sizes(like)
+        self.sizes = sizes(template)
         self.metric: NaturalHessian | None = None
         self.program: Program | SparseProgram = self.empty()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.like, self.name)
+        return type(self), (self.template, self.name)
 
     def empty(self) -> Program | SparseProgram:
         """A program of the right size."""
-        like, order = self.like, self.adapter.ORDER
-        n, m = like.n_v, like.m
+        template, order = self.template, self.adapter.ORDER
+        n, m = template.n_v, template.m
         return Program(
             np.zeros((n, n), order=order), np.zeros(n), np.zeros((m, n), order=order), np.zeros(m)
         )
@@ -88,7 +88,7 @@ class NativeSolver(Solver):
     def takes(self, step: StepData) -> bool:
         """Whether a step can be written into the same arrays."""
         # Steps of one run share their layout of rows: an identity test, which takes no time.
-        alike = step.layout is self.like.layout and sizes(step) == self.sizes
+        alike = step.layout is self.template.layout and sizes(step) == self.sizes
         return alike or super().takes(step)
 
     def write(self, scaled: Any) -> NDArray[np.bool_] | None:

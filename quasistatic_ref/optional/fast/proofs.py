@@ -6,7 +6,6 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined
 from quasistatic_ref.certify.norm import EnergyNorm, Norm
@@ -21,7 +20,7 @@ from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.solve.solver import NaturalAnswer
 from quasistatic_ref.solve.units import NaturalHessian
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
-from quasistatic_ref.step.groups import Group, groups, own_rows, split
+from quasistatic_ref.step.groups import Group, extra_rows, groups, split
 from quasistatic_ref.tolerances import ILL_POSED
 
 SMALL = 24
@@ -150,8 +149,8 @@ class Part:
     def _step(self, step: StepData, constant: Constants) -> PosedStep:
         group, given = self.group, step.contacts
         (a, u), j = split(step, group), group.contacts
-        if len(group.own):
-            constant = constant._replace(extra=own_rows(step, group))
+        if len(group.extra_rows):
+            constant = constant._replace(extra=extra_rows(step, group))
         contacts = PosedContacts(
             name=tuple([given.name[i] for i in j.tolist()]),
             phi=given.phi[j],
@@ -178,8 +177,8 @@ class Proofs:
 
     def __init__(self) -> None:
         self.parts: list[Part] = []
-        self._of_parts: list[NDArray[Any]] = []
-        self._of_small: list[NDArray[Any]] = []
+        self._of_parts: list[Array | bytes | float] = []
+        self._of_small: list[Array | bytes | float] = []
         self._small = np.zeros(0, dtype=bool)
 
     def norm(self) -> Norm:
@@ -249,23 +248,30 @@ class Proofs:
         near : ndarray of bool, shape (n_c,)
             The contacts that count.
         """
-        coupling = [*_coupling(step), near]
+        coupling = [*_coupling(step), near.tobytes()]
         if not _same(coupling, self._of_parts):
             self.parts = _parts(step, near, self.parts)
             self._of_parts = coupling
         return self.parts
 
 
-def _coupling(step: StepData) -> list[NDArray[Any]]:
+def _coupling(step: StepData) -> list[Array | bytes | float]:
     """What couples the coordinates of a step, and how."""
-    h, M_u = np.array(step.h), vars(step)["M_u"]  # whole, or in blocks
-    contact, coordinate, _ = step.contacts.entries()
-    return [h, step.K_q, M_u, contact, coordinate, step.extra.A != 0, step.counts]
+    J = vars(step.contacts).get("J")  # None in blocks, as M_u then is
+    if J is None:
+        moving = b"".join(where.tobytes() for where in step.contacts.entries()[:2])
+    else:
+        moving = J.any(axis=1).tobytes()
+    own = (step.extra.A != 0).tobytes()
+    return [step.h, step.K_q, vars(step)["M_u"], moving, own, step.layout.counts]
 
 
-def _same(one: list[NDArray[Any]], two: list[NDArray[Any]]) -> bool:
-    equal = (a is b or np.array_equal(a, b) for a, b in zip(one, two, strict=False))
-    return len(one) == len(two) and all(equal)
+def _same(one: list[Any], two: list[Any]) -> bool:
+    """Whether two such lists are equal: mostly the same objects."""
+    if len(one) != len(two):
+        return False
+    changed = [(a, b) for a, b in zip(one, two, strict=True) if a is not b]
+    return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in changed)
 
 
 def _parts(step: StepData, near: Mask, before: list[Part]) -> list[Part]:

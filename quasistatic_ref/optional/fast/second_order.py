@@ -25,7 +25,7 @@ class ConeSolver(NativeSolver):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         In the ellipsoid.
     name : str
         Of a backend with an adapter that takes cones.
@@ -35,7 +35,7 @@ class ConeSolver(NativeSolver):
         """A program whose first rows are cones, four of each contact."""
         program = super().empty()
         assert isinstance(program, Program)
-        return Program(program.H, program.f, program.A, program.b, self.like.contacts.n_c)
+        return Program(program.H, program.f, program.A, program.b, self.template.contacts.n_c)
 
     def write(self, scaled: Any) -> Mask | None:
         """Write the program in natural units; a contact out of reach bears no impulse at all."""

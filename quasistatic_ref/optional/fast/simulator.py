@@ -56,7 +56,7 @@ class FastSimulator(Simulator):
         )
         self.tracker = ContactTracker(self.pairs)
         least = sparse_from(self.backend, self.cone) if entries else 0
-        self.geometry = posed_geometry(self.layout, system.motion, least)
+        self.geometry = posed_geometry(self.layout, system.column_map, least)
         M_u = system.mass_blocks if self.geometry.in_blocks else system.M_u(system.q_start)
         rows = self.layout.rows
         self.constant = constants(self.h, self.K_q, system.n_a, M_u, rows, self.cone)

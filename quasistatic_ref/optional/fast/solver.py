@@ -52,7 +52,7 @@ class FastSolver(NativeSolver):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         A step of the kind that is to be solved, in a polyhedral cone.
     name : str
         Of a backend with an adapter.
@@ -69,8 +69,8 @@ class FastSolver(NativeSolver):
         Natural units of the step whose g, A and b compiled code has written into the program.
     """
 
-    def __init__(self, like: StepData, name: str) -> None:
-        super().__init__(like, name)
+    def __init__(self, template: StepData, name: str) -> None:
+        super().__init__(template, name)
         self.proofs, self.whole = Proofs(), Kept()
         self.bound: Any = None
         self.written: Units | None = None

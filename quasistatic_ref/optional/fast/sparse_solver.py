@@ -49,7 +49,7 @@ class SparseSolver(NativeSolver):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         With contacts in blocks, and no rows of the user's own.
     name : str
         Of a backend whose adapter takes sparse matrices.
@@ -62,13 +62,13 @@ class SparseSolver(NativeSolver):
         If the step is not in blocks.
     """
 
-    def __init__(self, like: StepData, name: str) -> None:
+    def __init__(self, template: StepData, name: str) -> None:
         able = [entry.name for entry in BACKENDS.values() if entry.sparse]
         if name not in able:
             problem = f"takes no sparse matrices; a step this large needs {', '.join(able)}"
             raise BackendError(problem, field="backend", value=name)
         self.proofs = Proofs()
-        super().__init__(like, name)
+        super().__init__(template, name)
 
     def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum."""
@@ -80,7 +80,7 @@ class SparseSolver(NativeSolver):
 
     def empty(self) -> SparseProgram:
         """A program with H in natural units, which stays, and the pattern of A."""
-        kind: Any = needed_part("large.sparse", "a step in blocks").LargeSteps(self.like)
+        kind: Any = needed_part("large.sparse", "a step in blocks").LargeSteps(self.template)
         self.kind = kind
         A = kind.pattern.A.copy()
         m, n = A.shape

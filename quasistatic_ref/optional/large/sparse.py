@@ -26,7 +26,7 @@ class LargeSteps:
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         A step of that kind, with contacts in blocks, and no rows of the user's own.
 
     Attributes
@@ -45,8 +45,8 @@ class LargeSteps:
         If the step is not in blocks.
     """
 
-    def __init__(self, like: StepData) -> None:
-        self.pattern = Pattern(like)
+    def __init__(self, template: StepData) -> None:
+        self.pattern = Pattern(template)
         P, column = self.pattern.P, self.pattern.P_column
         S = self.coordinate = coordinate_units(P.diagonal())
         self.P = csc_matrix((P.data * S[P.indices] * S[column], P.indices, P.indptr), P.shape)

@@ -46,21 +46,21 @@ class Pattern:
         self.column = np.repeat(np.arange(n_v), np.diff(counted.indptr))
         self.P = upper_triangle(step)
         self.P_column = np.repeat(np.arange(n_v), np.diff(self.P.indptr))
-        self.like, self.blocks = step, blocks
+        self.template, self.blocks = step, blocks
 
     def fits(self, step: StepData) -> bool:
         """Whether a step has its entries where this pattern has them, and the same H."""
-        like = self.like
+        template = self.template
         contacts = step.contacts
         if not isinstance(contacts, SparseContacts) or step.extra.names:
             return False
-        if (step.h, step.cone) != (like.h, like.cone):
+        if (step.h, step.cone) != (template.h, template.cone):
             return False
         return (
             _same(contacts.blocks.column, self.blocks.column)
-            and _same(step.contacts.rows, like.contacts.rows)
-            and _same(step.K_q, like.K_q)
-            and (_same(kept_M_u(step), kept_M_u(like)) or _same(step.M_u, like.M_u))
+            and _same(step.contacts.rows, template.contacts.rows)
+            and _same(step.K_q, template.K_q)
+            and (_same(kept_M_u(step), kept_M_u(template)) or _same(step.M_u, template.M_u))
         )
 
 

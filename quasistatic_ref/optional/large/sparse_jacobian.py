@@ -5,7 +5,7 @@ import numpy as np
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.model.motion import Motion
+from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
@@ -19,17 +19,17 @@ class BlockGeometry:
     Parameters
     ----------
     layout : ContactLayout
-    motion : Motion
+    column_map : ColumnMap
     """
 
     in_blocks = True
 
-    def __init__(self, layout: ContactLayout, motion: Motion) -> None:
+    def __init__(self, layout: ContactLayout, column_map: ColumnMap) -> None:
         self.layout = layout
         # Joints' columns in the order of their coordinates; a mimic's is that of another.
-        owner = motion.owner
+        owner = column_map.owner
         by_coordinate = np.argsort(owner, kind="stable")
-        owner, moves = owner[by_coordinate], motion.moves[:, 0, by_coordinate] > 0
+        owner, moves = owner[by_coordinate], column_map.moves[:, 0, by_coordinate] > 0
         a, b = moves[layout.link_alpha], moves[layout.link_beta]
         contact, rank, joint_column = _ragged(a | b)
         shape = (len(a), 1 + int(rank.max(initial=-1)))
@@ -37,7 +37,7 @@ class BlockGeometry:
         self.joint_column[contact, rank] = by_coordinate[joint_column]
         self.alpha[contact, rank] = a[contact, joint_column]
         self.beta[contact, rank] = b[contact, joint_column]
-        self.n_v = motion.n_v
+        self.n_v = column_map.n_v
         coordinate = np.zeros((len(a), self.n_v), dtype=bool)
         coordinate[contact, owner[joint_column]] = True
         at, place, column = _ragged(coordinate)
@@ -45,7 +45,7 @@ class BlockGeometry:
         self.column[at, place] = column
         self.column.setflags(write=False)  # one array for all steps
         self.sums = None
-        if motion.mimics:  # the columns of one coordinate add up
+        if column_map.mimics:  # the columns of one coordinate add up
             self.sums = np.zeros((*shape, self.column.shape[1]))
             position = coordinate.cumsum(axis=1) - 1
             self.sums[contact, rank, position[contact, owner[joint_column]]] = 1.0

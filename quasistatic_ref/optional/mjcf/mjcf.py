@@ -23,6 +23,10 @@ FREE, BALL, SLIDE, HINGE = range(4)
 """Types of joints, as MuJoCo numbers them."""
 GEOMS = ("plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "sdf")
 WORLD = "worldbody"
+GREY = (0.5, 0.5, 0.5, 1.0)
+"""The colour of a geom that is given none."""
+HIDDEN = 3
+"""The first group of geoms that MuJoCo does not draw unless it is asked to."""
 LISTED = (
     "actuator", "sensor", "tendon", "site", "camera", "light", "key", "pair", "exclude", "numeric",
     "text", "tuple", "skin", "hfield", "material", "texture",
@@ -135,7 +139,7 @@ def _list_elements(model: Any, robot: Element) -> None:
 
 
 def _link(spec: Any, model: Any, i: int, robot: Element) -> None:
-    """Body i as a link: its inertia, and its geoms as collisions or, untouched, as visuals."""
+    """Body i as a link: its inertia, the geoms that touch, and those that MuJoCo draws."""
     link = SubElement(robot, "link", name=_name(model, "body", i))
     if model.body_mass[i]:
         R = _rotation(model.body_iquat[i])
@@ -179,13 +183,29 @@ def _geom(spec: Any, model: Any, g: int, touches: bool, link: Element) -> None:
     else:
         SubElement(link, re.sub(r"[^\w.-]", "_", f"geom.{_name(model, 'geom', g)}"))
         return
-    element = SubElement(link, "collision" if touches else "visual")
-    if model.geom(g).name:
-        element.set("name", model.geom(g).name)
+    if touches:
+        collision = _placed(link, "collision", shape, R, t)
+        if model.geom(g).name:
+            collision.set("name", model.geom(g).name)
+        SubElement(collision, "friction")  # the scenario has it, by tables of contacts
+    rgba = _rgba(model, g)
+    if model.geom_group[g] < HIDDEN and rgba[3]:
+        material = SubElement(_placed(link, "visual", shape, R, t), "material", name="")
+        SubElement(material, "color", rgba=_text(rgba))
+
+
+def _placed(link: Element, tag: str, shape: Element, R: Array, t: Array) -> Element:
+    """A shape of a link, at a pose."""
+    element = SubElement(link, tag)
     _origin(element, t, R)
     SubElement(element, "geometry").append(shape)
-    if touches:
-        SubElement(element, "friction")  # the scenario has it, by tables of contacts
+    return element
+
+
+def _rgba(model: Any, g: int) -> Array:
+    """A geom's colour as MuJoCo draws it, shape (4,): its own, where it has no material or one."""
+    own, material = model.geom_rgba[g], model.geom_matid[g]
+    return np.asarray(own if material < 0 or np.any(own != GREY) else model.mat_rgba[material])
 
 
 def _joints(model: Any, i: int, robot: Element) -> None:

@@ -26,7 +26,7 @@ class QpsolversSolver(Solver):
 
     Parameters
     ----------
-    like : StepData
+    template : StepData
         A step in the cone of those that are to be solved.
     name : str
         Of the backend, with ``qpsolvers:``.

@@ -157,10 +157,10 @@ class _SceneFiles:
             return placed.name
         body, _, link = self.system.links[placed.link].partition("/")
         if isinstance(placed.shape, PointCloud):
-            return self.cloud(placed, body)
+            return self.cloud(placed, placed.shape, body)
         return self.added(placed, body, link)
 
-    def cloud(self, placed: PlacedShape, body: str) -> str:
+    def cloud(self, placed: PlacedShape, shape: PointCloud, body: str) -> str:
         """A cloud as a file, named by its body."""
         at_root = placed.link == self.system.link(body)
         if not at_root or np.any(np.eye(3) != placed.R) or np.any(placed.t):
@@ -168,7 +168,7 @@ class _SceneFiles:
             raise InputError(problem, field=placed.name)
         if self.clouds.setdefault(body, placed.name) != placed.name:
             raise InputError("is the second cloud of its body", field=placed.name)
-        np.save(self.folder / f"{self.stem}_{body}.npy", placed.shape.points)  # type: ignore[attr-defined]
+        np.save(self.folder / f"{self.stem}_{body}.npy", shape.points)
         return body
 
     def added(self, placed: PlacedShape, body: str, link: str) -> str:

@@ -95,7 +95,7 @@ def problem_page(problem: StepProblem) -> Page:
     """A compiled problem: the kind of its steps, and its parameters."""
     parameters = problem.parameters.items()
     shapes = [(name, " x ".join(map(str, parameter.shape))) for name, parameter in parameters]
-    title, *_ = step_page(problem.like)
+    title, *_ = step_page(problem.template)
     return title.replace("StepData", "StepProblem"), [], ("parameter", "shape"), shapes
 
 

@@ -6,7 +6,6 @@ import pytest
 from quasistatic_ref.certify.compliance import forces
 from quasistatic_ref.certify.compliance.face_guess import guessed_faces
 from quasistatic_ref.certify.compliance.forces import contact_forces
-from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import X, repeated
 from quasistatic_ref.lab.scenes.rigid import rigid_step
@@ -55,11 +54,10 @@ def test_forces_converge_in_proportion_to_the_compliance():
         np.testing.assert_allclose(off, limit * M * c / H**2 / 4, rtol=3e-3)
 
 
-@pytest.mark.parametrize("rows", [4, 6])
-def test_four_and_six_rows_are_alike_without_mu_omega(rows):
-    alike = contact_forces(block(4, push=1.0, mu_omega=0.0)).wrench
-    other = contact_forces(block(rows, push=1.0, mu_omega=0.0)).wrench
-    assert other.tobytes() == alike.tobytes()
+@pytest.mark.parametrize("cone", CONES)
+def test_four_and_six_rows_are_alike_without_mu_omega(cone):
+    four, six = (block(rows, push=1.0, mu_omega=0.0, cone=cone) for rows in (4, 6))
+    assert contact_forces(four).wrench.tobytes() == contact_forces(six).wrench.tobytes()
 
 
 @pytest.mark.parametrize("cone", CONES)
@@ -87,15 +85,6 @@ def test_wrong_guesses_are_mended_in_exact_numbers(monkeypatch):
         with monkeypatch.context() as patch:
             patch.setattr(forces, "guessed_faces", nothing)
             assert contact_forces(step).wrench.tobytes() == quick.tobytes()
-
-
-def test_every_backend_and_speed_has_the_same_bits():
-    run = load_scenario("bunny_grasp", ["steps=40"], fast=True).run(progress=False)
-    step = run.step_data(39)
-    answers = [solve_step(step, name) for name in ("clarabel", "osqp", "piqp", "daqp", "none")]
-    answers += [solve_step(step, "daqp", fast=True), solve_step(step, certify="off")]
-    assert len({answer.forces.tobytes() for answer in answers}) == 1
-    assert answers[0].forces[:, 2].max() > 1.0
 
 
 def test_a_row_of_a_user_stays_hard():
@@ -157,14 +146,6 @@ def test_contacts_of_bodies_that_stand_bear_nothing(cone):
 def test_a_compliance_that_is_none_is_refused(compliance):
     with pytest.raises(InputError, match="compliance: must be a positive number"):
         contact_forces(block(), compliance)
-
-
-def test_net_impulse_has_its_bits_from_every_backend():
-    step = block(push=1.0)
-    answers = [solve_step(step, name) for name in ("clarabel", "osqp", "daqp", "none")]
-    expected = exact_step(step).net
-    assert {answer.net_impulse.tobytes() for answer in answers} == {expected.tobytes()}
-    assert solve_step(step, certify="off").net_impulse is None
 
 
 def test_whatever_should_not_matter_does_not(monkeypatch):

@@ -2,7 +2,7 @@
 
 import sys
 
-from tests.quoted import cells
+from tests.quoted_sources import table
 from validation.make import contact_qp
 
 
@@ -11,7 +11,7 @@ def test_a_sample_of_the_table_has_the_digits_of_each_solver(tmp_path, monkeypat
     page = tmp_path / "page.md"
     monkeypatch.setattr(sys, "argv", ["", "--every", "211", "--out", str(page)])
     contact_qp.main()
-    rows = {(row["family"], row["solver"]): row for row in cells(page)}
+    rows = {(row["family"], row["solver"]): row for row in table(page)}
     for solver in contact_qp.SOLVERS:
         gaps = rows["`gaps`", solver]
         assert float(gaps["digits of nine in ten, easy fifth"]) > 7

@@ -9,6 +9,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf import urdf as urdf_module
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Sphere
@@ -89,6 +91,17 @@ def test_an_inertia_that_moves_nothing_is_noted(tmp_path: Path) -> None:
         loaded_urdf(path, base="floating", actuated=("base",))
     with pytest.raises(ModelError, match=r"link\[a\].inertial.mass: must be greater than 0"):
         loaded_urdf(path, base="floating", actuated=("j",))
+
+
+def test_a_link_that_only_connects_joints_needs_no_mass(tmp_path: Path) -> None:
+    """Its joints turn about one axis: where neither is actuated, M_u is singular."""
+    chain = joint("j", "a", "b") + joint("i", "b", "c")
+    path = written(tmp_path, robot(link("a"), link("b", inertial=""), link("c"), chain))
+    for actuated in (("i", "j"), ("i",), ("j",)):
+        system = System([Body("r", path, base="floating", actuated=actuated)])
+        assert system.masses.tolist() == [0.0, 2.0, 0.0, 2.0]
+    with pytest.raises(ModelError, match="its mass matrix M_u is singular in float64"):
+        System([Body("r", path, base="floating")])
 
 
 def test_a_defect_of_a_part_of_a_body_is_noted(tmp_path: Path) -> None:

@@ -1,8 +1,9 @@
-"""One free body on shapes that are fixed in the world, and what its derivatives say."""
+"""One free body on shapes that are fixed in the world, and scenes of the reference vectors."""
 
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
@@ -15,6 +16,7 @@ from quasistatic_ref.shapes.placed_shape import (
     Sphere,
 )
 from quasistatic_ref.simulate.simulator import Simulator
+from tests.lab.vectors.material import cases
 
 H, G, NONE = 0.01, 9.81, np.zeros(0)
 FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
@@ -38,6 +40,15 @@ def free(shape, xyz, *fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="flo
         for i, (s, at) in enumerate(fixed)
     ]
     return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
+
+
+def vector_scene(name, **settings):
+    """(simulator, q, q_bar_a) of a vector of derivatives, with other settings of the simulator."""
+    (case,) = [case for case in cases("derivative") if case.id == f"derivative/{name}"]
+    posed = posed_case(case.input)
+    own = posed.simulator
+    given = {"h": own.h, "K_q": own.K_q, "gravity": own.gravity, "cone": own.cone, "fast": True}
+    return Simulator(own.system, own.pairs, **(given | settings)), posed.q, posed.q_bar_a
 
 
 def reaching(gap=0.0):

@@ -12,7 +12,7 @@ from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.step.extension import Extension
 from tests.lab.vectors.material import cases, report_on
-from tests.oracles.pushes import pushed
+from tests.optional.derivatives.free_bodies import vector_scene
 from tests.tolerances import DIFFERENCE_OF_STEPS
 
 
@@ -28,7 +28,7 @@ def test_the_package_meets_half_of_the_vectors(part):
 
 
 def test_derivatives_do_not_move_the_simulator():
-    simulator, q, q_bar_a = pushed(np.random.default_rng(1))
+    simulator, q, q_bar_a = vector_scene("floating/push")
     before = simulator.step(q, q_bar_a)
     kept = q.copy()
     found = derivatives(simulator, q, q_bar_a)
@@ -37,16 +37,16 @@ def test_derivatives_do_not_move_the_simulator():
 
 
 def test_an_uncertified_simulator_has_the_same_derivatives():
-    exact, q, q_bar_a = pushed(np.random.default_rng(1))
-    rough, _, _ = pushed(np.random.default_rng(1), certify="residual")
+    exact, q, q_bar_a = vector_scene("floating/push")
+    rough, _, _ = vector_scene("floating/push", certify="residual")
     one, two = derivatives(exact, q, q_bar_a), derivatives(rough, q, q_bar_a)
     assert np.abs(one.dq_dq - two.dq_dq).max() <= DIFFERENCE_OF_STEPS
 
 
 def test_the_ellipsoid_and_extensions_are_refused():
-    simulator, q, q_bar_a = pushed(np.random.default_rng(1), cone="ellipsoid")
+    simulator, q, q_bar_a = vector_scene("floating/push", cone="ellipsoid")
     with pytest.raises(InputError, match="polyhedron"):
         derivatives(simulator, q, q_bar_a)
-    simulator, q, q_bar_a = pushed(np.random.default_rng(1), extension=lambda q: Extension((), 0.0))
+    simulator, q, q_bar_a = vector_scene("floating/push", extension=lambda q: Extension((), 0.0))
     with pytest.raises(InputError, match="any function of q"):
         derivatives(simulator, q, q_bar_a)

@@ -1,13 +1,10 @@
 """At rows that touch without load: the derivative along a direction, and those of one side."""
 
-import pickle
-
 import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
-from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import Sphere
 from tests.optional.derivatives.free_bodies import (
@@ -49,13 +46,6 @@ def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
     assert np.allclose(pressed.dq_dq[2, 2], 0, atol=1e-12)
     along = derivatives(simulator, q, NONE, towards={"q": np.eye(6)[0]})
     assert {why.kind for why in along.reasons} == {reason.WEAK}
-
-
-def test_a_copy_has_the_same_one_sided_derivatives():
-    simulator, q = reaching()
-    for found in (derivatives(simulator, q, NONE), smoothed(simulator, q, NONE, 1e-6)):
-        again = pickle.loads(pickle.dumps(found))
-        assert (again.along(q=np.eye(6)[2]) == found.along(q=np.eye(6)[2])).all()
 
 
 def test_a_wrong_direction_is_refused():

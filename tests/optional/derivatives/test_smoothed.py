@@ -10,22 +10,23 @@ from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from quasistatic_ref.shapes.placed_shape import Sphere
 from quasistatic_ref.step.data import Contacts
+from tests.optional.derivatives.free_bodies import vector_scene
 from tests.oracles.differences import rate, unit
-from tests.oracles.pushes import pushed
 from tests.tolerances import DIFFERENCE_OF_STEPS
 
 G = 9.81
 NONE = np.zeros(0)
 
 
-@pytest.mark.parametrize("couple", [("ellipsoid", "capsule"), ("box", "cloud"), ("cone", "mesh")])
+@pytest.mark.parametrize("name", ["ellipsoid_capsule_0", "box_cloud_1", "cone_convex_0"])
 @pytest.mark.parametrize("kappa", [1e-4, 1e-8])
-def test_derivatives_of_a_smoothed_push_agree_with_differences(couple, kappa):
+def test_derivatives_of_a_smoothed_push_agree_with_differences(name, kappa):
     rng = np.random.default_rng(5)
-    simulator, q, q_bar_a = pushed(rng, *couple, k=4)
+    simulator, q, q_bar_a = vector_scene(f"pair/{name}")
     found = smoothed(simulator, q, q_bar_a, kappa)
     assert found.differentiable
-    system, e = simulator.system, unit(rng, 12)
+    system = simulator.system
+    e = unit(rng, system.n_v)
 
     def moved(t):
         end = smoothed(simulator, system.integrate(q, t * e), q_bar_a, kappa).result.q
@@ -45,7 +46,7 @@ def test_derivatives_of_a_smoothed_push_agree_with_differences(couple, kappa):
 
 
 def test_smoothed_derivatives_tend_to_those_of_the_exact_step():
-    simulator, q, q_bar_a = pushed(np.random.default_rng(5), "ellipsoid", "capsule", k=4)
+    simulator, q, q_bar_a = vector_scene("pair/ellipsoid_capsule_0")
     exact = derivatives(simulator, q, q_bar_a)
     assert exact.differentiable
     off = []

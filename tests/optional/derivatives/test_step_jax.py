@@ -1,6 +1,5 @@
 """Steps as functions of JAX: its own check of gradients, and no number at a kink unsaid."""
 
-import subprocess
 import sys
 
 import jax
@@ -17,9 +16,8 @@ from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step_jax import smoothed_jax, step_jax
 from quasistatic_ref.shapes.placed_shape import Sphere
-from tests.optional.derivatives.free_bodies import BOX, FLOOR, free
-from tests.oracles.pushes import pushed
-from tests.tolerances import JAX_GRADIENT, JAX_STEP, ROUNDING
+from tests.optional.derivatives.free_bodies import BOX, FLOOR, free, vector_scene
+from tests.tolerances import JAX_GRADIENT, JAX_STEP
 
 G, NONE, UP = 9.81, np.zeros(0), np.eye(6)[2]
 
@@ -39,7 +37,7 @@ def checked(function, *given):
 
 def floating():
     """A hand and a body, both floating: quaternions in q and in q_bar_a."""
-    return pushed(np.random.default_rng(5), "ellipsoid", "capsule", k=4)
+    return vector_scene("floating/push")
 
 
 def turning():
@@ -81,28 +79,6 @@ def test_gradients_of_smoothed_steps_in_sequence_pass_the_check_of_jax():
     goals = goal + np.linspace(0, 4e-3, 5)[:, None]
     assert not run(goals)[1].any()
     checked(lambda goals: run(goals)[0], goals)
-
-
-def test_many_steps_at_once_are_those_one_by_one():
-    simulator, q, goal = turning()
-    step = step_jax(simulator)
-    goals = goal + np.linspace(0, 1e-3, 3)[:, None]
-    slope = jax.grad(lambda goal: step(q, goal)[0].sum())
-    at_once = jax.vmap(slope)(goals)
-    np.testing.assert_array_equal(at_once, [slope(one) for one in goals])
-
-
-def test_a_quaternion_s_length_has_no_gradient():
-    simulator, q, goal = floating()
-    step = step_jax(simulator)
-    by_q = jax.jacrev(lambda q: step(q, goal)[0])(q)
-    longer = np.where(np.arange(7) < 3, 1.0, 1.5)
-    scaled = step(q * np.tile(longer, 2), goal * longer)[0]
-    np.testing.assert_allclose(scaled, step(q, goal)[0], atol=ROUNDING)
-    for joint in simulator.system.joints:
-        part = slice(joint.q.start + 3, joint.q.stop)
-        along = np.asarray(by_q)[:, part] @ q[part]
-        assert np.abs(along).max() < 1e-12 * np.abs(by_q).max()
 
 
 def kink():
@@ -179,10 +155,3 @@ def test_without_jax_one_sentence_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "jax", None)
     with pytest.raises(InputError, match=r"pip install 'quasistatic-ref\[jax\]'"):
         qr.step_jax(kink()[0])
-
-
-def test_nothing_of_jax_is_imported_before_it_is_asked_for():
-    source = "import sys, quasistatic_ref as q; q.step_jax, q.smoothed; print('jax' in sys.modules)"
-    command = [sys.executable, "-c", source]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "False"

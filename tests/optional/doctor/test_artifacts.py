@@ -18,7 +18,7 @@ from quasistatic_ref.optional.doctor.artifacts import (
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import SLOW
-from tests.helpers import changed, pinch, point_on_floor, sphere_on_floor
+from tests.helpers import changed, point_on_floor, sphere_on_floor
 from tests.scenes import chain_scene
 from tests.tolerances import ROUNDING
 
@@ -85,27 +85,6 @@ def test_the_share_of_drag_under_weight_is_the_quasi_dynamic_number(share):
     np.testing.assert_allclose(found, Pi, rtol=ROUNDING, atol=0.0)
 
 
-def test_the_share_of_a_lifted_body_is_drag_over_the_grip_s_friction():
-    # (R13): m v / h over mu_v 2 N. A third coordinate lifts both fingers through a stiffness K:
-    # K (target - z) = m g + m z / h^2.
-    m, mu_v, grip, K, target = 0.2, 0.4, 40.0, 2000.0, 3e-3
-    held = pinch(m=m, grip=grip, offset=0.0, mu_v=mu_v)
-    J = np.insert(held.contacts.J, 2, 0.0, axis=2)
-    J[:, 2, 2] = -1.0
-    step = held.replace(
-        K_q=np.diag([1000.0, 1000.0, K]),
-        tau_a=np.zeros(3),
-        delta_q_bar_a=[*held.delta_q_bar_a, target],
-        contacts=changed(held.contacts, J=J),
-        extra=None,
-    )
-    z = (K * target - m * G) / (K + m / H**2)
-    expected = (m * z / H**2) / (mu_v * 2 * grip)
-    solution = solve_step(step)
-    found = drag_share(free_body(m, at=3), solution, G)
-    np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=0.0)
-
-
 def test_the_drag_of_a_falling_body_is_its_weight():
     step = sphere_on_floor(m=0.3, phi=1.0, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)
     found = drag_share(free_body(0.3), solve_step(step), G)
@@ -132,15 +111,6 @@ def test_the_layer_of_a_spun_sphere_is_mu_omega_times_its_turn():
         gap_after(solution.step.contacts.phi, solution, solution.step.n_v), solution
     )
     np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=0.0)
-
-
-def test_a_contact_without_load_has_no_layer_however_far_it_is():
-    step = point_on_floor(phi=1.0, force=(0, 0, -0.3 * G))
-    solution = solve_step(step)
-    assert (
-        boundary_layer(gap_after(solution.step.contacts.phi, solution, solution.step.n_v), solution)
-        == 0.0
-    )
 
 
 def test_a_run_tells_its_numbers_and_keeps_them_in_its_header(tmp_path, capsys):

@@ -5,12 +5,10 @@ import pytest
 
 from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.sunk import sunk
-from quasistatic_ref.optional.doctor.targets import half_turns
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from quasistatic_ref.tolerances import SUNK
-from tests.scenes import chain_scene, written_scenario
+from tests.scenes import written_scenario
 
 
 @pytest.fixture(scope="module")
@@ -87,22 +85,3 @@ def test_a_pair_of_solids_that_could_keep_more_contacts_is_asked_for_k(scene):
         "raise k of contacts.push: point 5 of push(rail/plate#0, ball/ball#0) was not among its 2 "
         "closest at step 1 and is 2 mm deep at step 2"
     )
-
-
-@pytest.mark.parametrize("name", ["arm/spin", "arm/base"])
-@pytest.mark.parametrize(("angles", "step"), [
-    ([3.0, 3.1, 3.2, 3.3], 2),  # from here on the shorter way is the other one
-    ([3.0, 3.1, 3.0, 2.9], None),
-    ([1.0, 0.1, -0.1, -1.0], None),
-    ([-3.0, -3.2, -3.0, 0.0], 1),
-])  # fmt: skip
-def test_a_target_that_is_half_a_turn_ahead_is_named(tmp_path, name, angles, step):
-    system = chain_scene(tmp_path)
-    axis = np.zeros(system.n_v)
-    axis[system.joint(name).v] = [0, 0, 0, 0.6, 0, 0.8] if name == "arm/base" else 1.0
-    q = system.integrate(system.q_start, 0.3 * np.ones(system.n_v))
-    targets = np.array([system.integrate(q, a * axis)[: system.n_q_a] for a in angles])
-    K_q = np.eye(system.n_a)
-    run = Made(Simulator(system, [], h=0.01, K_q=K_q), 4, q=np.tile(q, (5, 1)), q_bar_a=targets)
-    assert [said.numbers for said in half_turns(run)] == ([{"step": step}] if step else [])
-    assert all(said.cause.startswith(f"{name} lags its target") for said in half_turns(run))

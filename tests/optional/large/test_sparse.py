@@ -50,8 +50,8 @@ def test_blocks_are_the_columns_of_J_that_are_not_zero(scene):
     q = system.integrate(system.q_start, 0.01 * np.cos(np.arange(system.n_v)))
     kinematics = system.kinematics(q)
     points = closest_points(pairs, kinematics)
-    dense = ContactGeometry(layout, system.motion).contacts(points, kinematics)
-    sparse = BlockGeometry(layout, system.motion).contacts(points, kinematics)
+    dense = ContactGeometry(layout, system.column_map).contacts(points, kinematics)
+    sparse = BlockGeometry(layout, system.column_map).contacts(points, kinematics)
     assert sparse.n_v == system.n_v
     np.testing.assert_allclose(sparse.J, dense.J, rtol=EXACT, atol=ROUNDING)
     delta_q = np.sin(np.arange(system.n_v))

@@ -9,7 +9,9 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.mjcf import mjcf
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
+from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.wrenches import Scene
 from tests.model.urdf.urdf_texts import written
 from validation.make.mjcf import CURVED, SAME, differences
 
@@ -99,10 +101,26 @@ def test_what_is_not_carried_over_is_listed_by_its_name(arm):
         "joint[roll].armature", "joint[roll].stiffness", "joint[turn].dynamics",
         "joint[turn].limit", "joint[joint4].dynamics", "joint[joint4].limit",
         "link[worldbody].geom.floor", "link[worldbody].collision[0].friction",
-        "link[upper].collision[0].friction", "link[upper].geom.shell", "link[hand].visual",
+        "link[upper].collision[0].friction", "link[upper].geom.shell",
         "link[hand].collision[0].friction", "link[body3].collision[0].friction",
         "link[body3].collision[1].friction",
+        *(f"link[{name}].visual" for name in ("worldbody", "upper", "hand", "body3")),
     }  # fmt: skip
+
+
+COLOURED = """<mujoco>
+  <asset><material name="blue" rgba="0 0 1 1"/></asset>
+  <worldbody>
+    <geom size="0.1"/><geom size="0.1" rgba="1 0 0 1"/><geom size="0.1" material="blue"/>
+    <geom size="0.1" rgba="0 1 0 0"/><geom size="0.1" group="3"/>
+  </worldbody>
+</mujoco>"""
+
+
+def test_what_mujoco_draws_is_seen_in_its_colours(tmp_path):
+    path = written(tmp_path, COLOURED, "scene.xml")
+    found = visuals(Scene(System([Body("a", mjcf_urdf(path))]), ()))
+    assert [visual.colour for visual in found] == ["#808080", "#ff0000", "#0000ff"]
 
 
 def test_the_reader_of_pinocchio_still_drops_bodies_and_masses(tmp_path):
@@ -166,8 +184,7 @@ joint_friction = "urdf"
 
 def test_a_scenario_takes_mjcf_where_it_takes_a_urdf(arm):
     scene = written(arm.parent, SCENE, "scene.toml")
-    with pytest.raises(InputError, match=r"link\[upper:swing\].inertial: is missing, but joint"):
-        load_scenario(scene)
+    assert load_scenario(scene).system.n_a == 3  # its un-actuated slides and hinges have no mass
     everything = {"bodies.arm.actuated": "all", "bodies.arm.K_q": np.diag([500.0] * 5).tolist()}
     scenario = load_scenario(scene, everything)
     assert scenario.rises.loads.tolist() == [0.3]

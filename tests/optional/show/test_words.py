@@ -134,22 +134,6 @@ def test_empty_things_are_short_too(tmp_path):
     assert "why it ended: step 3:" in repr(failed)
 
 
-def test_large_things_are_short_too(rng):
-    rows = (6,) * 400
-    step = random_step(rng, n_a=30, n_u=30, rows=rows)
-    extra = Extra(tuple(f"row {i}" for i in range(90)), np.ones((90, 60)), np.full(90, -1e6))
-    large = step.replace(extra=extra)
-    fewer = random_step(rng, n_a=30, n_u=30, rows=(6,) * 60).replace(extra=extra)
-    check(large, large.contacts, extra, solve_step(fewer, certify="off", fast=True))
-    assert "400 contacts, 2400 rows" in repr(large)
-    assert "... and 388 more" in repr(large)
-    assert len(Page(large._repr_html_()).rows) == 51  # a header and fifty contacts
-    assert "and 350 more" in Page(large._repr_html_()).text
-    many = System([Body.of_shape(f"ball{i}", Sphere(0.1), 1.0, xyz=(i, 0, 0)) for i in range(40)])
-    check(many)
-    assert repr(many).endswith("... and 28 more")
-
-
 def test_a_system_counts_the_actuated_coordinates_of_each_body():
     """A free body has 6 coordinates and 7 entries of q, one in the plane 3 and 4."""
     free, moved = (Body.of_shape(name, Sphere(0.1), 2.0) for name in ("free", "moved"))

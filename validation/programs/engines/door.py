@@ -85,7 +85,7 @@ def run(
     h: float,
     step: Callable[[dict[str, Any]], None],
     pose: Any,
-    aim: Callable[[dict[str, Any]], None] | None = None,
+    aim: Callable[[float], None] | None = None,
 ) -> Any:
     """Poses at the times of a scene, of an engine that takes steps of h, and its processor time.
 
@@ -99,7 +99,7 @@ def run(
     pose : callable
         Body -> [x, y, z, qx, qy, qz, qw].
     aim : callable, optional
-        Sets the targets of servos at the end of the next step, as :func:`aims` has them.
+        Sets the targets of servos for the step that begins at a time [s].
     """
     found: dict[str, list[Any]] = {body["name"]: [] for body in scene["bodies"]}
     done = 0
@@ -111,7 +111,7 @@ def run(
                 if done >= round(load["from"] / h):
                     loads[load["body"]] += [load["force"], load["torque"]]
             if aim:
-                aim(aims(scene, (done + 1) * h))
+                aim(done * h)
             start = time.process_time()
             step(loads)
             seconds += time.process_time() - start

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pydrake.all as drake
-from door import answer, run
+from door import aims, answer, run
 
 SOLIDS = {
     "sphere": lambda s: drake.Sphere(s["radius"]),
@@ -107,7 +107,8 @@ def phenomena(case: Any) -> Any:
 
     servos = [body["name"] for body in scene["bodies"] if body["joint"] == "servo"]
 
-    def aim(targets: Any) -> None:
+    def aim(t: float) -> None:
+        targets = aims(scene, t + setting["h"])  # the spring is implicit
         for name in servos:
             instance = plant.GetModelInstanceByName(name)
             plant.get_desired_state_input_port(instance).FixValue(within, np.ravel(targets[name]))

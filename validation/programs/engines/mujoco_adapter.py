@@ -6,14 +6,14 @@ from typing import Any
 
 import mujoco
 import numpy as np
-from door import answer, run
+from door import aims, answer, run
 
 JOINT = {
     "free": "<freejoint/>",
     "fixed": "",
     "rail_x": '<joint type="slide" axis="1 0 0"/>',
     "servo": "".join(
-        f'<joint name="{{name}}/{x}" type="slide" axis="{axis}"/>'
+        f'<joint name="{{name}}/{x}" type="slide" axis="{axis}" damping="{{damping}}"/>'
         for x, axis in (("x", "1 0 0"), ("y", "0 1 0"), ("z", "0 0 1"))
     ),
 }
@@ -30,12 +30,30 @@ def geom(shape: Any) -> str:
     return f'<geom type="{shape["kind"]}" size="{words(size)}" pos="{words(shape["xyz"])}"/>'
 
 
+def critical_damping(body: Any) -> float:
+    """Of a servo's axis [N s/m]."""
+    return 2 * float(np.sqrt(body["K"] * body["mass"]))
+
+
+def joint(body: Any, setting: Any) -> str:
+    """Joints of a body. Damping of a servo's joints is implicit in every integrator.
+
+    MuJoCo evaluates springs at the start of a step. With ``implicit_spring`` a spring of stiffness
+    K acts from the end of the step: what it gains on the way, -K h v, is more damping.
+    """
+    if body["joint"] != "servo":
+        return JOINT[body["joint"]]
+    damping = critical_damping(body)
+    if setting.get("implicit_spring"):
+        damping += setting["h"] * body["K"]
+    return JOINT["servo"].format(name=body["name"], damping=repr(damping))
+
+
 def servo(body: Any) -> str:
-    """Actuators of a servo's axes: a spring to the target, and critical damping."""
-    damping = 2 * float(np.sqrt(body["K"] * body["mass"]))
+    """Actuators of a servo's axes: a spring to the target's place, a damper to its velocity."""
     return "".join(
         f'<position joint="{body["name"]}/{axis}" kp="{body["K"]!r}"/>'
-        f'<velocity joint="{body["name"]}/{axis}" kv="{damping!r}"/>'
+        f'<motor joint="{body["name"]}/{axis}" gear="{critical_damping(body)!r}"/>'
         for axis in "xyz"
     )
 
@@ -47,10 +65,10 @@ def mjcf(scene: Any, setting: Any) -> str:
     bodies = ['<geom type="plane" size="1 1 1"/>'] if scene["floor"] else []
     for body in scene["bodies"]:
         geoms = "".join(geom(shape) for shape in body["shapes"])
-        joint = JOINT[body["joint"]].format(**body)
         floats = "1" if body["joint"] == "servo" else "0"
         bodies.append(
-            f'<body name="{body["name"]}" pos="{words(body["xyz"])}" gravcomp="{floats}">{joint}'
+            f'<body name="{body["name"]}" pos="{words(body["xyz"])}" gravcomp="{floats}">'
+            f"{joint(body, setting)}"
             f'<inertial pos="0 0 0" mass="{body["mass"]!r}" '
             f'diaginertia="{words(body["inertia"])}"/>{geoms}</body>'
         )
@@ -81,7 +99,8 @@ def phenomena(case: Any) -> Any:
 
     servos = [body["name"] for body in scene["bodies"] if body["joint"] == "servo"]
 
-    def aim(targets: Any) -> None:
+    def aim(t: float) -> None:
+        targets = aims(scene, t + setting["h"] if setting.get("implicit_spring") else t)
         # Each servo has six controls: place and velocity along x, then y, then z.
         data.ctrl[:] = np.array([np.transpose(targets[name]) for name in servos]).ravel()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from door import answer, run
+from door import aims, answer, run
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref import __version__
@@ -88,7 +88,8 @@ def phenomena(case: Any) -> Any:
     )  # fmt: skip
     state = {"q": system.q_start, "target": np.zeros(system.n_a)}
 
-    def aim(targets: Any) -> None:
+    def aim(t: float) -> None:
+        targets = aims(scene, t + setting["h"])
         if servos:
             state["target"] = np.concatenate([targets[name][0] for name in servos])
 

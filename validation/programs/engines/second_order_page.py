@@ -17,14 +17,17 @@ RESULTS = Path(__file__).parents[2] / "results" / "second_order.jsonl"
 SCENES = {
     "lift": "lift",
     "push": "centric push",
-    "push_beside": "push beside the centre",
+    "off_centre_push": "off-centre push",
 }
 DRAWN = {
     ("quasistatic_ref", "uncertified"): ("o-", "black"),
-    ("mujoco", "implicitfast, elliptic, impratio 100"): ("s--", "0.45"),
     ("mujoco", "implicitfast, elliptic, impratio 100, solref 5 ms"): ("s-", "0.45"),
+    ("mujoco", "implicitfast, elliptic, impratio 100, solref 5 ms, implicit spring"): (
+        "s--",
+        "0.45",
+    ),
     ("drake", "point, sap"): ("^--", "0.7"),
-    ("drake", "point, lagged"): ("^-", "0.7"),
+    ("drake", "point, lagged, stiction tolerance 0.01 mm/s"): ("^-", "0.7"),
 }
 DRAWN_SPEEDS = (0.01, 0.1)
 LARGEST = 0.1
@@ -116,7 +119,7 @@ def figure(within: Any = None) -> Figure:
             axes,
             "cost [ms a simulated s]" if below else "",
             "error of the place [mm]" if left else "",
-            f"{SCENES[scene]}, {1e3 * speed:g} mm/s".replace(" beside the centre", " beside"),
+            f"{SCENES[scene]}, {1e3 * speed:g} mm/s",
             key=False,
         )
     legend_below(grid, grid[0].get_legend_handles_labels()[0])

@@ -99,7 +99,7 @@ contact/jacobian.py
 contact/pairs.py
     jacobian
 optional/fast/tracker/tracker.py optional/fast/tracker/tracker_bound.py
-optional/fast/tracker/ball_tree.py
+optional/fast/tracker/ball_tree.py optional/fast/tracker/cloud_pairs.py
     FOLLOWED
 optional/curved/settle.py optional/curved/faces.py optional/curved/by_coal.py
     CURVED
@@ -139,7 +139,7 @@ shapes/frozen.py
     shapes plain_data SYSTEM
 model/kinematics.py
     system CONTACT
-model/motion.py
+model/column_map.py
     system simulator CONTACT
 model/screw.py
     rotation system

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest, closest_points, in_world, relative_pose
+from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.study.bench.timing import (
     INTERFACES,
@@ -198,11 +198,9 @@ def _selection(simulator: Simulator, q: Array) -> float:
     if not isinstance(simulator, FastSimulator):
         return 0.0
     at = simulator.system.kinematics(q)
-    measured = []
-    for cloud in simulator.tracker.clouds:
-        sides = in_world(cloud.solid, at.R, at.t), in_world(cloud.cloud, at.R, at.t)
-        measured.append((cloud.measured(relative_pose(*sides))[1], cloud.pair.k))
-    return seconds(lambda: [closest(phi, k) for phi, k in measured])
+    clouds = simulator.tracker.clouds
+    phi = clouds.measured(clouds.poses(at.R, at.t)[1])[1]
+    return seconds(lambda: clouds.kept(phi))
 
 
 UNFIT = ("highs", "qpsolvers:highs")

@@ -219,4 +219,4 @@ def tracked_distances(scenario: Scenario, steps: int) -> Array:
 
 def _listed(tracker: ContactTracker) -> int:
     """How many points are on the lists of a tracker."""
-    return sum(len(cloud.list.index) for cloud in tracker.clouds if cloud.list is not None)
+    return sum(len(each.list.index) for each in tracker.lists if each.made)

@@ -15,18 +15,8 @@ from quasistatic_ref.lab.vectors.exact.algebra import Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP, on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, kept, pool
-from quasistatic_ref.lab.vectors.unrounded.step import (
-    Change,
-    Contact,
-    Solved,
-    after,
-    contact,
-    solved,
-)
+from quasistatic_ref.lab.vectors.unrounded.step import Contact, Solved, after, contact, solved
 from quasistatic_ref.lab.vectors.unrounded.world import World, world
-
-Inputs = Callable[[Vector | fmpq], Json]
-"""A case moved along a coordinate or a parameter."""
 
 
 @dataclass(eq=False)
@@ -41,8 +31,6 @@ class Base:
     q_next : vector
     pools : list of list of int
         Of each pair the candidates that can be kept nearby.
-    change : callable, optional
-        A mistake that is made with every contact.
     """
 
     at: World
@@ -50,14 +38,11 @@ class Base:
     step: Solved
     q_next: Vector
     pools: list[list[int]]
-    change: Change | None = None
     warm: list[int] = field(default_factory=list)
 
     def contacts_at(self, at: World) -> list[Contact]:
         """The contacts of a case nearby."""
         found = [near for pair in range(len(self.pools)) for near in self._kept(at, pair)]
-        if self.change:
-            found = [self.change(at, near) for near in found]
         return [contact(at, near) for near in found]
 
     def _kept(self, at: World, pair: int) -> list[Near]:
@@ -92,14 +77,13 @@ def away(at: World, q_next: Vector, other: Vector) -> Vector:
         return on_grid(way(at.case["mechanism"], q_next, other))
 
 
-def base(case: Json, change: Change | None = None) -> Base:
+def base(case: Json) -> Base:
     """The step of a case.
 
     Parameters
     ----------
     case : dict
         Input of the layer ``step``.
-    change : callable, optional
     """
     at = world(case)
     pools, contacts = [], []
@@ -107,10 +91,10 @@ def base(case: Json, change: Change | None = None) -> Base:
         found, solids = candidates(at, pair), are_solids(case, pair)
         pools.append(pool(found, written["k"], solids=solids))
         near = kept(found, written["k"], solids=solids)
-        contacts += [contact(at, change(at, one) if change else one) for one in near]
+        contacts += [contact(at, one) for one in near]
     step = solved(at, contacts)
     warm = list(step.optimum.point.working)
-    return Base(at, contacts, step, after(at, step.delta_q), pools, change, warm)
+    return Base(at, contacts, step, after(at, step.delta_q), pools, warm)
 
 
 @dataclass(frozen=True, eq=False)

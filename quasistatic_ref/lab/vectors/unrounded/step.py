@@ -4,10 +4,10 @@ H, g, A and b are those of the layer ``step``, but none of them is rounded to fl
 program is solved by the exact method in integers, from the working set of a step nearby.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import lcm
-from typing import Final, TypeAlias
+from typing import Final
 
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq, fmpz_mat
@@ -90,10 +90,6 @@ class Solved:
     delta_q: Vector
 
 
-Change: TypeAlias = Callable[[World, Near], Near]
-"""A mistake: from a contact to what it is taken for."""
-
-
 def contact(at: World, near: Near) -> Contact:
     """A contact in its frame."""
     with working():
@@ -141,10 +137,7 @@ def solved(
         If the step has no solution.
     """
     with working():
-        H, g = objective(at.case, *at.loads)
-        if "tau" in at.case:
-            g = g + at.case["h"] * at.case["tau"]
-        H, g = on_grid(H), on_grid(g)
+        H, g = map(on_grid, objective(at.case, *at.loads))
     own = known or integer_rows(len(g), *rows(at.case, contacts))
     form = form_of(H, g, own)
     optimum = dual_active_set(form, warm)

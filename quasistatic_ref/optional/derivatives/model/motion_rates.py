@@ -13,8 +13,8 @@ generalised force :math:`J^T W`.
 
 import numpy as np
 
+from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.kinematics import Kinematics
-from quasistatic_ref.model.motion import Motion
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import crossed
 
@@ -28,7 +28,7 @@ class MotionRates:
     Parameters
     ----------
     kinematics : Kinematics
-    motion : Motion
+    column_map : ColumnMap
 
     Attributes
     ----------
@@ -36,10 +36,10 @@ class MotionRates:
         Twist of each link per unit of delta_q [m, rad].
     """
 
-    def __init__(self, kinematics: Kinematics, motion: Motion) -> None:
-        self.columns, self.moves = kinematics.columns, motion.moves[:, 0]
-        self.coordinates = motion.coordinates
-        self.J: Array = (self.columns * motion.moves) @ self.coordinates
+    def __init__(self, kinematics: Kinematics, column_map: ColumnMap) -> None:
+        self.columns, self.moves = kinematics.columns, column_map.moves[:, 0]
+        self.coordinates = column_map.coordinates
+        self.J: Array = (self.columns * column_map.moves) @ self.coordinates
         # Column k carries column j along if it moves every link that j moves.
         others = self.moves.T @ (1 - self.moves)
         carried = others == 0

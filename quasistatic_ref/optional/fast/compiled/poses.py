@@ -26,7 +26,7 @@ class Poses:
     """
 
     def __init__(self, system: System) -> None:
-        self.workspace, self.order = system.workspace(), system.motion.order
+        self.workspace, self.order = system.workspace(), system.column_map.order
         self.q = system.q_start.copy()
         self._world = np.eye(3), np.zeros(3)
         R, t = [self._world[0]], [self._world[1]]

@@ -1,7 +1,5 @@
 """A simulator's contacts as the structures of scene.h."""
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,7 +8,8 @@ from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import Constants
-from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker, FollowedCloud
+from quasistatic_ref.optional.fast.tracker.cloud_pairs import CloudPairs, starts
+from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.shapes import placed_shape as shapes
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.step.cones import cone_function, cone_matrix
@@ -64,9 +63,10 @@ class Scene(Structure):
         weighs: Array,
         tracker: ContactTracker | None,
     ) -> None:
-        motion, layout = geometry.motion, constant.layout
+        column_map = geometry.column_map
+        layout = constant.layout
         n_c, m, n_a = len(layout.counts), int(layout.offsets[-1]), len(constant.K_q)
-        n_x, n_v = len(motion.owner), motion.n_v
+        n_x, n_v = len(column_map.owner), column_map.n_v
         super().__init__(NUMBERS, ARRAYS, library().scene_size)
         self.given = given = np.dtype(
             [
@@ -83,9 +83,9 @@ class Scene(Structure):
         self.put(
             {
                 "pairs": 0, "n_c": n_c, "n_v": n_v, "n_a": n_a, "n_x": n_x,
-                "links": len(poses.R), "mimics": int(motion.mimics),
+                "links": len(poses.R), "mimics": int(column_map.mimics),
                 "R": poses.R, "t": poses.t, "column": poses.columns,
-                "owner": motion.owner,
+                "owner": column_map.owner,
                 "moves_alpha": alpha, "moves_beta": beta,
                 "mu_v": geometry.mu[:, 0], "mu_omega": geometry.mu[:, 2], "rows": layout.counts,
                 **cone_terms(constant.cone), **{name: written[name] for name in given.names or ()},
@@ -113,57 +113,32 @@ class Scene(Structure):
         if tracker is None or tracker.lists_made == self.lists_made:
             return
         self.lists_made = tracker.lists_made
-        index, points, slopes, offsets = [], [], [], []
-        for cloud in tracker.clouds:
-            assert cloud.list is not None
-            slope, offset = cloud.list.bounds
-            index.append(cloud.list.index)
-            points.append(cloud.points[cloud.list.index])
-            slopes.append(slope)
-            offsets.append(offset)
-        x, y, z = np.concatenate(points).T
-        length = np.array([len(i) for i in index])
+        clouds = tracker.clouds
+        bounds = np.full(clouds.P, clouds.offset.shape[1])
+        x, y, z = clouds.points.T
         self.put(
             {
-                "first": starts(length)[:-1], "length": length, "index": np.concatenate(index),
+                "first": clouds.start[:-1], "length": np.diff(clouds.start), "index": clouds.index,
                 "x": x, "y": y, "z": z,
-                "bounds": starts(np.array([len(offset) for offset in offsets])),
-                "slope": np.concatenate(slopes), "offset": np.concatenate(offsets),
+                "bounds": starts(bounds), "slope": clouds.slope, "offset": clouds.offset,
             },
         )  # fmt: skip
 
-    def _put_pairs(self, clouds: Sequence[FollowedCloud]) -> None:
+    def _put_pairs(self, clouds: CloudPairs) -> None:
         """What does not change of the pairs, in their order."""
-        count = np.array([cloud.pair.n_c for cloud in clouds])
-        kinds, sizes = zip(*(solid_numbers(cloud.solid.shape) for cloud in clouds), strict=True)
-        solids, points = [cloud.solid for cloud in clouds], [cloud.cloud for cloud in clouds]
+        P, count = clouds.P, clouds.last - clouds.first + 1
+        kinds, sizes = zip(*(solid_numbers(solid.shape) for solid in clouds.solids), strict=True)
         self.put(
             {
-                "pairs": len(clouds),
-                "link_solid": links(solids), "link_cloud": links(points),
-                "on_solid": on_links(solids), "on_cloud": on_links(points),
-                "kind": np.array(kinds), "size": np.array(sizes),
-                "sign": np.array([cloud.sign for cloud in clouds]),
-                "start": starts(count)[:-1], "count": count,
-                "world": np.zeros((len(clouds), 24)), "nearest": np.zeros(count.max()),
+                "pairs": P,
+                "link_solid": clouds.link[:P], "link_cloud": clouds.link[P:],
+                "on_solid": clouds.on_link[:P], "on_cloud": clouds.on_link[P:],
+                "kind": np.array(kinds), "size": np.array(sizes), "sign": clouds.sign,
+                "start": clouds.first, "count": count,
+                "world": np.zeros((P, 24)), "nearest": np.zeros(count.max()),
                 "rank": np.zeros(count.max(), np.int64),
             },
         )  # fmt: skip
-
-
-def links(placed: Sequence[shapes.PlacedShape]) -> Indices:
-    """The links of some shapes, shape (P,)."""
-    return np.array([shape.link for shape in placed], dtype=np.int64)
-
-
-def on_links(placed: Sequence[shapes.PlacedShape]) -> Array:
-    """Where the shapes are on their links: [R, t], shape (P, 3, 4); t [m]."""
-    return np.array([np.column_stack([shape.R, shape.t]) for shape in placed])
-
-
-def starts(lengths: Indices) -> Indices:
-    """Where each of some parts begins, and where the last ends, shape (parts + 1,)."""
-    return np.concatenate([np.zeros(1, np.int64), np.cumsum(lengths)])
 
 
 def solid_numbers(shape: shapes.Shape) -> tuple[int, list[float]]:

@@ -175,8 +175,7 @@ class CompiledStep:
         scene = self.scene
         scene.relist()
         if scene.tracker is not None and scene.listed and self.find(scene.address):
-            for cloud in scene.tracker.clouds:
-                cloud.steps += 1
+            scene.tracker.steps += 1
             self.tie = self.no_tie
             return
         kinematics = simulator.system.kinematics(q)

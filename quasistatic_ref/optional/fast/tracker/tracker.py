@@ -13,15 +13,13 @@ import numpy as np
 from quasistatic_ref.contact.distance import (
     ClosestPoints,
     check_finite,
-    cloud_contacts,
-    in_world,
     joined,
     pair_closest_points,
-    relative_pose,
 )
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.fast.tracker.ball_tree import BallTree, ball_tree
+from quasistatic_ref.optional.fast.tracker.cloud_pairs import CloudPairs, sides
 from quasistatic_ref.optional.fast.tracker.tracker_bound import Shortlist, shortlist
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.data import Array
@@ -34,7 +32,7 @@ WIDE = 256
 """Length that a list is not made longer than because it does not last."""
 
 ATTEMPTS = 3
-"""With the list as it is, with a new one, and with a list of all points."""
+"""With the lists as they are, with new ones, and with lists of all points."""
 
 SHORT = 8
 """Steps; a list that suffices for fewer is made twice as long, up to WIDE."""
@@ -59,18 +57,24 @@ class ContactTracker:
 
     Attributes
     ----------
-    clouds : list of FollowedCloud
-        Of the pairs in which one side is a cloud, in order.
+    clouds : CloudPairs
+        The pairs in which one side is a cloud, in order.
+    lists : list of CloudList
+        One for each of these.
+    steps : int
+        That were taken.
     """
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
-        self.pairs = [FollowedCloud(pair) if pair.has_cloud else pair for pair in pairs]
-        self.clouds = [pair for pair in self.pairs if isinstance(pair, FollowedCloud)]
+        self.pairs = tuple(pairs)
+        self.clouds = CloudPairs([pair for pair in pairs if pair.has_cloud])
+        self.lists = [CloudList(pair) for pair in self.clouds.pairs]
+        self.steps = 0
 
     @property
     def lists_made(self) -> int:
         """How many lists were made so far."""
-        return sum(cloud.lists_made for cloud in self.clouds)
+        return sum(each.made for each in self.lists)
 
     def closest_points(self, R: Array, t: Array) -> ClosestPoints:
         """The contacts of all pairs, in order, each pair's in ascending distance.
@@ -86,18 +90,45 @@ class ContactTracker:
             If a pair has no trustworthy normal, a pose is not finite, or a distance is no number.
         """
         check_finite(R, t)
+        of_clouds = self.of_clouds(R, t) if self.lists else joined([])
+        if len(self.lists) == len(self.pairs):
+            return of_clouds
+        each = iter(self.clouds.by_pair(of_clouds))
         return joined(
             [
-                pair.closest_points(R, t)
-                if isinstance(pair, FollowedCloud)
-                else pair_closest_points(pair, R, t)
+                next(each) if pair.has_cloud else pair_closest_points(pair, R, t)
                 for pair in self.pairs
             ]
         )
 
+    def of_clouds(self, R: Array, t: Array) -> ClosestPoints:
+        """The contacts of pairs with a cloud, of which there are some; ContactError as above."""
+        clouds = self.clouds
+        world, relative = clouds.poses(R, t)
+        self.steps += 1
+        if not self.lists_made:
+            for each, pose in zip(self.lists, relative, strict=True):
+                each.start(pose, self.steps)
+            clouds.put([each.list for each in self.lists])
+        for attempt in range(ATTEMPTS):
+            x, phi, normal = clouds.measured(relative)
+            kept = clouds.kept(phi)
+            phi_k = phi.take(kept.take(clouds.last))
+            proved = phi_k < clouds.limits(relative)
+            if proved.all():
+                found = (field.take(kept, axis=0) for field in (x, phi, normal))
+                return clouds.contacts(world, relative, kept, *found)
+            for i in np.flatnonzero(~proved).tolist():
+                # A new list is proved where it was made; if not, for some error, all points are.
+                n = normal[kept[clouds.first[i]]]
+                self.lists[i].renew(relative[i], n, float(phi_k[i]), self.steps, attempt > 0)
+            clouds.put([each.list for each in self.lists])
+        name = clouds.pairs[int(np.argmin(proved))].name
+        raise ContactError("has distances that are not numbers", field=name)
 
-class FollowedCloud:
-    """The contacts of a pair of a cloud and a solid.
+
+class CloudList:
+    """The short list of a pair of a cloud and a solid.
 
     Parameters
     ----------
@@ -106,105 +137,61 @@ class FollowedCloud:
 
     Attributes
     ----------
-    solid, cloud : PlacedShape
-    sign : float
-        Of the solid's normal in the contact's.
-    points : ndarray, shape (N, 3)
-        Of the cloud, in its frame [m].
-    tree : BallTree
-    list : Shortlist or None
-        None before the first step.
+    list : Shortlist
+        From the first step on.
     width : int
         Length of the next list.
-    lists_made : int
-    steps : int
-        That were taken.
+    made, made_at : int
+        How many lists were made, and in which step the last of them.
     """
 
+    list: Shortlist
+
     def __init__(self, pair: ContactPair) -> None:
-        self.pair, self.solid, self.cloud, self.sign = pair, pair.alpha, pair.beta, 1.0
-        if isinstance(pair.alpha.shape, PointCloud):
-            self.solid, self.cloud, self.sign = pair.beta, pair.alpha, -1.0
-        assert isinstance(self.cloud.shape, PointCloud)
-        self.points, self.tree = self.cloud.shape.points, cloud_tree(self.cloud.shape)
+        solid, cloud = sides(pair)
+        assert isinstance(cloud.shape, PointCloud)
+        self.solid = solid.shape
+        self.points = cloud.shape.points
+        self.tree = cloud_tree(cloud.shape)
+        self.n_c = pair.n_c
         self.width = max(WIDTH, 4 * pair.n_c)
-        self.list: Shortlist | None = None
-        self.lists_made = self.steps = self.made_at = 0
+        self.made = 0
+        self.made_at = 0
 
-    def closest_points(self, R: Array, t: Array) -> ClosestPoints:
-        """The contacts at the poses of the links, shapes (L, 3, 3) and (L, 3).
-
-        Raises
-        ------
-        ContactError
-            If a distance is no number.
-        """
-        solid, cloud = in_world(self.solid, R, t), in_world(self.cloud, R, t)
-        relative = relative_pose(solid, cloud)
-        self.steps += 1
-        if self.list is None:
-            self.list = self.first_list(relative)
-        for attempt in range(ATTEMPTS):
-            x, phi, normal = self.measured(relative)
-            phi_k = float(np.partition(phi, self.pair.n_c - 1)[self.pair.n_c - 1])
-            if phi_k < self.list.limit(relative):
-                index = self.list.index
-                found = cloud_contacts(self.pair, solid, cloud, relative, x, phi, normal, index)
-                return found if self.sign > 0 else found.swapped()
-            if self.steps - self.made_at < SHORT:
-                self.width = min(2 * self.width, WIDE)
-            # A new list is proved where it was made; if not, for some error, all points are.
-            width = len(self.points) if attempt else self.width
-            self.list = self.new_list(relative, normal[phi.argmin()], phi_k, width)
-        raise ContactError("has distances that are not numbers", field=self.pair.name)
-
-    def measured(self, relative: Array) -> tuple[Array, Array, Array]:
-        """Of the listed points at a pose: where they are, and what is measured.
-
-        Parameters
-        ----------
-        relative : ndarray, shape (3, 4)
-            [R, t] of the cloud in the solid's frame [-, m].
-
-        Returns
-        -------
-        x, phi, normal : ndarray, shapes (N, 3), (N,) and (N, 3)
-            In the solid's frame [m], signed distances [m] and normals [-].
-        """
-        assert self.list is not None
-        x = rotated(relative[:, :3], self.points[self.list.index]) + relative[:, 3]
-        return x, *self.solid.shape.signed_distance(x)
-
-    def first_list(self, relative: Array) -> Shortlist:
-        """A list that starts from some points of the cloud.
-
-        Parameters
-        ----------
-        relative : ndarray, shape (3, 4)
-            [R, t] of the cloud in the solid's frame [-, m].
-        """
+    def start(self, relative: Array, step: int) -> None:
+        """Make the first list, at `relative`, shape (3, 4) [-, m], as of :meth:`renew`."""
         some = self.points[:: max(1, len(self.points) // SOME)]
         x = rotated(relative[:, :3], some) + relative[:, 3]
-        phi, normal = self.solid.shape.signed_distance(x)
-        return self.new_list(relative, normal[phi.argmin()], np.inf, self.width)
+        phi, normal = self.solid.signed_distance(x)
+        self._make(relative, normal[phi.argmin()], np.inf, self.width, step)
 
-    def new_list(self, relative: Array, n: Array, phi_k: float, width: int) -> Shortlist:
-        """A list at a pose.
+    def renew(self, relative: Array, n: Array, phi_k: float, step: int, whole: bool) -> None:
+        """Make another list; of all points if `whole`.
 
         Parameters
         ----------
         relative : ndarray, shape (3, 4)
             [R, t] of the cloud in the solid's frame [-, m].
         n : ndarray, shape (3,)
-            [-].
+            The normal at the nearest point [-].
         phi_k : float
-            [m].
-        width : int
+            The k-th smallest distance [m].
+        step : int
+            The number of this step.
+        whole : bool
         """
-        self.lists_made += 1
-        self.made_at = self.steps
-        R, t = relative[:, :3], relative[:, 3]
-        return shortlist(self.tree, self.solid.shape, R, t, n, phi_k, self.pair.n_c, width)
+        if step - self.made_at < SHORT:
+            self.width = min(2 * self.width, WIDE)
+        width = len(self.points) if whole else self.width
+        self._make(relative, n, phi_k, width, step)
+
+    def _make(self, relative: Array, n: Array, phi_k: float, width: int, step: int) -> None:
+        """Make a list of a width; all else as above."""
+        R = relative[:, :3]
+        t = relative[:, 3]
+        self.list = shortlist(self.tree, self.solid, R, t, n, phi_k, self.n_c, width)
+        self.made += 1
+        self.made_at = step
 
 
 def cloud_tree(cloud: PointCloud) -> BallTree:

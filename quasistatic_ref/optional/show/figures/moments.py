@@ -1,11 +1,14 @@
 """One instant of a run as something that can be drawn: bodies placed, contacts, forces."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.show.figures.looks import link_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points
+from quasistatic_ref.optional.show.figures.visuals import Visual
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.simulate.wrenches import HasScene
@@ -73,6 +76,8 @@ class Moment:
     R, t_links : ndarray, shapes (L, 3, 3) and (L, 3)
         Poses of the links [-], [m].
     contacts : tuple of DrawnContact
+    colours : dict of int to str
+        The colour of each link, by its number.
     """
 
     t: float
@@ -80,6 +85,7 @@ class Moment:
     R: Array
     t_links: Array
     contacts: tuple[DrawnContact, ...]
+    colours: dict[int, str]
 
     def world(self, placed: PlacedShape, points: Array) -> Array:
         """Points of a shape's own frame, (N, 3), in the world [m]."""
@@ -103,7 +109,8 @@ class Moment:
 def still(scene: HasScene) -> Moment:
     """The start of a scene: its bodies where they are, without contacts."""
     kinematics = scene.system.kinematics(scene.system.q_start)
-    return Moment(0.0, drawn_shapes(scene), kinematics.R, kinematics.t, ())
+    colours = link_colours(scene.system)
+    return Moment(0.0, drawn_shapes(scene), kinematics.R, kinematics.t, (), colours)
 
 
 def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
@@ -132,6 +139,7 @@ def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
         R=kinematics.R,
         t_links=kinematics.t,
         contacts=tuple(_contact(run, k, j, wrench) for j, wrench in enumerate(reported(run, k))),
+        colours=link_colours(scene.system),
     )
 
 
@@ -179,7 +187,7 @@ def extent(of: Moment) -> Array:
     return np.array([every.min(axis=0), every.max(axis=0)])
 
 
-def focus(moments: list[Moment]) -> Array:
+def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
     """Least and greatest coordinates of what moves, and of contacts, shape (2, 3) [m].
 
     Of links that move by a millimetre between the first moment, the middle and the last.
@@ -187,6 +195,8 @@ def focus(moments: list[Moment]) -> Array:
     Parameters
     ----------
     moments : list of Moment
+    looks : sequence of Visual
+        What the links look like, besides the shapes that touch.
     """
     looked_at = [moments[0], moments[len(moments) // 2], moments[-1]]
     places = np.array([m.t_links for m in looked_at])
@@ -200,6 +210,8 @@ def focus(moments: list[Moment]) -> Array:
     for m in looked_at:
         own = [placed for placed in m.shapes if moved[placed.link]]
         points += [m.world(placed, surface_points(placed.shape)) for placed in own]
+        seen = [visual for visual in looks if moved[visual.link]]
+        points += [v.corners @ m.R[v.link].T + m.t_links[v.link] for v in seen]
     every = np.concatenate(points)
     return np.array([every.min(axis=0), every.max(axis=0)])
 

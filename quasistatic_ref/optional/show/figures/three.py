@@ -5,12 +5,15 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref.optional.show.figures.surfaces import normals
 from quasistatic_ref.step.data import Array
 
 DISCRETE = 2300
 """three.js's name of steps between keyframes."""
 DIGITS = 9
 """Decimals of lengths [m]: a nanometre is finer than float32, in which three.js keeps them."""
+NORMAL_DIGITS = 3
+"""Decimals of normals [-], which only light a surface."""
 
 
 def material(colour: int, opacity: float) -> dict[str, Any]:
@@ -41,6 +44,8 @@ def thing(
     attributes = {"position": _attribute(points)}
     if colours is not None:
         attributes["color"] = _attribute(colours)
+    if kind == "Mesh":
+        attributes["normal"] = _attribute(normals(points), NORMAL_DIGITS)
     geometry = {"type": "BufferGeometry", "data": {"attributes": attributes}}
     return {
         "metadata": {"version": 4.5, "type": "Object"},
@@ -50,8 +55,8 @@ def thing(
     }
 
 
-def _attribute(values: Array) -> dict[str, Any]:
-    return {"itemSize": 3, "type": "Float32Array", "array": np.round(values, DIGITS).ravel()}
+def _attribute(values: Array, digits: int = DIGITS) -> dict[str, Any]:
+    return {"itemSize": 3, "type": "Float32Array", "array": np.round(values, digits).ravel()}
 
 
 def object_set(path: str, what: dict[str, Any]) -> dict[str, Any]:

@@ -61,7 +61,7 @@ def test_corners_slide_along_a_tilted_rim_as_differences_say(first):
     points, found = kept(system, pair)
     assert {c.rim.quarter for c in found if c.rim is not None} == {0, 1, 2, 3}
     n_c = len(found)
-    J = MotionRates(system.kinematics(system.q_start), system.motion).J
+    J = MotionRates(system.kinematics(system.q_start), system.column_map).J
     rates = contact_rates(found, tuple(np.tile(d, (n_c, 1)) for d in TANGENTS), J)
     assert rates.unique.all()
     for column, e in enumerate(np.eye(6)):

@@ -21,7 +21,7 @@ def kind(lower, upper, xyz, first, k):
     """The jump's kind of an upper shape at xyz over a lower one at the origin, or None."""
     system = body(xyz)
     points, found = kept(system, pair_of(system, lower, upper, first, k))
-    rates = MotionRates(system.kinematics(system.q_start), system.motion)
+    rates = MotionRates(system.kinematics(system.q_start), system.column_map)
     jump = spare_pair(found, points, rates.J)
     return None if jump is None else jump[0]
 

@@ -144,6 +144,6 @@ def test_a_list_that_suffices_for_few_steps_is_made_twice_as_long(rng):
     for R, steps in ((upright, SHORT), (upside_down, SHORT - 1), (upright, 1)):
         for _ in range(steps):
             tracker.closest_points(np.stack([np.eye(3), R]), np.zeros((2, 3)))
-        widths.append(tracker.clouds[0].width)
+        widths.append(tracker.lists[0].width)
     assert tracker.lists_made == 3
     assert widths == [4 * k, 4 * k, 8 * k]

@@ -216,14 +216,14 @@ def test_forces_are_scaled_by_what_of_them_is_in_view():
         DrawnContact(np.zeros(3), np.zeros(3), frame, np.array(force), 0.0, 1.0, 0.0, 0.0, rim)
         for force in ([0, 12.0, 0], [0, 0, 1.5])
     ]
-    of = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts))
+    of = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts), {})
     half = 0.1
     expected = {"xz": 2 * LONGEST * half / 1.5, "yz": 2 * LONGEST * half / 12, None: 0.08 / 12}
     for view, scale in expected.items():
         found = force_scale([of], view, half)
         np.testing.assert_allclose(found, round_scale(scale), rtol=ROUNDING)
     # What is only along the view is scaled as in space.
-    lone = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts[:1]))
+    lone = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts[:1]), {})
     assert force_scale([lone], "xz", half) == force_scale([lone], None, half) > 0
 
 

@@ -10,7 +10,7 @@ from quasistatic_ref.model.coordinates import Order
 from quasistatic_ref.step.arrays import Array
 
 
-class Motion:
+class ColumnMap:
     """Which columns of pinocchio's Jacobian ``data.J`` move a link, and with which coordinate.
 
     A link is moved by the joints between it and the world. A mimic joint has columns, but no
@@ -46,8 +46,8 @@ class Motion:
         self.n_v = int(model.nv)
         self.mimics = model.nvExtended > model.nv
         # A mimic joint comes after the one that it mimics.
-        self.own = np.unique(self.owner, return_index=True)[1]
-        self.copies = np.setdiff1d(np.arange(model.nvExtended), self.own)
+        self.owned = np.unique(self.owner, return_index=True)[1]
+        self.copies = np.setdiff1d(np.arange(model.nvExtended), self.owned)
 
     @cached_property
     def coordinates(self) -> Array:
@@ -59,7 +59,7 @@ class Motion:
         # Without mimics it is a permutation, which costs less for many coordinates.
         if not self.mimics:
             return self.order.paper_v(columns)
-        of_joints = columns.take(self.own, axis=-1)
+        of_joints = columns.take(self.owned, axis=-1)
         for x in self.copies.tolist():
             of_joints[..., self.owner[x]] += columns[..., x]
         return of_joints

@@ -1,0 +1,263 @@
+"""All pairs of a cloud and a solid in arrays, so that a few NumPy calls measure them at once.
+
+Each number has the bits that :mod:`~quasistatic_ref.contact.distance` gives it pair by pair.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from itertools import groupby, pairwise
+
+import numpy as np
+
+from quasistatic_ref.contact.distance import ClosestPoints, closest
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.patch import cloud_surface
+from quasistatic_ref.contact.separations import OWN
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.optional.fast.tracker.tracker_bound import Shortlist
+from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape, PointCloud, Shape
+from quasistatic_ref.shapes.rounded import Rounded, distance_to_rounded_box
+from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.ordered import product, rotated
+from quasistatic_ref.tolerances import TIED_FACES
+
+Distance = Callable[[Array], tuple[Array, Array]]
+"""As the signed distance of a shape."""
+
+
+class CloudPairs:
+    """Pairs of a cloud and a solid, and the short lists of their points.
+
+    Parameters
+    ----------
+    pairs : sequence of ContactPair
+        Each with one cloud.
+
+    Attributes
+    ----------
+    P : int
+        How many they are.
+    link : ndarray of int, shape (2 P,)
+        Links of all solids, then of all clouds.
+    on_link : ndarray, shape (2 P, 3, 4)
+        Where these are on their links: [R, t] [-, m].
+    sign : ndarray, shape (P,)
+        Of the solid's normal in the contact's.
+    first, last : ndarray of int, shape (P,)
+        Each pair's nearest and its farthest contact.
+    index : ndarray of int, shape (N,)
+        Numbers of all listed points in their clouds.
+    points : ndarray, shape (N, 3)
+        In their clouds' frames [m].
+    start : ndarray of int, shape (P + 1,)
+        Where the list of each pair begins among these, and where the last ends.
+    slope, offset : ndarray, shapes (P, B, 12) and (P, B)
+        The bounds of the lists, as ``Shortlist`` has them.
+    """
+
+    def __init__(self, pairs: Sequence[ContactPair]) -> None:
+        self.pairs = tuple(pairs)
+        self.P = len(pairs)
+        self.solids = [sides(pair)[0] for pair in pairs]
+        self.clouds = [sides(pair)[1] for pair in pairs]
+        every = [*self.solids, *self.clouds]
+        self.link = np.array([side.link for side in every], dtype=np.int64)
+        self.on_link = np.array([np.column_stack([side.R, side.t]) for side in every])
+        self.sign = np.array(
+            [
+                1.0 if pair.alpha is solid else -1.0
+                for pair, solid in zip(pairs, self.solids, strict=True)
+            ]
+        )
+        count = np.array([pair.n_c for pair in pairs], dtype=np.int64)
+        ends = starts(count)
+        self.first = ends[:-1]
+        self.last = ends[1:] - 1
+        pair_of = np.repeat(np.arange(len(pairs)), count)
+        self.pair_of = pair_of
+        self.cloud_of = len(pairs) + pair_of
+        self.swapped = self.sign[pair_of, None] < 0
+        self.swaps = bool(self.swapped.any())
+        extents = np.array([solid.shape.extent for solid in self.solids])
+        self.extent = float(extents[np.isfinite(extents)].max(initial=0.0))
+        shapes = [self.solids[i].shape for i in pair_of]
+        self.has_edges = np.array([not isinstance(shape, HalfSpace) for shape in shapes])
+        self.on_box = np.flatnonzero([isinstance(shape, Box) for shape in shapes])
+        half_extents = [shape.half_extents for shape in shapes if isinstance(shape, Box)]
+        self.box = np.tile(np.reshape(half_extents, (-1, 3)), 2)
+
+    def put(self, lists: Sequence[Shortlist]) -> None:
+        """Take over the short lists of all pairs."""
+        lengths = np.array([len(made.index) for made in lists])
+        self.index = np.concatenate([made.index for made in lists])
+        self.start = starts(lengths)
+        clouds = [cloud.shape for cloud in self.clouds]
+        points = [
+            cloud.points[made.index]
+            for cloud, made in zip(clouds, lists, strict=True)
+            if isinstance(cloud, PointCloud)
+        ]
+        self.points = np.concatenate(points)
+        self.slope = np.array([made.bounds[0] for made in lists])
+        self.offset = np.array([made.bounds[1] for made in lists])
+        self.owner = np.repeat(np.arange(len(lists)), lengths)
+        self.slices = [slice(a, b) for a, b in pairwise(self.start.tolist())]
+        self.distances = distances([solid.shape for solid in self.solids], self.slices)
+
+    def poses(self, R: Array, t: Array) -> tuple[Array, Array]:
+        """Where the solids and the clouds are, at poses (L, 3, 3) and (L, 3) of the links.
+
+        Returns
+        -------
+        world : ndarray, shape (2 P, 3, 4)
+            [R, t] of all solids, then of all clouds [-, m].
+        relative : ndarray, shape (P, 3, 4)
+            From the cloud's frame to the solid's [-, m].
+        """
+        P = self.P
+        world = product(R.take(self.link, axis=0), self.on_link)
+        world[:, :, 3] += t.take(self.link, axis=0)
+        apart = world[P:].copy()
+        apart[:, :, 3] -= world[:P, :, 3]
+        return world, product(world[:P, :, :3].transpose(0, 2, 1), apart)
+
+    def measured(self, relative: Array) -> tuple[Array, Array, Array]:
+        """Of all listed points: where they are, their signed distances and normals.
+
+        Parameters
+        ----------
+        relative : ndarray, shape (P, 3, 4)
+            [R, t] from the clouds' frames to the solids' [-, m].
+
+        Returns
+        -------
+        x, phi, normal : ndarray, shapes (N, 3), (N,) and (N, 3)
+            In the solids' frames [m], [m] and [-].
+        """
+        pose = relative.take(self.owner, axis=0)
+        x = rotated(pose[:, :, :3], self.points) + pose[:, :, 3]
+        phi = np.empty(len(x))
+        normal = np.empty(x.shape)
+        for some, distance in self.distances:
+            phi[some], normal[some] = distance(x[some])
+        return x, phi, normal
+
+    def kept(self, phi: Array) -> Indices:
+        """The n_c closest points of each pair, in ascending distance, of `phi` (N,) [m]."""
+        each = zip(self.pairs, self.slices, strict=True)
+        return np.concatenate([closest(phi[own], pair.k) + own.start for pair, own in each])
+
+    def limits(self, relative: Array) -> Array:
+        """The limit of each list, shape (P,) [m], at `relative` (P, 3, 4) [-, m]."""
+        bounds = (self.slope @ relative.reshape(-1, 12, 1))[:, :, 0] + self.offset
+        return np.asarray(bounds.min(axis=1))
+
+    def contacts(
+        self, world: Array, relative: Array, kept: Indices, x: Array, phi: Array, normal: Array
+    ) -> ClosestPoints:
+        """The contacts in the world frame.
+
+        Parameters
+        ----------
+        world, relative : ndarray, shapes (2 P, 3, 4) and (P, 3, 4)
+            As of :meth:`poses` [-, m].
+        kept : ndarray of int, shape (n_c,)
+        x, phi, normal : ndarray, shapes (n_c, 3), (n_c,) and (n_c, 3)
+            As of :meth:`measured`, of the points that are kept [m], [m] and [-].
+        """
+        tie = np.full(len(phi), OWN)
+        for i in self.open_pairs(world, x, phi):
+            own = slice(self.first[i], self.last[i] + 1)
+            solid, cloud = (
+                ShapeInWorld(side.shape, pose[:, :3], pose[:, 3])
+                for side, pose in ((self.solids[i], world[i]), (self.clouds[i], world[self.P + i]))
+            )
+            name = self.pairs[i].name
+            decided = cloud_surface(name, solid, cloud, relative[i], x[own], phi[own], normal[own])
+            normal[own] = decided.normal
+            tie[own] = decided.tie
+        on_solid = world.take(self.pair_of, axis=0)
+        on_cloud = world.take(self.cloud_of, axis=0)
+        n = rotated(on_solid[:, :, :3], normal)
+        point = rotated(on_cloud[:, :, :3], self.points.take(kept, axis=0)) + on_cloud[:, :, 3]
+        found = ClosestPoints(
+            phi=phi + 0.0,
+            alpha=point - phi[:, None] * n,
+            beta=point,
+            n=n + 0.0,
+            point=self.index[kept],
+            tie=tie,
+        )
+        if not self.swaps:
+            return found
+        other = found.swapped()
+        return found._replace(
+            alpha=np.where(self.swapped, other.alpha, found.alpha),
+            beta=np.where(self.swapped, other.beta, found.beta),
+            n=np.where(self.swapped, other.n, found.n) + 0.0,
+        )
+
+    def open_pairs(self, world: Array, x: Array, phi: Array) -> list[int]:
+        """Pairs of which a contact touches or is inside, as near to two faces, or may be.
+
+        Parameters
+        ----------
+        world, x, phi : ndarray, shapes (2 P, 3, 4), (n_c, 3) and (n_c,)
+            As of :meth:`contacts` [-, m], [m] and [m].
+        """
+        within = TIED_FACES * max(self.extent, float(np.abs(world[:, :, 3]).max()))
+        touching = (phi <= within) & self.has_edges
+        if len(self.on_box) and touching.any():
+            at = x.take(self.on_box, axis=0)
+            heights = np.concatenate([at, -at], axis=1) - self.box
+            heights.sort(axis=1)
+            touching[self.on_box] &= heights[:, -2] >= heights[:, -1] - within
+        return np.unique(self.pair_of[touching]).tolist() if touching.any() else []
+
+    def by_pair(self, contacts: ClosestPoints) -> list[ClosestPoints]:
+        """The contacts of each pair."""
+        each = zip(self.first.tolist(), self.last.tolist(), strict=True)
+        return [contacts.chosen(np.arange(first, last + 1)) for first, last in each]
+
+
+def sides(pair: ContactPair) -> tuple[PlacedShape, PlacedShape]:
+    """The solid and the cloud of a pair."""
+    if isinstance(pair.beta.shape, PointCloud):
+        return pair.alpha, pair.beta
+    return pair.beta, pair.alpha
+
+
+def starts(lengths: Indices) -> Indices:
+    """Where each of some parts begins, and where the last ends, shape (parts + 1,)."""
+    return np.concatenate([np.zeros(1, np.int64), np.cumsum(lengths)])
+
+
+def distances(solids: Sequence[Shape], lists: Sequence[slice]) -> list[tuple[slice, Distance]]:
+    """What measures the listed points: boxes, spheres and capsules in a row together.
+
+    Parameters
+    ----------
+    solids : sequence of Shape
+        One for each pair.
+    lists : sequence of slice
+        The points of each pair among all.
+    """
+    found: list[tuple[slice, Distance]] = []
+    for rounded, group in groupby(zip(solids, lists, strict=True), _is_rounded):
+        each = [*group]
+        if not rounded or len(each) == 1:
+            found += [(own, solid.signed_distance) for solid, own in each]
+            continue
+        count = [own.stop - own.start for _, own in each]
+        cores = [solid.core for solid, _ in each if isinstance(solid, Rounded)]
+        half_extents = np.repeat([half for half, _ in cores], count, axis=0)
+        radius = np.repeat([ball for _, ball in cores], count)
+        every = slice(each[0][1].start, each[-1][1].stop)
+        found.append(
+            (every, partial(distance_to_rounded_box, half_extents=half_extents, radius=radius))
+        )
+    return found
+
+
+def _is_rounded(pair: tuple[Shape, slice]) -> bool:
+    return isinstance(pair[0], Rounded)
