@@ -312,26 +312,6 @@ def profile():
     }
 
 
-def profile_rows():
-    """Of each backend, with the tracker and with all distances."""
-    names = {
-        "DAQP, nothing certified, warm": "daqp", "PIQP, nothing certified": "piqp",
-        "OSQP, nothing certified, warm": "osqp", "Clarabel, nothing certified": "clarabel",
-        "Clarabel, certified": "clarabel certified",
-    }  # fmt: skip
-    found = {}
-    for name, backend in names.items():
-        own = [profile()["medians"][f"{backend}, {way}"] for way in ("tracker", "brute force")]
-        steps = [float(row["step"]) for row in own]
-        found[name] = {
-            "step": [f"{us:.0f} us" if us < 995 else f"{us / 1e3:.1f} ms" for us in steps],
-            "solve": [row["solve, %"] for row in own],
-            "call alone": [row["call alone, %"] for row in own],
-            "words": " (with the certificate)" if "certified" in backend else "",
-        }
-    return found
-
-
 def dense_and_sparse():
     """Rows of the boxes that the page shows."""
     shown = ("1", "3", "8", "16", "24", "32", "3 x 3 x 3", "4 x 4 x 3")

@@ -97,21 +97,20 @@ def question(
     return Question(found, own, known[setting], units, warm, limits, memory)
 
 
-def measured_again(one: Question, folder: str | Path = ".") -> dict[str, Any]:
+def measured_again(one: Question) -> dict[str, Any]:
     """The fields of a row that are measured.
 
     Parameters
     ----------
     one : Question
-    folder : str or Path
-        Where callables and executables are looked for.
+        Callables and executables are looked for in the working directory.
 
     Raises
     ------
     InputError
         If the solver cannot be imported.
     """
-    with Keeper(one.solver, folder, one.memory, (one.setting,)) as keeper:
+    with Keeper(one.solver, memory=one.memory, settings=(one.setting,)) as keeper:
         return measured(keeper, one.problem, one.setting, one.units, one.warm, one.limits)
 
 

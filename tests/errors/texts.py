@@ -1,4 +1,4 @@
-"""Good texts that fuzzing starts from."""
+"""Good texts that are spoilt."""
 
 SCENE = """
 format = "quasistatic-ref/scenario"
