@@ -210,7 +210,7 @@ def test_forces_are_scaled_by_what_of_them_is_in_view():
     # A force of 12 N along y and one of 1.5 N along z: seen along y, 1.5 N is the largest.
     frame, rim = np.eye(3), np.zeros((0, 3))
     contacts = [
-        DrawnContact(np.zeros(3), np.zeros(3), frame, np.array(force), 0.0, 1.0, 0.0, 0.0, rim)
+        DrawnContact(np.zeros(3), frame, np.array(force), 0.0, 1.0, 0.0, 0.0, rim)
         for force in ([0, 12.0, 0], [0, 0, 1.5])
     ]
     of = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts), {})
