@@ -227,12 +227,6 @@ at 9e10; the steps of the scenarios in models/ stay below 3."""
 FITTED: Final = 0.02
 """Largest difference of a fitted exponent from the exponent of the law it is to show."""
 
-KNOWN: Final = 1e-6
-"""Largest error, in the one definition, at which an enclosed answer grades solvers.
-
-The bound is the root of a duality gap: float64 data whose ties are split at 1e-17 leave 2e-8. No
-digit beyond the bound is reported."""
-
 UNSEEN: Final = 1e-11
 """Room for rounding in the proof that unmeasured points are not among the closest, relative to the
 sizes of cloud and solid and their distance. Distances are right to 1e-12 (ON_SURFACE is the largest

@@ -19,6 +19,7 @@ from tests.scenes import PUSH, chain_scene, written_scenario
 
 settings.register_profile("ci", derandomize=True, deadline=None, max_examples=15, database=None)
 settings.register_profile("local", deadline=None, max_examples=15)
+settings.register_profile("long", deadline=None, max_examples=10_000)
 settings.load_profile("ci" if os.environ.get("CI") else "local")
 
 

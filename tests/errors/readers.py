@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import struct
-import tempfile
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -36,12 +37,12 @@ from quasistatic_ref.simulate.trajectory import certified, trajectory_read
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.files import step_read, step_text
+from tests.errors import texts
 from tests.lab.study import made_store
 from tests.model.readers.test_mesh_files import COLLADA
 from tests.model.urdf.urdf_texts import collision, link, written
 from tests.model.urdf.urdf_texts import robot as urdf_of
-from validation.tools.fuzzing import texts
-from validation.tools.fuzzing.files import (
+from tests.oracles.spoilt_files import (
     Form,
     npy_bytes,
     spoilt_bytes,
@@ -54,34 +55,34 @@ from validation.tools.fuzzing.files import (
     spoilt_xz,
     zip_bytes,
 )
-from validation.tools.fuzzing.worker import Reader
-
-PAGE = """# Spoilt files, and what their readers make of them
-
-Written by `python -m validation.tools.fuzz --table validation/results/fuzzing.md`. Each input is a
-good file of its kind with bytes, tokens, values or arrays changed: numbers by NaN, infinities, the
-ends of float64 and integers of 5,000 digits, words by long or strange ones, tables by other types,
-lists by ones nested 100,000 deep. `accepted`: the file is still a good one, and what follows from
-it is finite. `refused`: one sentence of the exception tree. `failures`: a traceback or a warning,
-the end of the process, more than 10 s of processor time, or more than 2048 MiB, of which the
-libraries take 250 before anything is read. Steps are solved and certified, scenarios run for two
-steps, solutions verified, answers checked, studies reported (without their pictures). Inputs are
-random, so that no failure is no proof.
-
-"""
 
 
-def readers(folder: Path) -> dict[str, Reader]:
-    """Every reader by name; what their files need is written into the folder."""
-    return {
-        **_models(folder), **_clouds(), **_scenes(folder), **_steps(folder), **_answers(folder),
-        **_stores(folder), **_studies(),
-    }  # fmt: skip
+@dataclass(frozen=True)
+class Reader:
+    """What reads one kind of file.
+
+    Parameters
+    ----------
+    file : str
+        Name of the file that it reads.
+    good : tuple of bytes
+        Files that it accepts.
+    form : callable
+        How they are made wrong.
+    read : callable
+        Given the path of the file.
+    """
+
+    file: str
+    good: tuple[bytes, ...]
+    form: Form
+    read: Callable[[Path], object]
 
 
-def _models(folder: Path) -> dict[str, Reader]:
-    models = models_folder()
-    urdfs = tuple((models / f).read_bytes() for f in ("door/door.urdf", "bunny_grasp/gripper.urdf"))
+def models(folder: Path) -> dict[str, Reader]:
+    urdfs = tuple(
+        (models_folder() / f).read_bytes() for f in ("door/door.urdf", "bunny_grasp/gripper.urdf")
+    )
 
     def robot(path: Path) -> None:
         system = System([Body("r", path, actuated="all")])
@@ -112,7 +113,7 @@ def _models(folder: Path) -> dict[str, Reader]:
     }
 
 
-def _clouds() -> dict[str, Reader]:
+def clouds(_: Path) -> dict[str, Reader]:
     points = np.array(texts.CORNERS)
     text = "".join("{} {} {}\n".format(*corner) for corner in texts.CORNERS).encode()
     coloured = text.replace(b"\n", b" 255\n")
@@ -137,7 +138,7 @@ def _clouds() -> dict[str, Reader]:
     }
 
 
-def _scenes(folder: Path) -> dict[str, Reader]:
+def scenes(folder: Path) -> dict[str, Reader]:
     for model, file in (("sphere_spin", "sphere.urdf"), ("bunny_grasp", "gripper.urdf")):
         (folder / file).write_bytes((models_folder() / model / file).read_bytes())
     (folder / "cloud.xyz").write_text("0 0 0.05\n0 0 -0.05\n")
@@ -161,7 +162,7 @@ def _scenes(folder: Path) -> dict[str, Reader]:
     }
 
 
-def _steps(folder: Path) -> dict[str, Reader]:
+def steps(folder: Path) -> dict[str, Reader]:
     scenario = load_scenario("sphere_spin", ["steps=2"])
     run = scenario.run(progress=False)
     trajectory = run.save(folder / "good.npz").read_bytes()
@@ -196,7 +197,7 @@ def _steps(folder: Path) -> dict[str, Reader]:
     }
 
 
-def _answers(folder: Path) -> dict[str, Reader]:
+def answers(folder: Path) -> dict[str, Reader]:
     """Right answers to three cases of each layer: a short one, one in the middle, a long one."""
     found = {}
     for layer in LAYERS:
@@ -209,7 +210,7 @@ def _answers(folder: Path) -> dict[str, Reader]:
         cases = [case for case in inputs if case.id in chosen]
         known = {name: expected[name] for name in chosen}
         outputs = {name: known[name]["output"] for name in sorted(chosen)}
-        good = answers_written(folder, layer, "fuzz", outputs).read_bytes()
+        good = answers_written(folder, layer, "spoilt", outputs).read_bytes()
 
         def compared(
             path: Path, layer: str = layer, cases: Any = cases, known: Any = known
@@ -226,7 +227,7 @@ def _answers(folder: Path) -> dict[str, Reader]:
     return found
 
 
-def _stores(folder: Path) -> dict[str, Reader]:
+def stores(folder: Path) -> dict[str, Reader]:
     """Each file of a store in turn, the others being good."""
 
     def reported(path: Path) -> None:
@@ -257,7 +258,7 @@ def _stores(folder: Path) -> dict[str, Reader]:
     return found
 
 
-def _studies() -> dict[str, Reader]:
+def studies(_: Path) -> dict[str, Reader]:
     def study(path: Path) -> None:
         tables = toml_read(path)
         (sweep_study if study_kind(tables) == "sweep" else solver_study)(path, tables)
@@ -269,7 +270,4 @@ def _studies() -> dict[str, Reader]:
     }
 
 
-def names() -> list[str]:
-    """Every reader."""
-    with tempfile.TemporaryDirectory() as folder:
-        return list(readers(Path(folder)))
+FAMILIES = (models, clouds, scenes, steps, answers, stores, studies)

@@ -1,0 +1,56 @@
+"""Every reader given spoilt files: each is accepted, or refused in one sentence.
+
+Files are spoilt by a seed that Hypothesis draws. ``--hypothesis-profile=long`` gives every reader
+thousands of them.
+"""
+
+import random
+import time
+
+import pytest
+from hypothesis import given, note, settings
+from hypothesis import strategies as st
+
+from quasistatic_ref.errors import QuasistaticError
+from tests.errors.readers import FAMILIES
+
+SECONDS = 10.0
+"""Of the processor that a file may take [s]."""
+LONGEST = 2000
+"""Most characters of a sentence."""
+SHARE = 5
+"""One in so many of the profile's examples: there are many readers."""
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
+def test_a_spoilt_file_is_accepted_or_refused_in_a_sentence(tmp_path, family):
+    for name, reader in family(tmp_path).items():
+        path = tmp_path / reader.file
+        for good in reader.good:
+            path.write_bytes(good)
+            reader.read(path)
+        spoilt_files_read(name, reader, path)
+        path.write_bytes(reader.good[0])
+
+
+def spoilt_files_read(name, reader, path):
+    """Read spoilt files, as many as the profile of Hypothesis says."""
+
+    @settings(max_examples=max(settings().max_examples // SHARE, 1))
+    @given(seed=st.integers(0, 2**32))
+    def read(seed):
+        rng = random.Random(seed)
+        path.write_bytes(reader.form(rng, rng.choice(reader.good)))
+        note(f"{name}, {path}")
+        begun = time.process_time()
+        try:
+            reader.read(path)
+        except QuasistaticError as refusal:
+            sentence = str(refusal)
+            assert sentence
+            assert "\n" not in sentence
+            assert "bad_alloc" not in sentence
+            assert len(sentence) <= LONGEST
+        assert time.process_time() - begun < SECONDS
+
+    read()
