@@ -110,8 +110,6 @@ RESULTS = (
     script("second_order", "jsonl", "md"),
     to_file("reach", "reach.md"),
     script("mjcf", "md"),
-    script("aligned_poses", "md"),
-    printed("forces_by_hand", "forces_by_hand.md"),
     to_file("forces", "forces.md"),
     Result("mutations", "validation.tools.mutations --stale", ("validation/results/mutations.md",)),
     script("reality_identified", "json"),
