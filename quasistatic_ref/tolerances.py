@@ -227,12 +227,6 @@ at 9e10; the steps of the scenarios in models/ stay below 3."""
 FITTED: Final = 0.02
 """Largest difference of a fitted exponent from the exponent of the law it is to show."""
 
-KNOWN: Final = 1e-6
-"""Largest error, in the one definition, at which an enclosed answer grades solvers.
-
-The bound is the root of a duality gap: float64 data whose ties are split at 1e-17 leave 2e-8. No
-digit beyond the bound is reported."""
-
 UNSEEN: Final = 1e-11
 """Room for rounding in the proof that unmeasured points are not among the closest, relative to the
 sizes of cloud and solid and their distance. Distances are right to 1e-12 (ON_SURFACE is the largest
@@ -266,6 +260,14 @@ BEARING: Final = 1e-11
 """Multiplier of a row at which it counts as none where a derivative is computed: the displacement
 that it causes over that of the step, in the H norm [-]. That is the rounding of places, 1e-16 m,
 over a step of 1e-5 m."""
+
+SHARE: Final = 1e-3
+"""Of what all rows exert, what a row is tried to bear [-]: so much more than rounding that what
+misses is known to nine digits, and so little that the other rows are those that bear."""
+
+AHEAD: Final = 1e-6
+"""Change of a force, relative to it, up to which rows are tried to bear it on [-]: a million times
+the rounding that would hide that it leaves their cone."""
 
 DEPENDENT: Final = 1e-8
 """Singular value of rows of length one up to which it counts as zero [-], where no derivative

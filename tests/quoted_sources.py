@@ -220,8 +220,8 @@ def claims():
 
 
 def problem_set():
-    """Problems of the set that comes along, and its families."""
-    manifest = json.loads((ROOT / "validation/contact_qp_1/manifest.json").read_text())
+    """Problems of contact-qp-2, and its families."""
+    manifest = json.loads((ROOT / "validation/contact_qp_2/manifest.json").read_text())
     count = sum(family["count"] for family in manifest["families"].values())
     return {"count": count, "families": len(manifest["families"])}
 
@@ -310,26 +310,6 @@ def profile():
         "proved": steps["clarabel certified, tracker"] / 1e3,
         "distances": [float(n) for n in re.search(words, text("step_profile.md")).groups()],
     }
-
-
-def profile_rows():
-    """Of each backend, with the tracker and with all distances."""
-    names = {
-        "DAQP, nothing certified, warm": "daqp", "PIQP, nothing certified": "piqp",
-        "OSQP, nothing certified, warm": "osqp", "Clarabel, nothing certified": "clarabel",
-        "Clarabel, certified": "clarabel certified",
-    }  # fmt: skip
-    found = {}
-    for name, backend in names.items():
-        own = [profile()["medians"][f"{backend}, {way}"] for way in ("tracker", "brute force")]
-        steps = [float(row["step"]) for row in own]
-        found[name] = {
-            "step": [f"{us:.0f} us" if us < 995 else f"{us / 1e3:.1f} ms" for us in steps],
-            "solve": [row["solve, %"] for row in own],
-            "call alone": [row["call alone, %"] for row in own],
-            "words": " (with the certificate)" if "certified" in backend else "",
-        }
-    return found
 
 
 def dense_and_sparse():

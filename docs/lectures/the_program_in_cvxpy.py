@@ -49,7 +49,7 @@ def solved(step):
 check(
     "the program",
     lambda: all(
-        correct_digits(step, solved(step), exact.delta_q).delta_q > 2
+        correct_digits(step, solved(step), exact.delta_q) > 2
         for step, exact in zip(STEPS, EXACT, strict=True)
     ),
 )
@@ -70,7 +70,7 @@ def error(x, exact, H, g):
 
 # %% check
 def as_digits(step, exact, x):
-    c = correct_digits(step, x, exact.delta_q).delta_q
+    c = correct_digits(step, x, exact.delta_q)
     H = np.zeros((step.n_a + step.n_u,) * 2)
     H[: step.n_a, : step.n_a], H[step.n_a :, step.n_a :] = step.h * step.K_q, step.M_u / step.h
     tau_k = step.K_q @ step.delta_q_bar_a

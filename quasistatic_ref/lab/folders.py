@@ -2,7 +2,12 @@
 
 from pathlib import Path
 
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.resources import data_folder
+
+CONTACT_QP_1, CONTACT_QP_2 = EDITIONS = ("contact-qp-1", "contact-qp-2")
+"""Sets of quadratic programs by name."""
 
 
 def vectors_folder() -> Path:
@@ -15,9 +20,21 @@ def reality_folder() -> Path:
     return data_folder("validation/reality", "lab/reality/data")
 
 
-def problem_set_folder() -> Path:
-    """The folder of the set of quadratic programs that comes with the package."""
-    return data_folder("validation/contact_qp_1", "lab/study/problems/data")
+def problem_set_folder(source: str) -> Path:
+    """The folder of a set of quadratic programs: one that comes along by its name, or a folder.
+
+    Raises
+    ------
+    InputError
+        If there is neither.
+    """
+    if source in EDITIONS:
+        folder = source.replace("-", "_")
+        return data_folder(f"validation/{folder}", f"lab/study/problems/{folder}")
+    if not Path(source).is_dir():
+        hint = suggestion(source, EDITIONS)
+        raise InputError(f"is neither a folder nor a set that comes along{hint}", value=source)
+    return Path(source)
 
 
 def clouds_file() -> Path:

@@ -9,7 +9,6 @@ import pytest
 from quasistatic_ref.cli.measures import rotation_angle
 from quasistatic_ref.formats.resources import models_folder
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import SLOW
 from tests.tolerances import (
@@ -142,16 +141,6 @@ def test_the_bunny_leaves_the_floor_and_its_contacts_carry_it(runs, scenario, ca
         drag = R @ (run["M_u"][k][:3] @ run["delta_q"][k, 7:]) / 0.01**2
         expected = drag + np.array([0, 0, 0.2 * 9.81])
         np.testing.assert_allclose(force, expected, rtol=0, atol=MULTIPLIERS * f[:, 2].max())
-
-
-def test_the_cloud_has_992_points_of_the_mesh(scenario, build):
-    (cloud,) = {id(p.beta.shape): p.beta.shape for p in scenario.pairs}.values()
-    assert isinstance(cloud, PointCloud)
-    assert cloud.points.shape == (992, 3)
-    assert len(np.unique(cloud.points, axis=0)) == 992
-    vertices, _ = build.mesh(FOLDER / "bunny.obj")
-    rounded = {tuple(v) for v in np.round(vertices, 6).tolist()}
-    assert all(tuple(p) in rounded for p in cloud.points.tolist())
 
 
 def test_the_committed_files_are_what_the_script_writes(build, tmp_path):

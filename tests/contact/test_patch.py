@@ -12,8 +12,6 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
-    Capsule,
-    Cone,
     Cylinder,
     HalfSpace,
     PlacedShape,
@@ -82,23 +80,6 @@ def test_on_a_slope_the_middle_of_an_edge_takes_no_corners_place() -> None:
         np.testing.assert_allclose(points.phi, 0, rtol=EXACT, atol=CLOSED_FORM)
 
 
-def test_a_capsule_lies_on_its_two_caps_and_a_cylinder_on_its_rims() -> None:
-    floor = HalfSpace(np.eye(3)[2], 0.0)
-    lying = Rotation.from_rotvec([0, np.pi / 2, 0]).as_matrix()
-    height = np.array([0, 0, 0.03])
-    caps = found(floor, Capsule(0.03, 0.1), lying, height, 2)
-    rims = found(floor, Cylinder(0.03, 0.1), lying, height, 2)
-    for points in (caps, rims):
-        np.testing.assert_allclose(points.phi, 0, rtol=EXACT, atol=CLOSED_FORM)
-        np.testing.assert_allclose(
-            np.sort(points.beta[:, 0]), [-0.1, 0.1], rtol=EXACT, atol=CLOSED_FORM
-        )
-    standing = found(floor, Cylinder(0.03, 0.1), np.eye(3), np.array([0, 0, 0.1]), 4)
-    np.testing.assert_allclose(standing.phi, 0, rtol=EXACT, atol=CLOSED_FORM)
-    around = np.hypot(standing.beta[:, 0], standing.beta[:, 1])
-    np.testing.assert_allclose(around, 0.03, rtol=EXACT, atol=CLOSED_FORM)
-
-
 @pytest.mark.parametrize("seed", range(6))
 def test_a_rims_first_corner_is_the_closest_point_and_repeats_it(seed: int) -> None:
     # Rims of two cylinders 1e-5 m apart: the normal is right to 1e-11, and a corner that it led to
@@ -124,26 +105,6 @@ def test_a_rims_first_corner_is_the_closest_point_and_repeats_it(seed: int) -> N
     kept = found(one, other, R, t, 2)
     apart = np.abs(kept.alpha[:, None] - kept.alpha).max(axis=2) + np.eye(2)
     assert apart.min() > 1e-3
-
-
-@pytest.mark.parametrize("swapped", [False, True])
-@pytest.mark.parametrize("lean", [0.3, 1.0])
-def test_a_cone_over_a_floor_has_its_tip_and_the_lowest_point_of_its_rim(lean, swapped) -> None:
-    # Its axis leans from straight down, the tip first: the tip is h cos(lean) below the middle, and
-    # the lowest point of the rim r sin(lean) - h cos(lean). Corner 0 is the tip, and corner 1 the
-    # point of the rim that is the farthest towards the floor.
-    radius, half_length, height = 0.5, 0.2, 0.4
-    R = Rotation.from_rotvec([np.pi - lean, 0, 0]).as_matrix()
-    tip = height - half_length * np.cos(lean)
-    rim = height - radius * np.sin(lean) + half_length * np.cos(lean)
-    floor, cone = placed(HalfSpace(np.eye(3)[2], 0.0)), placed(Cone(radius, half_length), 1)
-    sides = (cone, floor) if swapped else (floor, cone)
-    found = found_for(*sides, standing((R, np.array([0.1, 0.2, height]))), k=2)
-    expected = sorted([(tip, 0), (rim, 1)])
-    np.testing.assert_allclose(
-        found.phi, [phi for phi, _ in expected], rtol=EXACT, atol=CLOSED_FORM
-    )
-    assert found.point.tolist() == [corner for _, corner in expected]
 
 
 def test_of_two_corners_that_are_one_contact_alpha_s_is_kept() -> None:

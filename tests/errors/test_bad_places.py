@@ -1,7 +1,6 @@
 """Paths that leave their folder, outputs that cannot be written, options that mean nothing."""
 
 import os
-import resource
 import subprocess
 import sys
 
@@ -172,26 +171,6 @@ def test_a_folder_that_cannot_be_written_to_is_known_before_the_run(
     assert sentence.startswith(f"{shown}: cannot be written: ")
     assert words in sentence
     assert sentence.endswith("; choose another folder")
-
-
-def full_disk(size):
-    """Let no file grow beyond a size [bytes]: the write fails as it does on a full disk."""
-    hard = resource.getrlimit(resource.RLIMIT_FSIZE)[1]
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
-
-
-@pytest.mark.parametrize("size", [0, 3000])
-def test_a_full_folder_leaves_nothing_half_written(tmp_path, refused, size):
-    slow = changed(SCENE, ("bodies/rail/targets/1/t", 100.0), ("bodies/ball/wrenches", ...))
-    scene, soft = scene_written(tmp_path, slow), resource.getrlimit(resource.RLIMIT_FSIZE)[0]
-    (tmp_path / "out").mkdir()
-    full_disk(size)
-    try:
-        sentence = refused("run", scene, "--out", tmp_path / "out")
-    finally:
-        full_disk(soft)
-    assert sentence.startswith(f"{tmp_path / 'out'}")
-    assert "cannot be written: File too large; choose another folder" in sentence
 
 
 @pytest.mark.parametrize("path", ["/dev/full", "{}/file/x.json", "{}", "{}/a\0b", "", "{}/x/"])

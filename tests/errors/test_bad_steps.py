@@ -14,7 +14,6 @@ from tests.helpers import planted_step
 STEP = plain(step_record(planted_step(np.random.default_rng(7))[0]))
 """n_a = 3, n_u = 4, contacts with 6, 4 and 6 rows."""
 ONE = "contacts/1/"
-EYE = np.eye(3).tolist()
 CAUSES = {
     # name: (changes to the step, the field named, words of the sentence)
     "n_a without end": (("n_a", 10**12), "K_q", "must be 1000000000000 x 1000000000000 numbers"),

@@ -61,8 +61,9 @@ SAMPLE = {
     ),
     "certify/test_exact.py::test_limit_of_friction_is_a_kink": (
         f"{CONES} pyramid: gap - slip_1 -> gap + slip_1",
-        f"{RATIONAL} contact_motion: [contacts.n[which], contacts.d1[which], contacts.d2[which]] "
-        "-> [contacts.n[which], contacts.d2[which], contacts.d1[which]]",
+        f"{RATIONAL} contact_motion: "
+        "[contacts.n[which], contacts.d1[which], contacts.d2[which]] -> "
+        "[contacts.n[which], contacts.d2[which], contacts.d1[which]]",
     ),
     "certify/test_exact.py::test_grasp_is_decided_by_balls_alone": (
         f"{POINT} Point.zero_coordinates: i == v -> i != v",

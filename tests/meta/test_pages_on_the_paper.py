@@ -1,7 +1,4 @@
-"""The pages on the paper name what exists: tests, claims, files, scenarios, examples, pages.
-
-Everything between backticks is a name and must be found; each row of a table ends with evidence.
-"""
+"""Each row of the pages on the paper ends with evidence that exists: a test, or a claim."""
 
 import ast
 import re
@@ -9,18 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.cli.main import COMMANDS
 from quasistatic_ref.lab.claims.registry import BY_NAME
-from quasistatic_ref.lab.examples.gallery import EXAMPLES
 
 ROOT = Path(__file__).parents[2]
 THEORY, TESTS = ROOT / "docs" / "theory", ROOT / "tests"
 PAGES = ("errata.md", "the_paper.md")
-CITED = re.compile(r"\{cite:[pt]\}`(\w+)`")
 NAMED = re.compile(r"`([^`]+)`")
 LIST = r"((?:`\w+`(?:, | and )?)+)"
-FOLDERS = (ROOT, ROOT / "quasistatic_ref", TESTS)
-"""Where a file or folder that a page names may lie."""
 
 
 def listed(word, text):
@@ -49,37 +41,10 @@ def evidence(text):
     return claims + tests
 
 
-def unknown(text):
-    """What a text names and what does not exist."""
-    text = CITED.sub("", text)
-    known = {
-        *evidence(text),
-        *(name for name in listed("example", text) if name in EXAMPLES),
-        *(
-            name
-            for name in listed("scenario", text)
-            if (ROOT / "models" / name / f"{name}.toml").is_file()
-        ),
-        *(f"quasistatic-ref {command}" for command in COMMANDS),
-    }
-    return [
-        name
-        for name in NAMED.findall(text)
-        if name not in known and not ("/" in name and any((f / name).exists() for f in FOLDERS))
-    ]
-
-
 def rows(markdown):
     """The rows of all tables, without their heads and rules."""
     tables = re.findall(r"(?:^\|.*\n)+", markdown, re.MULTILINE)
     return [row for table in tables for row in table.splitlines()[2:]]
-
-
-@pytest.mark.parametrize("page", PAGES)
-def test_everything_named_exists(page):
-    # Line by line: a name and its kind stand in one row or in one line.
-    lines = (THEORY / page).read_text().splitlines()
-    assert [name for line in lines for name in unknown(line)] == []
 
 
 @pytest.mark.parametrize("page", PAGES)

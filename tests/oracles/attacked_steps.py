@@ -1,11 +1,10 @@
-"""Ordinary steps, and steps of strange numbers; which matrices are positive definite."""
+"""Steps that validation/make/attacks.py tries: ordinary ones, and those of strange numbers."""
 
 from __future__ import annotations
 
 import random
 from collections.abc import Iterator
 from dataclasses import replace
-from fractions import Fraction
 from itertools import count
 
 import numpy as np
@@ -13,7 +12,6 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.step.data import Contacts, StepData
 from tests.oracles.random_steps import any_step, mixed_step
-from tests.oracles.solution_truth import exact
 
 CONES = "pyramid", "product", "frictionless"
 FAMILIES = "ordinary", "all scales", "subnormal loads", "tiny or huge weights", "nearly singular"
@@ -109,21 +107,3 @@ def singular(rng: np.random.Generator, n: int, share: float | None = None) -> np
         unit = 10.0 ** rng.uniform(-150, 150, n) if rng.random() < 0.5 else 2.0**-520
         S = S * unit * np.reshape(unit, (-1, 1)) if np.ndim(unit) else S * unit * unit
     return np.tril(S) + np.tril(S, -1).T
-
-
-SHARE = Fraction(1e-14)
-"""Of its diagonal entry, what a pivot has to be above."""
-
-
-def positive_definite(S: np.ndarray) -> bool:
-    """Whether all pivots are above their share of the diagonal, in fractions."""
-    rest = exact(S)
-    diagonal = [row[i] for i, row in enumerate(rest)]
-    for k, entry in enumerate(diagonal):
-        pivot = rest[k]
-        if pivot[k] <= 0 or pivot[k] <= SHARE * entry:
-            return False
-        for i in range(k + 1, len(rest)):
-            part = rest[i][k] / pivot[k]
-            rest[i] = [v - part * w for v, w in zip(rest[i], pivot, strict=True)]
-    return True

@@ -11,33 +11,22 @@ from fractions import Fraction
 import mpmath as mp
 import numpy as np
 
+from tests.oracles.solution_truth import exact, program
+
 DIGITS = 60
 MOST = 200
 EQUAL = mp.mpf(10) ** -45
 
 
 def exact_numbers(step):
-    """H, g, and of each contact B and phi, in fractions of the step's numbers."""
-    F = np.vectorize(Fraction, otypes=[object])
-    h, n_a = Fraction(step.h), step.n_a
-    H = np.full((step.n_v, step.n_v), Fraction(0), object)
-    H[:n_a, :n_a] = h * F(step.K_q) if n_a else 0
-    H[n_a:, n_a:] = F(step.M_u) / h if step.n_u else 0
-    tau_k = [sum((Fraction(k) * Fraction(d) for k, d in zip(row, step.delta_q_bar_a, strict=True)),
-                 Fraction(0)) for row in step.K_q]  # fmt: skip
-    tau_a = [t + Fraction(own) for t, own in zip(tau_k, step.tau_a, strict=True)]
-    g = [h * t for t in tau_a] + [h * Fraction(t) for t in step.tau_u]
+    """H, g, and of each contact B, phi and friction, in fractions of the step's numbers."""
+    H, g, A, b = program(step.replace(cone="ellipsoid"))  # its rows are n, d1, d2 and spin
     blocks = []
-    k = step.contacts
-    for j in range(k.n_c):
-        mu = [Fraction(k.mu_v[j]), Fraction(k.mu_v[j])]
-        mu.append(Fraction(k.mu_omega[j]) if k.rows[j] == 6 else Fraction(0))
-        J = F(k.J[j])
-        axes = F(np.array([k.n[j], k.d1[j], k.d2[j]]))
-        rows = [sum((axes[i, x] * J[x] for x in range(3)), 0 * J[0]) for i in range(3)]
-        rows = [rows[0], mu[0] * rows[1], mu[1] * rows[2], mu[2] * J[3]]
-        blocks.append((rows, Fraction(k.phi[j]), mu))
-    return h, H, g, blocks
+    for j, mu in enumerate(exact(step.contacts.mu)):
+        own = range(4 * j, 4 * j + 4)
+        rows = [[f * v for v in A[i]] for f, i in zip([1, *mu], own, strict=True)]
+        blocks.append((rows, -b[4 * j], mu))
+    return Fraction(step.h), H, g, blocks
 
 
 def number(x):

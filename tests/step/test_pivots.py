@@ -11,8 +11,9 @@ from quasistatic_ref.step import pivots
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.pivots import exact_factor, positive_pivots
 from quasistatic_ref.tolerances import DEFINITE
-from tests.oracles.attacked_steps import positive_definite, singular
+from tests.oracles.attacked_steps import singular
 from tests.tolerances import ROUNDING
+from validation.make.attacks import positive_definite
 
 LOWER = np.array([[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [1.0, -1000.0, 1.0]])
 PIVOTS = 3 * np.array([1.0, 2.0**-20, 2.0**-44])

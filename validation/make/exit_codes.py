@@ -18,7 +18,7 @@ import numpy as np
 from scipy.sparse import csc_matrix, triu
 
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.folders import problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP_1, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.calling.calls import call_of, tried
 from quasistatic_ref.lab.study.calling.claims import HIDDEN, INFEASIBLE, NEITHER, OPTIMAL, hides
@@ -189,7 +189,7 @@ def problems(count: int) -> list[Problem]:
     """So many problems without a solution, and so many with one, along their dials."""
     found = []
     for family, share in zip(FAMILIES, (count, count // 2, count - count // 2), strict=True):
-        own = set_read(problem_set_folder(), [family])
+        own = set_read(problem_set_folder(CONTACT_QP_1), [family])
         found += [own[i * len(own) // share] for i in range(share)]
     return found
 

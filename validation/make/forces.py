@@ -108,12 +108,11 @@ def random_steps(count: int) -> Iterator[tuple[str, StepData]]:
 
 
 def vector_steps() -> Iterator[tuple[str, StepData]]:
-    """Steps of the layers `step` and `derivative` of the vectors that have a solution."""
-    for name in ("step", "derivative"):
-        solved = expected_read(VECTORS, name)
-        for case in inputs_read(VECTORS, name):
-            if "farkas" not in solved[case.id]["output"]:
-                yield case.id, posed_case(case.input).step
+    """Those of the layer `step` of the vectors that have a solution."""
+    solved = expected_read(VECTORS, "step")
+    for case in inputs_read(VECTORS, "step"):
+        if "farkas" not in solved[case.id]["output"]:
+            yield case.id, posed_case(case.input).step
 
 
 def scenario_steps(every: int) -> Iterator[tuple[str, StepData]]:

@@ -87,14 +87,14 @@ class FloatStep:
         self.g = linear_term(step)
         self.stiffness = step.h / compliance
 
-    def place(self, x: Array, faces: list[Rows], held: Mask, more: Array | float = 0.0) -> Place:
-        """Where x is, from faces that may be right for z + `more`, shape (n_c, 4) [m]."""
+    def place(self, x: Array, faces: list[Rows], held: Mask, give: Array | float = 0.0) -> Place:
+        """Where x is, from faces that may be right for z - `give`, shape (n_c, 4) [m]."""
         H = self.H
         g = self.g
         k = self.stiffness
         own = self.step.extra
-        z = self.B @ x + self.gap + more
-        noise = ROUNDING * (np.abs(self.B) @ np.abs(x) + np.abs(self.gap) + np.abs(more))
+        z = self.B @ x + self.gap - give
+        noise = ROUNDING * (np.abs(self.B) @ np.abs(x) + np.abs(self.gap) + np.abs(give))
         before = faces
         faces = list(faces)
         wrong = [j for j, M in enumerate(self.linear(faces)) if outside(M[:-4], z[j], noise[j])]
@@ -139,6 +139,21 @@ def outside(conditions: Array, z: Array, noise: Array) -> bool:
     return bool((conditions @ z < -(np.abs(conditions) @ noise)).any())
 
 
+def lengths_of(wrench: Array, step: StepData, compliance: float) -> Array:
+    """The s of wrenches, both of shape (n_c, 4) [m], [N, N m]; 0 where a coefficient is 0.
+
+    Parameters
+    ----------
+    wrench : ndarray, shape (n_c, 4)
+        [N, N m].
+    step : StepData
+    compliance : float
+        [m/N].
+    """
+    mu = scaled_by(step.contacts)
+    return np.divide(compliance * wrench[:, P_OF_WRENCH], mu, out=0.0 * mu, where=mu > 0)
+
+
 def guessed_faces(
     step: StepData, compliance: float, near: tuple[Array, Array]
 ) -> tuple[list[Rows], list[int]]:
@@ -162,10 +177,9 @@ def guessed_faces(
     list of int
     """
     program = FloatStep(step, compliance)
-    mu = scaled_by(step.contacts)
     x, wrench = near
-    give = np.divide(-compliance * wrench[:, P_OF_WRENCH], mu, out=0.0 * mu, where=mu > 0)
-    here = program.place(x, [()] * len(mu), step.extra.A @ x < step.extra.b, give)
+    give = lengths_of(wrench, step, compliance)
+    here = program.place(x, [()] * len(give), step.extra.A @ x < step.extra.b, give)
     for _ in range(GUESSES):
         way = program.newton(here) - here.x
         if not finite(way):

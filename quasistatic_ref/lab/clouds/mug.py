@@ -81,7 +81,7 @@ def handle_parts(count: int) -> list[tuple[Array, Array, Shape]]:
     return parts
 
 
-def hung(parts: list[tuple[Array, Array, Shape]], steps: int = STEPS) -> Hung:
+def hung(parts: list[tuple[Array, Array, Shape]]) -> Hung:
     """Hang a mug with that handle on the hook.
 
     It starts where one with a smooth handle hangs, 1 micrometre higher.
@@ -90,7 +90,6 @@ def hung(parts: list[tuple[Array, Array, Shape]], steps: int = STEPS) -> Hung:
     ----------
     parts : list of (R, t, Shape)
         What touches, in the mug's frame [-, m].
-    steps : int
 
     Raises
     ------
@@ -105,7 +104,7 @@ def hung(parts: list[tuple[Array, Array, Shape]], steps: int = STEPS) -> Hung:
     )
     simulator = Simulator(system, _pairs(system, parts), h=0.01, K_q=np.zeros((0, 0)), fast=True)
     q, before = system.q_start, 0.0
-    for _ in range(steps):
+    for _ in range(STEPS):
         before = float(q[2])
         q = simulator.step(q, np.zeros(0)).q
     return Hung(sunk=height - float(q[2]), moved=abs(float(q[2]) - before))

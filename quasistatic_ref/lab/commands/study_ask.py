@@ -7,12 +7,12 @@ from typing import Any
 from quasistatic_ref.cli import options as shared
 
 UNITS = ("natural", "raw")
-"""As in lab/study/problems/qp.py, which takes a while to import; a test holds them equal."""
+"""As in lab/study/problems/problem.py, which takes a while to import; a test holds them equal."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare problem, solver and setting."""
-    parser.add_argument("problem", metavar="PROBLEM", help="id, such as wedge/0.1/0")
+    parser.add_argument("problem", metavar="PROBLEM", help="id, such as capped_wedge/0.1/0")
     words = "interface:name, such as qpsolvers:daqp, or module:function"
     parser.add_argument("solver", metavar="SOLVER", help=words)
     words = "default (if not given), low, mid, high, tuned, or one of the study's own"

@@ -7,13 +7,13 @@ from pathlib import Path
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
-from quasistatic_ref.lab.folders import problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 
 ACTIONS = {
     "list": "the families of a set, their dials, and how many problems they have",
     "export": "write problems as npz, parquet (qpbenchmark), mat (MATLAB), json or qps",
     "check": "compare a set's files with its hashes; with --exact prove every answer again",
-    "make": "make a set from scenes, with exact answers; an interrupted one goes on",
+    "make": "make contact-qp-2 from its scenes, with exact answers; an interrupted one goes on",
 }
 UNITS = ("raw", "natural")
 FORMATS = ("npz", "parquet", "mat", "json", "qps")
@@ -24,9 +24,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the commands below ``study problems``."""
     parsers = parsers_of(parser, "problems", ACTIONS)
     for name in ("list", "export", "check"):
-        words = "of a set of problems; else contact-qp-1, which comes along"
+        words = "contact-qp-1 or contact-qp-2, which come along, or the folder of a set"
         parsers[name].add_argument(
-            "set", nargs="?", type=Path, metavar="FOLDER", default=None, help=words
+            "set", nargs="?", metavar="SET", default=CONTACT_QP_2, help=words
         )
     export = parsers["export"]
     to = export.add_argument("--to", required=True, choices=FORMATS, help="which format")
@@ -40,7 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parsers["check"].add_argument(
         "--exact", action="store_true", help="prove every answer again (minutes, no solver)"
     )
-    shared.add(parsers["make"], "--out", default=Path("contact-qp-1"))
+    shared.add(parsers["make"], "--out", default=Path(CONTACT_QP_2))
     for name in ("list", "check"):
         shared.add(parsers[name], "--json")
 
@@ -51,15 +51,10 @@ def run_problems(options: argparse.Namespace) -> int:
     return runs[options.problems](options)
 
 
-def _folder(options: argparse.Namespace) -> Path:
-    given: Path | None = options.set
-    return problem_set_folder() if given is None else given
-
-
 def _list(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.folder import manifest
 
-    head = manifest(_folder(options))
+    head = manifest(problem_set_folder(options.set))
     if options.json:
         shared.print_json(head)
         return 0
@@ -78,7 +73,7 @@ def _export(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 
     shared.check_at_least_one(options, "every")
-    folder = _folder(options)
+    folder = problem_set_folder(options.set)
     families = options.families.split(",") if options.families else None
     found = set_read(folder, families, [options.id] if options.id else None)
     found = [one for one in found if options.tag is None or options.tag in one.facts["tags"]]
@@ -100,7 +95,7 @@ def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.study.problems.folder import set_read
     from quasistatic_ref.simulate.progress import progress_bar
 
-    folder = _folder(options)
+    folder = problem_set_folder(options.set)
     problems = set_read(folder)
     wrong = {}
     if options.exact:
@@ -127,10 +122,8 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _make(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.problems.making import recipe_made
-    from quasistatic_ref.lab.study.problems.recipe import FAMILIES, SEED
-    from quasistatic_ref.lab.study.problems.selection import CONTACT_QP_1
+    from quasistatic_ref.lab.study.problems.recipe import edition_made
 
-    problems = recipe_made(CONTACT_QP_1, FAMILIES, SEED, options.out, not options.quiet)
+    problems = edition_made(options.out, not options.quiet)
     print(f"wrote {options.out}: {len(problems)} problems")
     return 0

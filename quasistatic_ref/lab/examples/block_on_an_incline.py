@@ -20,6 +20,8 @@ from quasistatic_ref.step.data import Array
 SLOPE, MU_V, G = np.radians(25), {"rough": 0.6, "smooth": 0.3}, 9.81
 H, TIME = 0.01, 0.4
 """Time step and length of the run [s]."""
+PARTS, SCALE = ("contacts", "cones", "forces"), 0.02
+"""What is drawn of contacts, and how long a force of 1 N is, of both blocks [m]."""
 
 
 def slid(h: float = H, **mu_v: float) -> tuple[Scenario, Trajectory, dict[str, Array]]:
@@ -68,7 +70,7 @@ def figure(ax: Any = None, *, rough: float = 0.6, smooth: float = 0.3, h: float 
     end = moment(scenario, run, -1)
     for k, (axes, name, mu) in enumerate(zip(sides, MU_V, (rough, smooth), strict=True)):
         own = only(end, (name, "slope"), range(4 * k, 4 * k + 4))  # its four corners
-        draw_scene(axes, own, view="xz", parts=("contacts", "cones", "forces"))
+        draw_scene(axes, own, view="xz", parts=PARTS, metres_per_newton=SCALE)
         axes.get_legend().set_title(rf"{name}, $\mu_v$ = {mu:g}")
     for (name, way), mu in zip(gone.items(), (rough, smooth), strict=True):
         times = np.linspace(0.0, h * run.steps, len(way))

@@ -18,6 +18,7 @@ from quasistatic_ref.lab.grasp import CLOSED
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted
+from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
@@ -71,7 +72,7 @@ def push(law: str) -> tuple[Pair, Array]:
     x, y [m] and angle [rad] of its frame.
     """
     pair, ratio, pushes = measured()
-    scene = Settings(advance=ADVANCE, law=law).pushed(pair, ratio)
+    scene = pushed(Settings(advance=ADVANCE, law=law), pair, ratio)
     found = predicted(scene, pushes.before[PUSH], pushes.path[PUSH]).pose
     return pair, np.array([pushes.before[PUSH], pushes.after[PUSH], found])
 

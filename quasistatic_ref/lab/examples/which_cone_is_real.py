@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.shared import Numbers
-from quasistatic_ref.lab.figures.labels import labelled
+from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import loads_read
 from quasistatic_ref.lab.reality.pairs import Pair, pairs_read
 from quasistatic_ref.lab.reality.predict import predicted
+from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.pushes import Pushes, pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.optional.show.figures import Figure, panels
@@ -39,7 +40,7 @@ def measured(name: str = PAIR) -> tuple[Pair, float, Pushes]:
 
 def poses(pair: Pair, ratio: float, pushes: Pushes, cone: str) -> Array:
     """Predicted poses after pushes with that `ratio` [m], shape (n, 3) [m, rad]."""
-    scene = Settings(cone=cone, advance=ADVANCE).pushed(pair, ratio)
+    scene = pushed(Settings(cone=cone, advance=ADVANCE), pair, ratio)
     ways = zip(pushes.before, pushes.path, strict=True)
     return np.array([predicted(scene, before, path, "off").pose for before, path in ways])
 
@@ -72,7 +73,7 @@ def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) ->
     cones : sequence of str
         One or two.
     """
-    page, axes = panels(6.3, 4.6, columns=3, rows=2, within=ax)
+    page, axes = panels(6.3, 4.6, columns=3, rows=2, within=ax, sharex=True, sharey=True)
     own, ratio, pushes = measured(pair)
     ends = {cone: poses(own, ratio, pushes, cone) for cone in cones}
     moved = pose_errors(pushes.before, pushes.after)[:, 0]
@@ -86,7 +87,8 @@ def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) ->
             one.plot(*end, color="black", linewidth=0.9, linestyle=style, label=f"after, {cone}")
         path = 1e3 * (pushes.path[k] - origin[:2])
         one.annotate("", path[1], xytext=path[0], arrowprops={"arrowstyle": "->"})
-        one.set_aspect("equal", adjustable="datalim")
-        first = k == chosen[0]
-        labelled(one, "x [mm]", "y [mm]", key=first)
+        one.set_aspect("equal")
+        labelled(one, "x [mm]", "y [mm]", key=False)
+        one.label_outer()
+    legend_below(axes, axes[0].get_legend_handles_labels()[0])
     return page

@@ -6,8 +6,7 @@ from typing import Any, Final
 import numpy as np
 from matplotlib.figure import Figure
 
-from quasistatic_ref.cli.measures import link_motion
-from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
+from quasistatic_ref.lab.figures.labels import caption, note_below
 from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.moments import Moment, moment
@@ -88,23 +87,3 @@ def _spread_plot(axes: Any, rotations: Array, last: bool) -> None:
     axes.spines["left"].set_visible(False)
     if last:
         axes.set_xlabel("turn [deg]")
-
-
-def rotation_plot(
-    scenario: Scenario,
-    runs: Mapping[str, Trajectory],
-    link: str,
-    since: float,
-    within: Any = None,
-) -> Figure:
-    """Angle that a body has turned since the grip closed, at the time `since` [s], against time."""
-    page, (axes,) = panels(4.6, 2.8, within=within)
-    for title, run in runs.items():
-        motion = link_motion(scenario.system, run, link)
-        after = motion.index(since)
-        angle = np.degrees(motion.rotation_since(since))
-        axes.plot(motion.times[after:], angle[after:], label=title)
-    axes.set_ylim(bottom=-1)
-    what = "rotation since the grip closed [deg]"
-    labelled(axes, "time t [s]", what, caption(scenario.h, scenario.cone))
-    return page

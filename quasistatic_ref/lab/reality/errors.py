@@ -41,16 +41,15 @@ class Estimate:
     high: Array
 
 
-def bootstrapped(groups: Sequence[Array], seed: int = 0) -> Estimate:
+def bootstrapped(groups: Sequence[Array]) -> Estimate:
     """The mean over groups of their means; drawn with replacement inside of each group.
 
     Parameters
     ----------
     groups : sequence of ndarray, each of shape (n, columns)
         One for each pair [each column's unit].
-    seed : int
     """
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     drawn = np.zeros((DRAWS, groups[0].shape[1]))
     for group in groups:
         n = len(group)

@@ -86,7 +86,7 @@ class Identified:
         return inside and all(high <= WIDEST * low for low, high in spans)
 
 
-def identified(loads: Loads, rho: float, cone: str = ELLIPSOID, seed: int = 0) -> Identified | None:
+def identified(loads: Loads, rho: float, cone: str = ELLIPSOID) -> Identified | None:
     """mu_omega / mu_v of the loads on one support; None of fewer than ``FEWEST`` loads.
 
     Parameters
@@ -96,8 +96,6 @@ def identified(loads: Loads, rho: float, cone: str = ELLIPSOID, seed: int = 0) -
     rho : float
         Radius of gyration of the outline, by which turns are compared with displacements [m].
     cone : str
-    seed : int
-        Of the bootstrap.
     """
     count = len(loads.wrench)
     if count < FEWEST:
@@ -112,7 +110,7 @@ def identified(loads: Loads, rho: float, cone: str = ELLIPSOID, seed: int = 0) -
 
     losses = missed if cone == ELLIPSOID else lost
     ratio = best_ratio(lambda c: float(losses(loads, c).mean()))
-    low, high = np.quantile(drawn_ratios(loads, losses, ratio, seed), [0.025, 0.975]).tolist()
+    low, high = np.quantile(drawn_ratios(loads, losses, ratio), [0.025, 0.975]).tolist()
     misfit = min(float(lost(loads, c).mean()) for c in (ratio, *GRID))
     friction = float(np.median(gauge(loads.wrench * [1.0, 1.0, 1 / ratio])))
     if cone != ELLIPSOID:
@@ -226,14 +224,12 @@ def best_ratio(loss: Callable[[float], float]) -> float:
     return float(np.exp(found.x))
 
 
-def drawn_ratios(
-    loads: Loads, losses: Callable[[Loads, float], Array], ratio: float, seed: int
-) -> Array:
+def drawn_ratios(loads: Loads, losses: Callable[[Loads, float], Array], ratio: float) -> Array:
     """Best ratios of loads drawn with replacement, shape (DRAWS,) [m], around `ratio` [m]."""
     fine = np.concatenate([GRID[::8], ratio * np.geomspace(0.5, 2.0, 401)])
     table = np.array([losses(loads, c) for c in fine])
     count = table.shape[1]
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     rows = rng.integers(count, size=(DRAWS, count))
     weights = np.array([np.bincount(row, minlength=count) for row in rows])
     best: Array = fine[(table @ weights.T).argmin(axis=0)]

@@ -14,7 +14,7 @@ RADIUS, MASS, MU_V, MU_OMEGA, H = 0.05, 0.3, 0.4, 0.01, 0.01
 """Of the ball [m] and [kg], of all contacts [-] and [m], and of a step [s]."""
 
 
-def resting(shape: Shape, height: float, mu_v: float = MU_V) -> tuple[Simulator, Array]:
+def resting(shape: Shape, height: float) -> tuple[Simulator, Array]:
     """A free body on the floor, and its configuration with the origin at a height [m], (7,).
 
     Parameters
@@ -23,12 +23,10 @@ def resting(shape: Shape, height: float, mu_v: float = MU_V) -> tuple[Simulator,
         What touches; of a cloud the closest point alone is kept.
     height : float
         [m].
-    mu_v : float
-        [-].
     """
     system = System([Body.of_shape("ball", Sphere(RADIUS), MASS, xyz=(0, 0, height))])
     own = on_link(system, "ball", shape)
-    pair = ContactPair("floor", world_plane(), own, mu_v, MU_OMEGA, 6, 1)
+    pair = ContactPair("floor", world_plane(), own, MU_V, MU_OMEGA, 6, 1)
     return Simulator(system, [pair], h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
 
 

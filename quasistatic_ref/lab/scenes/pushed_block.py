@@ -16,7 +16,6 @@ from quasistatic_ref.lab.scenes.systems import (
 )
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.backends import CERTIFY
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array
 
@@ -87,9 +86,6 @@ class PushedBlock:
 
 
 def pushed_block(
-    certify: str = CERTIFY[0],
-    fast: bool = True,
-    backend: str | None = None,
     *,
     h: float = H,
     cone: str = ELLIPSOID,
@@ -99,8 +95,6 @@ def pushed_block(
 
     Parameters
     ----------
-    certify, fast, backend
-        As in :class:`~quasistatic_ref.simulate.simulator.Simulator`.
     h : float
         [s].
     cone : str
@@ -121,6 +115,6 @@ def pushed_block(
     ]
     simulator = Simulator(
         system, pairs, h=h, K_q=STIFFNESS * np.eye(2), gravity=(0.0, 0.0, -GRAVITY),
-        cone=cone, certify=certify, fast=fast, backend=backend,
+        cone=cone, fast=True,
     )  # fmt: skip
     return PushedBlock(simulator, system.q_start)

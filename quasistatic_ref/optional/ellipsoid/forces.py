@@ -19,7 +19,7 @@ import numpy as np
 from flint import arb, arb_mat, ctx
 
 from quasistatic_ref.certify.compliance.eliminated import EliminatedStep
-from quasistatic_ref.certify.compliance.face_guess import P_OF_WRENCH
+from quasistatic_ref.certify.compliance.face_guess import lengths_of
 from quasistatic_ref.certify.compliance.forces import WRENCH, ContactForces
 from quasistatic_ref.certify.point import square_root
 from quasistatic_ref.certify.rational import Dyadic, two_to
@@ -239,22 +239,22 @@ def compliant_forces(step: StepData, compliance: float, near: tuple[Array, Array
         If no enclosure is found.
     """
     n = step.n_v
-    mu = scaled_by(step.contacts)
     delta_q, wrench = near
-    p = np.divide(wrench[:, P_OF_WRENCH], mu, out=np.zeros_like(mu), where=mu > 0)
+    mu = scaled_by(step.contacts).tolist()
+    give = lengths_of(wrench, step, compliance)
     numbers: list[list[float]] = []
     with ctx.workprec(BITS):
         program = CompliantStep(step, compliance)
         H_inv = program.H.inv()
         start = arb_mat(n, 1, delta_q.tolist())
-        guess = [arb_mat(4, 1, (-compliance * p_j).tolist()) for p_j in p]
+        guess = [arb_mat(4, 1, (-s).tolist()) for s in give]
         place, y = program.on_active_rows(start, program.pushed(start, guess))
         error = program.distance(place, y, H_inv)
         if not error * error <= WIDE * (
             program.squared(place) + program.squared(H_inv * program.g)
         ):
             raise StepNotSolved("none", "no enclosure of the contact forces was found", step, 0.0)
-        for B, mu_j, one in zip(program.B, mu.tolist(), program.pushed(place), strict=True):
+        for B, mu_j, one in zip(program.B, mu, program.pushed(place), strict=True):
             reach = B * H_inv * B.transpose()
             moved = square_root(sum((reach[i, i] for i in range(4)), arb(0))) * error
             s = [v + arb(0, moved.upper()) for v in one.s.entries()]

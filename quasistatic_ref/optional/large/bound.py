@@ -14,7 +14,6 @@ error: an answer that is right to 1e-16 has a gap of about 1e-16, so that the bo
 digits. The exact method shows all of them.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +23,6 @@ from quasistatic_ref.certify.point import (
     PRECISION,
     BallForm,
     ball_form,
-    equality_solution,
     square_root,
 )
 from quasistatic_ref.certify.rational import ExactForm, exact_form
@@ -86,65 +84,6 @@ def error_bound(step: StepData, delta_q: Array, lam: Array) -> ErrorBound:
         length, error = _distance(form, balls, x, moved, y)
         energy = arb(form.net_unit * form.x_unit)
         return ErrorBound(nearest_above(energy * length * length / 2), error)
-
-
-@dataclass(frozen=True, eq=False)
-class EnclosedAnswer:
-    """An answer with a rigorous bound of its error.
-
-    Parameters
-    ----------
-    delta_q, net : ndarray, shape (n_v,)
-        Displacement [m, rad] and net impulse A'lam [N s, N m s], near the optimal ones.
-    lam : ndarray, shape (m,)
-        Multipliers that make up the net impulse [N s].
-    error : float
-        ||delta_q - delta_q*||_H / ||H^-1 g||_H <= error [-]; rounding to float64 is included.
-    """
-
-    delta_q: Array
-    net: Array
-    lam: Array
-    error: float
-
-
-def enclosed_answer(step: StepData, active: Sequence[int]) -> EnclosedAnswer | None:
-    """The minimiser on a guessed active set with a bound of its error, without a rational solve.
-
-    No sign is decided: a right active set gives a bound of 1e-16, a wrong one a larger bound, which
-    holds as well.
-
-    Parameters
-    ----------
-    step : StepData
-    active : sequence of int
-        Independent rows, such as :func:`~quasistatic_ref.certify.warm.warm_rows`.
-
-    Returns
-    -------
-    EnclosedAnswer or None
-        None where the rows are not seen to be independent, or nothing can be bounded.
-    """
-    form = exact_form(step)
-    balls = ball_form(form)
-    solution = equality_solution(balls, active)
-    if solution is None:
-        return None
-    with ctx.workprec(PRECISION):
-        x = arb_mat(form.n, 1, [v.mid() for v in solution.x])
-        y = arb_mat(form.m, 1)
-        for i, value in zip(active, solution.lam, strict=True):
-            y[i, 0] = value.mid() if value > 0 else arb(0)
-        with ctx.workprec(2 * PRECISION):  # x fills PRECISION: its slacks need more bits
-            moved = _feasible(step, form, balls, x)
-        if moved is None:
-            return None
-        push = (balls.A.transpose() * y).entries()
-        delta_q = np.array([float(v * form.x_unit) for v in x.entries()])
-        net = np.array([float(v * form.net_unit) for v in push])
-        _, error = _distance(form, balls, _column(delta_q, form.x_unit), moved, y)
-        lam = np.array([float(v * form.lam_unit) for v in y.entries()])
-        return EnclosedAnswer(delta_q, net, lam, error)
 
 
 def _distance(

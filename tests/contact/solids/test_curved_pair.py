@@ -120,23 +120,3 @@ def test_a_hair_of_penetration_is_not_nothing() -> None:
     # Two coordinates of 0.3 m are rounded: that of b, and that of its tip.
     np.testing.assert_allclose(found.phi, 0.3 + phi - 0.3, rtol=EXACT, atol=2 * np.spacing(0.3))
     np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)
-
-
-def test_faces_that_meet_in_one_point_of_a_rim_have_their_contact_there() -> None:
-    # A lying cylinder's lowest line, z = 0.09 - 0.05, runs along the rim of a cap at z = 0.08.
-    cylinder = Cylinder(0.05, 0.08)
-    lying = np.array([[0.0, 0, 1], [0, -1, 0], [1, 0, 0]])
-    at = ShapeInWorld(cylinder, lying, np.array([-0.01, 0.05, 0.09]))
-    found = solid_pair("p", ShapeInWorld(cylinder, *HERE), at)
-    np.testing.assert_allclose(found.phi, 0.04 - 0.08, rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(found.n, [0, 0, 1], rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(found.alpha, [0, 0.05, 0.08], rtol=EXACT, atol=CURVED_PAIR)
-
-
-def test_a_cone_upside_down_next_to_a_cylinder_just_touches_it() -> None:
-    # Radii of 0.05 each, axes parallel and 0.1 apart: the base's rim meets the side.
-    down = np.array([[0.0, -1, 0], [-1, 0, 0], [0, 0, -1]])
-    cone = ShapeInWorld(Cone(0.05, 0.08), down, np.array([0.1, 0, 0]))
-    found = solid_pair("p", ShapeInWorld(Cylinder(0.05, 0.08), *HERE), cone)
-    np.testing.assert_allclose(found.phi, 0.1 - 0.05 - 0.05, rtol=EXACT, atol=CURVED_PAIR)
-    np.testing.assert_allclose(found.n, [1, 0, 0], rtol=EXACT, atol=CURVED_PAIR)

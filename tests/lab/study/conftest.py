@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.lab.folders import problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP_1, CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import solver_study
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
@@ -104,8 +104,14 @@ def harmless(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def members():
-    """Every problem of the set that ships."""
-    return set_read(problem_set_folder())
+    """Every problem of contact-qp-2."""
+    return set_read(problem_set_folder(CONTACT_QP_2))
+
+
+@pytest.fixture(scope="session")
+def older():
+    """Problems of contact-qp-1 of each kind, cones and sparse ones among them."""
+    return set_read(problem_set_folder(CONTACT_QP_1), ["gaps", "wedge", "ellipsoid", "sparse"])
 
 
 @pytest.fixture(scope="session")

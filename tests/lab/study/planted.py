@@ -153,7 +153,7 @@ def setting(name):
     return Setting(name, None, 3.0)
 
 
-def slab(seed=5, contacts=12, ratio=10.0, h=0.01):
+def slab(seed=5):
     """One step of the scaled family, with its name."""
-    step = slab_step(np.random.default_rng(seed), contacts, ratio, h)
-    return Made(f"slab/{seed}", "slab", step, ratio, 0)
+    step = slab_step(np.random.default_rng(seed), 12, 10.0, 0.01)
+    return Made(f"slab/{seed}", "slab", step, 10.0, 0)

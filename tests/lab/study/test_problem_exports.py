@@ -15,24 +15,26 @@ from scipy.sparse import csc_matrix, csr_matrix
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.commands import study_problems
-from quasistatic_ref.lab.folders import problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.study.problems import exports
+from quasistatic_ref.lab.study.problems.recipe import MADE
 
 
 @pytest.fixture
-def few(members):
-    """Some problems of each kind: rows, rows without a solution, cones, sparse matrices."""
-    names = ("wedge", "infeasible", "ellipsoid", "sparse")
-    return [one for one in members if one.facts["family"] in names][::80]
+def few(members, older):
+    """Some problems of each kind: rows, rows without a solution, limits, cones, sparse matrices."""
+    mended = [one for one in members if one.facts["family"] in MADE]
+    others = [one for one in older if one.facts["family"] in ("ellipsoid", "sparse")]
+    return [*mended[::60], *others[::80]]
 
 
 def export(to, folder, problems):
-    assert exports.exported("contact-qp-1", problems, to, folder)
+    assert exports.exported("contact-qp-2", problems, to, folder)
 
 
 def test_the_bundle_has_every_number_of_the_problems(few, tmp_path):
     export("npz", tmp_path, few)
-    with np.load(tmp_path / "contact-qp-1.npz") as bundle:
+    with np.load(tmp_path / "contact-qp-2.npz") as bundle:
         assert bundle["id"].tolist() == [one.id for one in few]
         for k, one in enumerate(few):
             if "sparse" in one.facts["tags"]:
@@ -47,7 +49,7 @@ def test_the_bundle_has_every_number_of_the_problems(few, tmp_path):
 
 def test_matlabs_file_has_every_number_of_the_problems(few, tmp_path):
     export("mat", tmp_path, few)
-    problems = loadmat(tmp_path / "contact-qp-1.mat", spmatrix=False)["problems"][0]
+    problems = loadmat(tmp_path / "contact-qp-2.mat", spmatrix=False)["problems"][0]
     for row, one in zip(problems, few, strict=True):
         assert row["id"][0] == one.id
         A = row["A"].toarray() if "sparse" in one.facts["tags"] else row["A"]
@@ -97,9 +99,9 @@ def test_every_export_says_what_it_is_and_how_to_cite_it(to, few, tmp_path):
     assert set(exports.FORMATS) == set(study_problems.FORMATS)
     export(to, tmp_path, few[:1])
     text = (tmp_path / "README.md").read_text("utf-8")
-    assert text.startswith(f"# contact-qp-1, as {to}\n")
+    assert text.startswith(f"# contact-qp-2, as {to}\n")
     assert "{" not in text.partition("```")[0]
-    licences = {path.name for path in problem_set_folder().glob("LICENSE*")}
+    licences = {path.name for path in problem_set_folder(CONTACT_QP_2).glob("LICENSE*")}
     assert licences | {"CITATION.cff"} <= {path.name for path in tmp_path.iterdir()}
 
 
@@ -107,11 +109,18 @@ def test_qpbenchmark_runs_the_set_and_its_module_grades_by_exact_answers(
     tmp_path, monkeypatch, capsys
 ):
     command = ["study", "problems", "export", "--to", "parquet", "--out", str(tmp_path)]
-    some = ["--families", "condition,infeasible,wedge", "--every", "60", "--units", "natural"]
+    some = [
+        "--families",
+        "condition,infeasible,capped_wedge",
+        "--every",
+        "15",
+        "--units",
+        "natural",
+    ]
     assert main([*command, *some]) == 0
-    assert "left out 5 problems" in capsys.readouterr().err
+    assert "left out 4 problems" in capsys.readouterr().err
     program = Path(sys.executable).with_name("qpbenchmark")
-    module = "contact_qp_1_natural.py"
+    module = "contact_qp_2_natural.py"
     done = subprocess.run(
         [program, "--results-path", "results.csv", module, "run", "--solver", "daqp",
          "--author", "nobody"],

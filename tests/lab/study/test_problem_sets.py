@@ -3,80 +3,117 @@
 import json
 import re
 import shutil
+import sys
+from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 from hashlib import sha256
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
+from quasistatic_ref.certify.digits import relative_digits
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.folders import problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP_1, CONTACT_QP_2, EDITIONS, problem_set_folder
 from quasistatic_ref.lab.study.problems.checking import refutation
 from quasistatic_ref.lab.study.problems.editions import FROZEN, edition_problem
 from quasistatic_ref.lab.study.problems.folder import FACTS, MANIFEST, NUMBERS, manifest, set_read
+from quasistatic_ref.lab.study.problems.recipe import TAKEN
+from tests.oracles import rational_kkt
+from validation.make import proved_problems
+
+OLDER, NEWER = (problem_set_folder(name) for name in EDITIONS)
 
 
-def exact(values):
-    """Float64 numbers as fractions."""
-    return [Fraction(v) for v in np.ravel(values).tolist()]
+@pytest.mark.parametrize("name", EDITIONS)
+def test_a_set_that_ships_is_the_one_that_was_frozen(name):
+    assert list(FROZEN) == [*EDITIONS]
+    assert edition_problem(problem_set_folder(name)) is None
 
 
-def solved_exactly(M, v):
-    """M^-1 v in fractions, by elimination."""
-    rows = [[*row, w] for row, w in zip(M, v, strict=True)]
-    for k in range(len(rows)):
-        p = next(i for i in range(k, len(rows)) if rows[i][k])
-        rows[k], rows[p] = rows[p], rows[k]
-        rows[k] = [w / rows[k][k] for w in rows[k]]
-        for i in range(len(rows)):
-            if i != k and rows[i][k]:
-                rows[i] = [a - rows[i][k] * b for a, b in zip(rows[i], rows[k], strict=True)]
-    return [row[-1] for row in rows]
-
-
-def test_the_set_that_ships_is_the_one_that_was_frozen():
-    assert list(FROZEN) == ["contact-qp-1"]
-    assert edition_problem(problem_set_folder()) is None
-
-
-def test_small_answers_are_optimal_in_fractions(members):
-    """H x - g = A_W' lam, lam > 0, A x >= b with equality on W, x* correctly rounded."""
-    small = [one for one in members if one.facts["n"] <= 6 and one.facts["kind"] == "qp"
-             and not one.answer.farkas]  # fmt: skip
+def test_answers_are_optimal_in_fractions(members):
+    """Of a few small problems; of a tenth of all in the committed result."""
+    small = [one for one in members if one.facts["n"] <= 6 and one.feasible]
     for one in small[:: len(small) // 12]:
-        form, W = one.form, np.flatnonzero(one.answer.lam)
-        n, k = len(form.g), len(W)
-        H, A = (np.array(exact(M), dtype=object).reshape(M.shape) for M in (form.H, form.A))
-        K = [[*H[i], *(-A[W, i])] for i in range(n)]
-        K += [[*A[w], *[Fraction(0)] * k] for w in W]
-        solution = solved_exactly(K, [*exact(form.g), *exact(form.b[W])])
-        x, lam = solution[:n], solution[n:]
-        assert all(v > 0 for v in lam)
-        slack = [sum(a * v for a, v in zip(row, x, strict=True)) - b
-                 for row, b in zip(A, exact(form.b), strict=True)]  # fmt: skip
-        assert min(slack) >= 0
-        assert [float(v) for v in x] == one.answer.x.tolist()
-        assert [float(v) for v in slack] == one.answer.slack.tolist()
+        said = one.answer
+        assert rational_kkt.refutation(*one.form, said.x, said.net, said.slack, said.lam) is None
+    for one in [one for one in members if not one.feasible][::21]:
+        assert rational_kkt.farkas_refutation(one.form.A, one.b, one.answer.farkas) is None
 
 
-def test_a_sample_of_all_answers_is_proved_again_without_a_solver(members):
-    kinds = {"conic": [one for one in members if one.facts["kind"] == "socp"][::90]}
-    kinds["sparse"] = [one for one in members if "sparse" in one.facts["tags"]][:3]
-    kinds["rows"] = [one for one in members if one.facts["kind"] == "qp"
-                     and one.facts["n"] < 25][::97]  # fmt: skip
+@pytest.mark.parametrize("name", ["x", "net", "slack"])
+def test_answers_that_were_changed_are_not_optimal_in_fractions(members, name):
+    one = next(one for one in members if one.facts["family"] == "limits")
+    own = {part: getattr(one.answer, part).copy() for part in ("x", "net", "slack", "lam")}
+    own[name][-1] = np.nextafter(own[name][-1], np.inf)
+    assert name in rational_kkt.refutation(*one.form, *own.values())
+
+
+def test_a_wrong_set_of_rows_and_a_wrong_proof_are_refuted_in_fractions():
+    """X >= 1 at the minimum of x^2 / 2, and x <= -2 as well: y = (1, 1) has b'y = 3."""
+    H, g = np.eye(1), np.zeros(1)
+    A, b = np.array([[1.0], [-1.0]]), np.array([1.0, 2.0])
+    one, none = np.ones(1), np.zeros(1)
+    right = rational_kkt.refutation(H, g, A[:1], b[:1], one, one, none, one)
+    unpressed = rational_kkt.refutation(H, g, A[:1], b[:1], none, none, -one, none)
+    pulled = rational_kkt.refutation(H, g, A[:1], -b[:1], -one, -one, none, one)
+    assert (right, unpressed, pulled) == (None, "a row is violated", "a multiplier is not positive")
+    proofs = {"": {0: "1", 1: "1"}, "A'y": {0: "1", 1: "2"}, "a weight": {0: "-1", 1: "-1"}}
+    for word, y in proofs.items():
+        assert (rational_kkt.farkas_refutation(A, b, y) or "").startswith(word)
+    assert rational_kkt.farkas_refutation(A, -b, proofs[""]) == "b'y is not positive"
+
+
+def test_what_contact_qp_2_takes_from_contact_qp_1_has_the_same_bits(members, older):
+    assert TAKEN.keys() == manifest(OLDER)["families"].keys() & manifest(NEWER)["families"].keys()
+    own = {one.id: one for one in older}
+    same = [one for one in members if one.facts["family"] == "gaps"]
+    assert len(same) == TAKEN["gaps"]
+    for one in same:
+        assert dict(one.facts) == dict(own[one.id].facts)
+        assert one.b.tobytes() == own[one.id].b.tobytes()
+        assert one.answer.x.tobytes() == own[one.id].answer.x.tobytes()
+
+
+def test_no_wedge_of_contact_qp_2_is_left_by_more_than_a_few_centimetres(members, older):
+    def longest(problems, family):
+        own = [one for one in problems if one.facts["family"] == family]
+        return max(np.abs(one.answer.x).max() for one in own)
+
+    assert longest(older, "wedge") > 1e6
+    assert longest(members, "capped_wedge") < 0.05
+
+
+def test_few_steps_of_the_sequences_that_move_have_the_last_answer_again(members):
+    """At most 2 of 11 by the recipe; a solver that returns its last answer is wrong elsewhere."""
+    own = [one for one in members if one.facts["family"] == "moving"]
+    still = []
+    for before, one in pairwise(own):
+        if one.facts["sequence"]["place"]:
+            off = before.answer.x - one.answer.x
+            free = one.g @ np.linalg.solve(one.H.toarray(), one.g)
+            still.append(relative_digits(np.sqrt(off @ (one.H @ off)), np.sqrt(free)) >= 6)
+    assert len(still) == len(own) * 11 // 12
+    assert np.mean(still) < 0.05
+
+
+def test_a_sample_of_all_answers_is_proved_again_without_a_solver(members, older):
+    kinds = {"conic": [one for one in older if one.facts["kind"] == "socp"][::90]}
+    kinds["sparse"] = [one for one in older if "sparse" in one.facts["tags"]][:3]
+    kinds["rows"] = [one for one in members if one.facts["n"] < 25][::40]
     assert all(kinds.values())
     for some in kinds.values():
         assert [refutation(one) for one in some] == [None] * len(some)
 
 
 @pytest.mark.parametrize("kind", ["exact", "enclosed", "bounded", "infeasible"])
-def test_an_answer_that_was_changed_is_refuted(members, kind):
+def test_an_answer_that_was_changed_is_refuted(members, older, kind):
     def of_kind(one):
         return kind == ("infeasible" if one.answer.farkas else one.answer.kind)
 
-    one = next(one for one in members if of_kind(one))
+    one = next(one for one in [*members, *older] if of_kind(one))
     if kind == "infeasible":
         some = dict(one.answer.farkas)
         first = next(iter(some))
@@ -89,14 +126,19 @@ def test_an_answer_that_was_changed_is_refuted(members, kind):
     assert refutation(replace(one, answer=changed)) is not None
 
 
-def test_the_code_of_the_readme_reads_what_the_package_reads(members):
-    page = (problem_set_folder() / "README.md").read_text("utf-8")
+@pytest.mark.parametrize("name", EDITIONS)
+def test_the_code_of_the_readme_reads_what_the_package_reads(name, members, older):
+    folder = problem_set_folder(name)
+    every = {CONTACT_QP_1: older, CONTACT_QP_2: members}[name]
+    page = (folder / "README.md").read_text("utf-8")
     (code,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     names = {}
     exec(code, names)
-    for family in ("wedge", "infeasible", "ellipsoid"):
-        own = [one for one in members if one.facts["family"] == family]
-        found = list(names["problems"](problem_set_folder(), family))
+    for family in {"wedge", "ellipsoid", "capped_wedge", "jammed"} & manifest(folder)[
+        "families"
+    ].keys():
+        own = [one for one in every if one.facts["family"] == family]
+        found = list(names["problems"](folder, family))
         assert len(found) == len(own)
         for (facts, numbers), one in zip(found, own, strict=True):
             assert facts["id"] == one.id
@@ -108,40 +150,40 @@ def test_the_code_of_the_readme_reads_what_the_package_reads(members):
 
 
 def test_a_set_whose_numbers_were_changed_is_refused(tmp_path):
-    shutil.copytree(problem_set_folder(), tmp_path / "set")
-    path = tmp_path / "set" / NUMBERS / "wedge.npz"
+    shutil.copytree(NEWER, tmp_path / "set")
+    path = tmp_path / "set" / NUMBERS / "limits.npz"
     content = bytearray(path.read_bytes())
     content[len(content) // 2] ^= 1
     path.write_bytes(bytes(content))
-    with pytest.raises(InputError, match=r"wedge.npz.*changed|changed"):
+    with pytest.raises(InputError, match=r"limits.npz.*changed|changed"):
         set_read(tmp_path / "set")
     with pytest.raises(InputError, match="holds no set of problems"):
         set_read(tmp_path)
 
 
-@pytest.mark.parametrize("spoilt", ["", "[]", "{}", '{"id": 1, "family": "wedge", "n": -1}', "x"])
+@pytest.mark.parametrize("spoilt", ["", "[]", "{}", '{"id": 1, "family": "limits", "n": -1}', "x"])
 def test_a_set_whose_lines_are_something_else_is_refused(tmp_path, spoilt):
     """Its manifest lists the files as they are."""
     (tmp_path / NUMBERS).mkdir()
-    shutil.copy(problem_set_folder() / NUMBERS / "wedge.npz", tmp_path / NUMBERS)
+    shutil.copy(NEWER / NUMBERS / "limits.npz", tmp_path / NUMBERS)
     (tmp_path / FACTS).write_text(spoilt)
-    files = [FACTS, f"{NUMBERS}/wedge.npz"]
+    files = [FACTS, f"{NUMBERS}/limits.npz"]
     listed = [{"path": name, "sha256": sha256((tmp_path / name).read_bytes()).hexdigest()}
               for name in files]  # fmt: skip
-    head = manifest(problem_set_folder()) | {"families": {"wedge": {}}, "files": listed}
+    head = manifest(NEWER) | {"families": {"limits": {}}, "files": listed}
     (tmp_path / MANIFEST).write_text(json.dumps(head))
     with pytest.raises(InputError):
         set_read(tmp_path)
 
 
 def test_other_problems_under_the_name_of_a_set_are_found_out(tmp_path):
-    shutil.copytree(problem_set_folder(), tmp_path / "set")
+    shutil.copytree(NEWER, tmp_path / "set")
     path = tmp_path / "set" / MANIFEST
     head = json.loads(path.read_text())
-    head["families"]["wedge"]["dial"]["unit"] = "mrad"
+    head["families"]["limits"]["dial"]["unit"] = "mrad"
     path.write_text(json.dumps(head))
     found = edition_problem(tmp_path / "set")
-    assert found == "calls itself contact-qp-1 and has other problems: give it another name"
+    assert found == "calls itself contact-qp-2 and has other problems: give it another name"
 
 
 def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, capsys):
@@ -150,7 +192,7 @@ def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, capsys):
         (["--families", "wedges"], "is no family of the set"),
         (["--id", "wedge/9/9"], "is no problem of the set"),
         (["--every", "0"], "must be at least 1"),
-        (["--families", "wedge", "--tag", "nothing"], "holds no problem"),
+        (["--families", "limits", "--tag", "nothing"], "holds no problem"),
     ):
         assert main([*export, *more]) == 2
         assert words in capsys.readouterr().err
@@ -159,5 +201,29 @@ def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, capsys):
 def test_the_commands_say_what_the_set_has(capsys):
     assert main(["study", "problems", "check"]) == 0
     assert "problems, as the manifest lists them" in capsys.readouterr().out
-    assert main(["study", "problems", "list"]) == 0
-    assert "contact-qp-1" in capsys.readouterr().out
+    for name in EDITIONS:
+        assert main(["study", "problems", "list", name]) == 0
+        assert name in capsys.readouterr().out
+
+
+def test_a_sample_of_each_family_is_proved_both_ways(tmp_path, monkeypatch):
+    """One problem in 91, the first of each family among them."""
+    page = tmp_path / "page.md"
+    monkeypatch.setattr(sys, "argv", ["", "--every", "91", "--out", str(page)])
+    with pytest.raises(SystemExit, match="0"):
+        proved_problems.main()
+    text = page.read_text("utf-8")
+    assert text.count(": 0 refuted") == 2
+    assert all(f"`{family}`" in text for family in manifest(NEWER)["families"])
+
+
+def test_the_committed_proofs_are_of_the_whole_set_and_of_a_tenth(members):
+    """Of those of few coordinates, the first of each nine of a family is proved in fractions."""
+    small = [one for one in members if one.facts["n"] <= proved_problems.LARGEST]
+    sizes = Counter(one.facts["family"] for one in small)
+    tenth = sum(-(-size // proved_problems.SHARE) for size in sizes.values())
+    assert tenth >= len(members) / 10
+    text = proved_problems.RESULTS.read_text("utf-8")
+    assert f"{len(members)} answers by the exact method, from the rows that the files name" in text
+    assert f"{tenth} of them, one in 9 of up to" in text
+    assert text.count(": 0 refuted") == 2

@@ -10,7 +10,7 @@ from quasistatic_ref.lab.study.problems.selection import chosen, problems_taken
 
 STUDY = """
 [problems]
-set = "contact-qp-1"
+set = "contact-qp-2"
 families = {{ {families} }}
 
 [[runs]]
@@ -24,8 +24,8 @@ def taken(study, families):
 
 def test_problems_are_spread_over_the_dial_up_to_where_it_ends(members):
     """Angles from 0.1 rad down: those of at least `most`, both ends among them."""
-    own = [one for one in members if one.facts["family"] == "wedge"]
-    dials = [one.facts["dial"] for one in chosen(own, "wedge", 5, 1e-3)]
+    own = [one for one in members if one.facts["family"] == "capped_wedge"]
+    dials = [one.facts["dial"] for one in chosen(own, "capped_wedge", 5, 1e-3)]
     assert len(dials) == 5
     assert max(dials) == 0.1
     assert 1e-3 <= min(dials) < 1.2e-3
@@ -34,16 +34,16 @@ def test_problems_are_spread_over_the_dial_up_to_where_it_ends(members):
 
 
 def test_sequences_are_taken_whole_and_in_order(members):
-    own = [one for one in members if one.facts["family"] == "sequences"]
-    found = chosen(own, "sequences", 30)
+    own = [one for one in members if one.facts["family"] == "moving"]
+    found = chosen(own, "moving", 30)
     assert [one.facts["sequence"]["place"] for one in found] == [*range(12), *range(12)]
 
 
 def test_a_study_takes_the_problems_of_a_set_as_they_are(study, members, tmp_path):
-    test_set = taken(study, "wedge = { count = 3, most = 1e-3 }, gaps = 2, infeasible = 2")
+    test_set = taken(study, "capped_wedge = { count = 3, most = 1e-3 }, gaps = 2, jammed = 2")
     found = study_problems(test_set, tmp_path, progress=False)
     families = [one.facts["family"] for one in found]
-    assert families == ["gaps"] * 2 + ["wedge"] * 3 + ["infeasible"] * 2
+    assert families == ["gaps"] * 2 + ["capped_wedge"] * 3 + ["jammed"] * 2
     by_id = {one.id: one for one in members}
     for one in study_problems(test_set, tmp_path, progress=False):
         there = by_id[one.id]
@@ -63,8 +63,9 @@ def test_families_that_studies_have_no_place_for_are_refused(family):
 
 @pytest.mark.parametrize(("text", "words"), [
     ("families = { sequences = 12 }", "is a family of sets; say set"),
-    ("families = { time_step = { count = 3, most = 0.01 } }", "has no dial to be turned"),
-    ('set = "contact-qp-2"\nfamilies = { wedge = 3 }', "is neither a folder nor a set"),
+    ("families = { scenarios = { count = 3, most = 0.01 } }", "has no dial to be turned"),
+    ('set = "contact-qp-3"\nfamilies = { wedge = 3 }', "is neither a folder nor a set"),
+    ('set = "contact-qp-2"\nfamilies = { wedge = 3 }', "is no family of the set"),
     ('set = "contact-qp-1"\nfamilies = { wedges = 3 }', "wedges"),
     ("families = { contacts = { most = 3 } }", "count"),
     ('set = "contact-qp-1"\nfamilies = { wedge = { count = 3, most = -1 } }', "must be greater"),

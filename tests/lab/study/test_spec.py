@@ -4,9 +4,9 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.study.calling.guests import EVERY
 from quasistatic_ref.lab.study.calling.options import has_accuracy, options_at
 from quasistatic_ref.lab.study.measuring.plan import plan
-from quasistatic_ref.solve.backends import BACKENDS
 
 HEAD = 'format = "quasistatic-ref/study"\nversion = 1\n'
 RUN = '[[runs]]\nsolvers = ["qpsolvers:daqp"]\n'
@@ -60,7 +60,7 @@ def test_bad_files_end_the_command_with_status_2(tmp_path, capsys):
     assert "did you mean 'default'?" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", [name for name in BACKENDS if has_accuracy(name)])
+@pytest.mark.parametrize("name", [name for name in EVERY if has_accuracy(name)])
 def test_a_tighter_accuracy_never_asks_for_less(name):
     loose, tight = (options_at(name, "cvxpy", accuracy) for accuracy in (1e-3, 1e-9))
     assert loose.keys() == tight.keys()

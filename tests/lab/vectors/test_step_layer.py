@@ -71,22 +71,25 @@ def test_consecutive_steps_of_a_run_follow_each_other():
     np.testing.assert_allclose(after, by_id["step/stack/16"]["q"], rtol=0, atol=ROUNDING)
 
 
+def case_of(name):
+    """A case, what is expected of it, and that as an answer."""
+    (case,) = (case for case in cases("step") if case.id == name)
+    return case.input, expected("step")[name], right_answers("step")[name]
+
+
 def stack():
-    """A step of two boxes on each other, 8 contacts, whose optimal lam are many."""
-    (case,) = (case for case in cases("step") if case.id == "step/stack/0")
-    record = expected("step")[case.id]
+    """A step of boxes on each other, whose optimal lam are many."""
+    case, record, answer = case_of("step/stack/0")
     assert record["flags"]["unique_multipliers"] is False
-    return case.input, record, right_answers("step")[case.id]
+    return case, record, answer
 
 
 def test_forces_are_those_of_60_digits_on_the_step_of_the_package():
-    case, record, answer = stack()
-    step = posed_case(case).step
-    found = independent_forces(step, COMPLIANCE)
+    case, record, answer = case_of("step/cloud/tilted")
+    found = independent_forces(posed_case(case).step, COMPLIANCE)
     allowed = record["tolerance"]["forces"]["absolute"]
+    assert np.abs(found).max() > 1e4 * allowed
     np.testing.assert_allclose(answer["forces"], found, rtol=0, atol=allowed)
-    weight = -step.tau_u[2::6].sum()  # of all boxes, on the floor's four contacts
-    np.testing.assert_allclose(found[:4, 2].sum(), weight, rtol=0, atol=4 * allowed)
 
 
 @pytest.mark.parametrize("component", range(4))

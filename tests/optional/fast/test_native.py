@@ -7,11 +7,9 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.main import main
-from quasistatic_ref.errors import BackendError, InputError
+from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.fast.adapters.daqp import Daqp
 from quasistatic_ref.optional.fast.native import NativeSolver
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.scaled import DenseStep
@@ -91,16 +89,6 @@ def test_extensions_that_are_more_than_rows_need_cvxpy(rng):
         match="takes linear constraints only; for a cost or a nonlinear constraint pass",
     ):
         solve_step(step, NativeSolver(step, "clarabel"), extension=curved)
-
-
-def test_an_engine_is_refused_in_a_sentence_that_names_fast(capsys):
-    with pytest.raises(
-        InputError, match=r"solver\.engine: is not a field any more; use fast = true"
-    ):
-        load_scenario("sphere_spin", ["solver.engine=native"])
-    with pytest.raises(SystemExit):
-        main(["run", "sphere_spin", "--engine", "native"])
-    assert "--engine is no option any more; --fast" in capsys.readouterr().err
 
 
 NATIVE_RUN = """

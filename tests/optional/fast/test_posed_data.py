@@ -81,14 +81,6 @@ def test_sparse_contacts_refuse(things, changes):
         changed_blocks(sparse, **{key: f(getattr(sparse, key)) for key, f in changes.items()})
 
 
-@pytest.mark.parametrize("shape", [(8, 8), (3,), (1,)], ids=str)
-def test_a_force_of_another_shape_is_refused(things, shape):
-    scenario = things["Scenario"]
-    simulator, q, goal = scenario.simulator(), scenario.system.q_start, scenario.targets(0.01)
-    with pytest.raises(StepDataError, match=r"force: must have shape \(8,\)"):
-        simulator.step(q, goal, np.ones(shape))
-
-
 def posed(c, mu):
     """Contacts as a simulator poses them."""
     arrays = (array.copy() for array in (c.phi, c.n, c.d1, c.d2, c.J))

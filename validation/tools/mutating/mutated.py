@@ -62,7 +62,7 @@ certify/compliance/eliminated.py certify/compliance/face_guess.py
 optional/ellipsoid/forces.py
     forces
 certify/arithmetic.py
-    own
+    environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
 certify/rounding.py cli/decimals.py certify/exact.py certify/warm.py certify/certificate.py
     EXACT

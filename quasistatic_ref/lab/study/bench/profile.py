@@ -98,9 +98,9 @@ class Profiles(NamedTuple):
     all: tuple[Profile, ...]
     gap: float
 
-    def profile(self, backend: str, distances: str, certify: str = UNCERTIFIED) -> Profile:
-        """The one profile with these properties."""
-        wanted = (backend, certify, distances)
+    def profile(self, backend: str, distances: str) -> Profile:
+        """The one profile with these properties, nothing certified."""
+        wanted = (backend, UNCERTIFIED, distances)
         return next(p for p in self.all if (p.backend, p.certify, p.distances) == wanted)
 
 

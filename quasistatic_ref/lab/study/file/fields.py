@@ -12,7 +12,7 @@ from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, SETTINGS
-from quasistatic_ref.lab.study.problems.families.dials import DIALS, HARVESTED, ends
+from quasistatic_ref.lab.study.problems.families.dials import DIALS, OTHERS, ends
 from quasistatic_ref.lab.study.problems.problem import UNITS
 from quasistatic_ref.tolerances import LARGE
 
@@ -87,15 +87,15 @@ TABLES = WholeTables({
                       most=2**32 - 1),
         "scenarios": Field("list of words", "whose steps are harvested; else those of all that "
                            "come along", default=None),
-        "set": Field("text", "what problems are taken from, \"contact-qp-1\" or the folder of "
-                     "another set; else they are made", default=None),
+        "set": Field("text", "what problems are taken from, \"contact-qp-2\", \"contact-qp-1\" "
+                     "or the folder of another set; else they are made", default=None),
         "families": Field("table", "how many problems of each", default={"scenarios": 20},
                           of=COUNTS),
     },
     COUNTS: {
         "scenarios": _family("steps of the scenarios"),
         **{name: _family("dial: {name}, {first:g} to {most:g} {unit}".format(**own))
-           for name in (*HARVESTED, *DIALS) if (own := ends(name))},
+           for name in (*OTHERS, *DIALS) if (own := ends(name))},
     },
     COUNT: {
         "count": Field("integer", "how many problems", least=0, most=MOST_PROBLEMS),

@@ -23,8 +23,7 @@ from quasistatic_ref.lab.study.file.fields import (
     VERSION,
 )
 from quasistatic_ref.lab.study.file.solver_lists import chosen_solvers, own_solvers
-from quasistatic_ref.lab.study.problems.families.dials import DIALS
-from quasistatic_ref.lab.study.problems.families.drawn import FAMILIES
+from quasistatic_ref.lab.study.problems.families.dials import DIALS, SCENARIOS
 from quasistatic_ref.lab.study.problems.for_study import TestSet
 from quasistatic_ref.lab.study.problems.problem import UNITS
 
@@ -184,8 +183,9 @@ def _counts(table: Fields, of_a_set: bool) -> tuple[dict[str, int], dict[str, fl
     for name, own in TABLES.all_values(table, COUNTS).items():
         inner = Fields({"count": own} if isinstance(own, int) else own, table.name(name))
         count = TABLES.all_values(inner, COUNT)
-        if count["count"] and not of_a_set and name not in FAMILIES:
-            raise table.fail(name, 'is a family of sets; say set = "contact-qp-1"')
+        if count["count"] and not of_a_set and name not in (SCENARIOS, *DIALS):
+            words = 'is a family of sets; say set = "contact-qp-2", or "contact-qp-1"'
+            raise table.fail(name, words)
         if count["most"] is not None and not (of_a_set or name in DIALS):
             raise table.fail(name, "has no dial to be turned, unless it is taken from a set")
         if count["count"]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
-from quasistatic_ref.lab.folders import problem_set_folder
+from quasistatic_ref.lab.folders import EDITIONS, problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.file.fields import MODULE
 from quasistatic_ref.lab.study.file.solver_lists import BY_INTERFACE, PACKAGE, solvers_named
@@ -63,7 +63,7 @@ def question(
     Parameters
     ----------
     problem : str
-        Id: of the store, or of contact-qp-1.
+        Id: of the store, or of a set that comes along.
     solver : str
         ``interface:name`` as a report has it, or ``module:function``.
     setting : str
@@ -97,38 +97,48 @@ def question(
     return Question(found, own, known[setting], units, warm, limits, memory)
 
 
-def measured_again(one: Question, folder: str | Path = ".") -> dict[str, Any]:
+def measured_again(one: Question) -> dict[str, Any]:
     """The fields of a row that are measured.
 
     Parameters
     ----------
     one : Question
-    folder : str or Path
-        Where callables and executables are looked for.
+        Callables and executables are looked for in the working directory.
 
     Raises
     ------
     InputError
         If the solver cannot be imported.
     """
-    with Keeper(one.solver, folder, one.memory, (one.setting,)) as keeper:
+    with Keeper(one.solver, memory=one.memory, settings=(one.setting,)) as keeper:
         return measured(keeper, one.problem, one.setting, one.units, one.warm, one.limits)
 
 
 def _problem(name: str, store: str | Path | None) -> Problem:
     own = None if store is None else Path(store) / FOLDER
-    kept = own is not None and (own / MANIFEST).exists()
-    try:
-        (found,) = set_read(own if own and kept else problem_set_folder(), ids=[name])
-    except InputError as error:
-        if kept:
-            raise
-        words = "is no problem of contact-qp-1; others need --store, the folder of a "
-        raise InputError(f"{words}study that holds its problems", value=name) from error
+    if own is not None and (own / MANIFEST).exists():
+        (found,) = set_read(own, ids=[name])
+    else:
+        found = _of_an_edition(name)
     if not found.dense:
         words = "has cones or sparse matrices; studies contain dense rows only"
         raise InputError(words, value=name)
     return found
+
+
+def _of_an_edition(name: str) -> Problem:
+    """A problem of a set that comes along; those of one name are the same in all."""
+    for edition in EDITIONS:
+        try:
+            (found,) = set_read(problem_set_folder(edition), ids=[name])
+        except InputError:
+            continue
+        return found
+    words = (
+        f"is no problem of {' or '.join(EDITIONS)}; others need --store, the folder of a study "
+        "that holds its problems"
+    )
+    raise InputError(words, value=name)
 
 
 def solver_named(label: str) -> Solver:

@@ -6,11 +6,12 @@ from scipy.sparse import csc_matrix
 from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.lab.scenes.rigid import actuated_step
-from quasistatic_ref.lab.study.problems.answers import cone_answer, step_of
+from quasistatic_ref.lab.study.problems.answers import step_of
 from quasistatic_ref.lab.study.problems.families.short import framed
 from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import StepData
@@ -27,8 +28,7 @@ def refutation(one: Problem) -> str | None:
         y = [one.answer.farkas.get(i, "0") for i in range(len(one.b))]
         return farkas_refutation(step_of(one.form), y)
     if one.facts["kind"] == SOCP:
-        again = cone_answer(cone_step(one), one.form)
-        return _different(one, again.x, again.error)
+        return _not_enclosed(one)
     if one.answer.kind == BOUNDED:
         return _not_bounded(one)
     warm = np.flatnonzero(one.answer.lam).tolist()
@@ -51,11 +51,16 @@ def cone_step(one: Problem) -> StepData:
     return actuated_step(H, one.g, np.zeros(len(one.g)), contacts, 1.0).replace(cone=ELLIPSOID)
 
 
-def _different(one: Problem, x: np.ndarray, error: float) -> str | None:
-    H, off = one.H.toarray(), x - one.answer.x
+def _not_enclosed(one: Problem) -> str | None:
+    again = enclosure(cone_step(one))
+    if again is None:
+        return "its answer cannot be enclosed"
+    H = one.H.toarray()
+    off = again.delta_q - one.answer.x
     free = float(one.g @ np.linalg.solve(H, one.g))
     far = float(np.sqrt(off @ H @ off / free))
-    return None if far <= 2 * (error + one.answer.error) + 1e-16 else f"x is off by {far:.1g}"
+    close = far <= 2 * (again.error + one.answer.error) + 1e-16
+    return None if close else f"x is off by {far:.1g}"
 
 
 def _not_bounded(one: Problem) -> str | None:

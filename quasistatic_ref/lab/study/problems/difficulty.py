@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.study.problems.problem import SPARSE, Problem
+from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.step.data import Array
 
 TOUCHING = 1e-12
@@ -38,11 +38,11 @@ def measures(one: Problem) -> dict[str, Any]:
     lengths = np.sqrt(np.asarray(natural.A.multiply(natural.A).sum(axis=1)).ravel())
     positive = lengths[lengths > 0]
     found: dict[str, Any] = {
-        "condition": _condition(one),
-        "condition_natural": _condition(natural),
+        "condition": float(np.linalg.cond(one.H.toarray())),
+        "condition_natural": float(np.linalg.cond(natural.H.toarray())),
         "row_ratio": float(positive.max() / positive.min()) if positive.size else None,
     }
-    if one.answer.farkas or one.facts["kind"] != "qp":
+    if one.answer.farkas:
         return _rounded(found)
     slack, lam = natural.answer.slack, natural.answer.lam
     reach = TOUCHING if one.answer.error == 0 else one.answer.error
@@ -53,7 +53,7 @@ def measures(one: Problem) -> dict[str, Any]:
     found |= {
         "active": len(active),
         "rank": rank,
-        "dependent": None if rank is None else len(active) - rank,
+        "dependent": len(active) - rank,
         "smallest_slack": float(idle.min()) if sharp and idle.size else None,
         "smallest_multiplier": float(bearing.min()) if sharp and bearing.size else None,
         "size": float(np.sqrt(x @ (natural.H @ x))) / free if free > 0 and g.any() else None,
@@ -91,18 +91,7 @@ def _close(found: dict[str, Any]) -> bool:
     return any(size is not None and size < CLOSE for size in sizes)
 
 
-def _condition(one: Problem) -> float | None:
-    """Of H; blocks of six of sparse ones are independent, and any others are not computed."""
-    if SPARSE not in one.facts["tags"]:
-        return float(np.linalg.cond(one.H.toarray()))
-    blocks = [one.H[i : i + 6, i : i + 6].toarray() for i in range(0, len(one.g), 6)]
-    eigenvalues = np.concatenate([np.linalg.eigvalsh(block) for block in blocks])
-    return float(eigenvalues.max() / eigenvalues.min())
-
-
-def _rank(natural: Problem, active: np.ndarray) -> int | None:
-    if SPARSE in natural.facts["tags"]:
-        return None
+def _rank(natural: Problem, active: np.ndarray) -> int:
     rows: Array = natural.A[active].toarray()
     lengths = np.linalg.norm(rows, axis=1, keepdims=True)
     rows = rows / np.where(lengths > 0, lengths, 1.0)
@@ -110,9 +99,7 @@ def _rank(natural: Problem, active: np.ndarray) -> int | None:
 
 
 def _free(natural: Problem) -> float:
-    """||H^-1 g||_H; 0 where it is not computed."""
-    if SPARSE in natural.facts["tags"]:
-        return 0.0
+    """||H^-1 g||_H."""
     z = np.linalg.solve(natural.H.toarray(), natural.g)
     return float(np.sqrt(max(float(natural.g @ z), 0.0)))
 

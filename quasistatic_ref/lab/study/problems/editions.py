@@ -9,6 +9,7 @@ from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest
 
 FROZEN: Final = {
     "contact-qp-1": "8e1afbb65c99bf8960de581918bd3fa00846080b4f505cff78b99db0af83e9cb",
+    "contact-qp-2": "a02844967f852b3318bf1e9cc331c2759c872bb165266ff7c672504b27d5e5a4",
 }
 """SHA-256 of the manifest of each set that was released; an entry is never edited."""
 

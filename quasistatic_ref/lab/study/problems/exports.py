@@ -14,14 +14,14 @@ from scipy.sparse import csc_matrix, csr_matrix, tril
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_written, json_text, text_written, written_whole
-from quasistatic_ref.lab.folders import problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP_2, EDITIONS, problem_set_folder
 from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Problem
 from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
 
 PARQUET, QPS = "parquet", "qps"
 FORMATS = ("npz", PARQUET, "mat", "json", QPS)
 CARRIED = ("LICENSE*", "CITATION.cff")
-"""Files of contact-qp-1 that come with every export: all problems are of the same scenes."""
+"""Files of a set that come with every export of it; of contact-qp-2, where a set has none."""
 WORDS = ("id", "family", "kind", "status", "dial", "tags")
 VECTORS = ("g", "b")
 ANSWERS = ("x", "net", "slack", "lam")
@@ -81,7 +81,9 @@ def _carried(name: str, count: int, to: str, folder: Path) -> list[Path]:
         .read_text(encoding="utf-8")
         .format(name=name, to=to, count=count, version=__version__, layout=words)
     )
-    found = [path for part in CARRIED for path in sorted(problem_set_folder().glob(part))]
+    edition = next((one for one in EDITIONS if name.startswith(one)), CONTACT_QP_2)
+    source = problem_set_folder(edition)
+    found = [path for part in CARRIED for path in sorted(source.glob(part))]
     return [
         text_written(folder / "README.md", text),
         *(bytes_written(folder / path.name, path.read_bytes()) for path in found),

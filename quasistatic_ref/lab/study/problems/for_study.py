@@ -9,9 +9,8 @@ from typing import Any, Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.lab.study.problems.families.dials import DIALS
-from quasistatic_ref.lab.study.problems.families.drawn import family_steps, scenarios_run
-from quasistatic_ref.lab.study.problems.families.harvest import Count, scenario_of
+from quasistatic_ref.lab.study.problems.families.dials import DIALS, SCENARIOS
+from quasistatic_ref.lab.study.problems.families.harvest import Count, harvested, scenario_of
 from quasistatic_ref.lab.study.problems.folder import (
     MANIFEST,
     family_written,
@@ -94,22 +93,20 @@ def study_problems(test_set: TestSet, study: str | Path, progress: bool = True) 
         set_written(folder, FOLDER, every, made_of=made_of)
         return taken
     counts = {name: count for name, count in test_set.families.items() if count}
-    runs = [
-        name for one, n in counts.items() for name in scenarios_run({one: n}, test_set.scenarios)
-    ]
+    runs = test_set.scenarios[: counts.get(SCENARIOS, 0)]
     total = sum(counts.values()) + sum(scenario_of(name).steps for name in runs)
     families = {name: _family(test_set, name, count) for name, count in counts.items()}
     return set_made(FOLDER, families, folder, total, progress, made_of=made_of)
 
 
 def _family(test_set: TestSet, family: str, count: int) -> Family:
-    seed, scenarios = test_set.seed, test_set.scenarios
+    seed, most = test_set.seed, test_set.most.get(family)
 
     def problems(kept: Kept, count_steps: Count) -> Iterator[Problem]:
         if family in DIALS:
-            yield from dial_problems(family, count, seed, kept, test_set.most.get(family))
+            yield from dial_problems(family, count, seed, kept, most)
             return
-        for one in family_steps(family, count, seed, scenarios, count_steps=count_steps):
+        for one in harvested(test_set.scenarios, count, count_steps):
             yield problem_of(one, kept)
 
     return problems

@@ -2,41 +2,21 @@
 
 import hashlib
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read
-from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.folders import problem_set_folder
 from quasistatic_ref.lab.study.problems.families.dials import ends
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest, set_read
 from quasistatic_ref.lab.study.problems.problem import Problem
 
-CONTACT_QP_1 = "contact-qp-1"
-
-
-def set_folder(source: str) -> Path:
-    """The folder of a set: that which comes along by its name, or a folder.
-
-    Raises
-    ------
-    InputError
-        If there is neither.
-    """
-    if source == CONTACT_QP_1:
-        return problem_set_folder()
-    if not Path(source).is_dir():
-        hint = suggestion(source, [CONTACT_QP_1])
-        raise InputError(f"is neither a folder nor a set that comes along{hint}", value=source)
-    return Path(source)
-
 
 def set_identity(source: str) -> dict[str, Any]:
     """Name of a set, and the hash of its manifest: what a store says it took problems from."""
-    folder = set_folder(source)
+    folder = problem_set_folder(source)
     content = bytes_read(folder / MANIFEST)
     return {"name": manifest(folder)["name"], "sha256": hashlib.sha256(content).hexdigest()}
 
@@ -61,7 +41,7 @@ def problems_taken(
         If a family is not there, or has cones or sparse matrices, for which studies have no place.
     """
     wanted = {name: count for name, count in families.items() if count}
-    every = set_read(set_folder(source), list(wanted))
+    every = set_read(problem_set_folder(source), list(wanted))
     found: list[Problem] = []
     for family, count in wanted.items():
         own = [one for one in every if one.facts["family"] == family]

@@ -6,8 +6,14 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.check.compare import CONTACT, OPTIONAL, differences, shape_problem
-from quasistatic_ref.lab.vectors.check.derivative import derivative_verdict
+from quasistatic_ref.lab.vectors.check.compare import (
+    CONTACT,
+    NO_NUMBERS,
+    OPTIONAL,
+    differences,
+    shape_problem,
+)
+from quasistatic_ref.lab.vectors.check.derivative import existence_verdict
 from quasistatic_ref.lab.vectors.check.freedoms import (
     FREEDOMS,
     aligned,
@@ -18,7 +24,10 @@ from quasistatic_ref.lab.vectors.check.loosened import loosened
 from quasistatic_ref.lab.vectors.check.multipliers import farkas_verdict
 from quasistatic_ref.lab.vectors.check.verdict import FAILED, PASSED, Verdict, acceptable, failure
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.layers.derivative import FIELDS
 
+IN_PART: Final = ("step", "derivative")
+"""Layers whose answers may leave fields out; nothing is said of these."""
 CONTRADICTION: Final = 1e-14
 """Slack below zero, relative to the terms of its row, that float64 takes for none."""
 
@@ -42,7 +51,11 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
         Its id is empty.
     """
     if layer == "derivative":
-        return derivative_verdict(record, answer)
+        if verdict := existence_verdict(record, answer):
+            return verdict
+        empty = {*FIELDS.values()} - {*record["output"]}  # of no target, or of no friction
+        kept = {*answer} - {*NO_NUMBERS} - empty
+        answer = {name: value for name, value in answer.items() if name in kept}
     expected = record["output"]
     if layer in ("qp", "step") and isinstance(answer, dict):
         if "forces" not in expected and "delta_q" in expected:  # as before version 6
@@ -53,13 +66,18 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
             return failure("farkas", "farkas is given, but the case has a solution")
         if "farkas" in expected and (layer == "qp" or "delta_q" in answer):
             return _unseen(case, record, answer)
-    if layer == "step" and isinstance(answer, dict) and (missing := absent(expected, answer)):
-        part = {"output": _given(expected, missing), "contacts": expected["contacts"]}
-        verdict = case_verdict(layer, case, {**record, **part}, answer)
-        return replace(verdict, without=missing)
     if layer == "qp" and isinstance(answer, dict) and "certificate" in answer:
         return _certified(case, record, answer)
-    expected = {name: value for name, value in expected.items() if name != "certificate"}
+    expected = {name: value for name, value in expected.items() if name not in NO_NUMBERS}
+    missing = absent(expected, answer) if layer in IN_PART and isinstance(answer, dict) else ()
+    if missing:
+        record = {**record, "contacts": expected.get("contacts")}
+        record["output"] = expected = _given(expected, missing)
+    return replace(_compared(layer, case, record, expected, answer), without=missing)
+
+
+def _compared(layer: str, case: Json, record: Json, expected: Json, answer: Json) -> Verdict:
+    """The verdict on the fields of an answer, number by number and by its layer's freedoms."""
     problem = shape_problem(layer, expected, answer)
     if problem:
         return failure(*problem, digits=0.0)
@@ -96,8 +114,8 @@ def judged(
 
 
 def absent(expected: Json, answer: Json) -> tuple[str, ...]:
-    """Fields of a step that an answer leaves out, if it has any others."""
-    names = [name for name in expected if name not in (*answer, *OPTIONAL["step"], "certificate")]
+    """Fields that an answer leaves out, if it has any others."""
+    names = [name for name in expected if name not in (*answer, *OPTIONAL["step"])]
     contacts = answer.get("contacts")
     if isinstance(contacts, list) and contacts and isinstance(contacts[0], dict):
         wanted = expected["contacts"][0] if expected.get("contacts") else {}
@@ -106,7 +124,7 @@ def absent(expected: Json, answer: Json) -> tuple[str, ...]:
 
 
 def _given(expected: Json, missing: tuple[str, ...]) -> Json:
-    """An expected step without some of its fields."""
+    """What is expected without some of its fields."""
     kept = {name: value for name, value in expected.items() if name not in missing}
     if "contacts" in kept:
         names = {key for key in CONTACT if f"contacts.{key}" not in missing}

@@ -12,6 +12,8 @@ OPTIONAL: Final = {
     "step": ("A_lam", "forces"),
 }
 """Fields that follow from others, and need not be answered."""
+NO_NUMBERS: Final = ("certificate", "differentiable", "reasons")
+"""Fields that have a verdict of their own."""
 WRENCH: Final = ("f_d1", "f_d2", "f_n", "tau_n")
 """Components of a contact's wrench."""
 

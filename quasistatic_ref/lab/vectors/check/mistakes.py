@@ -13,10 +13,9 @@ import numpy as np
 
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.vectors.check.compare import difference, leaves, parts, tolerance_of
-from quasistatic_ref.lab.vectors.check.mistake import Mistake
 from quasistatic_ref.lab.vectors.check.multipliers import program_rows
 from quasistatic_ref.lab.vectors.check.report import Named
-from quasistatic_ref.lab.vectors.check.table import TABLED
+from quasistatic_ref.lab.vectors.check.table import TABLED, Mistake
 from quasistatic_ref.lab.vectors.check.verdict import Verdict
 from quasistatic_ref.lab.vectors.check.wrong_derivatives import DERIVATIVES
 from quasistatic_ref.lab.vectors.expected import Json

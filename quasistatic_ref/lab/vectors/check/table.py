@@ -2,14 +2,14 @@
 
 import json
 import tomllib
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
 from typing import Final
 
 from quasistatic_ref.lab.vectors import check
 from quasistatic_ref.lab.vectors.check.compare import parts
-from quasistatic_ref.lab.vectors.check.mistake import Mistake, Prediction
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.expected import Json
 
@@ -17,6 +17,27 @@ TABLE: Final = "mistakes.toml"
 FACTOR: Final = "FACTOR"
 """In a patch, where a layer does not know h [s]: each of the values below, and its inverse."""
 TIME_STEPS: Final = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
+
+Prediction = Callable[[Json, Json], Iterable[Json]]
+"""(input, expected output) -> parts of outputs; several where the mistake comes in variants."""
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One mistake.
+
+    Parameters
+    ----------
+    name : str
+    sentence : str
+        What is wrong, and what is right.
+    predictions : mapping
+        By layer: what would be answered.
+    """
+
+    name: str
+    sentence: str
+    predictions: Mapping[str, Prediction]
 
 
 @lru_cache(maxsize=32)

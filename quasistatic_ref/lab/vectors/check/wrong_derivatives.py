@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.lab.vectors.check.mistake import Mistake, Prediction
 from quasistatic_ref.lab.vectors.check.patched import program
+from quasistatic_ref.lab.vectors.check.table import Mistake, Prediction
 from quasistatic_ref.lab.vectors.converters import tangent_map
 from quasistatic_ref.lab.vectors.expected import Json
 

@@ -12,7 +12,7 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.exact.precision import DIGITS
+from quasistatic_ref.lab.vectors.exact.precision import DIGITS, dyadic_fraction
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected
 from quasistatic_ref.optional.ellipsoid.enclosure import BITS as PROVED
@@ -91,13 +91,8 @@ def _nearest(ball: arb) -> float:
 
 
 def _digits(ball: arb) -> str:
-    return decimal_string(Fraction(0) if ball.contains(0) else _fraction(ball.mid()), DIGITS)
-
-
-def _fraction(point: arb) -> Fraction:
-    m, e = point.man_exp()
-    return Fraction(int(m)) * Fraction(2) ** int(e)
+    return decimal_string(Fraction(0) if ball.contains(0) else dyadic_fraction(ball.mid()), DIGITS)
 
 
 def _largest(balls: list[arb]) -> Fraction:
-    return max((abs(_fraction(ball.upper())) for ball in balls), default=Fraction(0))
+    return max((abs(dyadic_fraction(ball.upper())) for ball in balls), default=Fraction(0))

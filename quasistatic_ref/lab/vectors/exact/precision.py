@@ -185,10 +185,10 @@ def _decimal(x: Real) -> str:
         return decimal_string(Fraction(int(x.p), int(x.q)), DIGITS)
     if is_zero(x):
         return decimal_string(Fraction(0), DIGITS)
-    low, high = (decimal_string(_fraction(end), DIGITS) for end in (x.lower(), x.upper()))
+    low, high = (decimal_string(dyadic_fraction(end), DIGITS) for end in (x.lower(), x.upper()))
     if low == high:
         return low
-    halfway = Fraction(decimal_string(_fraction(x.mid()), DIGITS + 1))
+    halfway = Fraction(decimal_string(dyadic_fraction(x.mid()), DIGITS + 1))
     if _is(x, fmpq(halfway.numerator, halfway.denominator)):
         return decimal_string(halfway, DIGITS)
     raise Undecided
@@ -219,6 +219,7 @@ def _threshold() -> arb:
     return arb(fmpq(1, 1 << 200))
 
 
-def _fraction(point: arb) -> Fraction:
+def dyadic_fraction(point: arb) -> Fraction:
+    """The number that a point of a ball is."""
     m, e = (int(part) for part in point.man_exp())
     return Fraction(m) * Fraction(2) ** e

@@ -6,12 +6,10 @@ from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.derivative_kinks import squeezed_at_random
-from quasistatic_ref.lab.vectors.families.derivative_pairs import pair_kinds, pressed
 from quasistatic_ref.lab.vectors.families.mechanisms import few_digits
 from quasistatic_ref.lab.vectors.families.random_scenes import random_scene
 from quasistatic_ref.lab.vectors.families.step_scenes import ball_scene
-from quasistatic_ref.lab.vectors.files import inputs_read
+from quasistatic_ref.lab.vectors.files import Case, inputs_read
 from quasistatic_ref.lab.vectors.layers import layer
 
 WILD = 1e3
@@ -38,7 +36,7 @@ def hangs_on_rounding(table: Json) -> bool:
 
 
 def derivative_at_random(rng: Rng, level: int) -> Json:
-    """The input of a case: a ball on the floor, two shapes or a scene at random, or a kink.
+    """The input of a case: a ball on the floor, a scene at random, a case of the vectors or a kink.
 
     Parameters
     ----------
@@ -50,23 +48,34 @@ def derivative_at_random(rng: Rng, level: int) -> Json:
     if level == 0:
         spun = few_digits(rng.uniform(-0.5, 0.5, 3), 1)
         return ball_scene({"force": [*spun[:2], -1.0], "torque": [0.0, 0.0, spun[2] / 10]})
-    if level == 2 and kind:
-        known = _kinks()
-        number = int(rng.integers(len(known) + 6))
-        return known[number] if number < len(known) else squeezed_at_random(rng)
     if kind == 0:
         return random_scene(rng, hard=level == 2)
-    pairs = pair_kinds()
-    alpha, beta = pairs[int(rng.integers(len(pairs)))]
-    moving = "beta" if alpha == "halfspace" else "alpha"
-    return pressed(rng, alpha, beta, moving, driven=bool(rng.integers(2)))
+    wanted = "derivative/kink/" if level == 2 else "derivative/pair/"
+    chosen = [case.input for case in _known() if case.id.startswith(wanted)]
+    case: Json = chosen[int(rng.integers(len(chosen)))]
+    return case if level == 2 else _varied(rng, case)
 
 
 @cache
-def _kinks() -> list[Json]:
-    """The kinks among the vectors that come along."""
-    cases = inputs_read(vectors_folder(), "derivative")
-    return [case.input for case in cases if case.id.startswith("derivative/kink/")]
+def _known() -> list[Case]:
+    """The cases among the vectors that come along."""
+    return inputs_read(vectors_folder(), "derivative")
+
+
+def _varied(rng: Rng, case: Json) -> Json:
+    """Two shapes of any kinds in the same place, which are pressed and rub otherwise."""
+    pairs = [
+        {**pair, "mu_v": few_digits(rng.uniform(0.1, 1.0, 1))[0],
+         "mu_omega": few_digits(rng.uniform(0.001, 0.02, 1))[0], "rows": int(rng.choice([4, 6]))}
+        for pair in case["pairs"]
+    ]  # fmt: skip
+    wrenches = [
+        {**wrench, "force": few_digits(rng.uniform(0.5, 1.5, 3) * wrench["force"]),
+         "torque": few_digits(rng.uniform(-1, 1, 3) * wrench["torque"], 4)}
+        for wrench in case["wrenches"]
+    ]  # fmt: skip
+    cone = str(rng.choice(["pyramid", "pyramid", "pyramid", "product", "facets-6"]))
+    return {**case, "pairs": pairs, "wrenches": wrenches, "cone": cone}
 
 
 def is_tame(output: Json) -> bool:

@@ -21,7 +21,7 @@ from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import actuated_step
-from quasistatic_ref.lab.vectors.exact.conditioning import Bounds, bounds
+from quasistatic_ref.lab.vectors.exact.conditioning import NO_ERRORS, Bounds, Errors, bounds
 from quasistatic_ref.lab.vectors.exact.enclosed import enclosed
 from quasistatic_ref.lab.vectors.exact.entered import entered
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
@@ -40,8 +40,11 @@ FARKAS = 1e-9
 """Relative size of A'y at which y counts as a proof: solvers stop at 1e-8 to 1e-12."""
 
 
-def expected(case_input: Json) -> Expected:
-    """The exact optimum, correctly rounded; or a Farkas vector; or an enclosure."""
+def expected(case_input: Json, errors: Errors = NO_ERRORS) -> Expected:
+    """The exact optimum, correctly rounded; or a Farkas vector; or an enclosure.
+
+    Its tolerances are those of a program that is formed with such errors.
+    """
     if "second_order" in case_input:
         return enclosed(cone_step(case_input))
     form = form_of(case_input)
@@ -49,7 +52,7 @@ def expected(case_input: Json) -> Expected:
     if isinstance(optimum, Farkas):
         return _infeasible(form, optimum)
     exact = _proved(case_input, form, optimum.working_set)
-    bound = bounds(form, optimum.working_set)
+    bound = bounds(form, optimum.working_set, errors)
     return Expected(
         output={
             "delta_q": optimum.delta_q.tolist(),
@@ -144,13 +147,6 @@ def tolerances(bound: Bounds) -> dict[str, Tolerance]:
         "A_lam": tolerance(bound.net, "that of delta_q, times H"),
         "slack": tolerance(bound.slack, "that of delta_q, times A"),
     }
-
-
-def optimum_of(form: ExactForm) -> ExactOptimum:
-    """The optimum of a program that is known to have one."""
-    optimum = exact_optimum(form, (), least_index)
-    assert isinstance(optimum, ExactOptimum)
-    return optimum
 
 
 def _proved(case_input: Json, form: ExactForm, working: Sequence[int]) -> dict[str, list[fmpq]]:

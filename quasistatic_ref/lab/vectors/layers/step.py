@@ -20,19 +20,12 @@ from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.program.rotation import quaternion_of
 from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Chosen, chosen
 from quasistatic_ref.lab.vectors.exact.compliant import compliant_forces, forces_bound
-from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
+from quasistatic_ref.lab.vectors.exact.conditioning import Errors
 from quasistatic_ref.lab.vectors.exact.entered import entered, exact
 from quasistatic_ref.lab.vectors.exact.precision import Real, rounded, short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.lab.vectors.layers.qp import (
-    flags_of,
-    form_of,
-    matrices,
-    optimum_of,
-    tolerances,
-)
+from quasistatic_ref.lab.vectors.layers import layer, qp
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
 
 EPS: Final = 2.0**-52
@@ -55,7 +48,7 @@ def expected(
         H_size, g_size = map(max, (H_size, g_size), terms(case_input))
     program = {"H": H, "g": g, "A": rows.output["A"], "b": rows.output["b"]}
     errors, distances = _errors(case_input, program, found, jacobian, rows, (H_size, g_size))
-    solved = _solved(program, errors)
+    solved = qp.expected(program, errors)
     output, wrenches, after = answered(case_input, contacts, program, solved)
     base_tolerance = {
         **{f"contacts.{name}": t for name, t in distances.items()},
@@ -72,7 +65,7 @@ def expected(
     if wrenches is None or after is None:
         return Expected(output, flags=flags, tolerance={**base_tolerance, **solved.tolerance})
     wrench_bound = _wrench_bound(case_input, solved, wrenches)
-    given = matrices(program)
+    given = qp.matrices(program)
     output["forces"], digits = compliant_forces(given, case_input, contacts, output["lam"])
     forces_off = forces_bound(given, case_input, contacts, output["delta_q"], errors)
     q_bound = _plus(after.tolerance["q"], 4 * solved.tolerance["delta_q"].absolute)
@@ -229,17 +222,6 @@ def _errors(
         A=Fraction(A if program["A"] else 0.0),
         b=Fraction(worst["phi"] if program["A"] else 0.0),
     ), distances
-
-
-def _solved(program: Json, errors: Errors) -> Expected:
-    """The answer of the layer `qp`, its tolerances those of a program that is formed in float64."""
-    solved = layer("qp").expected(program)
-    if solved.flags["infeasible"]:
-        return solved
-    form = form_of(program)
-    bound = bounds(form, solved.output["certificate"]["working_set"], errors)
-    flags = flags_of(optimum_of(form), bound)
-    return Expected(solved.output, solved.digits, flags, tolerances(bound))
 
 
 def _wrench_bound(case: Json, solved: Expected, wrenches: Expected) -> Fraction:

@@ -91,8 +91,7 @@ def derivatives(one: Base) -> Derivatives:
     """
     case, listed = one.at.case, moves(one)
     found: dict[str, list[Quotient]] = {
-        name: [quotient(one, partial(move, case), moved=name == "q") for move in listed[name]]
-        for name in listed
+        name: [quotient(one, partial(move, case)) for move in listed[name]] for name in listed
     }
     smooth = all(q.bend < BEND for each in found.values() for q in each)
     of_rows = [q for name in MOVE_ROWS for q in found.get(name, [])]
@@ -119,7 +118,7 @@ def _off(
             case = move(case, weight * by)
         return case
 
-    whole = quotient(one, everything, moved=True, eps=OTHER_STEP).column
+    whole = quotient(one, everything, OTHER_STEP).column
     parts: Sequence[Vector] = [column for name in listed for column in columns[name]]
     total = np.array(weights) @ np.array(parts)
     size = max(abs(whole), default=fmpq(0))

@@ -6,7 +6,7 @@ derivative, and by 2^-320 / 2^-100 from the grid, 6e-67, times the condition of 
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from flint import fmpq
 
@@ -38,7 +38,6 @@ class Base:
     step: Solved
     q_next: Vector
     pools: list[list[int]]
-    warm: list[int] = field(default_factory=list)
 
     def contacts_at(self, at: World) -> list[Contact]:
         """The contacts of a case nearby."""
@@ -49,19 +48,12 @@ class Base:
         near = candidates(at, pair, self.pools[pair])
         return kept(near, at.case["pairs"][pair]["k"], solids=are_solids(at.case, pair))
 
-    def step_at(self, case: Json, *, moved: bool) -> tuple[Solved, list[Contact], Vector]:
-        """A step nearby: solved, its contacts, and q+ in the tangent space at the base's q+.
-
-        Parameters
-        ----------
-        case : dict
-        moved : bool
-            Whether q is another; the contacts stay where they are if not.
-        """
-        at = world(case) if moved else self.at.with_case(case)
+    def step_at(self, case: Json) -> tuple[Solved, list[Contact], Vector]:
+        """A step nearby: solved, its contacts, and q+ in the tangent space at the base's q+."""
+        moved = case["q"] is not self.at.case["q"]  # if not, bodies and contacts stay
+        at = world(case) if moved else World(case, self.at.at)
         contacts = self.contacts_at(at) if moved else self.contacts
-        same = not moved and case["pairs"] is self.at.case["pairs"]
-        found = solved(at, contacts, self.warm, self.step.rows if same else None)
+        found = solved(at, contacts, self.step.optimum.point.working)
         return found, contacts, away(at, self.q_next, after(at, found.delta_q))
 
 
@@ -93,8 +85,7 @@ def base(case: Json) -> Base:
         near = kept(found, written["k"], solids=solids)
         contacts += [contact(at, one) for one in near]
     step = solved(at, contacts)
-    warm = list(step.optimum.point.working)
-    return Base(at, contacts, step, after(at, step.delta_q), pools, warm)
+    return Base(at, contacts, step, after(at, step.delta_q), pools)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,9 +111,7 @@ class Quotient:
     one_sided: tuple[Vector, Vector]
 
 
-def quotient(
-    one: Base, inputs: Callable[[fmpq], Json], *, moved: bool, eps: fmpq = STEP
-) -> Quotient:
+def quotient(one: Base, inputs: Callable[[fmpq], Json], eps: fmpq = STEP) -> Quotient:
     """Derivative of q+ along a curve of inputs.
 
     Parameters
@@ -131,12 +120,10 @@ def quotient(
         Its step is that at 0.
     inputs : callable
         From a number to a case.
-    moved : bool
-        Whether q changes along the curve.
     eps : fmpq
     """
-    forward, ahead, up = one.step_at(inputs(eps), moved=moved)
-    backward, behind, down = one.step_at(inputs(-eps), moved=moved)
+    forward, ahead, up = one.step_at(inputs(eps))
+    backward, behind, down = one.step_at(inputs(-eps))
     bend = max(abs(up + down) / eps, default=fmpq(0))
     sides = ((forward, ahead), (backward, behind))
     return Quotient((up - down) / (2 * eps), bend, sides, (up / eps, -down / eps))

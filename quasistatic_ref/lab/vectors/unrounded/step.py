@@ -10,7 +10,7 @@ from math import lcm
 from typing import Final
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpq, fmpz_mat
+from flint import arb, fmpq, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
 from quasistatic_ref.certify.rational import ExactForm
@@ -114,12 +114,7 @@ def rows(case: Json, contacts: Sequence[Contact]) -> tuple[list[Vector], list[Re
     return A, b
 
 
-def solved(
-    at: World,
-    contacts: Sequence[Contact],
-    warm: Sequence[int] = (),
-    known: Rows | None = None,
-) -> Solved:
+def solved(at: World, contacts: Sequence[Contact], warm: Sequence[int] = ()) -> Solved:
     """delta_q of a step with these contacts.
 
     Parameters
@@ -128,8 +123,6 @@ def solved(
     contacts : sequence of Contact
     warm : sequence of int
         Rows of A that are likely active; any will do.
-    known : Rows, optional
-        The rows of these contacts.
 
     Raises
     ------
@@ -138,7 +131,7 @@ def solved(
     """
     with working():
         H, g = map(on_grid, objective(at.case, *at.loads))
-    own = known or integer_rows(len(g), *rows(at.case, contacts))
+    own = integer_rows(len(g), *rows(at.case, contacts))
     form = form_of(H, g, own)
     optimum = dual_active_set(form, warm)
     if isinstance(optimum, Farkas):
@@ -148,29 +141,8 @@ def solved(
 
 def delta_q(form: ExactForm, optimum: Optimum) -> Vector:
     """The displacement of an optimum, on the grid [m, rad]."""
-    near = _in_balls(form, optimum.point.working)
-    if near is not None:
-        return near
     found = optimum.point.rational
     return on_grid(form.x_unit * rationals(found.x) / found.denominator)
-
-
-def _in_balls(form: ExactForm, working: Sequence[int]) -> Vector | None:
-    """The same from balls, a tenth of the time; None if they are too wide for the grid."""
-    n, W = form.n, len(working)
-    with ctx.workprec(WIDE):
-        A = arb_mat(W, n, [form.A[i, v] for i in working for v in range(n)])
-        b = arb_mat(W, 1, [form.b[i, 0] for i in working])
-        try:
-            across = arb_mat(form.H).solve(A.transpose())
-            alone = arb_mat(form.H).solve(arb_mat(form.g))
-            lam = (A * across).solve(b - A * alone) if W else arb_mat(0, 1)
-        except ZeroDivisionError:
-            return None
-        x = [value * form.x_unit for value in (alone + across * lam).entries()]
-        if any(value.rad() > NARROW for value in x):
-            return None
-        return on_grid(np.array(x))
 
 
 def integer_rows(n: int, A: Sequence[Vector], b: Sequence[Real]) -> Rows:

@@ -1,7 +1,6 @@
 """Bodies and shapes of a case where they are, in rational numbers: exact, or of the grid."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -26,28 +25,17 @@ class World:
         Input of the layer ``step`` in exact numbers.
     at : dict
         By the name of each body R, t and J as the program has them, in rational numbers.
-    known : (matrix, vector), optional
-        Its loads, where they are those of another case.
     """
 
     case: Json
     at: dict[str | None, Any]
-    known: tuple[Any, Any] | None = None
 
-    @cached_property
+    @property
     def loads(self) -> tuple[Any, Any]:
         """M, and the generalised forces in addition to the stiffness."""
-        if self.known:
-            return self.known
         with working():
             found: tuple[Any, Any] = program.loads(self.case, self.at)
             return found
-
-    def with_case(self, case: Json) -> "World":
-        """Another case at the same configuration, with what it has in common with this one."""
-        if case["mechanism"] is self.case["mechanism"]:
-            return World(case, self.at, self.loads)
-        return World(case, self.at)
 
     def shape(self, name: str) -> Placed:
         """A shape of the case where it is."""

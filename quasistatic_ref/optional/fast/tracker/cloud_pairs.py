@@ -75,7 +75,7 @@ class CloudPairs:
         self.last = ends[1:] - 1
         pair_of = np.repeat(np.arange(len(pairs)), count)
         self.pair_of = pair_of
-        self.cloud_of = len(pairs) + pair_of
+        self.sides = np.concatenate([pair_of, len(pairs) + pair_of])
         self.swapped = self.sign[pair_of, None] < 0
         self.swaps = bool(self.swapped.any())
         extents = np.array([solid.shape.extent for solid in self.solids])
@@ -176,10 +176,10 @@ class CloudPairs:
             decided = cloud_surface(name, solid, cloud, relative[i], x[own], phi[own], normal[own])
             normal[own] = decided.normal
             tie[own] = decided.tie
-        on_solid = world.take(self.pair_of, axis=0)
-        on_cloud = world.take(self.cloud_of, axis=0)
-        n = rotated(on_solid[:, :, :3], normal)
-        point = rotated(on_cloud[:, :, :3], self.points.take(kept, axis=0)) + on_cloud[:, :, 3]
+        pose = world.take(self.sides, axis=0)
+        local = np.concatenate([normal, self.points.take(kept, axis=0)])
+        n, point = rotated(pose[:, :, :3], local).reshape(2, -1, 3)
+        point += pose[len(phi) :, :, 3]
         found = ClosestPoints(
             phi=phi + 0.0,
             alpha=point - phi[:, None] * n,

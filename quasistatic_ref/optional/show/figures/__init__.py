@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.optional.show.figures.animation import animate as animate
     from quasistatic_ref.optional.show.figures.camera import Camera as Camera
     from quasistatic_ref.optional.show.figures.draw import draw_scene as draw_scene
+    from quasistatic_ref.optional.show.figures.looks import CAMERA as CAMERA
     from quasistatic_ref.optional.show.figures.moments import moment as moment
     from quasistatic_ref.optional.show.figures.style import figure_style as figure_style
     from quasistatic_ref.optional.show.figures.style import figure_written as figure_written
@@ -23,6 +24,7 @@ _HOMES = {
     "animation": "animate",
     "camera": "Camera",
     "draw": "draw_scene",
+    "looks": "CAMERA",
     "moments": "moment",
     "style": "Figure figure_style figure_written panels style_file",
     "viewer": "view_written",

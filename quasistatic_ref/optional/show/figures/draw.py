@@ -14,8 +14,6 @@ from quasistatic_ref.optional.show.figures.pens import (
     MILLI,
     PLANES,
     Pen,
-    Pen2D,
-    Pen3D,
 )
 from quasistatic_ref.optional.show.figures.style import room, scaled
 from quasistatic_ref.step.data import Array
@@ -44,7 +42,7 @@ def draw_scene(
     around: tuple[Array, float] | None = None,
     legend: bool = True,
 ) -> None:
-    """Draw a moment on axes, in millimetres: in 3D if the axes are, else as a camera sees it.
+    """Draw a moment on axes, in millimetres, as a camera sees it.
 
     Robots are grey, what they act on is coloured. At each contact that bears load: its frame (n
     solid, d1 dashed, d2 dotted), the cone of forces that friction allows at its normal force, and
@@ -53,11 +51,11 @@ def draw_scene(
 
     Parameters
     ----------
-    axes : Axes or Axes3D
+    axes : Axes
     of : Moment
     view : str or Camera
-        Of axes that are not 3D: ``"xy"``, ``"xz"``, ``"yz"``, or any orthographic camera, whose
-        axes have no coordinates.
+        ``"xy"``, ``"xz"``, ``"yz"``, or any orthographic camera, whose axes have no coordinates:
+        ``CAMERA`` of ``looks`` is that of all figures here.
     parts : collection of str
         Of ``PARTS``.
     metres_per_newton : float, optional
@@ -71,10 +69,9 @@ def draw_scene(
     if around is not None:
         box = around[0] + around[1] * SIGNS
     centre, half = box.mean(axis=0), MARGIN * float(np.ptp(box, axis=0).max()) / 2
-    flat = axes.name != "3d"
     if metres_per_newton is None:
-        metres_per_newton = force_scale([of], view if flat else None, half)
-    pen: Pen = Pen2D(axes, camera_of(view)) if flat else Pen3D(axes)
+        metres_per_newton = force_scale([of], view, half)
+    pen = Pen(axes, camera_of(view))
     pen.bodies(of, centre, half)
     for contact, bears in zip(of.contacts, of.bearing, strict=True):
         if "contacts" in parts:

@@ -1,6 +1,5 @@
-"""Pens: world points drawn in millimetres, as a camera sees them or in three dimensions."""
+"""A pen that draws world points in millimetres, as a camera sees them."""
 
-from abc import ABC, abstractmethod
 from contextlib import suppress
 from typing import Any, Final
 
@@ -8,13 +7,10 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import MaxNLocator
-from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial import ConvexHull, QhullError
 
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.looks import (
-    CAMERA,
     CONE_EDGE,
     CONE_FACE,
     FLOOR,
@@ -25,7 +21,7 @@ from quasistatic_ref.optional.show.figures.looks import (
 )
 from quasistatic_ref.optional.show.figures.moments import Moment
 from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
-from quasistatic_ref.optional.show.figures.surfaces import faces, patch, surface_points, triangles
+from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points, triangles
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array
 
@@ -39,39 +35,21 @@ TINY = 1e-30
 """Below the area of any face that is seen [m^2]."""
 
 
-class Pen(ABC):
-    """Draws world points on matplotlib's axes [mm].
+class Pen:
+    """Draws world points on matplotlib's axes [mm], as an orthographic camera sees them.
 
     Parameters
     ----------
-    axes : Axes or Axes3D
+    axes : Axes
+    camera : Camera
     """
 
-    def __init__(self, axes: Any) -> None:
-        self.axes = axes
+    def __init__(self, axes: Any, camera: Camera) -> None:
+        self.axes, self.camera = axes, camera
 
-    @abstractmethod
     def seen(self, points: Array) -> Array:
-        """Points [m] in the coordinates of the axes [mm], shape (N, 2) or (N, 3)."""
-
-    @abstractmethod
-    def bodies(self, of: Moment, centre: Array, half: float) -> None:
-        """Everything that is solid, clouds, and patches of half-spaces.
-
-        What is shown lies within `half` [m] of the `centre`, shape (3,) [m].
-        """
-
-    @abstractmethod
-    def hull(self, points: Array) -> None:
-        """The convex hull of points [m], as a friction cone is drawn."""
-
-    @abstractmethod
-    def arrow(self, start: Array, along: Array) -> None:
-        """A force that starts at a point: `start` and `along`, shape (3,) [m]."""
-
-    @abstractmethod
-    def finish(self, box: Array, view: str | Camera) -> None:
-        """Limits of a box, its corners of shape (2, 3) [m]; labels and view."""
+        """To the right and upwards [mm], shape (N, 2)."""
+        return MILLI * self.camera.seen(np.atleast_2d(points))[:, :2]
 
     def dot(self, point: Array, bears: bool) -> None:
         """A contact point, shape (3,) [m], filled where it bears load."""
@@ -85,18 +63,6 @@ class Pen(ABC):
         """A line through points [m]."""
         style = {"color": colour, "linestyle": dashes, "linewidth": scaled(width)}
         self.axes.plot(*self.seen(points).T, **style, zorder=7, gid=DRAWING)
-
-
-class Pen2D(Pen):
-    """Draws world points as an orthographic camera sees them."""
-
-    def __init__(self, axes: Any, camera: Camera) -> None:
-        super().__init__(axes)
-        self.camera = camera
-
-    def seen(self, points: Array) -> Array:
-        """To the right and upwards [mm], shape (N, 2)."""
-        return MILLI * self.camera.seen(np.atleast_2d(points))[:, :2]
 
     def bodies(self, of: Moment, centre: Array, half: float) -> None:
         """From the farthest to the nearest, half-spaces first.
@@ -195,73 +161,3 @@ class Pen2D(Pen):
         else:
             self.axes.set(xticks=[], yticks=[])
             self.axes.spines[:].set_visible(False)
-
-
-class Pen3D(Pen):
-    """Draws world points in matplotlib's 3D axes."""
-
-    def seen(self, points: Array) -> Array:
-        """Coordinates in the world [mm], shape (N, 3)."""
-        return MILLI * np.atleast_2d(points)
-
-    def bodies(self, of: Moment, centre: Array, half: float) -> None:
-        """Solids as the faces of their hulls.
-
-        Parameters
-        ----------
-        of : Moment
-        centre : ndarray, shape (3,)
-            Of what is drawn of a half-space [m].
-        half : float
-            Half the length of its edges [m].
-        """
-        for placed in of.shapes:
-            if isinstance(placed.shape, HalfSpace):
-                corners = self.seen(patch(placed.shape, centre, half))
-                self._polygons([corners], FLOOR, "0.6", 0.5)
-            elif isinstance(placed.shape, PointCloud):
-                points = self.seen(of.world(placed, placed.shape.points))
-                depth = CAMERA.seen(points)[:, 2]
-                colours = by_depth(of.colours[placed.link], depth)
-                self.axes.scatter(*points.T, s=1.5, c=colours, linewidths=0, depthshade=False)
-            else:
-                points = self.seen(of.world(placed, surface_points(placed.shape, around=24, up=8)))
-                self._polygons(faces(points), of.colours[placed.link], "0.2", 0.3)
-
-    def _polygons(self, polygons: list[Array], face: str, edge: str, alpha: float) -> None:
-        style = {"facecolor": face, "edgecolor": edge, "linewidth": 0.4, "alpha": alpha}
-        self.axes.add_collection3d(Poly3DCollection(polygons, **style))
-
-    def hull(self, points: Array) -> None:
-        """Its faces; nothing where so little force makes it flat."""
-        with suppress(QhullError):
-            self._polygons(faces(self.seen(points)), CONE_FACE, CONE_EDGE, 0.3)
-
-    def arrow(self, start: Array, along: Array) -> None:
-        """An arrow whose head is a share of its length.
-
-        Parameters
-        ----------
-        start, along : ndarray, shape (3,)
-            Its tail, and the way from there to its head [m].
-        """
-        ends = *self.seen(start)[0], *self.seen(along)[0]
-        self.axes.quiver(*ends, color=FORCE, linewidth=scaled(1.6), arrow_length_ratio=0.2)
-
-    def finish(self, box: Array, view: str | Camera) -> None:
-        """A cube about the box.
-
-        Parameters
-        ----------
-        box : ndarray, shape (2, 3)
-            Least and largest coordinates of what is drawn [m].
-        view : str or Camera
-        """
-        centre, half = box.mean(axis=0), np.ptp(box, axis=0).max() / 2
-        low, high = MILLI * (centre - half), MILLI * (centre + half)
-        for k, name in enumerate("xyz"):
-            self.axes.set(**{f"{name}lim": (low[k], high[k]), f"{name}label": f"{name} [mm]"})
-            getattr(self.axes, f"{name}axis").set_major_locator(MaxNLocator(4))
-        self.axes.set_box_aspect((1, 1, 1), zoom=0.85)  # labels are not laid out: leave room
-        camera = view if isinstance(view, Camera) else CAMERA
-        self.axes.view_init(elev=camera.elevation, azim=camera.azimuth)

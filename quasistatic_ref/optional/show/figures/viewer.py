@@ -203,8 +203,8 @@ def scene_commands(
     for j in contacts:
         commands.append(object_set(f"/contacts/{j}", _ball(DOT * half)))
         commands.append(object_set(f"/forces/{j}", _spike(THICK * half)))
-    shown = {placed.link for placed in moments[0].shapes} | {visual.link for visual in looks}
-    moving = sorted(shown - {0})
+    links = {shape.link for shape in moments[0].shapes} | {visual.link for visual in looks}
+    moving = sorted(links - {0})
     clips = []
     for link in moving:
         t, R = (

@@ -8,14 +8,12 @@ from PIL import Image
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.show.figures import animate, draw_scene, moment, panels
-from quasistatic_ref.optional.show.figures.camera import Camera
-from quasistatic_ref.optional.show.figures.draw import LONGEST, force_scale, round_scale
-from quasistatic_ref.optional.show.figures.moments import DrawnContact, Moment
+from quasistatic_ref.optional.show.figures.draw import round_scale
+from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.surfaces import (
     AROUND,
     UP,
     faces,
-    patch,
     surface_points,
     triangles,
 )
@@ -26,7 +24,6 @@ from quasistatic_ref.shapes.placed_shape import (
     Cone,
     Cylinder,
     Ellipsoid,
-    HalfSpace,
     Sphere,
 )
 from tests.legible import faults
@@ -140,16 +137,13 @@ def test_the_circle_of_torsion_has_radius_mu_omega():
     plt.close(figure)
 
 
-@pytest.mark.parametrize("view", ["xz", "xy", "3d", Camera(-62, 12)])
+@pytest.mark.parametrize("view", ["xz", "xy", CAMERA])
 def test_a_scene_is_legible_in_every_view(incline, view):
-    projection = {"subplot_kw": {"projection": "3d"}} if view == "3d" else {}
-    figure, (axes,) = panels(4.6, 4.0, **projection)
-    draw_scene(axes, moment(*incline, -1), view="xz" if view == "3d" else view)
+    figure, (axes,) = panels(4.6, 4.0)
+    draw_scene(axes, moment(*incline, -1), view=view)
     assert faults(figure) == []
     labels = axes.get_xlabel(), axes.get_ylabel()
-    assert labels == {"xz": ("x [mm]", "z [mm]"), "xy": ("x [mm]", "y [mm]")}.get(
-        view, ("x [mm]", "y [mm]") if view == "3d" else ("", "")
-    )
+    assert labels == {"xz": ("x [mm]", "z [mm]"), "xy": ("x [mm]", "y [mm]")}.get(view, ("", ""))
     plt.close(figure)
 
 
@@ -185,15 +179,6 @@ def test_faces_and_triangles_of_a_cube_and_their_direction():
     assert (np.einsum("ti,ti->t", normal, corners.mean(axis=1)) > 0).all()
 
 
-def test_the_patch_of_a_floor_lies_in_it_below_the_scene():
-    floor = HalfSpace(np.array([1.0, 2.0, 2.0]), 0.6)
-    corners = patch(floor, np.array([0.3, 0.1, 0.5]), 0.2)
-    np.testing.assert_allclose(corners @ floor.normal, floor.offset, rtol=ROUNDING)
-    foot = corners.mean(axis=0) - [0.3, 0.1, 0.5]
-    np.testing.assert_allclose(np.cross(foot, floor.normal), 0, atol=ROUNDING)
-    np.testing.assert_allclose(np.linalg.norm(corners[1] - corners[0]), 0.4, rtol=ROUNDING)
-
-
 @pytest.mark.parametrize(
     ("scale", "rounded"), [(0.0123, 0.01), (0.9, 0.5), (1.0, 1.0), (4.9, 2.0), (50.0, 50.0)]
 )
@@ -207,24 +192,6 @@ def test_a_film_has_a_frame_for_every_twentieth_of_a_second(incline, tmp_path):
     with Image.open(path) as film:
         assert film.n_frames == 3  # 30 steps of 10 ms
         assert film.info["duration"] == 100
-
-
-def test_forces_are_scaled_by_what_of_them_is_in_view():
-    # A force of 12 N along y and one of 1.5 N along z: seen along y, 1.5 N is the largest.
-    frame, rim = np.eye(3), np.zeros((0, 3))
-    contacts = [
-        DrawnContact(np.zeros(3), np.zeros(3), frame, np.array(force), 0.0, 1.0, 0.0, 0.0, rim)
-        for force in ([0, 12.0, 0], [0, 0, 1.5])
-    ]
-    of = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts), {})
-    half = 0.1
-    expected = {"xz": 2 * LONGEST * half / 1.5, "yz": 2 * LONGEST * half / 12, None: 0.08 / 12}
-    for view, scale in expected.items():
-        found = force_scale([of], view, half)
-        np.testing.assert_allclose(found, round_scale(scale), rtol=ROUNDING)
-    # What is only along the view is scaled as in space.
-    lone = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts[:1]), {})
-    assert force_scale([lone], "xz", half) == force_scale([lone], None, half) > 0
 
 
 def test_films_that_cannot_be_written_are_refused(incline, tmp_path, monkeypatch):

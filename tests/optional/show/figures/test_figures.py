@@ -6,8 +6,9 @@ from matplotlib import pyplot as plt
 from matplotlib.text import Text
 
 from quasistatic_ref.cli.measures import rotation_angle
-from quasistatic_ref.lab.examples import boundary_layer
-from quasistatic_ref.lab.figures.grasp import grasp_strip, rotation_plot
+from quasistatic_ref.lab.figures.grasp import grasp_strip
+from quasistatic_ref.lab.figures.validation import PICTURES
+from quasistatic_ref.lab.grasp import rotations
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
@@ -38,8 +39,7 @@ def figures(grasp, runs):
     with figure_style():
         made = {
             "strip": grasp_strip(grasp, runs, INSTANTS, dict.fromkeys(runs, SPREAD)),
-            "rotation": rotation_plot(grasp, runs, "bunny", 0.7),
-            "boundary layer": boundary_layer.figure(),
+            "rotation": PICTURES["grasp"](rotations(grasp, runs)),
         }
     yield made
     for figure in made.values():
@@ -51,12 +51,11 @@ def texts(figure):
     return [t for t in figure.findobj(Text) if t.get_text().strip() and t.get_visible()]
 
 
-@pytest.mark.parametrize("name", ["rotation", "boundary layer"])
-def test_axes_have_labels_with_units_and_all_text_is_legible(figures, name):
-    assert faults(figures[name]) == []
+def test_axes_have_labels_with_units_and_all_text_is_legible(figures):
+    assert faults(figures["rotation"]) == []
 
 
-@pytest.mark.parametrize("name", ["strip", "rotation", "boundary layer"])
+@pytest.mark.parametrize("name", ["strip", "rotation"])
 def test_every_figure_says_its_time_step_and_cone(figures, name):
     words = " ".join(t.get_text() for t in texts(figures[name]))
     assert "h = 10 ms" in words
@@ -87,21 +86,11 @@ def test_the_rotation_plot_shows_the_trajectories(figures, grasp, runs):
     bunny = grasp.system.link("bunny")
     for line, run in zip(axes.lines, runs.values(), strict=True):
         t, angle = line.get_data()
-        R = np.array([grasp.system.kinematics(q).R[bunny] for q in run["q"][70:]])
-        np.testing.assert_allclose(t, np.arange(70, 301) * 0.01, rtol=ROUNDING)
+        R = np.array([grasp.system.kinematics(q).R[bunny] for q in run["q"][70:291]])
+        np.testing.assert_allclose(t, np.arange(70, 291) * 0.01, rtol=ROUNDING)
         expected = np.degrees(rotation_angle(R @ R[0].T))
         np.testing.assert_allclose(angle, expected, rtol=ROUNDING, atol=ROUNDING)
     assert [t.get_text() for t in axes.get_legend().get_texts()] == list(runs)
-
-
-def test_the_boundary_layer_starts_at_the_limit_of_friction(figures):
-    lifted = figures["boundary layer"].axes[0]
-    limit = 1e3 * 0.01 * 0.3 * 9.81
-    torque, lift = lifted.lines[0].get_data()
-    np.testing.assert_allclose(torque, np.linspace(147.15 / 200, 147.15, 200), rtol=ROUNDING)
-    assert (np.abs(lift[torque < 0.999 * limit]) < 1e-6).all()
-    assert (lift[torque > 1.001 * limit] > 1e-4).all()
-    np.testing.assert_allclose(lifted.lines[1].get_xdata(), [limit, limit], rtol=ROUNDING)
 
 
 def plain_figure():

@@ -4,7 +4,6 @@ import json
 import pickle
 import re
 import sys
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -18,7 +17,6 @@ from quasistatic_ref.optional.show.figures.draw import force_scale
 from quasistatic_ref.optional.show.figures.looks import OBJECTS, ROBOTS, STATES, body_colours
 from quasistatic_ref.optional.show.figures.moments import SLIP, focus, frames, still
 from quasistatic_ref.optional.show.figures.surfaces import normals, surface_points, triangles
-from quasistatic_ref.optional.show.figures.three import z_along
 from quasistatic_ref.optional.show.figures.viewer import (
     FRAMES_PER_SECOND,
     LONGEST,
@@ -27,7 +25,7 @@ from quasistatic_ref.optional.show.figures.viewer import (
 )
 from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.shapes.placed_shape import Box, PlacedShape, Sphere
+from quasistatic_ref.shapes.placed_shape import Box, Sphere
 from quasistatic_ref.simulate.wrenches import Scene
 from tests.model.urdf.urdf_texts import collision, joint, link, robot
 from tests.tolerances import ROUNDING
@@ -96,15 +94,6 @@ def test_forces_start_at_beta_and_are_as_long_as_they_are_strong(commands, pushe
     assert force_scale(moments, None, 0.1, LONGEST) * max(
         np.linalg.norm(c.force) for m in moments for c in m.contacts
     ) <= 0.05 * (1 + ROUNDING)
-
-
-def test_the_third_axis_goes_along_the_force(rng):
-    directions = np.vstack([rng.normal(size=(20, 3)), np.eye(3), -np.eye(3), np.zeros((1, 3))])
-    R = z_along(directions)
-    np.testing.assert_allclose(R @ R.transpose(0, 2, 1), np.tile(np.eye(3), (27, 1, 1)), atol=1e-12)
-    np.testing.assert_allclose(np.linalg.det(R), 1.0, rtol=ROUNDING)
-    lengths = np.linalg.norm(directions, axis=1, keepdims=True)
-    np.testing.assert_allclose(lengths * R[:, :, 2], directions, atol=ROUNDING)
 
 
 def test_the_page_holds_the_viewer_and_the_commands_and_no_address(pushed, tmp_path, monkeypatch):
@@ -193,16 +182,6 @@ def test_surfaces_are_lit_as_round_where_they_are():
     assert np.einsum("ci,ci->c", normals(corners), corners).min() > np.cos(2 * np.pi / 32)
     corners = triangles(surface_points(Box((1.0, 2.0, 3.0))))
     assert np.abs(normals(corners)).max(axis=1) == pytest.approx(1.0)
-
-
-def test_the_camera_looks_at_what_moves(pushed):
-    """A wall of 10 m that stands still next to a pushed block changes nothing."""
-    scenario, run = pushed
-    moments, _ = frames(scenario, run, FRAMES_PER_SECOND)
-    wall = PlacedShape("wall", 0, np.eye(3), np.zeros(3), Box((5.0, 0.1, 5.0)))
-    with_wall = [replace(m, shapes=(*m.shapes, wall)) for m in moments]
-    np.testing.assert_array_equal(focus(with_wall), focus(moments))
-    assert np.ptp(focus(moments), axis=0).max() < 0.5
 
 
 def test_without_meshcat_a_sentence_says_what_to_install(tmp_path, monkeypatch, capsys):

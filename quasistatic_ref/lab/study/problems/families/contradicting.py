@@ -3,10 +3,18 @@
 import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import Rng, random_frames, spread_matrix
-from quasistatic_ref.lab.scenes.contacts import GRAVITY, frames_about, point_jacobian
+from quasistatic_ref.lab.scenes.contacts import GRAVITY, Y, Z, frames_about, point_jacobian
 from quasistatic_ref.lab.scenes.rigid import free_step
+from quasistatic_ref.lab.scenes.slabs import tower_step
 from quasistatic_ref.lab.study.problems.families.shaped import base
-from quasistatic_ref.lab.study.problems.families.short import OF_J, H, framed, shortened
+from quasistatic_ref.lab.study.problems.families.short import (
+    OF_J,
+    H,
+    framed,
+    short_step,
+    shortened,
+    with_axes,
+)
 from quasistatic_ref.step.data import Array, StepData
 
 MIRROR = np.array([1.0, -1.0, -1.0, -1.0])[:, None]
@@ -15,8 +23,12 @@ AROUND = 10
 """Contacts of a cage."""
 SIZE = 0.04
 """Of the body in a cage [m]."""
-DEEP = 1e-4
-"""How far walls that nearly contradict each other reach into the body [m]."""
+TOWERS = (2, 10)
+"""Fewest and most slabs of a tower under a ceiling, of 6 coordinates each."""
+PRESSED = 4
+"""Contacts of the ceiling."""
+FAR = 1e-4
+"""How far a body moves to leave a wedge, about [m]."""
 
 
 def between_walls(rng: Rng, room: float) -> StepData:
@@ -49,13 +61,13 @@ def in_a_cage(rng: Rng, room: float) -> StepData:
 
 
 def in_a_wedge(rng: Rng, angle: float) -> StepData:
-    """The grasped body in a wedge of two walls that reach into it: it must leave by 1e-4 / angle.
+    """The grasped body in a wedge of two walls, which it must leave by a few millimetres.
 
     Parameters
     ----------
     rng : Generator
     angle : float
-        Between the walls [rad].
+        Between the walls [rad]; they reach 1e-4 m times that into the body.
     """
     step = base(rng)
     c = step.contacts
@@ -63,9 +75,32 @@ def in_a_wedge(rng: Rng, angle: float) -> StepData:
     other = MIRROR * wall
     other[2] += angle * wall[0]  # n turned towards d1
     J = np.concatenate([c.J, wall[None], other[None]])
-    gaps = np.concatenate([c.phi, [-DEEP, -DEEP]])
+    gaps = np.append(c.phi, np.full(2, -FAR * angle))
     mu_v, mu_omega = np.append(c.mu_v, [0.0, 0.0]), np.append(c.mu_omega, [0.0, 0.0])
     return step.replace(contacts=framed(J, gaps, mu_v, mu_omega, np.append(c.rows, [4, 4])))
+
+
+def under_a_ceiling(rng: Rng, room: float) -> StepData:
+    """A tower whose slabs touch, and a ceiling that leaves so much room above it.
+
+    Parameters
+    ----------
+    rng : Generator
+    room : float
+        Negative where the ceiling reaches into the uppermost slab [m].
+    """
+    slabs = int(rng.integers(*TOWERS, endpoint=True))
+    step = with_axes(rng, short_step(tower_step(rng, slabs)))
+    c = step.contacts
+    points = SIZE * np.column_stack([rng.uniform(-1, 1, (PRESSED, 2)), np.ones(PRESSED)])
+    down = np.tile(-Z, (PRESSED, 1))
+    ceiling = np.zeros((PRESSED, 4, step.n_v))
+    ceiling[:, :, -6:] = point_jacobian(points, down)
+    ceiling[:, :3] = frames_about(down, Y) @ ceiling[:, :3]
+    phi = np.concatenate([np.zeros(c.n_c), np.full(PRESSED, room)])
+    mu_v = np.concatenate([c.mu_v, rng.uniform(0.2, 0.9, PRESSED)])
+    J = np.concatenate([c.J, shortened(ceiling, OF_J)])
+    return step.replace(contacts=framed(J, phi, mu_v))
 
 
 def _wall(rng: Rng, step: StepData) -> Array:

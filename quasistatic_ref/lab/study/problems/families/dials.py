@@ -9,13 +9,13 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.scenes.slabs import slab_step, tower_step
-from quasistatic_ref.lab.study.problems.families.cones import round_grasp
 from quasistatic_ref.lab.study.problems.families.contradicting import (
     between_walls,
     in_a_cage,
     in_a_wedge,
+    under_a_ceiling,
 )
-from quasistatic_ref.lab.study.problems.families.heaps import heap_step
+from quasistatic_ref.lab.study.problems.families.limited import at_its_limits, within_limits
 from quasistatic_ref.lab.study.problems.families.made import Made
 from quasistatic_ref.lab.study.problems.families.shaped import (
     conditioned,
@@ -25,6 +25,7 @@ from quasistatic_ref.lab.study.problems.families.shaped import (
     spaced,
 )
 from quasistatic_ref.lab.study.problems.families.short import H, short_step, with_axes
+from quasistatic_ref.lab.study.problems.families.walls import brick_wall
 from quasistatic_ref.step.data import StepData
 
 Turned = Callable[[Rng, float], StepData]
@@ -102,22 +103,31 @@ DIALS = {
                         (("nearly dependent", nearly_copied),)),
     "narrow": Dial("room", "m", 1e-3, 1e-13,
                    (("nearly infeasible", between_walls), ("nearly infeasible", in_a_cage))),
-    "wedge": Dial("angle", "rad", 1e-1, 1e-9, (("nearly infeasible", in_a_wedge),)),
+    "capped_wedge": Dial("angle", "rad", 1e-1, 1e-8, (("nearly infeasible", in_a_wedge),)),
+    "limits": Dial("room of a joint", "m, rad", 1e-2, 1e-13, (("limits", within_limits),)),
+    "large": Dial("bodies", "-", 5, 50, (("wall", brick_wall),), whole=True),
     "infeasible": Dial("overlap", "m", 1e-2, 1e-13,
                        (("walls", _overlap(between_walls)), ("cage", _overlap(in_a_cage))),
                        solvable=False),
-    "ellipsoid": Dial("contacts", "-", 2, 12, (("cones", round_grasp),), whole=True),
-    "sparse": Dial("bodies", "-", 10, 500, (("sparse", heap_step),), whole=True),
+    "jammed": Dial("overlap", "m", 1e-2, 1e-13,
+                   (("limits", _overlap(at_its_limits)), ("tower", _overlap(under_a_ceiling))),
+                   solvable=False),
 }  # fmt: skip
 """Of families that are made."""
 
-HARVESTED = {
+SCENARIOS = "scenarios"
+OTHERS = {
+    SCENARIOS: None,
     "sequences": ("steps between one problem and the next", "-", 1.0, 16.0),
-    "scenarios": None,
+    "moving": ("steps between one problem and the next", "-", 1.0, 16.0),
     "time_step": ("h", "s", 0.1, 1e-4),
     "closest_points": ("k", "-", 1.0, 50.0),
+    "wedge": ("angle", "rad", 1e-1, 1e-9),
+    "ellipsoid": ("contacts", "-", 2.0, 12.0),
+    "sparse": ("bodies", "-", 10.0, 500.0),
 }
-"""Families whose problems are steps of runs: name, unit, easy and hard end of their dials."""
+"""Steps of runs, which have no dial, and families that are found in sets only: name, unit, easy and
+hard end of their dials."""
 
 
 class Ends(TypedDict):
@@ -144,10 +154,10 @@ def ends(family: str) -> Ends | None:
     if family in DIALS:
         own = DIALS[family]
         found = (own.name, own.unit, own.first, own.most)
-    elif (harvested := HARVESTED[family]) is None:
+    elif (other := OTHERS[family]) is None:
         return None
     else:
-        found = harvested
+        found = other
     name, unit, first, most = found
     return Ends(name=name, unit=unit, first=first, most=most)
 

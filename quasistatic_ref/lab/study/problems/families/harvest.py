@@ -1,21 +1,16 @@
-"""Problems met in the scenarios that come along: at their own settings, and at others."""
+"""Problems met in the scenarios that come along."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.lab.study.problems.families.made import Made, mass_ratio
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.step.data import Array, StepData
-
-POSES = 40
-"""Configurations of a run at which a scenario's step is formed again with another h or k."""
-
+from quasistatic_ref.step.data import Array
 
 Count = Callable[[int], object]
 _RUNS: dict[str, Trajectory] = {}
@@ -67,47 +62,23 @@ def scenario_run(name: str, count: Count = no_count) -> tuple[Scenario, Trajecto
     return scenario, _RUNS[name]
 
 
-def harvested(name: str, count: int) -> Iterator[Made]:
-    """Steps of a scenario's run, evenly spaced and never twice.
+def harvested(names: Sequence[str], total: int, count: Count = no_count) -> Iterator[Made]:
+    """Steps of the runs of scenarios, evenly spaced and never twice.
 
     Parameters
     ----------
-    name : str
-    count : int
-        At most so many.
+    names : sequence of str
+    total : int
+        At most so many, shared among the scenarios.
+    count : callable
+        Is called with the number of steps that were just simulated.
     """
-    scenario, run = scenario_run(name)
-    steps = np.unique(np.linspace(0, run.steps - 1, min(count, run.steps)).round().astype(int))
-    for s in steps:
-        step = run.step_data(int(s))
-        k = max(pair.k for pair in scenario.pairs)
-        yield Made(f"scenarios/{name}/{s}", "scenarios", step, mass_ratio(step), k)
-
-
-def stepped_again(
-    family: str, name: str, settings: list[str], count: int, first: int
-) -> Iterator[Made]:
-    """A scenario with other settings, at configurations of its own run.
-
-    Parameters
-    ----------
-    family : str
-    name : str
-    settings : list of str
-        Changes that leave q alone, such as ``h=0.001`` or ``contacts.grip.k=20``.
-    count : int
-    first : int
-        Which of the configurations comes first, so that families do not all ask at the same ones.
-    """
-    _, run = scenario_run(name)
-    other = load_scenario(name, settings, fast=True)
-    simulator, words = other.simulator(), ",".join(settings)
-    for i in range(count):
-        s = int((first + i) * 7919 % run.steps)  # scattered, and the same every time
-        q, t = run["q"][s], s * float(run.header["h"]) + other.h
-        kinematics = other.system.kinematics(q)
-        points = closest_points(simulator.pairs, kinematics)
-        force = 0.0 if other.force is None else other.force(t, q)
-        step: StepData = simulator.step_data(q, other.targets(t), force, points, kinematics)
-        k = max(pair.k for pair in other.pairs)
-        yield Made(f"{family}/{name},{words}/{s}", family, step, mass_ratio(step), k)
+    for i, name in enumerate(names[:total]):
+        scenario, run = scenario_run(name, count)
+        share = total // len(names) + (i < total % len(names))
+        last = run.steps - 1
+        steps = np.unique(np.linspace(0, last, min(share, run.steps)).round().astype(int))
+        for s in steps:
+            step = run.step_data(int(s))
+            k = max(pair.k for pair in scenario.pairs)
+            yield Made(f"scenarios/{name}/{s}", "scenarios", step, mass_ratio(step), k)

@@ -1,0 +1,331 @@
+"""Answers attacked where they are made and written: ``python -m validation.make.attacks``.
+
+- *Exact answers*: of ordinary steps, and of steps at all scales. The optimum on the working set of
+  a file is proved and rounded by fractions, a proof of infeasibility checked by fractions;
+  ``verify.js`` has to verify every field.
+- *Bounds* of backends' own answers to ordinary steps, to steps of subnormal, tiny and huge numbers
+  and to steps of nearly singular matrices: what a file claims is compared with the optimum by
+  fractions, and `verify` of the package has to verify it.
+- *Forgeries* of files of every kind: what `verify` of the package verifies has to be true.
+- *Nearly singular matrices*: exact pivots say which are positive definite; reading a step and
+  ``verify.js`` have to say the same. What is accepted has to end in an answer or in a sentence.
+
+Nothing that is expected comes from the package: see :mod:`tests.oracles.solution_truth`. Its exact
+method only names working sets, whose optimality is proved here. Prints a table, and exits with
+status 1 if anything is wrong. ``--count`` is that of exact answers of each family, 500 unless it is
+said, with the others in proportion; ``--jobs`` that of processes. With ``--log FILE`` each batch
+is kept as it ends, and the same command goes on from there. All counts take some 15 minutes of one
+core; with ``--seconds`` the table has what was tried by then, of all families alike.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import cycle, islice, pairwise
+from operator import itemgetter
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from tqdm import tqdm
+
+from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
+from quasistatic_ref.cli.verify import refutation
+from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.parallel import Log, Record, results, workers
+from quasistatic_ref.solve.backends import NONE
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.files import step_read, step_text
+from tests.oracles.attacked_steps import FAMILIES, singular, steps
+from tests.oracles.forged_scenes import scenes
+from tests.oracles.forgeries import at_random, good_file
+from tests.oracles.random_steps import any_step
+from tests.oracles.solution_truth import (
+    Judge,
+    combinations,
+    exact,
+    program,
+    proof,
+    proved,
+    rounded,
+    truth_of,
+    wrenches,
+)
+from validation.tools.check_verifier import verdicts
+from validation.tools.scripts import asked, shown
+from validation.tools.verifier_files import Case
+
+Json = Any
+BATCH = 50
+"""Cases of a record of the log."""
+BACKENDS = "daqp", "clarabel", "osqp", "piqp", "quadprog"
+SHARE = Fraction(1e-14)
+"""Of its diagonal entry, what a pivot has to be above."""
+SOLUTION = json.dumps({
+    "format": "quasistatic-ref/solution", "version": 2, "status": "infeasible", "cone": "pyramid",
+    "step_sha256": "", "farkas": [],
+})  # fmt: skip
+"""Of no step: its reader looks at the step first."""
+
+
+class Attack:
+    """What came of the cases of one family, and those that went wrong.
+
+    Parameters
+    ----------
+    name : str
+        Of the family.
+    folder : Path
+        For files.
+    """
+
+    def __init__(self, name: str, folder: str) -> None:
+        self.name, self.paths = name, [Path(folder) / part for part in ("step", "solution")]
+        self.counts = Counter[str]()
+        self.wrong: list[str] = []
+        self.cases: list[Case] = []
+
+    def add(self, outcome: str, holds: bool = True, note: str = "") -> None:
+        """Count a case, and keep what is wrong with it."""
+        self.counts[outcome] += 1
+        if not holds:
+            self.counts["wrong"] += 1
+            self.wrong.append(f"{self.name}: {outcome}: {note}"[:500])
+
+    def file(self, step: StepData, backend: str, certify: str) -> str | None:
+        """The solution file of a step; None, and counted, where there is an error in its place."""
+        try:
+            solver = solver_for(step, backend, fast=backend != NONE)
+            return solution_text(solve_step(step, solver, certify=certify))
+        except StepInfeasible as said:
+            return infeasible_text(step, said.farkas.exact)
+        except QuasistaticError as said:
+            self.add(f"{certify}: {type(said).__name__}")
+        except Exception as error:  # whatever it is: a traceback
+            self.add("a traceback", False, f"{error!r} {step_text(step)}")
+        return None
+
+    def refused(self, step: str, solution: str) -> str | None:
+        """Why `verify` of the package refuses two texts; None if it verifies them."""
+        for path, text in zip(self.paths, (step, solution), strict=True):
+            path.write_text(text)
+        try:
+            posed = step_read(self.paths[0])
+            return refutation(posed, solution_read(self.paths[1], posed))
+        except InputError as error:
+            return str(error)
+
+    def ask(self, step: str, solution: str, begins: str = "every field is proved") -> None:
+        """Keep two texts for ``verify.js``, whose reason has to begin so."""
+        self.cases.append(Case(self.name, step, solution, None, reason=begins))
+
+    def by_javascript(self) -> None:
+        """Ask ``verify.js`` about all texts that were kept."""
+        for case, said in zip(self.cases, verdicts(self.cases), strict=True):
+            agrees = said["reason"].startswith(case.reason)
+            self.add("as verify.js says", agrees, f"{said} {case.step}")
+
+
+def positive_definite(S: np.ndarray) -> bool:
+    """Whether all pivots are above their share of the diagonal, in fractions."""
+    rest = exact(S)
+    diagonal = [row[i] for i, row in enumerate(rest)]
+    for k, entry in enumerate(diagonal):
+        pivot = rest[k]
+        if pivot[k] <= 0 or pivot[k] <= SHARE * entry:
+            return False
+        for i in range(k + 1, len(rest)):
+            part = rest[i][k] / pivot[k]
+            rest[i] = [v - part * w for v, w in zip(rest[i], pivot, strict=True)]
+    return True
+
+
+def right_file(step: StepData, record: Json) -> Json:
+    """What of an exact solution file fractions decide, from the working set that it names."""
+    of, sizes = program(step), [len(rows) for rows in combinations(step)]
+    starts = np.cumsum([0, *sizes]).tolist()
+    working = [starts[j] + i for j, i in record["certificate"]["active"]]
+    x, lam_w, slack = proved(of, working)
+    lam = [0.0] * len(of[3])
+    for i, value in zip(working, lam_w, strict=True):
+        lam[i] = rounded(value)
+    by_contact = [lam[a:b] for a, b in pairwise(starts)]
+    known = {"smallest_active_multiplier": min(map(rounded, lam_w), default=None)}
+    if record["certificate"]["differentiable"]:
+        open_ = [rounded(s) for s in slack if s]
+        known["smallest_inactive_slack"] = min(open_, default=None)
+    return record | {
+        "delta_q": [*map(rounded, x)],
+        "lam": by_contact,
+        "lam_extra": lam[starts[-1] :],
+        "wrench": wrenches(step, by_contact),
+        "certificate": record["certificate"] | known | {"error_bound": 0.0},
+    }
+
+
+def exact_answers(attack: Attack, family: str, number: int, first: int = 0) -> None:
+    """Exact answers and proofs that there is none, until there are so many."""
+    for step in islice(steps(family, first), 50 * number):
+        if attack.counts["optimal"] + attack.counts["infeasible"] == number:
+            break
+        text, file = step_text(step), attack.file(step, NONE, "full")
+        if file is None:
+            continue
+        record = json.loads(file)
+        if record["status"] == "infeasible":
+            holds = proof(step, [Fraction(y) for y in record["farkas"]])
+        else:
+            try:
+                holds = json.dumps(right_file(step, record)) == json.dumps(record)
+            except ArithmeticError:
+                holds = False
+        attack.add(record["status"], holds and attack.refused(text, file) is None, text)
+        attack.ask(text, file)
+
+
+def bounds(attack: Attack, family: str, number: int, first: int = 0) -> None:
+    """Bounds of backends' own answers, until there are so many."""
+    tried = zip(cycle(BACKENDS), steps(family, first), strict=False)
+    for backend, step in islice(tried, 50 * number):
+        if attack.counts["bounded"] == number:
+            break
+        text, file = step_text(step), attack.file(step, backend, "residual")
+        if file is None:
+            continue
+        record = json.loads(file)
+        bound = record["certificate"]["error_bound"]
+        if bound is None:
+            attack.add("no useful bound")
+            continue
+        try:
+            judged = Judge(step, record)
+            square = judged.off(record) + 2 * judged.gap(record) / judged.free
+            holds = 0 <= bound <= 1 and square <= Fraction(bound) ** 2
+        except ArithmeticError:  # without an optimum, or without a load
+            holds = False
+        holds = holds and record["wrench"] == wrenches(step, record["lam"])
+        attack.add("bounded", holds and attack.refused(text, file) is None, text)
+
+
+def forgeries(attack: Attack, kind: str, number: int, first: int = 0) -> None:
+    """Files of a kind in which some values are others."""
+    genuine = [step for (name, _), step in scenes(every=True).items() if name == kind]
+    files = [good_file(step, kind) for step in genuine]
+    judges = [truth_of(step, file) for step, file in zip(genuine, files, strict=True)]
+    for seed in range(first, first + number):
+        step, file = genuine[seed % len(genuine)], files[seed % len(genuine)]
+        forged = at_random(np.random.default_rng(seed), step, file)
+        if forged == file:
+            attack.add("the same file")
+        elif attack.refused(step_text(step), json.dumps(forged)) is not None:
+            attack.add("refused")
+        else:
+            true = judges[seed % len(genuine)](forged)
+            attack.add("verified, still true", true, json.dumps(forged))
+
+
+def matrices(attack: Attack, key: str, number: int, first: int = 0) -> None:
+    """Nearly singular matrices, through both checkers and all that is made of a step."""
+    for seed in range(first, first + number):
+        rng = np.random.default_rng(seed)
+        n, n_c = int(rng.integers(1, 8)), int(rng.integers(0, 4))
+        sizes = (n, 0) if key == "K_q" else (0, n)
+        S, step = singular(rng, n), any_step(rng, *sizes, n_c)
+        text = json.dumps(json.loads(step_text(step)) | {key: S.tolist()})
+        attack.paths[0].write_text(text)
+        try:
+            read = step_read(attack.paths[0])
+        except InputError as error:
+            holds = not positive_definite(S) and "must be positive definite" in str(error)
+            attack.add("refused", holds, f"{error} {text}")
+            attack.ask(text, SOLUTION, f"{key} is not positive definite")
+            continue
+        attack.add("accepted", positive_definite(S), text)
+        for certify in ("full", "residual", "off"):
+            backend = NONE if seed % 2 and certify == "full" else BACKENDS[seed % 5]
+            file = attack.file(read, backend, certify)
+            if file is None:
+                continue
+            claims = certify == "full" or (certify == "residual" and ": null" not in file)
+            said = attack.refused(text, file) if claims else None
+            outcome = "verified" if claims else "nothing claimed"
+            attack.add(f"{certify}: {outcome}", said is None, f"{said} {text}")
+            if certify == "full":
+                attack.ask(step_text(read), file)
+
+
+ATTACKS = {
+    "exact answers": exact_answers,
+    "bounds": bounds,
+    "forgeries": forgeries,
+    "nearly singular": matrices,
+}
+
+
+def attacked(kind: str, family: str, number: int, first: int) -> Record:
+    """What came of a batch of a family, from this seed on."""
+    with TemporaryDirectory() as folder:
+        attack = Attack(f"{kind}, {family}", folder)
+        ATTACKS[kind](attack, family, number, first)
+        attack.by_javascript()
+    counts = dict(attack.counts)
+    return {"family": attack.name, "first": first, "counts": counts, "wrong": attack.wrong}
+
+
+def batches(kind: str, family: str, number: int) -> Iterator[tuple[str, str, int, int]]:
+    """The calls of :func:`attacked` for so many cases of a family."""
+    room = 100 * BATCH  # seeds of a batch: not each of them is a case
+    for k, start in enumerate(range(0, number, BATCH)):
+        yield kind, family, min(BATCH, number - start), k * room
+
+
+def main() -> int:
+    """Print the table; exit status 1 if anything is wrong."""
+    options = asked(__doc__, count=500, seconds=float("inf"), jobs=1, log=Path, out=Path)
+    count, kinds = options.count, dict.fromkeys(kind for kind, _ in scenes(every=True))
+    families = [("exact answers", family, count) for family in FAMILIES]
+    families += [("bounds", family, 2 * count) for family in FAMILIES]
+    families += [("forgeries", kind, 10 * count // len(kinds) + 1) for kind in kinds]
+    families += [("nearly singular", key, 5 * count // 2) for key in ("K_q", "M_u")]
+    log = Log(options.log, itemgetter("family", "first"), {"count": count})
+    tasks = sorted((b for family in families for b in batches(*family)), key=itemgetter(3))
+    left = [task for task in tasks if (f"{task[0]}, {task[1]}", task[3]) not in log.found]
+    begun = time.monotonic()
+    with workers(options.jobs) as pool:
+        made = results(pool, options.jobs, attacked, left)
+        for record in tqdm(made, "batches", len(tasks), initial=len(tasks) - len(left)):
+            log.add(record)
+            if time.monotonic() - begun > options.seconds:
+                break
+    sums, wrong = dict[str, Counter[str]](), list[str]()
+    for record in sorted(log.found.values(), key=itemgetter("family", "first")):
+        sums.setdefault(record["family"], Counter()).update(record["counts"])
+        wrong += record["wrong"]
+    rows = [(family, *cells) for family in sums for cells in sorted(sums[family].items())]
+    lines = markdown_table(
+        ("what", "what came of it", "cases"), [(*row[:2], f"{row[2]:,}") for row in rows], left=2
+    )
+    tried = f"{len(log.found)} of the {len(tasks)} batches of {BATCH} that were asked for"
+    lines.append(f"\nTried were {tried}; {len(wrong)} cases are wrong.")
+    shown(HEAD + "\n".join(lines), options.out)
+    print(*wrong[:20], sep="\n")
+    return int(bool(wrong))
+
+
+HEAD = """# Answers, bounds, files and matrices, attacked
+
+Made by `python -m validation.make.attacks`, whose first lines say what is asked.
+
+"""
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,101 @@
+"""Every answer of ``contact-qp-2`` proved again, and a tenth of them by fractions alone.
+
+Run ``python -m validation.make.proved_problems``; some minutes. The first proof is that of
+``study problems check --exact``. The second shares no code with it, nor with the package: the files
+are read by the lines of the set's README, and the optimality conditions are solved in integers.
+Exit status 1 if an answer is refuted.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.lab.study.problems.checking import refutation
+from quasistatic_ref.lab.study.problems.folder import manifest, set_read
+from tests.oracles import rational_kkt
+
+RESULTS = Path(__file__).parents[1] / "results" / "proved_problems.md"
+SHARE = 9
+"""One of so many problems of a family, from its first on, is proved in fractions: a tenth and more.
+Scenes of a family alternate, so that the number is odd."""
+LARGEST = 110
+"""Coordinates of a problem that is proved in fractions, at most: a minute."""
+HEAD = ("family", "problems", "coordinates", "refuted", "time [s]",
+        "in fractions", "coordinates", "refuted", "time [s]")  # fmt: skip
+Read = tuple[dict[str, Any], dict[str, Any]]
+"""Facts and numbers of a problem."""
+
+
+def reader() -> Callable[[Path, str], Iterator[Read]]:
+    """The function ``problems(folder, family)`` of the set's README."""
+    page = (problem_set_folder(CONTACT_QP_2) / "README.md").read_text("utf-8")
+    (lines,) = re.findall(r"^```python\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    names: dict[str, Any] = {}
+    exec(lines, names)
+    return names["problems"]
+
+
+def refuted_in_fractions(one: Read) -> str | None:
+    """Why an answer is wrong; None if it is proved."""
+    facts, numbers = one
+    A = numbers["A"].toarray()
+    if facts["farkas"]:
+        return rational_kkt.farkas_refutation(A, numbers["b"], facts["farkas"])
+    answer = (numbers[name] for name in ("x", "net", "slack", "lam"))
+    return rational_kkt.refutation(numbers["H"].toarray(), numbers["g"], A, numbers["b"], *answer)
+
+
+def judged(judge: Callable[[Any], str | None], some: Sequence[Any]) -> tuple[int, str]:
+    """How many are refuted, and the processor time that it takes [s]."""
+    begin = time.process_time()
+    refuted = [why for one in some if (why := judge(one)) is not None]
+    return len(refuted), f"{time.process_time() - begin:.1f}"
+
+
+def lines(every: int) -> Iterator[tuple[str, ...]]:
+    """A line for each family; of a sample, each so-many-th problem."""
+    folder = problem_set_folder(CONTACT_QP_2)
+    read = reader()
+    for family in manifest(folder)["families"]:
+        own = set_read(folder, [family])[::every]
+        small = [one for one in read(folder, family) if one[0]["n"] <= LARGEST]
+        share = small[:: SHARE * every]
+        wrong, seconds = judged(refutation, own)
+        wrong_again, seconds_again = judged(refuted_in_fractions, share)
+        largest = max(one.facts["n"] for one in own)
+        largest_again = max(facts["n"] for facts, _ in share)
+        yield (f"`{family}`", str(len(own)), f"{largest}", str(wrong), seconds,
+               str(len(share)), f"{largest_again}", str(wrong_again), seconds_again)  # fmt: skip
+
+
+def main() -> None:
+    """Write the page; exit status 1 if an answer is refuted."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
+    parser.add_argument("--out", type=Path, default=RESULTS)
+    options = parser.parse_args()
+    found = list(lines(options.every))
+    proved, refuted, again, refuted_again = (
+        sum(int(line[i]) for line in found) for i in (1, 3, 5, 7)
+    )
+    text = (
+        f"# Answers of contact-qp-2, proved again\n\n{proved} answers by the exact method, "
+        f"from the rows that the files name: {refuted} refuted. {again} of them, one in {SHARE} "
+        f"of up to {LARGEST} coordinates in each family, by Python's integers alone, read by the "
+        f"lines of the set's README: {refuted_again} refuted. Processor time; the number of "
+        "coordinates is the largest.\n\n" + "\n".join(markdown_table(HEAD, found)) + "\n"
+    )
+    print(text_written(options.out, text))
+    raise SystemExit(int(refuted + refuted_again > 0))
+
+
+if __name__ == "__main__":
+    main()
