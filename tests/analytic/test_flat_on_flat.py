@@ -12,7 +12,8 @@ from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.shapes.placed_shape import Box, PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.tolerances import CLOSED_FORM
-from tests.oracles.flat_bodies import FAMILIES, UP, attempts, wrong
+from validation.make.aligned_poses import UP, tries
+from validation.make.forces_by_hand import FAMILIES, attempts, wrong
 
 SIDE = 0.1
 CUBE = Box(np.full(3, SIDE / 2))
@@ -52,3 +53,9 @@ def test_a_cloud_takes_the_face_along_which_it_is_farthest_out():
         assert near.sum() == 4
         np.testing.assert_allclose(result.points.n[near], [way] * 4, atol=CLOSED_FORM)
         assert [*result.tied.values()] == [SAYS[OF_CLOUD]] * 4
+
+
+def test_a_sample_of_the_aligned_poses():
+    tried, wrong_ones = tries(range(63))
+    assert wrong_ones == []
+    assert len(tried) == 5

@@ -7,8 +7,9 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
-from tests.oracles.flat_bodies import FLAT, HALF, UP, Scene, wrong
 from tests.tolerances import ROUNDING
+from validation.make.aligned_poses import FLAT, HALF, UP
+from validation.make.forces_by_hand import Scene, wrong
 
 ORIGIN, STRAIGHT = np.zeros(3), np.eye(3)
 CUBE, HULL = FLAT["box"](HALF), FLAT["hull"](HALF)

@@ -105,6 +105,8 @@ RESULTS = (
     to_file("reach", "reach.md"),
     script("mjcf", "md"),
     to_file("environments", "environments.md"),
+    script("aligned_poses", "md"),
+    printed("forces_by_hand", "forces_by_hand.md"),
     to_file("forces", "forces.md"),
     script("outputs", "md"),
     Result("mutations", "validation.tools.mutations --stale", ("validation/results/mutations.md",)),

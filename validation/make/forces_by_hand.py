@@ -1,4 +1,4 @@
-"""Bodies that lie flat on each other, of which forces and motions are known by hand.
+"""Bodies that lie flat on each other, by hand: ``python -m validation.make.forces_by_hand``.
 
 Columns of cubes and coins, walls, a box in a corner and every pair of shapes base on base. Each
 base is smaller than what it lies on by an inset, and d deep in it. A body goes out of all that it
@@ -6,31 +6,42 @@ is in, and no farther: up by d more than the one below, which is what is compare
 four contacts or more. With one contact bodies tip; what closes no gap too many, opens none under a
 force, and obeys Newton's law is the one step of least action. Newton's law, which gives the sum of
 the forces on each body and of their torques, is asked of all, and so are the normals written here.
+Prints validation/results/forces_by_hand.md; exit status 1 if anything is wrong.
 """
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import combinations, product
 from typing import NamedTuple
 
 import numpy as np
+from tqdm import tqdm
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import QuasistaticError
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder, PlacedShape, PointCloud, Shape
+from quasistatic_ref.shapes.placed_shape import Box, Cylinder, PlacedShape, Shape
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.tolerances import CLOSED_FORM
+from validation.make.aligned_poses import (
+    EDGE,
+    FLAT,
+    HALF,
+    LENGTHS,
+    MASS,
+    OVER,
+    SQUARE,
+    TIPPED,
+    UP,
+    Array,
+    G,
+    H,
+)
 
-Array = np.ndarray
-H, G, MASS, HALF = 0.01, 9.81, 1.0, 0.05
-EDGE = 2 * HALF
-LENGTHS = (0.0, 1e-9, 1e-6, 1e-3)
-"""Insets and depths [m]."""
-UP, OVER = np.array([0.0, 0.0, 1.0]), np.diag([1.0, -1.0, -1.0])
 WEIGHT = np.array([0.0, 0.0, -MASS * G])
 INERTIA = MASS * EDGE**2 / 6
 """Of a cube about each axis, whatever the shape [kg m^2]."""
@@ -38,26 +49,14 @@ MOTION = 1e-15
 """Of motions [m, rad], which are differences of places of a metre."""
 CONTACTS = ((1, 0.0), (4, 0.0), (8, 0.0), (12, 0.0), (4, 0.5))
 """Contacts of a pair, and mu_v."""
+INTRODUCTION = """# Forces by hand
 
-
-def hull(half: float) -> Shape:
-    """A frustum on its wide base."""
-    ends = ((half, -HALF), (half / 2, HALF))
-    return convex_hull([[x, y, z] for r, z in ends for x in (-r, r) for y in (-r, r)])
-
-
-SQUARE = ("box", "hull", "cloud")
-FLAT: dict[str, Callable[[float], Shape]] = {
-    "box": lambda half: Box(np.array([half, half, HALF])),
-    "hull": hull,
-    "cylinder": lambda half: Cylinder(half, HALF),
-    "cone": lambda half: Cone(half, HALF),
-    "cloud": lambda half: PointCloud(
-        np.array([[x, y, z] for x in (-half, half) for y in (-half, half) for z in (-HALF, HALF)])
-    ),
-}
-TIPPED = ("hull", "cone")
-"""Shapes that lie on their base only: below others they are turned over."""
+Bodies that lie on each other with k = 1, 4, 8 and 12 contacts without friction and with four of
+friction 0.5, with insets and depths of 0, 1e-9, 1e-6 and 1e-3 m
+(`python -m validation.make.forces_by_hand`, whose first lines say what is asked). Left out are
+clouds that are as deep as their inset, whose points have faces of their own, and walls with
+friction whose cubes push aside those that they slide past.
+"""
 
 
 class Scene(NamedTuple):
@@ -217,3 +216,19 @@ def attempts(name: str) -> Iterator[tuple[Scene, int, float]]:
             continue  # cubes slide past those above their neighbours, and push them aside
         of_friction = {"a box in a corner": partial(corner, mu_v)}
         yield of_friction.get(name, FAMILIES[name])(inset, depth), k, mu_v
+
+
+def main() -> int:
+    """Print the page; exit status 1 if anything is wrong."""
+    rows, found = [], list[str]()
+    for name in tqdm(FAMILIES):
+        said = [wrong(*attempt) for attempt in attempts(name)]
+        found += [f"- {name}: {problem}" for problem in said if problem]
+        rows.append((name, len(said), sum(map(bool, said))))
+    table = markdown_table(("bodies", "scenes", "wrong"), rows, left=1)
+    print(INTRODUCTION, *table, *found, sep="\n")
+    return int(bool(found))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
