@@ -64,8 +64,9 @@ def lines(every: int) -> Iterator[tuple[str, ...]]:
     """A line for each family; of a sample, each so-many-th problem."""
     folder = problem_set_folder(CONTACT_QP_2)
     read = reader()
+    members = set_read(folder)
     for family in manifest(folder)["families"]:
-        own = set_read(folder, [family])[::every]
+        own = [one for one in members if one.facts["family"] == family][::every]
         small = [one for one in read(folder, family) if one[0]["n"] <= LARGEST]
         share = small[:: SHARE * every]
         wrong, seconds = judged(refutation, own)

@@ -80,7 +80,8 @@ def _binary(table: PointTable, at: Sequence[int]) -> Array:
     point = np.dtype([(f"{i}", kind, (n,)) for i, (_, kind, n) in enumerate(table.columns)])
     held = min(len(table.body) // point.itemsize, table.count)
     rows = np.frombuffer(table.body, dtype=point, count=held)
-    return np.stack([rows[str(i)][:, 0].astype(np.float64) for i in at], axis=1)
+    with np.errstate(invalid="ignore"):  # of a signalling NaN, which is refused later
+        return np.stack([rows[str(i)][:, 0].astype(np.float64) for i in at], axis=1)
 
 
 def _ascii(table: PointTable, at: Sequence[int]) -> Array:

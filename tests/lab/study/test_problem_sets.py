@@ -1,4 +1,4 @@
-"""The set that ships: its files, its answers by other arithmetic, and what is refused."""
+"""The sets that ship: their files, their answers by other arithmetic, and what is refused."""
 
 import json
 import re
@@ -33,37 +33,29 @@ def test_a_set_that_ships_is_the_one_that_was_frozen(name):
     assert edition_problem(problem_set_folder(name)) is None
 
 
-def test_answers_are_optimal_in_fractions(members):
-    """Of a few small problems; of a tenth of all in the committed result."""
-    small = [one for one in members if one.facts["n"] <= 6 and one.feasible]
-    for one in small[:: len(small) // 12]:
-        said = one.answer
-        assert rational_kkt.refutation(*one.form, said.x, said.net, said.slack, said.lam) is None
-    for one in [one for one in members if not one.feasible][::21]:
-        assert rational_kkt.farkas_refutation(one.form.A, one.b, one.answer.farkas) is None
-
-
-@pytest.mark.parametrize("name", ["x", "net", "slack"])
-def test_answers_that_were_changed_are_not_optimal_in_fractions(members, name):
-    one = next(one for one in members if one.facts["family"] == "limits")
-    own = {part: getattr(one.answer, part).copy() for part in ("x", "net", "slack", "lam")}
-    own[name][-1] = np.nextafter(own[name][-1], np.inf)
-    assert name in rational_kkt.refutation(*one.form, *own.values())
-
-
-def test_a_wrong_set_of_rows_and_a_wrong_proof_are_refuted_in_fractions():
-    """X >= 1 at the minimum of x^2 / 2, and x <= -2 as well: y = (1, 1) has b'y = 3."""
-    H, g = np.eye(1), np.zeros(1)
-    A, b = np.array([[1.0], [-1.0]]), np.array([1.0, 2.0])
+def test_wrong_answers_and_wrong_proofs_are_refuted_in_fractions():
+    """At the minimum of x^2 / 2 over x >= 1, x = lam = 1; with x <= -2 as well, b'y = 3."""
+    A = np.array([[1.0], [-1.0]])
+    b = np.array([1.0, 2.0])
     one, none = np.ones(1), np.zeros(1)
-    right = rational_kkt.refutation(H, g, A[:1], b[:1], one, one, none, one)
-    unpressed = rational_kkt.refutation(H, g, A[:1], b[:1], none, none, -one, none)
-    pulled = rational_kkt.refutation(H, g, A[:1], -b[:1], -one, -one, none, one)
-    assert (right, unpressed, pulled) == (None, "a row is violated", "a multiplier is not positive")
-    proofs = {"": {0: "1", 1: "1"}, "A'y": {0: "1", 1: "2"}, "a weight": {0: "-1", 1: "-1"}}
-    for word, y in proofs.items():
-        assert (rational_kkt.farkas_refutation(A, b, y) or "").startswith(word)
-    assert rational_kkt.farkas_refutation(A, -b, proofs[""]) == "b'y is not positive"
+    row = np.eye(1), none, A[:1]
+    off = np.nextafter(one, 2)
+    said = {
+        None: (b[:1], one, one, none, one),
+        "a row is violated": (b[:1], none, none, -one, none),
+        "a multiplier is not positive": (-b[:1], -one, -one, none, one),
+        "x is not rounded correctly": (b[:1], off, one, none, one),
+        "net is not rounded correctly": (b[:1], one, off, none, one),
+        "slack is not rounded correctly": (b[:1], one, one, off, one),
+    }
+    assert [rational_kkt.refutation(*row, *answer) for answer in said.values()] == list(said)
+    proofs = {
+        None: (b, {0: "1", 1: "1"}),
+        "A'y is not zero": (b, {0: "1", 1: "2"}),
+        "a weight is not positive": (b, {0: "-1", 1: "-1"}),
+        "b'y is not positive": (-b, {0: "1", 1: "1"}),
+    }
+    assert [rational_kkt.farkas_refutation(A, *proof) for proof in proofs.values()] == list(proofs)
 
 
 def test_what_contact_qp_2_takes_from_contact_qp_1_has_the_same_bits(members, older):

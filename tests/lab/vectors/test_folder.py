@@ -21,7 +21,7 @@ from tests.lab.vectors.material import ROOT, VECTORS, cases, expected
 
 MEBIBYTES = 25
 """Promised size of the folder."""
-EVERY = {"distance": 8, "qp": 6, "step": 24, "derivative": 80}
+EVERY = {"distance": 24, "qp": 6, "step": 24, "derivative": 80}
 """Every so many cases of a layer are computed again; of the others, which take no time, all."""
 
 

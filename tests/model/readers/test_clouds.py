@@ -207,6 +207,11 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         "line 3: must be element vertex.*'face'",
     ),
     "nan binary ply": (".ply", binary_ply("double", "d", NAN), "point 1: must be finite numbers"),
+    "a nan that signals": (
+        ".ply",
+        binary_ply("float", "f")[:-12] + b"\x01\x00\xa0\x7f" * 3,
+        "must be finite numbers",
+    ),
     "impossible count": (
         ".ply",
         binary_ply("float", "f").replace(b"vertex 2", b"vertex 999999999999999999"),

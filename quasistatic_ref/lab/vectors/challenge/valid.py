@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.lab.vectors.converters import places
+from quasistatic_ref.lab.vectors.converters import UNITS, places
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.trees import nodes
 
@@ -57,13 +57,12 @@ def _frame(contact: Json) -> bool:
 
 def _turned(case: Json) -> bool:
     """Whether no quaternion and no (cos, sin) in q or in a target is zero."""
-    units = {"floating": 3, "planar": 2, "continuous": 0}
     found = list(places(case["mechanism"]))
     if len(case["q"]) != max((q.stop for _, q, _ in found), default=0):
         return False
     for body, q, _ in found:
-        if body["joint"] in units:
-            part = slice(q.start + units[body["joint"]], q.stop)
+        if body["joint"] in UNITS:
+            part = slice(q.start + UNITS[body["joint"]], q.stop)
             values = [case["q"][part], case.get("q_bar_a", [])[part]]
             if not all(np.any(value) for value in values if value):
                 return False

@@ -9,13 +9,18 @@ Everything is decided on distances, points and normals that are rounded to float
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import product
 from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.program.candidates import crossing_index, crossings, edges, lateness
+from quasistatic_ref.lab.program.candidates import (
+    corners,
+    crossing_index,
+    crossings,
+    edges,
+    lateness,
+)
 from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
@@ -89,16 +94,10 @@ def parts(case: Json, k: int) -> list[Json]:
 
 
 def _corners(shape: Json) -> Json:
-    match shape["kind"]:
-        case "box":  # the sign of x changes first
-            half = [size / 2 for size in shape["size"]]
-            signs = [(x, y, z) for z, y, x in product((-1, 1), repeat=3)]
-            return [[s * h for s, h in zip(sign, half, strict=True)] for sign in signs]
-        case "sphere" | "halfspace" | "ellipsoid":
-            return []
-        case kind:
-            problem = "has corners that no layer gives; use k = 1"
-            raise InputError(problem, field="shape.kind", value=kind)
+    if shape["kind"] not in ("box", "sphere", "halfspace", "ellipsoid"):
+        problem = "has corners that no layer gives; use k = 1"
+        raise InputError(problem, field="shape.kind", value=shape["kind"])
+    return np.array(corners(shape)).tolist()
 
 
 @dataclass(frozen=True)

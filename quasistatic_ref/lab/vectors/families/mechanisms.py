@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.expected import Json
 
@@ -111,9 +112,7 @@ def _random_position(rng: Rng, kind: str) -> list[float]:
 
 def random_step(rng: Rng, mechanism: Json, size: float) -> list[float]:
     """Some delta_q of few significant digits, of about the `size` [m, rad]."""
-    counts = {"floating": 6, "planar": 3, "fixed": 0}
-    own = [body["joint"] for body in mechanism["bodies"] if "mimic" not in body]
-    n_v = sum(counts.get(joint, 1) for joint in own)
+    _, _, n_v = slices(mechanism)
     return [float(f"{x:.3g}") for x in rng.uniform(-size, size, n_v)]
 
 

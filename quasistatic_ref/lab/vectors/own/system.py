@@ -14,12 +14,11 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.lab.program.mechanism import ENTRIES
 from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
+from quasistatic_ref.lab.vectors.converters import UNITS
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
 
 _BASES = ("floating", "planar")
-_UNITS = {"floating": 3, "planar": 2, "continuous": 0}
-"""Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,8 +80,8 @@ def own_system(mechanism: dict[str, Any]) -> OwnSystem:
     for actuated in (True, False):
         for k, body in enumerate(bodies):
             if k in joints and joints[k].actuated == actuated:
-                if joints[k].kind in _UNITS:
-                    start = len(q) + _UNITS[joints[k].kind]
+                if joints[k].kind in UNITS:
+                    start = len(q) + UNITS[joints[k].kind]
                     units.append(slice(start, len(q) + ENTRIES[body["joint"]][0]))
                 q += range(joints[k].q.start, joints[k].q.stop)
                 v += range(joints[k].v.start, joints[k].v.stop)

@@ -34,7 +34,7 @@ class DrawnContact:
 
     Parameters
     ----------
-    alpha, beta : ndarray, shape (3,)
+    beta : ndarray, shape (3,)
         [m], world frame.
     frame : ndarray, shape (3, 3)
         Rows d1, d2, n [-].
@@ -51,7 +51,6 @@ class DrawnContact:
         about n, if that is more [m]; 0 where a light record does not know it.
     """
 
-    alpha: Array
     beta: Array
     frame: Array
     force: Array
@@ -231,7 +230,7 @@ def _contact(run: Trajectory, k: int, j: int, wrench: Array) -> DrawnContact:
     mu_v = float(run["mu_v"][j])
     rim = _rim(str(run.header["cone"])) * [mu_v * f_n, mu_v * f_n, f_n]
     return DrawnContact(
-        run["alpha"][k, j], run["beta"][k, j], frame, np.array([f_1, f_2, f_n]) @ frame,
+        run["beta"][k, j], frame, np.array([f_1, f_2, f_n]) @ frame,
         float(torque), float(f_n), mu_v, float(run["mu_omega"][j]), rim @ frame,
         _slip(run, k, j, frame),
     )  # fmt: skip

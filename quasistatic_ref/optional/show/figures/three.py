@@ -68,13 +68,6 @@ def object_set(path: str, what: dict[str, Any]) -> dict[str, Any]:
     return {"type": "set_object", "path": path, "object": named}
 
 
-def transform_set(path: str, R: Array, t: Array) -> dict[str, Any]:
-    """The command that places what is at a path in its parent."""
-    matrix = np.eye(4)
-    matrix[:3, :3], matrix[:3, 3] = R, t
-    return {"type": "set_transform", "path": path, "matrix": matrix.T.ravel()}  # by columns
-
-
 def colour_clip(path: str, fps: float, colours: Array) -> dict[str, Any]:
     """How the colour of what is at a path changes.
 

@@ -40,7 +40,6 @@ from quasistatic_ref.optional.show.figures.three import (
     material,
     object_set,
     thing,
-    transform_set,
     z_along,
 )
 from quasistatic_ref.optional.show.figures.visuals import (
@@ -247,27 +246,21 @@ def _links(
         cloud = isinstance(placed.shape, PointCloud)
         if placed.link in shown and not cloud:
             continue
-        path = f"/links/{placed.link}/{k}"
-        yield object_set(path, _shape(placed, first, half))
-        if not isinstance(placed.shape, HalfSpace):
-            yield transform_set(path, placed.R, placed.t)
+        yield object_set(f"/links/{placed.link}/{k}", _shape(placed, first, half))
 
 
 def _shape(placed: PlacedShape, of: Moment, half: float) -> dict[str, Any]:
+    """A shape in the frame of its link; the points of a cloud are paler by depth."""
     shape, colour = placed.shape, of.colours[placed.link]
-    if isinstance(shape, PointCloud):
-        return _cloud(shape.points, of.world(placed, shape.points), half, colour)
     if isinstance(shape, HalfSpace):
         corners = patch(shape, focus([of]).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
         return thing(corners, "Mesh", material(_number(FLOOR), 0.8))
-    points = surface_points(placed.shape, AROUND, UP)
+    own = surface_points(shape, AROUND, UP)
+    points = own @ placed.R.T + placed.t
+    if isinstance(shape, PointCloud):
+        look = {"type": "PointsMaterial", "size": POINT * half, "vertexColors": True}
+        return thing(points, "Points", look, by_depth(colour, of.world(placed, own) @ EYE))
     return _lit(triangles(points), colour)
-
-
-def _cloud(points: Array, world: Array, half: float, colour: str) -> dict[str, Any]:
-    """Points that are the paler the farther they are from the eye at the start."""
-    look = {"type": "PointsMaterial", "size": POINT * half, "vertexColors": True}
-    return thing(points, "Points", look, by_depth(colour, world @ EYE))
 
 
 def _lit(corners: Array, colour: str) -> dict[str, Any]:
