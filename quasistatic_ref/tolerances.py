@@ -267,6 +267,14 @@ BEARING: Final = 1e-11
 that it causes over that of the step, in the H norm [-]. That is the rounding of places, 1e-16 m,
 over a step of 1e-5 m."""
 
+SHARE: Final = 1e-3
+"""Of what all rows exert, what a row is tried to bear [-]: so much more than rounding that what
+misses is known to nine digits, and so little that the other rows are those that bear."""
+
+AHEAD: Final = 1e-6
+"""Change of a force, relative to it, up to which rows are tried to bear it on [-]: a million times
+the rounding that would hide that it leaves their cone."""
+
 DEPENDENT: Final = 1e-8
 """Singular value of rows of length one up to which it counts as zero [-], where no derivative
 depends on it: a row this near to the span of others is counted as spanned."""

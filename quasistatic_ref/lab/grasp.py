@@ -1,7 +1,7 @@
 """The grasp of the bunny, the paper's section III-B: its two cases and what a run came to."""
 
-from collections.abc import Sequence
-from typing import Final
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
 
 import numpy as np
 
@@ -19,7 +19,7 @@ CASES: Final[dict[str, list[str]]] = {
 CLOSED, TOP = 0.7, 2.9
 """When the grip is closed, and when the lift ends [s]; see bunny_grasp.toml."""
 
-INSTANTS = (0.3, CLOSED, 1.4, 2.1, TOP)
+INSTANTS = (0.3, 1.4, TOP)
 """Columns of Figure 1 [s]."""
 
 
@@ -46,6 +46,31 @@ def grasp_scenarios(settings: Sequence[str] = ()) -> dict[str, Scenario]:
                 value=scenario.steps,
             )
     return scenarios
+
+
+def rotations(scenario: Scenario, runs: Mapping[str, Trajectory]) -> dict[str, Any]:
+    """The bunny's rotation during the lift, since the grip closed.
+
+    Parameters
+    ----------
+    scenario : Scenario
+        Its bodies; the runs may differ from it in contact numbers only.
+    runs : mapping of str to Trajectory
+        Case -> run.
+
+    Returns
+    -------
+    dict
+        times [s], angles [deg] by case, and h [s].
+    """
+    motions = {case: link_motion(scenario.system, run, "bunny") for case, run in runs.items()}
+    first = next(iter(motions.values()))
+    steps = slice(first.index(CLOSED), first.index(TOP) + 1)
+    return {
+        "times": first.times[steps],
+        "angles": {c: np.degrees(m.rotation_since(CLOSED)[steps]) for c, m in motions.items()},
+        "h": scenario.h,
+    }
 
 
 def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object]:

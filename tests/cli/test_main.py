@@ -48,9 +48,11 @@ def test_demo_prints_one_json_object_and_writes_what_it_names(demo):
 
 
 def test_figures_are_made_by_name(out, capsys):
-    assert main(["figures", "cone_surfaces", "--out", str(out)]) == 0
+    assert main(["figures", "cone_surfaces", "--numbers", "--out", str(out)]) == 0
     paths = [out / "cone_surfaces.png", out / "cone_surfaces.pdf"]
-    assert capsys.readouterr().out.splitlines() == [str(path) for path in paths]
+    volume, *_, png, pdf = capsys.readouterr().out.splitlines()
+    assert volume == "volume of the pyramid [-]: 1.33333"  # 4 / 3, of an octahedron
+    assert [png, pdf] == [str(path) for path in paths]
     assert all(path.stat().st_size > 1000 for path in paths)
     assert main(["figures", "cone_surface", "--out", str(out)]) == 2
     assert "did you mean 'cone_surfaces'?" in one_sentence(capsys.readouterr().err)

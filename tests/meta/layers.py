@@ -77,9 +77,7 @@ WALLS = {
         "optional/extensions",
         "lab/study/calling",
     ),
-    # A QP assembled by hand, to check ours: it must not go through our own way to a solver.
-    # And the loop that people write first, to compare its time.
-    "qpsolvers": ("optional/qpsolvers", "lab/claims/engines/by_hand.py"),
+    "qpsolvers": ("optional/qpsolvers",),
     "pinocchio": ("model", "optional/derivatives/model"),
     "coal": ("shapes", "model", "optional/curved"),
     "matplotlib": ("optional/show/figures", "lab/figures"),

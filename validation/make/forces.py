@@ -3,7 +3,7 @@
 Run ``python -m validation.make.forces`` (some hours; ``--random``, ``--oracle`` and ``--every``
 make it shorter). Records are kept with ``--log``, and a run that was stopped goes on from them. On
 random degenerate steps (duplicated contacts, penetration, coefficients of 0, masses 1e9 apart; one
-polyhedral cone after the other) and on steps of all scenarios:
+polyhedral cone after the other), on the steps of the vectors and on those of all scenarios:
 
 - every backend and none, plain and fast, cold, and contacts in another order give equal bits;
 - so does the definition, in which what each contact gives way by is solved for, too;
@@ -31,6 +31,8 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.parallel import Log
 from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
+from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import PYRAMID
@@ -40,6 +42,7 @@ from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
 
 ROOT = Path(__file__).parents[2]
+VECTORS = ROOT / "validation" / "vectors"
 RESULT = ROOT / "validation" / "results" / "forces.md"
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", "scs", "none")
 CONES = (PYRAMID, "product", "facets-6", "frictionless")
@@ -104,6 +107,14 @@ def random_steps(count: int) -> Iterator[tuple[str, StepData]]:
         yield f"random {seed - 1}", step
 
 
+def vector_steps() -> Iterator[tuple[str, StepData]]:
+    """Those of the layer `step` of the vectors that have a solution."""
+    solved = expected_read(VECTORS, "step")
+    for case in inputs_read(VECTORS, "step"):
+        if "farkas" not in solved[case.id]["output"]:
+            yield case.id, posed_case(case.input).step
+
+
 def scenario_steps(every: int) -> Iterator[tuple[str, StepData]]:
     """Steps of all scenarios in models/, every so many."""
     for folder in sorted(path for path in (ROOT / "models").iterdir() if path.is_dir()):
@@ -117,13 +128,16 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--random", type=int, default=2000, help="random steps")
     parser.add_argument("--oracle", type=int, default=300, help="of them in 60 digits")
-    parser.add_argument("--every", type=int, default=1, help="every so many of the other steps")
+    parser.add_argument(
+        "--every", type=int, default=1, help="every so many of the scenarios' steps"
+    )
     parser.add_argument("--log", type=Path, help="where records are kept")
     parser.add_argument("--out", type=Path, default=RESULT, help="the table")
     given = parser.parse_args(arguments)
     log = Log(given.log, lambda record: record["step"])
     families = {
         "random": random_steps(given.random),
+        "vectors": vector_steps(),
         "scenarios": scenario_steps(given.every),
     }
     rows, failed = [], 0

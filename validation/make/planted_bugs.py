@@ -18,9 +18,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from quasistatic_ref.formats.files import text_written
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.vectors.challenge.findings import Finding
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
+from quasistatic_ref.lab.vectors.check.patched import patched_texts
 from quasistatic_ref.lab.vectors.expected import Json
 from validation.tools.scripts import asked, shown
 
@@ -75,18 +77,15 @@ class Trial:
         return min(self.findings, key=lambda f: (not f.mistakes, len(str(f.case))))
 
     @property
-    def row(self) -> str:
+    def row(self) -> tuple[object, ...]:
         """Its line of the table."""
-        cells = [self.name, self.mistake or "-", self.verdict]
+        head = (self.name, self.mistake or "-", self.verdict)
         if not self.findings:
-            return f"| {' | '.join([*cells, '', '', '', '', ''])} |"
+            return (*head, "", "", "", "", "")
         case, found = self.smallest.case, self.smallest
-        named = "; ".join(self.named) if self.verdict == "named wrong" else ""
-        cells[2] += f": {named}" if named else ""
         numbers = digits(case)
         sizes = (contacts(case), bodies(case), f"{statistics.median(numbers):g}", max(numbers))
-        where = f"{found.layer} {found.field or found.kind}"
-        return f"| {' | '.join(map(str, (*cells, where, *sizes)))} |"
+        return (*head, f"{found.layer} {found.field or found.kind}", *sizes)
 
 
 def contacts(case: Json) -> int:
@@ -110,22 +109,17 @@ def digits(case: Json) -> list[int]:
     return [count for value in inside for count in digits(value)] or [1]
 
 
-def planted(changes: list[list[str]], folder: Path) -> None:
+def planted(patch: str, folder: Path) -> None:
     """Copy the runner to a folder, and plant a bug."""
-    for path in RUNNERS.glob("*.js"):
-        shutil.copy(path, folder)
-    for file, old, new in changes:
-        text = (folder / file).read_text(encoding="utf-8")
-        was, now = (part.replace("\\n", "\n") for part in (old, new))
-        if text.count(was) != 1:
-            raise ValueError(f"{file} has {was!r} {text.count(was)} times")
-        text_written(folder / file, text.replace(was, now))
+    shutil.copytree(RUNNERS, folder, dirs_exist_ok=True)
+    for file, text in patched_texts(patch, lambda name: (RUNNERS / name).read_text()).items():
+        text_written(folder / file, text)
 
 
 def trial(bug: dict[str, Json], jobs: int = 1) -> Trial:
     """Challenge the runner with a bug."""
     with tempfile.TemporaryDirectory() as folder:
-        planted(bug["changes"], Path(folder))
+        planted(bug["patch"], Path(folder))
         program = Program(JAVASCRIPT.format(folder=folder))
         outcome = challenge(program, seconds=SECONDS, jobs=jobs, first=True)
     found = tuple(outcome.findings)
@@ -145,16 +139,14 @@ Made by `python -m validation.make.planted_bugs`: each mistake of
 challenge` looks for it from seed 0, for at most {seconds:g} s. *Named* is a mistake whose name is
 given, and no finding has only other names; `-` has no name. The sizes are those of the
 counterexample: contacts, bodies, and significant digits of its numbers, the median and the most.
-
-| mistake | its name | verdict | first wrong | contacts | bodies | digits | most |
-|---|---|---|---|---|---|---|---|
 """
+COLUMNS = ("mistake", "its name", "verdict", "first wrong", "contacts", "bodies", "digits", "most")
 
 
 def page(trials: list[Trial]) -> Iterator[str]:
     """The committed table, and what it comes to."""
-    yield HEAD.format(seconds=SECONDS).rstrip()
-    yield from (one.row for one in trials)
+    yield HEAD.format(seconds=SECONDS)
+    yield from markdown_table(COLUMNS, [one.row for one in trials])
     yield ""
     verdicts = ("named", "not named", "named wrong", "not found")
     count = {verdict: sum(one.verdict == verdict for one in trials) for verdict in verdicts}
@@ -176,7 +168,7 @@ def main() -> int:
         if not options.names or bug["name"] in options.names:
             one = trial(bug, options.jobs)
             trials.append(one)
-            print(f"{one.seconds:5.1f} s {one.row}", file=sys.stderr, flush=True)
+            print(f"{one.seconds:5.1f} s", *one.row, file=sys.stderr, sep="; ", flush=True)
     shown("\n".join(page(trials)), options.out)
     return int(any(one.verdict in ("not found", "named wrong") for one in trials))
 

@@ -19,7 +19,7 @@ from quasistatic_ref.lab.reality.errors import bootstrapped, pose_errors
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.predict import Prediction, predicted, rotation
 from quasistatic_ref.lab.reality.push import Pushed
-from quasistatic_ref.lab.reality.settings import ADVANCE
+from quasistatic_ref.lab.reality.settings import ADVANCE, Settings
 from quasistatic_ref.lab.reality.tables import table_read
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array
@@ -171,16 +171,15 @@ def tripod(
     frozen : Calibration
     cone : str
     axes : float
-        Angle of d1 of the supports from the world's x [rad].
+        Angle of d1 of the supports from the world's x [deg].
     finger : float
         Friction [-].
     advance : float
         Of the finger in a step [m].
     """
-    centre = TRIANGLE.centre
-    points = tuple((float(x), float(y)) for x, y in of.supports - centre)
-    return Pushed(TRIANGLE, centre, frozen.radius, finger, 0.0, cone, points, advance, axes,
-                  m=MASS)  # fmt: skip
+    points = tuple((float(x), float(y)) for x, y in of.supports - TRIANGLE.centre)
+    by = Settings(cone=cone, axes=axes, advance=advance, m=MASS)
+    return Pushed(TRIANGLE, frozen.radius, finger, 0.0, points, by)
 
 
 def tripod_prediction(
@@ -206,8 +205,8 @@ OUT = Path(__file__).parents[1] / "results" / "reality_tripods.json"
 VARIANTS: dict[str, dict[str, Any]] = {
     "ellipsoid": {},
     "pyramid, axes at 0 degrees": {"cone": "pyramid"},
-    "pyramid, axes at 22.5 degrees": {"cone": "pyramid", "axes": np.pi / 8},
-    "pyramid, axes at 45 degrees": {"cone": "pyramid", "axes": np.pi / 4},
+    "pyramid, axes at 22.5 degrees": {"cone": "pyramid", "axes": 22.5},
+    "pyramid, axes at 45 degrees": {"cone": "pyramid", "axes": 45.0},
     "facets-16": {"cone": "facets-16"},
     "finger's friction 0.1": {"finger": 0.1},
     "finger's friction 0.5": {"finger": 0.5},

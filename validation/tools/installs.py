@@ -54,7 +54,7 @@ PANDAS: Final = (
     'python -c "from quasistatic_ref import load_scenario as load; '
     "print(load('sphere_spin', steps=5).run(progress=False).to_pandas())\"",
 )
-JAX: Final = ("python -m quasistatic_ref.lab.examples.plan_a_push",)
+JAX: Final = ("quasistatic-ref figures plan_a_push --numbers",)
 STUDY: Final = (
     "quasistatic-ref study run default --quick --out study",
     "quasistatic-ref study report study --out report",
@@ -89,8 +89,7 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
         "quasistatic-ref vectors challenge --layer rows --cases 12 "
         "--command 'quasistatic-ref vectors challenge --serve own' --out counterexamples",
         "quasistatic-ref validate incline_sliding",
-        "quasistatic-ref figures block_on_a_table",
-        "python -m quasistatic_ref.lab.examples.door",
+        "quasistatic-ref figures block_on_a_table door --numbers",
         "quasistatic-ref bench --quick",
     ),
     "robots": ROBOTS,

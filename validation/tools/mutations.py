@@ -1,13 +1,12 @@
 """Mutants of the paper's page, the judge, contacts and coordinates: which the tests notice.
 
-Run ``python -m validation.tools.mutations`` (an hour on two cores; name files of the package to try
-only theirs, or ``--sample 100``). The tests of the files (validation/tools/mutating/mutated.py) are
-collected once. Each mutant is then put into a fork of that process, and meets the tests that run
-the function it changes: killed, or survived. Mutants of a constant are imported instead. Survivors
-are listed in validation/results/mutation_survivors.md with a reason each; the exit status is 1 if
-one has none. What came of each file stands in validation/results/mutations.md, with a hash of its
-code: ``--stale`` tries the files that have changed since, or were never tried. The tests run a
-fixed sample of the mutants, all of which they must kill.
+Run ``python -m validation.tools.mutations`` (some hours on two cores; name files of the package to
+try only theirs, or ``--sample 100``). Each mutant is imported in a fork, and meets the tests of its
+file (validation/tools/mutating/mutated.py): killed, or survived. Survivors are listed in
+validation/results/mutation_survivors.md with a reason each; the exit status is 1 if one has none.
+What came of each file stands in validation/results/mutations.md, with a hash of its code:
+``--stale`` tries the files that have changed since, or were never tried. The tests run a fixed
+sample of the mutants, all of which they must kill.
 """
 
 from __future__ import annotations
@@ -18,27 +17,20 @@ import hashlib
 import os
 import random
 import re
-import signal
-import subprocess
 import sys
-import tempfile
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from operator import itemgetter
 from pathlib import Path
 
-import pytest
 from tqdm import tqdm
 
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.parallel import Log
+from quasistatic_ref.lab.parallel import Log, results, workers
 from validation.tools.mutating.mutants import Mutant, mutants
 from validation.tools.mutating.mutated import TESTS
-from validation.tools.mutating.trials import Trials
+from validation.tools.mutating.tried import PACKAGE, ROOT, said_of
 
-ROOT = Path(__file__).parents[2]
-PACKAGE = ROOT / "quasistatic_ref"
 SURVIVORS = ROOT / "validation" / "results" / "mutation_survivors.md"
 RESULTS = ROOT / "validation" / "results" / "mutations.md"
 KINDS = ("killed", "broken", "hangs", "survived")
@@ -59,63 +51,25 @@ def all_mutants(files: Iterable[str] = TESTS) -> list[Mutant]:
     return [m for file in files for m in mutants(file, (PACKAGE / file).read_text())]
 
 
+def tests_of(mutant: Mutant) -> tuple[str, ...]:
+    """The tests that are to notice a mutant."""
+    return TESTS[mutant.file]
+
+
 def outcomes(
     chosen: Iterable[Mutant],
-    heard: Callable[[Mutant, str], None],
-    traced: Path | None = None,
-    tests: Mapping[str, tuple[str, ...]] = TESTS,
-) -> None:
-    """Try mutants on the tests of their files, and report each as soon as they have said something.
-
-    They say ``"killed"``, ``"broken"`` (it cannot be imported, or crashes) or ``"hangs"``: all of
-    these are noticed. Or ``"survived"``.
-
-    Raises
-    ------
-    RuntimeError
-        If the tests do not pass without a mutant.
-    """
-    mutants_now = list(chosen)
-    files = {test for mutant in mutants_now for test in tests[mutant.file]}
-    of_constants: list[Mutant] = []
-
-    def one(mutant: Mutant, said: str | None) -> None:
-        if said is None:
-            of_constants.append(mutant)
-        else:
-            heard(mutant, said)
-
-    trials = Trials(PACKAGE, mutants_now, tests, one, traced)
-    paths = [str(ROOT / "tests" / file) for file in sorted(files)]
-    options = ["-q", "-p", "no:cacheprovider", "-p", "no:xdist", f"--rootdir={ROOT}"]
-    status = pytest.main([*options, *paths], plugins=[trials])
-    if status not in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
-        raise RuntimeError("the tests do not pass without a mutant")
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        jobs = {pool.submit(imported, m, tests[m.file]): m for m in of_constants}
-        for job in as_completed(jobs):
-            heard(jobs[job], job.result())
+    tests: Callable[[Mutant], tuple[str, ...]] = tests_of,
+    jobs: int | None = None,
+) -> Iterator[tuple[str, str]]:
+    """The key of each mutant with what its tests say: see :func:`said_of`."""
+    tasks = [(m.key, m.file, m.source, tests(m)) for m in chosen]
+    with workers(jobs) as pool:
+        yield from results(pool, jobs or os.cpu_count() or 1, outcome, tasks)
 
 
-def imported(mutant: Mutant, tests: Iterable[str]) -> str:
-    """What tests say of a mutant that is there when the package is imported."""
-    with tempfile.TemporaryDirectory() as folder:
-        text = Path(folder) / "mutant.py"
-        text.write_text(mutant.source)
-        paths = [str(ROOT / "tests" / test) for test in tests]
-        run = [
-            sys.executable,
-            "-m",
-            "validation.tools.mutating.imported",
-            str(PACKAGE / mutant.file),
-        ]
-        status = subprocess.run(
-            [*run, str(text), *paths],
-            cwd=ROOT, env=os.environ | {"PYTHONPATH": str(ROOT)}, capture_output=True, check=False,
-        ).returncode  # fmt: skip
-    if status in (0, 1):
-        return "killed" if status else "survived"
-    return "hangs" if status == -signal.SIGXCPU else "broken"
+def outcome(key: str, file: str, source: str, tests: tuple[str, ...]) -> tuple[str, str]:
+    """The key of a mutant, and what tests say of it."""
+    return key, said_of(file, source, tests)
 
 
 def reasons() -> dict[str, str]:
@@ -174,16 +128,14 @@ def main() -> int:
         chosen = random.Random(1).sample(chosen, min(options.sample, len(chosen)))
     log = Log(options.log, itemgetter("mutant"))
     left = [mutant for mutant in chosen if mutant.key not in log.found]
-    progress = tqdm(desc="mutants", total=len(left))
-
-    def heard(mutant: Mutant, said: str) -> None:
-        log.add({"mutant": mutant.key, "said": said})
-        progress.update()
-        if said == "survived":
-            tqdm.write(f"line {mutant.line}: {mutant.key}", file=sys.stderr)
-
     if left:
-        outcomes(left, heard, options.log and options.log.with_suffix(".traces.json"))
+        file, every = left[0].file, {test for mutant in left for test in TESTS[mutant.file]}
+        if said_of(file, (PACKAGE / file).read_text(), sorted(every)) != "survived":
+            raise RuntimeError("the tests do not pass without a mutant")
+    for key, said in tqdm(outcomes(left), "mutants", len(left)):
+        log.add({"mutant": key, "said": said})
+        if said == "survived":
+            tqdm.write(key, file=sys.stderr)
     found = {key: one["said"] for key, one in log.found.items()}
     table_written(found)
     known, counts = reasons(), Counter(found[mutant.key] for mutant in chosen)

@@ -70,12 +70,10 @@ def executed(made: nbformat.NotebookNode) -> None:
 
 
 def parts(source: str) -> tuple[str, str]:
-    """Docstring of a module, and its code between that and ``if __name__``."""
+    """Docstring of a module, and its code."""
     tree = ast.parse(source)
-    body = [node for node in tree.body[1:] if "__name__" not in ast.unparse(node)]
     lines = source.splitlines()
-    first, last = body[0].lineno, body[-1].end_lineno
-    return ast.get_docstring(tree) or "", "\n".join(lines[first - 1 : last])
+    return ast.get_docstring(tree) or "", "\n".join(lines[tree.body[1].lineno - 1 :])
 
 
 def run(name: str, made: nbformat.NotebookNode) -> str:

@@ -18,6 +18,7 @@ from quasistatic_ref.certify.compliance.faces import (
     exact_numbers,
     face,
     nearest_face,
+    rows_of,
 )
 from quasistatic_ref.certify.exact import nearest_numbers
 from quasistatic_ref.certify.farkas import farkas_vector
@@ -36,7 +37,6 @@ from quasistatic_ref.certify.rational import (
 )
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import scaled_by
 
@@ -67,10 +67,12 @@ class Candidate:
 class EliminatedStep:
     """The step with compliance in delta_q alone, without rounding.
 
+    Its z, shape (n_c, 4, n_v + 1), and the user's `own` rows are those of [delta_q; 1]; H and g
+    are times h c.
+
     Parameters
     ----------
     step : StepData
-        In a polyhedral cone.
     compliance : float
         [m/N].
     """
@@ -81,17 +83,19 @@ class EliminatedStep:
         self.step = step
         self.h = dyadic(step.h)
         self.compliance = fraction(compliance)
-        self.H = c * h_times_hessian(step)  # times h c
-        self.g = c * h_times_load(step)  # times h c
+        self.H = c * h_times_hessian(step)
+        self.g = c * h_times_load(step)
         self.mu = dyadic(scaled_by(contacts).reshape(-1, 1))
         mu = Dyadic(self.mu.m.reshape(-1, 4, 1), self.mu.e)
         gap = np.zeros((contacts.n_c, 4, 1))
         gap[:, 0, 0] = contacts.phi
-        self.z = joined([mu * contact_motion(contacts), dyadic(gap)], axis=2)  # times [x; 1]
+        self.z = joined([mu * contact_motion(contacts), dyadic(gap)], axis=2)
         self.own = joined([dyadic(step.extra.A), dyadic(-step.extra.b[:, None])], axis=1)
 
     def candidate(self, faces: Sequence[Rows], held: Sequence[int]) -> Candidate:
-        """The optimum on the face of each contact; `held` are user's rows to start from.
+        """The optimum on the face of each contact, in a polyhedral cone.
+
+        The user's rows that are `held` are where its working set is sought from.
 
         Raises
         ------
@@ -191,7 +195,7 @@ def eliminated_optimum(
         if not wrong:
             return program.numbers(found)
         for j in wrong:
-            C = exact_numbers(cone(step.cone).matrix[: step.counts[j]])
+            C = exact_numbers(rows_of(step.cone, int(step.counts[j])))
             z = np.array(program.motion(found, j))
             faces[j] = nearest_face(C, z, exact_multipliers)
     return None

@@ -8,9 +8,14 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.compliance.faces import Rows, face, float_multipliers, nearest_face
+from quasistatic_ref.certify.compliance.faces import (
+    Rows,
+    face,
+    float_multipliers,
+    nearest_face,
+    rows_of,
+)
 from quasistatic_ref.step.arrays import Array, Mask, finite
-from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian, scaled_by
 from quasistatic_ref.step.standard_form import linear_term
@@ -74,8 +79,7 @@ class FloatStep:
         motion = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
         self.step = step
         self.compliance = compliance
-        self.C = cone(step.cone).matrix
-        self.counts = step.counts.tolist()
+        self.C = [rows_of(step.cone, count) for count in step.counts.tolist()]
         self.B = scaled_by(contacts)[:, :, None] * motion
         self.gap = np.zeros(self.B.shape[:2])
         self.gap[:, 0] = contacts.phi
@@ -95,8 +99,7 @@ class FloatStep:
         faces = list(faces)
         wrong = [j for j, M in enumerate(self.linear(faces)) if outside(M[:-4], z[j], noise[j])]
         for j in wrong:
-            C = self.C[: self.counts[j]]
-            faces[j] = nearest_face(C, z[j], float_multipliers, 4 * float(noise[j].max()))
+            faces[j] = nearest_face(self.C[j], z[j], float_multipliers, 4 * float(noise[j].max()))
         S = np.array([M[-4:] for M in self.linear(faces)]).reshape(-1, 4, 4)
         s = np.einsum("cab,cb->ca", S, z)
         broken = np.minimum(own.A @ x - own.b, 0.0)
@@ -109,8 +112,7 @@ class FloatStep:
     def linear(self, faces: list[Rows]) -> list[Array]:
         """Of each contact the conditions of its face and s, per z, shape (R + 4, 4) each."""
         return [
-            face(self.step.cone, count, rows).floats
-            for count, rows in zip(self.counts, faces, strict=True)
+            face(self.step.cone, len(C), rows).floats for C, rows in zip(self.C, faces, strict=True)
         ]
 
     def newton(self, at: Place) -> Array:

@@ -13,7 +13,7 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.rational import fraction
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, read_only
 from quasistatic_ref.step.cones import cone
 
 Rows = tuple[int, ...]
@@ -40,9 +40,19 @@ class Face:
 
 
 @cache
+def rows_of(name: str, count: int) -> Array:
+    """The rows of a contact that has `count` of its cone's, shape (count, 4) [-].
+
+    One with the leading rows only has no spin, whose length would be one more to give way by.
+    """
+    matrix = cone(name).matrix
+    return read_only(matrix[:count] * [1, 1, 1, count == len(matrix)])
+
+
+@cache
 def face(name: str, count: int, rows: Rows) -> Face:
-    """The face that some independent rows of a cone span, of those that are its first `count`."""
-    C = fmpq_mat(count, 4, [fraction(x) for x in cone(name).matrix[:count].ravel().tolist()])
+    """The face that some independent rows of a contact span, which has `count` rows."""
+    C = fmpq_mat(count, 4, [fraction(x) for x in rows_of(name, count).ravel().tolist()])
     table = C.tolist()
     C_w = fmpq_mat(len(rows), 4, [x for i in rows for x in table[i]])
     multipliers: Any = fmpq_mat(0, 4)

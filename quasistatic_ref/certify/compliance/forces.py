@@ -28,18 +28,17 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
-from quasistatic_ref.certify.compliance.eliminated import eliminated_optimum
+from quasistatic_ref.certify.compliance.eliminated import EliminatedStep, eliminated_optimum
 from quasistatic_ref.certify.compliance.face_guess import guessed_faces
+from quasistatic_ref.certify.compliance.faces import rows_of
 from quasistatic_ref.certify.exact import exact_step, nearest_numbers
 from quasistatic_ref.certify.gap import fractions
 from quasistatic_ref.certify.rational import (
+    Dyadic,
     ExactForm,
     block_diagonal,
     dyadic,
     fraction,
-    friction_rows,
-    h_times_hessian,
-    h_times_load,
     in_integers,
     joined,
 )
@@ -47,7 +46,7 @@ from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.step.arrays import QUIET, read_only
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import contact_wrenches, row_gaps, scaled_by
+from quasistatic_ref.step.friction import contact_wrenches, scaled_by
 from quasistatic_ref.step.groups import parts
 from quasistatic_ref.tolerances import COMPLIANCE
 
@@ -165,21 +164,23 @@ def compliant_form(step: StepData, compliance: float) -> ExactForm:
     ExactForm
         Rows as of :func:`~quasistatic_ref.certify.rational.exact_form`.
     """
-    h = dyadic(step.h)
-    c = dyadic(compliance)
+    program = EliminatedStep(step, compliance)
+    h = program.h
+    n = step.n_v
     n_c = step.contacts.n_c
+    lengths = 4 * n_c
     # Eq. (13) with the energy |s|^2 / (2c), times h c
-    H = block_diagonal(c * h_times_hessian(step), h * h * dyadic(np.eye(4 * n_c)))
-    g = joined([c * h_times_load(step), dyadic(np.zeros(4 * n_c))])
-    gives = np.zeros((n_c, *cone(step.cone).matrix.shape, n_c))
-    gives[range(n_c), :, :, range(n_c)] = cone(step.cone).matrix
-    gives = gives.transpose(0, 1, 3, 2)[step.mask].reshape(int(step.offsets[-1]), 4 * n_c)
-    of_contacts = friction_rows(step.contacts, step.cone)[step.mask]
-    own = joined([dyadic(step.extra.A), dyadic(np.zeros((len(step.extra.b), 4 * n_c)))], axis=1)
-    A = joined([joined([of_contacts, dyadic(gives)], axis=1), own])
-    gaps = row_gaps(step.contacts, step.cone)[step.mask]
-    b = joined([dyadic(-gaps), dyadic(step.extra.b)])
-    return in_integers(H, g, A, b, fraction(step.h) * fraction(compliance))
+    H = block_diagonal(program.H, h * h * dyadic(np.eye(lengths)))
+    g = joined([program.g, dyadic(np.zeros(lengths))])
+    C = np.concatenate([np.eye(0, 4), *(rows_of(step.cone, k) for k in step.counts.tolist())])
+    blocks = np.zeros((len(C), n_c, 4))
+    blocks[np.arange(len(C)), np.repeat(np.arange(n_c), step.counts)] = C
+    gives = dyadic(blocks.reshape(len(C), lengths))
+    z = Dyadic(program.z.m.reshape(lengths, n + 1), program.z.e)
+    rows = joined([gives @ z, program.own])  # times [delta_q; 1]
+    of_s = joined([gives, dyadic(np.zeros((len(step.extra.b), lengths)))])
+    A = joined([rows[:, :n], of_s], axis=1)
+    return in_integers(H, g, A, -rows[:, n], program.compliance * fraction(step.h))
 
 
 def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:

@@ -4,7 +4,6 @@ import argparse
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.formats.files import json_text, text_written, writable_folder
-from quasistatic_ref.lab.study.bench.acceptance import PAPER
 from quasistatic_ref.lab.study.bench.report import page, paper_sentence, promise_rows
 from quasistatic_ref.lab.study.bench.tables import tables
 
@@ -19,7 +18,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Measure, write the tables and a figure; exit status 1 if a promise does not hold.
+    """Measure and write the tables; exit status 1 if a promise does not hold.
 
     A quick run measures too little to judge, and does not.
     """
@@ -27,7 +26,6 @@ def run(options: argparse.Namespace) -> int:
     found = tables(options.quick, lambda name: shared.progress_line(options, f"{name} ..."))
     text_written(options.out / "bench.json", json_text(found) + "\n")
     text_written(options.out / "bench.md", page(found))
-    _figure(found, options)
     failed = not all(promise["holds"] for promise in found["promises"])
     status = int(failed and not options.quick)
     if options.json:
@@ -35,12 +33,5 @@ def run(options: argparse.Namespace) -> int:
         return status
     shared.print_rows(promise_rows(found["promises"]))
     print(paper_sentence(found))
-    print(f"wrote bench.json, bench.md and a figure to {options.out}")
+    print(f"wrote bench.json and bench.md to {options.out}")
     return status
-
-
-def _figure(found: dict[str, object], options: argparse.Namespace) -> None:
-    from quasistatic_ref.lab.figures.bench import step_times
-    from quasistatic_ref.optional.show.figures.style import figure_written
-
-    figure_written(step_times(found, PAPER), options.out, "step_times")

@@ -9,7 +9,14 @@ from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.formats.files import writable_folder
 from quasistatic_ref.lab.clouds.rows import spread
-from quasistatic_ref.lab.grasp import CLOSED, INSTANTS, TOP, grasp_report, grasp_scenarios
+from quasistatic_ref.lab.grasp import (
+    CLOSED,
+    INSTANTS,
+    TOP,
+    grasp_report,
+    grasp_scenarios,
+    rotations,
+)
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
@@ -45,10 +52,10 @@ def run(options: argparse.Namespace) -> int:
         shared.print_json({"cases": report, "figures": written, "peak_mebibytes": peak})
         return 0
     shared.print_rows(_table(report))
-    for case, rotations in spread().items():
-        least, middle, most = np.quantile(rotations, (0.0, 0.5, 1.0))
+    for case, turned in spread().items():
+        least, middle, most = np.quantile(turned, (0.0, 0.5, 1.0))
         print(
-            f"{len(rotations)} other clouds of 992 points {case} (committed study): "
+            f"{len(turned)} other clouds of 992 points {case} (committed study): "
             f"{least:.2f} to {most:.1f} deg, median {middle:.2f}"
         )
     exact = sum(int((run["certificate"] == "exact").sum()) for run in runs.values())
@@ -60,12 +67,13 @@ def run(options: argparse.Namespace) -> int:
 def _figures(
     scenario: Scenario, runs: dict[str, Trajectory], options: argparse.Namespace
 ) -> list[str]:
-    from quasistatic_ref.lab.figures.grasp import grasp_strip, rotation_plot
+    from quasistatic_ref.lab.figures.grasp import grasp_strip
+    from quasistatic_ref.lab.figures.validation import PICTURES
     from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
     with figure_style():
         strip = grasp_strip(scenario, runs, INSTANTS, spread())
-        rotation = rotation_plot(scenario, runs, "bunny", CLOSED)
+        rotation = PICTURES["grasp"](rotations(scenario, runs))
     paths = figure_written(strip, options.out, "bunny_grasp")
     paths += figure_written(rotation, options.out, "bunny_grasp_rotation")
     return [path.name for path in paths]

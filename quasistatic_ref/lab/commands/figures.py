@@ -21,6 +21,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="STYLE",
         help="paper (default), slides, poster, one of matplotlib's, or a file such as my.mplstyle",
     )
+    parser.add_argument(
+        "--numbers", action="store_true", help="print what each example comes to, too"
+    )
     shared.add(parser, "--out", default="figures")
 
 
@@ -39,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
         If a name is unknown.
     """
     from quasistatic_ref.formats.files import writable_folder
-    from quasistatic_ref.lab.examples.gallery import EXAMPLES, figure_of
+    from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
     from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 
     for name in options.names:
@@ -57,6 +60,9 @@ def run(options: argparse.Namespace) -> int:
                     raise
                 print(f"quasistatic-ref: {name} was not made: {error}", file=sys.stderr)
                 continue
+            if options.numbers:
+                for what, value in example(name).main().items():
+                    print(f"{what}: {value:.6g}")
             for path in figure_written(figure, options.out, name):
                 print(path)
     return 0

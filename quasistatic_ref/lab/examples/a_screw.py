@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.optional.show.figures import Figure, panels
@@ -82,7 +82,3 @@ def figure(ax: Any = None, *, ahead: float = AHEAD, turn: float = TURN, count: i
     axes.set_aspect("equal")
     labelled(axes, "x [mm]", "y [mm]", f"twist: {1e3 * ahead:g} mm along x, {turn:g} deg about z")
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
@@ -81,7 +81,3 @@ def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
     right.plot(PULLS, 1e3 * slips(PULLS, mu_v, h), marker="o", markersize=scaled(3), clip_on=False)
     labelled(right, r"pull / ($\mu_v m g$) [-]", "slip in one step [mm]", caption(h))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, only, script
+from quasistatic_ref.lab.examples.shared import Numbers, only
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
@@ -75,7 +75,3 @@ def figure(ax: Any = None, *, rough: float = 0.6, smooth: float = 0.3, h: float 
         right.plot(times, 1e3 * way, label=rf"{name}, $\mu_v$ = {mu:g}")
     labelled(right, "time t [s]", "way down the slope [mm]", caption(h))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.cli.measures import link_motion
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.examples.which_cone_is_real import measured
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.lab.grasp import CLOSED
 from quasistatic_ref.lab.reality.errors import pose_errors
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted
+from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
@@ -71,7 +72,7 @@ def push(law: str) -> tuple[Pair, Array]:
     x, y [m] and angle [rad] of its frame.
     """
     pair, ratio, pushes = measured()
-    scene = Settings(advance=ADVANCE, law=law).pushed(pair, ratio)
+    scene = pushed(Settings(advance=ADVANCE, law=law), pair, ratio)
     found = predicted(scene, pushes.before[PUSH], pushes.path[PUSH]).pose
     return pair, np.array([pushes.before[PUSH], pushes.after[PUSH], found])
 
@@ -131,7 +132,3 @@ def figure(ax: Any = None, *, h: float = H) -> Figure:
     handles = [*axes[0].get_legend_handles_labels()[0], *axes[3].get_legend_handles_labels()[0]]
     legend_below(axes, handles)
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.runs import ran
@@ -103,7 +103,3 @@ def figure(
     picture = {"torque": torque, "lift": run["q"][1:, 2] - RADIUS, "h": h, "sizes": np.array(sizes),
                "limit": mu_omega * M * GRAVITY}  # fmt: skip
     return PICTURES["boundary_layer"](picture | layers(tuple(sizes), share), ax)
-
-
-if __name__ == "__main__":
-    script(main, figure)

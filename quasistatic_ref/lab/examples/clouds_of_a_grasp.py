@@ -18,7 +18,7 @@ from quasistatic_ref.lab.clouds.rows import (
     with_torsion,
 )
 from quasistatic_ref.lab.clouds.study import NONE, grid
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
@@ -73,7 +73,3 @@ def figure(ax: Any = None, *, seed: int = 0) -> Figure:
         axes.set_title(sampling)
     legend_below(grid_of_axes, grid_of_axes[0].get_legend_handles_labels()[0])
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

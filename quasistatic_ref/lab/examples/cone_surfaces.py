@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.cones import SHOWN, limit_surfaces
 from quasistatic_ref.optional.show.figures import Figure
 from quasistatic_ref.step.cones import cone_matrix
@@ -35,7 +35,3 @@ def figure(ax: Any = None, *, cones: Sequence[str] = SHOWN) -> Figure:
         As ``cone`` of a step.
     """
     return limit_surfaces(cones, within=ax)
-
-
-if __name__ == "__main__":
-    script(main, figure)

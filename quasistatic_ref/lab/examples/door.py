@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
@@ -65,7 +65,3 @@ def figure(ax: Any = None, *, h: float = H, t: float = 3.0) -> Figure:
     labelled(right, "place x of the tip [mm]", r"angle $\theta$ of the door [deg]",
              caption(h, "frictionless"))  # fmt: skip
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.lab.scenes.contacts import GRAVITY as G
@@ -87,7 +87,3 @@ def figure(ax: Any = None, *, h: Sequence[float] = TIME_STEPS, mu_v: float = MU_
     right.loglog(ms, 1e3 * mu_v * V * ms, "k-", label=r"$\mu_v h v$")
     labelled(right, "time step h [ms]", r"boundary layer [$\mu$m]", "friction pyramid")
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

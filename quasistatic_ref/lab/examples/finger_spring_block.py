@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z, contacts_of
 from quasistatic_ref.optional.show.figures import Figure, panels
@@ -103,7 +103,3 @@ def figure(
     right.grid(visible=False)
     labelled(right, r"$\delta q_a$ [mm]", r"$\delta q_u$ [mm]", caption(h, "frictionless"))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

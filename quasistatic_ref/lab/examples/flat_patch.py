@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.measures import threshold
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
@@ -116,7 +116,3 @@ def figure(ax: Any = None, *, angles: Sequence[float] = ANGLES, mu_v: float = MU
     labelled(axes, r"angle from the slip to $d_1$ [deg]", r"torque / ($\mu_v m g a$) [-]",
              caption(H, "pyramid and ellipsoid"))  # fmt: skip
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

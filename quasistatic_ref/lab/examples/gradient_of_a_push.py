@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
 from quasistatic_ref.lab.scenes.nudge import RADIUS, H, nudged
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
@@ -116,7 +116,3 @@ def _circle(axes: Any, middle: Array, radius: float, style: str, label: str) -> 
     angle = np.linspace(0, 2 * np.pi, 97)
     around = middle[:, None] + radius * np.array([np.cos(angle), np.sin(angle)])
     axes.plot(*(1e3 * around), style, color="black", label=label)
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, grasp_report
 from quasistatic_ref.lab.runs import grasp, ran
@@ -110,7 +110,3 @@ def figure(ax: Any = None, *, mu_omega: Sequence[float] = VALUES) -> Figure:
         f"rotation, t = {CLOSED:g} to {TOP:g} s [deg]", caption(scenario.h, scenario.cone),
     )  # fmt: skip
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

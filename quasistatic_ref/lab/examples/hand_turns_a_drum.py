@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, only, script
+from quasistatic_ref.lab.examples.shared import Numbers, only
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
@@ -76,7 +76,3 @@ def figure(ax: Any = None, *, h: float = H, mu_v: float = 1.5) -> Figure:
     right.plot(times, rolled, color="black", linestyle=":", label="pure rolling")
     labelled(right, "time t [s]", "angle since they touched [rad]", caption(h))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.study.measuring.many import simulate_many
@@ -98,7 +98,3 @@ def figure(
     axes.plot(line[least <= up[-1]], 1e3 * least[least <= up[-1]], label="(R21)")
     labelled(axes, r"$\mu_v$ [-]", r"$\mu_\omega$ [mm]", f"squeeze of {N:g} N, {1e3 * D:g} mm off")
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.lab.clouds.rows import held, margin, rotations, rows, with_torsion
 from quasistatic_ref.lab.clouds.study import NONE
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
@@ -57,7 +57,3 @@ def figure(ax: Any = None, *, clear: float = CLEAR) -> Figure:
     axes.set(xscale="log", yscale="log")
     labelled(axes, r"margin: $\mu_\omega$ / needed by (R14) [-]", "rotation [deg]")
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

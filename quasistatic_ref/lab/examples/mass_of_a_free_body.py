@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
@@ -164,7 +164,3 @@ def figure(ax: Any = None, *, length: float = LENGTH, tilt: float = TILT, h: flo
     right.set_aspect("equal")
     labelled(right, "x [mm]", "z [mm]", caption(h, "frictionless"))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

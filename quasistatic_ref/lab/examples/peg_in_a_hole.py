@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
@@ -62,7 +62,3 @@ def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
         right.plot(run["t"], force, label=wall)
     labelled(right, "time t [s]", "normal force of a wall [N]", caption(h))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.scenes.free_pair import geometry
@@ -129,7 +129,3 @@ def figure(ax: Any = None, *, tilt: float = TILT, k: int = K) -> Figure:
     right.loglog(TURNS, 1e3 * second, "k:", label=r"$r\,\theta^2 / 2$, r = 50 mm")
     labelled(right, r"turn $\theta$ [rad]", r"error of $\phi + n^T J\,\delta q$ [mm]")
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.measures import threshold
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
@@ -95,7 +95,3 @@ def figure(
     axes.plot([], [], "v", markerfacecolor="none", label="a step slips", **marks)
     labelled(axes, "lever d of the weight [mm]", "squeeze N [N]", "lines: (R21)-(R23)")
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

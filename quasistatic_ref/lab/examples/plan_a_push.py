@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
 from quasistatic_ref.lab.scenes.pushed_block import MU_OMEGA, OFFSET, RADIUS, SIDE, pushed_block
 from quasistatic_ref.optional.derivatives.step_jax import jax_package, smoothed_jax
@@ -114,7 +114,3 @@ def _block(axes: Any, q: Array, style: str, color: str, label: str | None) -> No
     (c, s), unit = q[5:7], np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])
     corners = q[2:4] + SIDE / 2 * unit @ [[c, s], [-s, c]]
     axes.plot(*(1e3 * corners).T, style, color=color, label=label)
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.lab.scenes.slider import GYRATION, RADII, SPEEDS, H, turns
 from quasistatic_ref.optional.show.figures import Figure
@@ -47,7 +47,3 @@ def figure(ax: Any = None, *, radii: Sequence[float] = RADII) -> Figure:
     """
     picture = {"Pi": SPEEDS, "turns": ratios(tuple(radii)), "rho": GYRATION, "h": H}
     return PICTURES["planar_push"](picture, ax)
-
-
-if __name__ == "__main__":
-    script(main, figure)

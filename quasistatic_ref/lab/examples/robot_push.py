@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.runs import ran
 from quasistatic_ref.optional.show.figures import Figure, draw_scene, moment, panels
@@ -71,7 +71,3 @@ def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
     right.plot(run["t"], formula, color="black", linestyle=":", label=r"$F\,(z_4 - z_2)$")
     labelled(right, "time t [s]", "torque [N m]", caption(h))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

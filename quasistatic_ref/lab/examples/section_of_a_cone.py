@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.measures import threshold
 from quasistatic_ref.lab.scenes.rigid import sphere_step
@@ -98,7 +98,3 @@ def figure(ax: Any = None, *, mu_v: float = MU_V, mu_omega: float = MU_OMEGA) ->
     axes.set(aspect="equal", xticks=(-1, 0, 1), yticks=(-1, 0, 1))
     labelled(axes, r"$f_1 / (\mu_v f_n)$ [-]", r"$\tau_n / (\mu_\omega f_n)$ [-]")
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.pens import CONTACT
+from quasistatic_ref.optional.show.figures.looks import FORCE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
@@ -82,14 +82,10 @@ def figure(
         axes.bar(ROWS, 1e6 * gaps, color="white", edgecolor="black")
         pushing = np.flatnonzero(gaps == 0)
         label = "closed rows, which push" if axes is grid[0] else None
-        axes.plot(pushing, 0 * pushing, "^", color=CONTACT, clip_on=False, zorder=5, label=label)
+        axes.plot(pushing, 0 * pushing, "^", color=FORCE, clip_on=False, zorder=5, label=label)
         axes.tick_params(axis="x", rotation=60)
         axes.set_title(name)
         labelled(axes, y=r"opening [$\mu$m]", key=False)
         axes.label_outer(remove_inner_ticks=True)
     grid[0].get_figure(root=False).legend(loc="outside upper center", title=caption(h))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
@@ -100,7 +100,3 @@ def figure(ax: Any = None, *, mu_v: float = MU_V, h: float = H) -> Figure:
     labelled(left, "push / (mu_v m g) [-]", "friction used: forces [-]", caption(h))
     labelled(right, "push / (mu_v m g) [-]", "friction used: multipliers [-]", caption(h))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.lab.figures.line_styles import COLOURS, DASHES, MARKS
 from quasistatic_ref.lab.runs import grasp
@@ -78,7 +78,3 @@ def figure(
     subject = f"{len(found[0])} steps of bunny_grasp, h = 10 ms, friction pyramid"
     legend_below([axes], axes.get_legend_handles_labels()[0], f"{key}; {subject}")
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

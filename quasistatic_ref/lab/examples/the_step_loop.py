@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.lab.examples.finger_spring_block import GAP, K_Q, H, M, finger_and_block
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.solve.solve import solve_step
@@ -86,7 +86,3 @@ def figure(ax: Any = None, *, K_q: float = K_Q, m: float = M, h: float = H, v: f
     right.axhline(m * v / h, color="black", linestyle=":", label=r"$m v / h$")
     labelled(right, "time t [s]", "force [N]", caption(h, "frictionless"))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, on_link, system_of
@@ -175,7 +175,3 @@ def _columns(axes: Any) -> None:
     axes.set_xticks([2.5, 6, 9.5], ["palm", "width", "bunny"])
     axes.grid(visible=False)
     labelled(axes, title="entries of J that are not zero")
-
-
-if __name__ == "__main__":
-    script(main, figure)

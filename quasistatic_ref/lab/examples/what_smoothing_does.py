@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
 from quasistatic_ref.lab.scenes.nudge import RADIUS, H, resting
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
@@ -99,7 +99,3 @@ def figure(ax: Any = None, *, drawn: tuple[float, ...] = DRAWN) -> Figure:
     labelled(right, r"$\kappa$ [N m s]", "off by, for a pressed ball [mm, -]")
     note_below([left, right], caption(H))
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

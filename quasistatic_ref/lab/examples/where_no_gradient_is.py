@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
 from quasistatic_ref.lab.scenes.nudge import MASS, MU_V, RADIUS, H, points, resting
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
@@ -123,7 +123,3 @@ def _sides(axes: Any, x: Array, y: Array, slopes: Array) -> None:
     for part, slope, style in ((x[: middle + 1], slopes[0], "-"), (x[middle:], slopes[1], "--")):
         label = "derivative from below" if style == "-" else "from above"
         axes.plot(part, y[middle] + slope * (part - x[middle]), style, color="black", label=label)
-
-
-if __name__ == "__main__":
-    script(main, figure)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.examples.shared import Numbers, script
+from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.folders import reality_folder
 from quasistatic_ref.lab.reality.errors import pose_errors
@@ -18,6 +18,7 @@ from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import loads_read
 from quasistatic_ref.lab.reality.pairs import Pair, pairs_read
 from quasistatic_ref.lab.reality.predict import predicted
+from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.pushes import Pushes, pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.optional.show.figures import Figure, panels
@@ -39,7 +40,7 @@ def measured(name: str = PAIR) -> tuple[Pair, float, Pushes]:
 
 def poses(pair: Pair, ratio: float, pushes: Pushes, cone: str) -> Array:
     """Predicted poses after pushes with that `ratio` [m], shape (n, 3) [m, rad]."""
-    scene = Settings(cone=cone, advance=ADVANCE).pushed(pair, ratio)
+    scene = pushed(Settings(cone=cone, advance=ADVANCE), pair, ratio)
     ways = zip(pushes.before, pushes.path, strict=True)
     return np.array([predicted(scene, before, path, "off").pose for before, path in ways])
 
@@ -90,7 +91,3 @@ def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) ->
         first = k == chosen[0]
         labelled(one, "x [mm]", "y [mm]", key=first)
     return page
-
-
-if __name__ == "__main__":
-    script(main, figure)

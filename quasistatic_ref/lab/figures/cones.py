@@ -8,6 +8,7 @@ from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.style import panels, scaled
 from quasistatic_ref.optional.show.figures.surfaces import faces
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone_matrix
@@ -40,6 +41,7 @@ def limit_surfaces(cones: Sequence[str] = SHOWN, within: Any = None) -> Figure:
         for axis in "xyz":
             axes.set(**{f"{axis}lim": (-1.3, 1.3), f"{axis}ticks": (-1, 0, 1)})
         axes.set_box_aspect((1, 1, 1), zoom=0.82)
+        axes.view_init(elev=CAMERA.elevation, azim=CAMERA.azimuth)
         axes.set_xlabel(r"$f_1/\mu_v$ [N]", labelpad=scaled(-4))
         axes.set_ylabel(r"$f_2/\mu_v$ [N]", labelpad=scaled(-4))
         axes.set_zlabel(r"$\tau_n/\mu_\omega$ [N]", labelpad=scaled(-7))

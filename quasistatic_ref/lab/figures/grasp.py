@@ -6,11 +6,10 @@ from typing import Any, Final
 import numpy as np
 from matplotlib.figure import Figure
 
-from quasistatic_ref.cli.measures import link_motion
-from quasistatic_ref.lab.figures.labels import caption, labelled, note_below
-from quasistatic_ref.optional.show.figures.camera import Camera
-from quasistatic_ref.optional.show.figures.draw import draw_scene
-from quasistatic_ref.optional.show.figures.moments import moment
+from quasistatic_ref.lab.figures.labels import caption, note_below
+from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
+from quasistatic_ref.optional.show.figures.looks import CAMERA
+from quasistatic_ref.optional.show.figures.moments import Moment, moment
 from quasistatic_ref.optional.show.figures.style import panels, scaled
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -18,11 +17,12 @@ from quasistatic_ref.step.data import Array
 
 LEAST: Final = 0.03
 """Smaller rotations are drawn there [deg]."""
-CAMERA = Camera(azimuth=-62, elevation=12)
+HALF: Final = 0.084
+"""Half the width of what is shown [m]."""
 SHOWN: Final[dict[str, Any]] = {
     "view": CAMERA,
-    "parts": ("contacts",),
-    "around": (np.array([0.0, 0.0, 0.115]), 0.085),
+    "parts": ("contacts", "forces"),
+    "around": (np.array([0.0, 0.0, 0.116]), HALF),
     "legend": False,
 }
 
@@ -51,22 +51,29 @@ def grasp_strip(
     """
     rows, columns = len(runs), len(instants) + 1
     page, grid = panels(
-        6.3, 1.2 * rows + 0.5, columns, rows=rows, within=within, narrow=0,
-        gridspec_kw={"wspace": 0.0, "hspace": 0.0, "width_ratios": [1] * len(instants) + [1.3]},
+        6.3, 1.7 * rows + 0.5, columns, rows=rows, within=within, narrow=0,
+        gridspec_kw={"wspace": 0.0, "hspace": 0.0, "width_ratios": [1] * len(instants) + [0.8]},
     )  # fmt: skip
-    for k, (title, run) in enumerate(runs.items()):
+    shown = {title: [_at(scenario, run, t) for t in instants] for title, run in runs.items()}
+    every = [of for moments in shown.values() for of in moments]
+    scale = force_scale(every, CAMERA, HALF)
+    for k, (title, moments) in enumerate(shown.items()):
         row = grid[k * columns : (k + 1) * columns]
-        for axes, instant in zip(row, instants, strict=False):
-            j = min(max(round(instant / scenario.h) - 1, 0), run.steps - 1)
-            draw_scene(axes, moment(scenario, run, j), **SHOWN)
+        for axes, of in zip(row, moments, strict=False):
+            draw_scene(axes, of, metres_per_newton=scale, **SHOWN)
         row[0].set_ylabel(title.replace(" ", "\n"))
         _spread_plot(row[-1], spread[title], last=k == rows - 1)
     for axes, instant in zip(grid, instants, strict=False):
         axes.set_title(f"{instant:g} s")
     grid[columns - 1].set_title(f"{len(next(iter(spread.values())))} clouds")
-    dots = "open dots: contacts considered, filled dots: contacts that bear load"
-    note_below(grid, f"{caption(scenario.h, scenario.cone)}; {dots}")
+    key = f"arrows: contact forces on the bunny, 1 N is {1e3 * scale:g} mm; open dots bear no load"
+    note_below(grid, f"{caption(scenario.h, scenario.cone)}; {key}")
     return page
+
+
+def _at(scenario: Scenario, run: Trajectory, t: float) -> Moment:
+    """The step of a run that ends at the time t [s]."""
+    return moment(scenario, run, min(max(round(t / scenario.h) - 1, 0), run.steps - 1))
 
 
 def _spread_plot(axes: Any, rotations: Array, last: bool) -> None:
@@ -80,23 +87,3 @@ def _spread_plot(axes: Any, rotations: Array, last: bool) -> None:
     axes.spines["left"].set_visible(False)
     if last:
         axes.set_xlabel("turn [deg]")
-
-
-def rotation_plot(
-    scenario: Scenario,
-    runs: Mapping[str, Trajectory],
-    link: str,
-    since: float,
-    within: Any = None,
-) -> Figure:
-    """Angle that a body has turned since the grip closed, at the time `since` [s], against time."""
-    page, (axes,) = panels(4.6, 2.8, within=within)
-    for title, run in runs.items():
-        motion = link_motion(scenario.system, run, link)
-        after = motion.index(since)
-        angle = np.degrees(motion.rotation_since(since))
-        axes.plot(motion.times[after:], angle[after:], label=title)
-    axes.set_ylim(bottom=-1)
-    what = "rotation since the grip closed [deg]"
-    labelled(axes, "time t [s]", what, caption(scenario.h, scenario.cone))
-    return page

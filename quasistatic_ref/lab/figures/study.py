@@ -17,55 +17,43 @@ POINT: Final = {"linestyle": "", "label": "_"}
 
 
 def profiles(data: Mapping[str, Any]) -> Figure:
-    """Performance profiles, a panel a setting."""
-    panels = data["panels"]
-    names = list(dict.fromkeys(label for panel in panels for label in panel["labels"]))
+    """Performance profiles, a line a solver."""
+    names = data["labels"]
     pen = pens(names)
-    figure, grid = _panels(len(panels), 3.0)
+    figure, axes = plt.subplots(figsize=(PAGE, 3.0), layout="constrained")
     taus = np.geomspace(1, FURTHEST, 400)
-    for axes, panel in zip(grid, panels, strict=True):
-        for k, (label, ratios) in enumerate(zip(panel["labels"], panel["ratios"], strict=True)):
-            every = (20 + 4 * k, 75)  # marks of lines that run together stay apart
-            dress = pen[label] | {"markerfacecolor": "white", "markevery": every}
-            axes.plot(taus, profile(ratios, taus), **dress)
-        label = r"$\tau$: time / time of the fastest [-]"
-        axes.set(xscale="log", xlabel=label, title=panel["title"])
-    grid[0].set(ylim=(-3, 103), ylabel="problems right within that [%]")
+    for k, (label, ratios) in enumerate(zip(names, data["ratios"], strict=True)):
+        every = (20 + 4 * k, 75)  # marks of lines that run together stay apart
+        dress = pen[label] | {"markerfacecolor": "white", "markevery": every}
+        axes.plot(taus, profile(ratios, taus), **dress)
+    axes.set(xscale="log", xlabel=r"$\tau$: time / time of the fastest [-]", title=data["title"])
+    axes.set(ylim=(-3, 103), ylabel="problems right within that [%]")
     _legend(figure, names)
     return figure
 
 
 def digits_time(data: Mapping[str, Any]) -> Figure:
     """Median digits against median time, a line a solver, a mark a setting."""
-    panels = data["panels"]
-    names = list(dict.fromkeys(label for panel in panels for label in panel["lines"]))
-    pen = pens(names)
-    figure, grid = _panels(len(panels), 3.4, sharex=True)
-    for axes, panel in zip(grid, panels, strict=True):
-        for label, points in panel["lines"].items():
-            set_ = [(1e3 * t, right) for own, t, right in points if not own]
-            own = [(1e3 * t, right) for own, t, right in points if own]
-            kinds: Any = (set_, "none", {}), (set_[-1:], "full", POINT), (own, "left", POINT)
-            # An empty line that is not clipped has no extent, which upsets the layout.
-            for part, fill, more in (kind for kind in kinds if kind[0]):
-                dress = pen[label] | more | {"fillstyle": fill, "clip_on": False}
-                axes.plot(*np.transpose(part), **dress)
-        axes.set(xscale="log", xlabel="median time of a call [ms]", title=panel["title"])
+    lines = data["lines"]
+    pen = pens(list(lines))
+    figure, axes = plt.subplots(figsize=(PAGE, 3.4), layout="constrained")
+    for label, points in lines.items():
+        set_ = [(1e3 * t, right) for own, t, right in points if not own]
+        own = [(1e3 * t, right) for own, t, right in points if own]
+        kinds: Any = (set_, "none", {}), (set_[-1:], "full", POINT), (own, "left", POINT)
+        # An empty line that is not clipped has no extent, which upsets the layout.
+        for part, fill, more in (kind for kind in kinds if kind[0]):
+            dress = pen[label] | more | {"fillstyle": fill, "clip_on": False}
+            axes.plot(*np.transpose(part), **dress)
+    axes.set(xscale="log", xlabel="median time of a call [ms]", title=data["title"])
     label = r"median correct digits of $\delta q$ [-]"
-    grid[0].set(ylim=(0, 16.5), yticks=range(0, 17, 4), ylabel=label)
-    _legend(figure, names)
+    axes.set(ylim=(0, 16.5), yticks=range(0, 17, 4), ylabel=label)
+    _legend(figure, list(lines))
     return figure
 
 
-def _panels(count: int, height: float, sharex: bool = False) -> tuple[Figure, Any]:
-    """Axes side by side that share the axis upwards; `height` [in]."""
-    options: dict[str, Any] = {"sharex": sharex, "sharey": True, "layout": "constrained"}
-    figure, grid = plt.subplots(1, count, figsize=(PAGE, height), squeeze=False, **options)
-    return figure, grid[0]
-
-
 def _legend(figure: Figure, names: list[str]) -> None:
-    """One legend for all panels, below them."""
+    """A legend below the axes."""
     drawn = pens(names)
     handles = [Line2D([], [], **drawn[name], markerfacecolor="white") for name in names]
     shown = short(names)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from .candidates import candidates, chosen, tangents
+from .forces import forces
 from .integration import integrate, way
 from .mechanism import jacobian, kinematics, point_jacobian, slices
 from .optimum import qp_answer
@@ -104,4 +105,5 @@ def step_at(case, at, contacts):
     wrenches = wrench({"h": h, "cone": cone, "contacts": loaded, "bodies": {}})["wrench"]
     q_next = integrate({"mechanism": mechanism, "q": case["q"], "delta_q": delta_q})["q"]
     output |= {"delta_q": delta_q, "lam": lam, "A_lam": A_lam}
-    return {**output, "wrench": wrenches, "q_next": q_next}
+    output |= {"wrench": wrenches, "forces": forces(H, g, A, b, contacts, cone, h)}
+    return {**output, "q_next": q_next}

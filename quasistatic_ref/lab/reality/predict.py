@@ -58,7 +58,7 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
     """
     R = rotation(pose[2])
     body = np.zeros(of.n_u)
-    body[:2], body[3] = pose[:2] + R @ of.centre, pose[2]
+    body[:2], body[3] = pose[:2] + R @ of.outline.centre, pose[2]
     kinds: dict[str, int] = {}
     error, sticks, slides = 0.0, 0, 0
     solver: Solver | None = None
@@ -67,7 +67,7 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
     for target in targets:
         step = of.step(finger, body, target)
         solver = fitting(step, solver)
-        if of.law == COULOMB:
+        if of.by.law == COULOMB:
             found: StepSolution = simulated_solution(step, solver, ACCURACY)
         else:
             found = solve_step(step, solver, certify=certify)
@@ -79,7 +79,7 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
         loaded, slips = grip(step, found)
         sticks, slides = sticks + (loaded and not slips), slides + (loaded and slips)
     R = rotation(body[3])
-    end = np.append(body[:2] - R @ of.centre, body[3])
+    end = np.append(body[:2] - R @ of.outline.centre, body[3])
     return Prediction(end, kinds, error, sticks, slides)
 
 
@@ -112,7 +112,7 @@ def touching(of: Pushed, pose: Array, path: Array) -> Iterator[Array]:
     """Where the finger starts, and its targets from there to the end of its path.
 
     Each is of shape (2,) [m]. Steps of each straight piece are of equal length, at most
-    ``of.advance``.
+    ``of.by.advance``.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def touching(of: Pushed, pose: Array, path: Array) -> Iterator[Array]:
     yield points[0]
     for start, end in pairwise(points):
         length = float(np.linalg.norm(end - start))
-        count = int(np.ceil(length / of.advance * (1 - SAME)))
+        count = int(np.ceil(length / of.by.advance * (1 - SAME)))
         for k in range(count):
             yield start + (end - start) * ((k + 1) / count)
 

@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.lab.parallel import Log, results, workers
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted
-from quasistatic_ref.lab.reality.push import Pushed
+from quasistatic_ref.lab.reality.push import Pushed, pushed
 from quasistatic_ref.lab.reality.pushes import Pushes
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.simulate.progress import progress_bar
@@ -68,7 +68,7 @@ def predicted_pushes(
     StepNotSolved
         If a step has no answer that can be trusted.
     """
-    scenes = {pair.name: settings.pushed(pair, ratios[pair.name]) for pair in pairs}
+    scenes = {pair.name: pushed(settings, pair, ratios[pair.name]) for pair in pairs}
     header = FORMAT | {
         "settings": settings.record(),
         "certify": certify,

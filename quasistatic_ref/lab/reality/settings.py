@@ -3,24 +3,14 @@
 from dataclasses import asdict, dataclass
 from typing import Any, Final
 
-import numpy as np
-
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.reality.cloud import support_points
 from quasistatic_ref.lab.reality.pairs import Pair
-from quasistatic_ref.lab.reality.push import PATCH, Pushed
+from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.step.cones import ELLIPSOID, cone
+from quasistatic_ref.step.cones import ELLIPSOID
 
 ADVANCE: Final = 1e-3
 """Of the finger in a step [m]: about 40 steps a push."""
-
-SLOWEST: Final = 0.05
-"""Largest quasi-dynamic number [-]: the model's own drag is then 5 % of friction at most."""
-
-NO_TORSION: Final = 1e-3
-"""Ratio that stands for a support without torsional friction [m]: one of zero would leave how far
-a body turns on a push through its centre to its inertia."""
 
 
 @dataclass(frozen=True)
@@ -41,13 +31,15 @@ class Settings:
     advance : float
         Of the finger in a step [m].
     nudge : tuple of float
-        As of :class:`~quasistatic_ref.lab.reality.push.Pushed` [-].
-    law : str
-        As there.
-    rise : float
-        As there [-].
+        Force along x and y, and torque over the radius of gyration, of something else on the body
+        over mu_v m g [-].
     m, gyration, mu_v, h, stiffness : float
-        As there [kg], [m], [-], [s], [N/m]. They cancel in the quasi-static limit.
+        Mass [kg] and radius of gyration [m] of the body, friction of the support [-], time step
+        [s], of the finger [N/m]. They cancel in the quasi-static limit.
+    rise : float
+        Mass that a rise lifts, over m [-]: 1, or 1e-6 as of a planar base with `support`.
+    law : str
+        ``"convex"``, or ``"coulomb"`` for steps without a rise.
     """
 
     cone: str = ELLIPSOID
@@ -65,33 +57,14 @@ class Settings:
     rise: float = 1.0
     law: str = CONVEX
 
+    @property
+    def quasi_dynamic_number(self) -> float:
+        """Pi = v / (mu_v g h) of a body that goes as fast as the finger [-]."""
+        return self.advance / (self.mu_v * GRAVITY * self.h**2)
+
     def record(self) -> dict[str, Any]:
         """The same as plain data."""
         return asdict(self) | {"nudge": list(self.nudge)}
-
-    def pushed(self, pair: Pair, ratio: float) -> Pushed:
-        """The scene of a pair with an identified `ratio` mu_omega / mu_v [m].
-
-        Raises
-        ------
-        InputError
-            If there is no such cone, the pair has no such friction of the finger, or the
-            quasi-dynamic number is too large.
-        """
-        cone(self.cone)
-        radians = float(np.radians(self.axes))
-        one = self.points == 1
-        pushed = Pushed(
-            pair.outline, pair.outline.centre, pair.radius, self.friction(pair),
-            (ratio * self.torsion or NO_TORSION) if one else 0.0, self.cone,
-            PATCH if one else support_points(pair.outline, self.points),
-            self.advance, radians, self.nudge, self.m, self.gyration, self.mu_v, self.h,
-            self.stiffness, self.rise, self.law,
-        )  # fmt: skip
-        if not pushed.quasi_dynamic_number <= SLOWEST:
-            problem = f"makes the quasi-dynamic number more than {SLOWEST:g}; take a longer step"
-            raise InputError(problem, field="h", value=self.h)
-        return pushed
 
     def friction(self, pair: Pair) -> float:
         """Of the finger on the object [-].

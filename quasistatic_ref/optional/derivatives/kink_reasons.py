@@ -1,6 +1,7 @@
 """Which kinks of the contacts' geometry the step after q feels."""
 
 from collections.abc import Iterator, Sequence
+from functools import cache
 
 import numpy as np
 
@@ -115,6 +116,7 @@ def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
     return np.asarray(phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
 
 
+@cache
 def _quarters(name: str) -> bool:
     """Whether a cone's rows are the same after a quarter turn about the normal."""
     rows = cone_matrix(name)

@@ -154,7 +154,7 @@ def locked(run: Run) -> Iterator[Said]:
     if not run.searched or not rubbing.any():
         return
     k = int(rubbing.argmax())
-    contacts, wrench = run.contacts(k), run["wrench"][k]
+    contacts, wrench = run.contacts(k), run.forces(k)
     bears = wrench[:, 2] > BEARS * wrench[:, 2].max()
     found = [x for x in guides(run, contacts) if bears[list(x.contacts)].any()]
     if not found:

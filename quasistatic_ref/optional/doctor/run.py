@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.errors import StepNotSolved
@@ -71,6 +72,16 @@ class Run(Start):
             contacts=self.contacts(k),
             cone=simulator.cone if polyhedral else PYRAMID,
         )
+
+    def forces(self, k: int) -> Array:
+        """Forces of single contacts in step k, shape (n_c, 4) [N, N m].
+
+        Where the step cannot be solved once more, what its multipliers combine to.
+        """
+        wrench: Array = self["wrench"][k]
+        if not self.searched:
+            return wrench
+        return contact_forces(self.step_data(k), near=(self["delta_q"][k], wrench)).wrench
 
 
 def wrenches(step: StepData) -> Array | None:

@@ -18,17 +18,11 @@ from typing import Final
 import numpy as np
 from flint import arb, arb_mat, ctx
 
+from quasistatic_ref.certify.compliance.eliminated import EliminatedStep
 from quasistatic_ref.certify.compliance.face_guess import P_OF_WRENCH
 from quasistatic_ref.certify.compliance.forces import WRENCH, ContactForces
 from quasistatic_ref.certify.point import square_root
-from quasistatic_ref.certify.rational import (
-    Dyadic,
-    contact_motion,
-    dyadic,
-    h_times_hessian,
-    h_times_load,
-    two_to,
-)
+from quasistatic_ref.certify.rational import Dyadic, two_to
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.step.arrays import Array
@@ -88,7 +82,7 @@ def pushed(z: arb_mat) -> Pushed:
 
 
 class CompliantStep:
-    """The step with compliance in delta_q alone, in balls.
+    """The step with compliance in delta_q alone, in balls; its energy is times h c.
 
     Parameters
     ----------
@@ -98,18 +92,15 @@ class CompliantStep:
     """
 
     def __init__(self, step: StepData, compliance: float) -> None:
-        contacts = step.contacts
-        h = arb(step.h)
-        self.H = in_balls(h_times_hessian(step)) / h
-        self.g = in_balls(h_times_load(step)) / h
-        self.k = h / arb(compliance)
-        mu = dyadic(scaled_by(contacts)[:, :, None])
-        B = mu * contact_motion(contacts)
-        self.B = [in_balls(B[j]) for j in range(contacts.n_c)]
-        self.gap = [arb_mat(4, 1, [phi, 0.0, 0.0, 0.0]) for phi in contacts.phi.tolist()]
-        m, n = step.extra.A.shape
-        self.E = arb_mat(m, n, step.extra.A.ravel().tolist())
-        self.e = arb_mat(m, 1, step.extra.b.tolist())
+        exact = EliminatedStep(step, compliance)
+        n = step.n_v
+        self.H = in_balls(exact.H)
+        self.g = in_balls(exact.g)
+        self.k = arb(step.h) ** 2
+        self.B = [in_balls(exact.z[j, :, :n]) for j in range(step.contacts.n_c)]
+        self.gap = [in_balls(exact.z[j, :, n]) for j in range(step.contacts.n_c)]
+        self.E = in_balls(exact.own[:, :n])
+        self.e = in_balls(-exact.own[:, n])
 
     def pushed(self, x: arb_mat, more: Sequence[arb_mat] | None = None) -> list[Pushed]:
         """What each contact gives way at x, where z is as it is there, and perhaps `more`."""
@@ -119,7 +110,7 @@ class CompliantStep:
         return [pushed(z_j) for z_j in z]
 
     def energy(self, x: arb_mat, give: Sequence[Pushed]) -> arb:
-        """The energy at x [N m s]."""
+        """The energy at x."""
         squares = sum((v * v for one in give for v in one.s.entries()), arb(0))
         return (x.transpose() * (self.H * x / 2 - self.g))[0, 0] + self.k * squares / 2
 
@@ -190,7 +181,7 @@ class CompliantStep:
         return share
 
     def squared(self, x: arb_mat) -> arb:
-        """||x||_H^2 [N m s]."""
+        """||x||_H^2."""
         return (x.transpose() * (self.H * x))[0, 0].mid()
 
     def on_active_rows(self, x: arb_mat, give: list[Pushed]) -> tuple[arb_mat, arb_mat]:

@@ -117,15 +117,16 @@ def trajectory_page(trajectory: Trajectory) -> Page:
     ]
     facts += [f"finding: {finding}" for finding in trajectory.findings]
     n_c = np.size(trajectory["mu_v"])
-    shapes = {"phi": (), "n": (3,), "wrench": (4,)}
+    force = "forces" if "forces" in trajectory.arrays else "wrench"
+    shapes = {"phi": (), "n": (3,), force: (4,)}
     fits = (trajectory[key].shape == (steps, n_c, *last) for key, last in shapes.items())
     if not (steps and all(fits)):  # no steps, or a file that another program wrote
         return title, facts, (), ()
     names = header["contacts"][-1] if header["contacts"] else ()
     names = names if len(names) == n_c else range(n_c)
     rows = [
-        (str(name), number(phi), direction(n), *map(number, wrench))
-        for name, phi, n, wrench in zip(
+        (str(name), number(phi), direction(n), *map(number, of_contact))
+        for name, phi, n, of_contact in zip(
             names, *(trajectory[key][-1] for key in shapes), strict=True
         )
     ]

@@ -4,11 +4,6 @@ The runs of the grasp are those of ``demo``; what is slow is run in full by
 validation/tools/notebooks.py.
 """
 
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -18,7 +13,6 @@ from quasistatic_ref.lab.examples import (
     flat_patch,
     grasp,
     grasp_against_mu_omega,
-    grasp_rotation,
     hold_or_slip,
     plan_a_push,
     section_of_a_cone,
@@ -34,7 +28,6 @@ from tests.legible import faults
 from tests.tolerances import DIFFERENCE_OF_STEPS, EXACT, FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
 
 G = 9.81
-ROOT = Path(__file__).parents[3]
 BISECTED = 1e-3
 """Where the bisections of a patch end here [-]."""
 
@@ -45,7 +38,7 @@ def runs_of_the_demo(demo, monkeypatch):
         path = demo.folder / f"bunny_grasp_{case.replace(' ', '_')}.npz"
         return load_scenario("bunny_grasp", CASES[case], fast=True), trajectory_read(path)
 
-    for module in (grasp, grasp_against_mu_omega, grasp_rotation, solver_digits):
+    for module in (grasp, grasp_against_mu_omega, solver_digits):
         monkeypatch.setattr(module, "grasp", read)
     monkeypatch.setattr(solver_digits, "EVERY", 75)
     monkeypatch.setattr(both_laws, "STEPS", 72)
@@ -112,7 +105,7 @@ def test_measured_and_expected_stand_side_by_side_and_agree(name, rtol, atol):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 36
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 33
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -147,12 +140,6 @@ def test_the_cones_have_the_volumes_of_octahedron_prism_and_ball():
     found = numbers("cone_surfaces")
     expected = [4 / 3, 2 * 2, 4 / 3 * np.pi]  # base 2, height 2 for the prism
     np.testing.assert_allclose(list(found.values()), expected, rtol=ROUNDING)
-
-
-def test_the_drawn_contact_is_that_of_the_definitions():
-    phi, distance, *defects = numbers("contact_geometry").values()
-    np.testing.assert_allclose(phi, distance, rtol=ROUNDING)
-    np.testing.assert_array_less(defects, [ROUNDING, ROUNDING, FITTED])
 
 
 def test_both_laws_give_their_slips_and_almost_the_same_push():
@@ -223,15 +210,12 @@ def test_a_sphere_does_not_turn_up_to_mu_omega_m_g_and_its_layer_has_both_laws()
     np.testing.assert_allclose(exponents, [1, 2], atol=FITTED)  # of h, at a rate and at a torque
 
 
-def test_the_grasp_lifts_and_every_step_is_exact():
-    with_torsion, exact, _, all_exact, variables, rows = numbers("grasp").values()
-    assert with_torsion > 30
+def test_the_grasp_lifts_and_the_bunny_turns_without_torsion_only():
+    *cases, variables, rows = numbers("grasp").values()
+    (lifted, held, exact), (_, turned, all_exact) = np.reshape(cases, (2, 3))
+    assert lifted > 30
+    assert held < 1 < 30 < turned
     assert (exact, all_exact, variables, rows) == (300, 300, 13, 80)
-
-
-def test_the_bunny_turns_without_torsion_only():
-    with_torsion, without = numbers("grasp_rotation").values()
-    assert with_torsion < 1 < 30 < without
 
 
 def test_the_bunny_is_held_from_the_mu_omega_on_that_its_forces_need():
@@ -242,17 +226,6 @@ def test_the_bunny_is_held_from_the_mu_omega_on_that_its_forces_need():
     # (R15), Hertz: a patch as wide as the finger, of 24 mm, with mu_v = 0.6.
     np.testing.assert_allclose(limit, 1e3 * 3 * np.pi / 16 * 0.6 * 0.012, rtol=ROUNDING)
     assert needed < used < limit
-
-
-def test_all_distances_lengthen_a_step_but_not_its_solve():
-    everything, tracked, *profiles = numbers("time_of_a_step").values()
-    assert everything == 3 * 992 > 2 * tracked
-    profiles = np.reshape(profiles, (-1, 2, 2))  # backends, tracker and brute force, time and share
-    assert (profiles[:, 0, 0] < profiles[:, 1, 0]).all()
-    assert (profiles[:, 0, 1] > profiles[:, 1, 1]).all()
-    # Only the distances differ: the solve itself is the same.
-    solve = profiles.prod(axis=2)
-    np.testing.assert_allclose(solve[:, 0], solve[:, 1], rtol=ROUNDING)
 
 
 def test_more_accuracy_means_more_digits_but_never_all():
@@ -278,17 +251,6 @@ def test_the_finger_rolls_on_the_drum_and_slides_without_friction():
     np.testing.assert_allclose(turn, 0.945, atol=0.005)
     assert difference < 2 * FIRST_ORDER
     assert smooth < SCENARIO
-
-
-def test_an_example_is_a_script(tmp_path):
-    command = [sys.executable, "-W", "error", "-m", "quasistatic_ref.lab.examples.cone_surfaces"]
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    done = subprocess.run(
-        command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr
-    assert "volume of the pyramid [-]: 1.33333" in done.stdout
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["cone_surfaces.pdf", "cone_surfaces.png"]
 
 
 def test_friction_used_rises_with_a_push_without_a_jump():

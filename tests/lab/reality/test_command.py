@@ -11,6 +11,7 @@ from quasistatic_ref.lab.parallel import records_read
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted
+from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.settings import Settings
 from tests.lab.reality.test_identify import planted
 
@@ -39,7 +40,7 @@ def folder(tmp_path_factory):
     for k, across in enumerate((-0.02, 0.0, 0.03)):
         before = np.array([0.1, 0.2, 0.4])
         tip = np.array([[0.1 + across, 0.11], [0.1 + across, 0.15]])
-        after = predicted(Settings().pushed(pair, RATIO), before, tip, "off").pose
+        after = predicted(pushed(Settings(), pair, RATIO), before, tip, "off").pose
         rows.append(["glass", "tile", k, *before, *after, *tip.ravel()])
     head = "surface,shape,push,x0,y0,theta0,x1,y1,theta1,tip_x0,tip_y0,tip_x1,tip_y1"
     written(folder / "pushes.csv", head, rows)

@@ -8,6 +8,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted, touching
+from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.slider import sliding_motion, sticking_motion
@@ -33,7 +34,7 @@ PATH = np.array([BELOW, BELOW + 0.02 * UP])
 
 @pytest.mark.parametrize("mu_finger", ["0.9", "0.0"])
 def test_a_slow_step_moves_a_slider_as_lynch_says(mu_finger):
-    scene = Settings(finger=mu_finger, h=20.0, advance=1e-4).pushed(PAIR, RATIO)
+    scene = pushed(Settings(finger=mu_finger, h=20.0, advance=1e-4), PAIR, RATIO)
     body = np.append(START[:2], [0.0, 0.0])
     found = solve_step(scene.step(BELOW, body, BELOW + 1e-4 * UP))
     point, way, c2 = np.array([0.015, -0.04]), found.delta_q[:2], RATIO**2
@@ -42,7 +43,7 @@ def test_a_slow_step_moves_a_slider_as_lynch_says(mu_finger):
     else:
         law = sticking_motion(point, way, c2)
     off = np.linalg.norm((found.delta_q[[2, 3, 5]] - law) * [1, 1, RATIO]) / way[1]
-    assert off < QUASI_STATIC * scene.quasi_dynamic_number
+    assert off < QUASI_STATIC * scene.by.quasi_dynamic_number
     assert found.certificate.kind == "enclosure"
 
 
@@ -52,8 +53,8 @@ CHANGES = [{"m": 20.0}, {"h": 5.0}, {"mu_v": 0.9}, {"stiffness": 1e7}, {"gyratio
 @pytest.mark.parametrize("change", CHANGES, ids=str)
 def test_mass_load_step_time_and_stiffness_do_not_matter(change):
     base, other = Settings(advance=2e-3), Settings(**{"advance": 2e-3} | change)
-    ends = [predicted(s.pushed(PAIR, RATIO), START, PATH, "off").pose for s in (base, other)]
-    Pi = base.pushed(PAIR, RATIO).quasi_dynamic_number
+    ends = [predicted(pushed(s, PAIR, RATIO), START, PATH, "off").pose for s in (base, other)]
+    Pi = base.quasi_dynamic_number
     turned = ends[0][2] - START[2]
     assert abs(turned) > 0.1
     assert np.abs((ends[1] - ends[0]) * [1, 1, RATIO]).max() < QUASI_STATIC * Pi * 0.02
@@ -61,18 +62,18 @@ def test_mass_load_step_time_and_stiffness_do_not_matter(change):
 
 def test_steps_are_refused_whose_drag_is_not_small():
     with pytest.raises(InputError, match="quasi-dynamic"):
-        Settings(h=0.01).pushed(PAIR, RATIO)
+        pushed(Settings(h=0.01), PAIR, RATIO)
 
 
 def test_a_finger_that_passes_by_moves_nothing():
     path = np.array([[0.0, 0.0], [0.4, 0.0]])  # 55 mm below the side that is nearest
-    found = predicted(Settings().pushed(PAIR, RATIO), START, path)
+    found = predicted(pushed(Settings(), PAIR, RATIO), START, path)
     assert (found.pose == START).all()
     assert found.kinds == {}
 
 
 def test_steps_begin_where_the_finger_first_touches():
-    scene = Settings().pushed(PAIR, RATIO)
+    scene = pushed(Settings(), PAIR, RATIO)
     ahead = np.array([BELOW - 0.03 * UP, BELOW + 0.01 * UP])
     first, *targets = touching(scene, START, ahead)
     assert first == pytest.approx(BELOW, abs=2e-6)
@@ -82,13 +83,13 @@ def test_steps_begin_where_the_finger_first_touches():
 
 @pytest.mark.parametrize("cone", ["pyramid", "product", "facets-8"])
 def test_steps_in_polyhedral_cones_are_exact(cone):
-    found = predicted(Settings(cone=cone).pushed(PAIR, RATIO), START, PATH)
+    found = predicted(pushed(Settings(cone=cone), PAIR, RATIO), START, PATH)
     assert set(found.kinds) == {"exact"}
     assert found.error_bound == 0.0
 
 
 def test_a_push_whose_steps_have_no_bound_has_none():
-    found = predicted(Settings().pushed(PAIR, RATIO), START, PATH, certify="off")
+    found = predicted(pushed(Settings(), PAIR, RATIO), START, PATH, certify="off")
     assert found.error_bound == np.inf
 
 
@@ -104,20 +105,20 @@ FINGER = robot(
 def test_a_planar_base_on_its_support_moves_as_where_a_rise_weighs_nothing(tmp_path):
     """The first step of a push of a box of 1 kg that comes from the right, so that it turns."""
     settings = Settings(gyration=np.sqrt(2 * 0.08**2 / 12), rise=1e-6)
-    scene = settings.pushed(PAIR, RATIO)
+    scene = pushed(settings, PAIR, RATIO)
     aside = {"base": "planar", "xyz": (*START[:2], 0)}
-    body = Body.of_shape("box", Box(size=(0.08, 0.08, 0.02)), scene.m, **aside)
+    body = Body.of_shape("box", Box(size=(0.08, 0.08, 0.02)), settings.m, **aside)
     finger = Body("finger", written(tmp_path, FINGER, "finger.urdf"), actuated="all",
                   positions={"x": BELOW[0], "y": BELOW[1]})  # fmt: skip
     system = System([finger, body])
     tip, box = sorted(system.shapes, key=lambda shape: shape.link)
-    K_q = scene.stiffness * np.eye(2)
+    K_q = settings.stiffness * np.eye(2)
     pairs, rises = private_rises(
         system, [ContactPair("push(tip, box)", tip, box, scene.mu_finger, 0.0, 4, 1)],
-        h=scene.h, K_q=K_q, gravity=(0, 0, -GRAVITY),
-        support={"box": (scene.mu_v, scene.mu_v * RATIO)},
+        h=settings.h, K_q=K_q, gravity=(0, 0, -GRAVITY),
+        support={"box": (settings.mu_v, settings.mu_v * RATIO)},
     )  # fmt: skip
-    simulator = Simulator(system, pairs, h=scene.h, K_q=K_q, cone="ellipsoid", fast=True,
+    simulator = Simulator(system, pairs, h=settings.h, K_q=K_q, cone="ellipsoid", fast=True,
                           extension=lambda q: Extension(rises=rises))  # fmt: skip
     target = BELOW + np.array([-5e-4, 1e-3])
     found = simulator.step(system.q_start, target).solution.delta_q[:5]

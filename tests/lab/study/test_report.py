@@ -14,7 +14,7 @@ from quasistatic_ref.lab.page.html import html_page, sorting
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.report.comparison import noise_of
 from quasistatic_ref.lab.study.report.report import study_report
-from quasistatic_ref.lab.study.report.rows import half_of, rows_of
+from quasistatic_ref.lab.study.report.rows import rows_of
 from quasistatic_ref.lab.study.report.statistics import (
     interval,
     performance_ratios,
@@ -101,37 +101,6 @@ def test_the_ten_lines_of_the_report_make_its_first_table_again(store, tmp_path,
         assert agrees(shown[mean], 1e3 * own["mean"])
 
 
-def test_the_first_table_has_eight_columns_at_most_and_the_numbers_of_the_next(tables):
-    (_, _, columns, body), (_, _, wide, lines), *_ = tables
-    assert len(columns) <= 8
-    every = [dict(zip(wide, line, strict=True)) for line in lines]
-    for line in body:
-        shown = dict(zip(columns, line, strict=True))
-        (own,) = (one for one in every if (one["solver"], one["interface"]) ==
-                  (shown["solver"], shown["interface"]))  # fmt: skip
-        false = sum(int(own[f"said {claim}, was wrong"]) for claim in ("optimal", "infeasible"))
-        assert list(shown.values())[2:] == [
-            f"{own['>= 6 digits [%]']} ({own['95 % of bootstraps, 6 digits']})",
-            own["repeated, median [ms]"], own["first call, median [ms]"], str(false),
-            own["calls not made"],
-        ]  # fmt: skip
-
-
-def test_calls_that_a_budget_did_not_reach_are_left_out_and_counted(tables, rows):
-    """Of cat's 12 problems the budget reached 9: what is not in the table is counted there."""
-    _, _, columns, body = next(table for table in tables if "its own options" in table[2])
-    for line in body:
-        shown = dict(zip(columns, line, strict=True))
-        own = [r for r in picked(rows, "units = natural, warm = false")
-               if (r["solver"], r["interface"], r["setting"])
-               == tuple(shown[name] for name in ("solver", "interface", "setting"))
-               and half_of(r["problem"]) == 1]  # fmt: skip
-        missing = sum(r["outcome"] == "not_run_budget" for r in own)
-        assert int(shown["calls not made"]) == missing
-        assert int(shown["problems"]) == len(own) - missing
-    assert any(line[columns.index("calls not made")] != "0" for line in body)
-
-
 def headline(folder, rows, **changes):
     """A report on other rows, and the table of every interface in it."""
     folder.mkdir()
@@ -201,7 +170,7 @@ def test_the_noise_is_the_difference_of_what_was_repeated(store):
 def test_profiles_are_shares_of_problems_right_in_time(report, tables, rows):
     """rho_s(tau): how many problems s has right within tau times the least time, over all."""
     (picture,) = (p for p in report.pictures if p.kind == "profiles")
-    (panel,) = picture.data["panels"]
+    panel = picture.data
     _, _, columns, body = next(table for table in tables if "its own options" in table[2])
     at = {f"{line[1]}:{line[0]}": line[columns.index("setting")] for line in body
           if f"{line[1]}:{line[0]}" in panel["labels"]}  # fmt: skip

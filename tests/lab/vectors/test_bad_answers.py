@@ -94,20 +94,3 @@ def test_the_json_report_says_all_of_it(folder, capsys):
     assert found["selection"]["worst_digits"] == 16
     assert not found["qp"]["answered"]
     assert len(found["rows"]["cases"]) == len(answers)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (["no_such_folder"], "no folder of answers"),
-        (["EMPTY"], "answers no layer"),
-        (["EMPTY", "--layer", "row"], "rows"),
-        (["EMPTY", "--vectors", "no_such_folder"], "expected"),
-    ],
-)
-def test_what_is_no_folder_of_answers_or_vectors_is_refused(tmp_path, arguments, says, capsys):
-    given = [str(tmp_path) if word == "EMPTY" else word for word in arguments]
-    if "--vectors" not in given:
-        given += ["--vectors", str(VECTORS)]
-    assert main(["vectors", "check", *given]) == 2
-    assert says in capsys.readouterr().err

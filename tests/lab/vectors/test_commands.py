@@ -57,22 +57,6 @@ def test_programs_are_exported_with_their_exact_answers(few, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "says"),
-    [
-        (["own", "--layer", "row", "--out", "{0}"], "did you mean 'rows'?"),
-        (["generate", "--vectors", "{0}/nowhere", "--out", "{0}"], "no such file"),
-    ],
-)
-def test_bad_input_is_one_sentence_and_status_2(arguments, says, tmp_path, capsys):
-    given = [argument.format(tmp_path) for argument in arguments]
-    assert main(["vectors", *given]) == 2
-    errors = capsys.readouterr().err
-    assert says in errors
-    assert errors.count("\n") == 1
-    assert "Traceback" not in errors
-
-
-@pytest.mark.parametrize(
     ("record", "says"),
     [
         ({"format": "quasistatic-ref/vectors-expected"}, "format"),

@@ -245,24 +245,3 @@ def test_the_command_prints_what_was_passed_and_ends_as_the_check(tmp_path, caps
     assert json.loads(printed.out)["layers"][1]["failed"] == 1
     assert main([*given, "--quiet"]) == 1
     assert capsys.readouterr().err.startswith("quasistatic-ref: selection: selection/")
-
-
-@pytest.mark.parametrize(
-    ("more", "says"),
-    [
-        (["--implementation", ""], "--implementation: must be a name of 1 to 80 characters"),
-        (["--implementation", "a\nb"], "--implementation: must be a name"),
-        (["--implementation", "x" * 81], "--implementation: must be a name"),
-        (["--digits", "17"], "digits: must be from 0 to 16"),
-        (["--vectors", "nowhere"], "nowhere"),
-        (["--out", "{answers}/selection.json"], "cannot be written"),
-    ],
-)
-def test_bad_input_is_one_sentence_and_status_2(more, says, tmp_path, capsys):
-    answers = answered(tmp_path / "answers", ["selection"])
-    given = [word.format(answers=answers) for word in more]
-    out = [] if "--out" in given else ["--out", str(tmp_path / "out")]
-    assert main(["vectors", "report", str(answers), *given, *out]) == 2
-    errors = capsys.readouterr().err
-    assert says in errors
-    assert errors.count("\n") == 1

@@ -117,19 +117,6 @@ def test_layers_that_a_program_does_not_declare_are_unsupported(tmp_path):
     assert found.remarks == ["rows is not supported", "wrench is not supported"]
 
 
-@pytest.mark.parametrize(
-    ("given", "says"),
-    [
-        ("./no_such_program", "cannot be started"),
-        ("'unclosed", "cannot be read"),
-        ("", "is empty"),
-    ],
-)
-def test_a_program_that_cannot_be_started_is_bad_input(given, says):
-    with pytest.raises(InputError, match=says):
-        challenge(Program(given), layers=["selection"], cases=1)
-
-
 def test_a_program_that_ends_at_once_is_bad_input(tmp_path):
     with pytest.raises(InputError, match="does not answer: it ended with status 1: licence"):
         outcome("ends at once", tmp_path)

@@ -8,7 +8,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.check.case import judged
 from quasistatic_ref.lab.vectors.check.patched import program
-from quasistatic_ref.lab.vectors.check.scope import Scope, scope_read
+from quasistatic_ref.lab.vectors.check.scope import scope_read
 from quasistatic_ref.lab.vectors.conformance.badge import AMBER, GREEN, RED, colour
 from quasistatic_ref.lab.vectors.conformance.files import conformance
 from quasistatic_ref.lab.vectors.files import answers_written
@@ -121,13 +121,3 @@ def test_the_seconds_of_a_challenge_are_kept_with_a_slow_program():
     began = time.monotonic()
     challenge(slow, layers=["rows"], seconds=1.0)
     assert time.monotonic() - began < 4.0
-
-
-def test_a_mistake_of_a_partial_program_is_found_and_named():
-    layers = ("jacobian", "rows", "wrench", "integrate", "step")
-    scope = Scope("some", layers, shapes=("box", "halfspace"), cones=("pyramid",), farkas=False)
-    size_of_phi = """rows.py:
-- b.extend([-c["phi"]] * len(found))
-+ b.extend([-abs(c["phi"])] * len(found))"""
-    outcome = challenge(program(size_of_phi), scope=scope, cases=96, first=True)
-    assert any("size of phi in b" in finding.mistakes for finding in outcome.findings)

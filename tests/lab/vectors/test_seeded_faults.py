@@ -114,8 +114,8 @@ def test_a_patch_is_named(name, layer):
 @pytest.mark.parametrize("name", BUGS)
 def test_a_bug_planted_in_javascript_is_named(name, tmp_path):
     bug = BUGS[name]
-    planted_bugs.planted(bug["changes"], tmp_path)
-    layer = "step" if bug["layer"] == "distance" else bug["layer"]
+    planted_bugs.planted(bug["patch"], tmp_path)
+    layer = bug["patch"].partition("\n")[0].partition(": ")[2]
     asked = cases("step") if layer == "step" else small_cases(layer)
     command = planted_bugs.JAVASCRIPT.format(folder=tmp_path)
     report = report_on(layer, javascript(layer, asked, command))

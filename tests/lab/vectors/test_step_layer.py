@@ -4,13 +4,15 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.program.forces import COMPLIANCE
+from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.distances.candidates import chosen
-from quasistatic_ref.lab.vectors.exact.entered import entered
-from quasistatic_ref.lab.vectors.families.mechanisms import link
 from quasistatic_ref.lab.vectors.families.scenario_mechanism import mechanism_of, pairs_of
 from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.scenario.scenario import load_scenario
-from tests.lab.vectors.material import cases, expected
+from tests.lab.vectors.material import cases, expected, right_answers
+from tests.oracles.compliant_forces import forces as independent_forces
 from tests.tolerances import ROUNDING
 
 HERE = {"xyz": [0.0, 0.0, 0.0], "quaternion": [0.0, 0.0, 0.0, 1.0]}
@@ -47,31 +49,6 @@ def test_corners_that_depend_on_the_other_solid_make_one_contact_only():
         chosen(FLOOR, {"kind": "cylinder", "radius": 0.1, "length": 0.2}, HERE, HERE, 2)
 
 
-def follower(**more):
-    mimic = {"of": "drive", "multiplier": -0.5, "offset": 0.25}
-    finger = link("finger", "palm", "prismatic", axis=[1.0, 0.0, 0.0], mimic=mimic)
-    drive = link("drive", "palm", "prismatic", actuated=True)
-    return [link("palm", None, "fixed"), drive, {**finger, **more}]
-
-
-def test_a_joint_that_follows_another_has_no_coordinate_of_its_own():
-    # The finger is at x = 0.25 - q / 2 and moves at -1/2 of the drive's pace.
-    point = {"alpha": [0.0, 0.0, 0.0], "beta": [0.15, 0.0, 0.0], "n": [1.0, 0.0, 0.0]}
-    point |= {"d1": [0.0, 1.0, 0.0], "d2": [0.0, 0.0, 1.0]}
-    case = {"mechanism": {"bodies": follower()}, "q": [0.2]}
-    case["contacts"] = [{**point, "alpha_body": None, "beta_body": "finger"}]
-    J = [[[-0.5], [0.0], [0.0], [0.0]]]
-    assert layer("jacobian").expected(case).output == layer("jacobian").own(case) == {"J": J}
-    case["delta_q"] = [0.125]
-    assert layer("integrate").expected(case).output["q"] == [0.2 + 0.125]
-
-
-@pytest.mark.parametrize("more", [{"joint": "continuous"}, {"mimic": {"of": "finger"}}])
-def test_what_cannot_be_followed_is_refused(more):
-    with pytest.raises(InputError, match="must follow a revolute or prismatic joint"):
-        entered({"mechanism": {"bodies": follower(**more)}})
-
-
 def test_a_step_of_a_scenario_is_that_of_the_simulator():
     scenario = load_scenario("bunny_grasp", fast=True)
     shapes, pairs = pairs_of(scenario)
@@ -92,3 +69,50 @@ def test_consecutive_steps_of_a_run_follow_each_other():
     by_id = {case.id: case.input for case in cases("step")}
     after = expected("step")["step/stack/15"]["output"]["q_next"]
     np.testing.assert_allclose(after, by_id["step/stack/16"]["q"], rtol=0, atol=ROUNDING)
+
+
+def stack():
+    """A step of two boxes on each other, 8 contacts, whose optimal lam are many."""
+    (case,) = (case for case in cases("step") if case.id == "step/stack/0")
+    record = expected("step")[case.id]
+    assert record["flags"]["unique_multipliers"] is False
+    return case.input, record, right_answers("step")[case.id]
+
+
+def test_forces_are_those_of_60_digits_on_the_step_of_the_package():
+    case, record, answer = stack()
+    step = posed_case(case).step
+    found = independent_forces(step, COMPLIANCE)
+    allowed = record["tolerance"]["forces"]["absolute"]
+    np.testing.assert_allclose(answer["forces"], found, rtol=0, atol=allowed)
+    weight = -step.tau_u[2::6].sum()  # of all boxes, on the floor's four contacts
+    np.testing.assert_allclose(found[:4, 2].sum(), weight, rtol=0, atol=4 * allowed)
+
+
+@pytest.mark.parametrize("component", range(4))
+def test_wrong_forces_are_refused_by_contact_and_component(component):
+    case, record, answer = stack()
+    forces = np.array(answer["forces"])
+    forces[5, component] += 1e-3
+    verdict = case_verdict("step", case, record, {**answer, "forces": forces.tolist()})
+    name = ("f_d1", "f_d2", "f_n", "tau_n")[component]
+    said = f"forces[5][{component}], {name} of contact 5, is off by 0.001 "
+    assert (verdict.verdict, verdict.field) == ("failed", "forces")
+    assert verdict.reason.startswith(said)
+
+
+def test_forces_may_be_left_out_and_vectors_without_them_do_not_ask():
+    case, record, answer = stack()
+    silent = {name: value for name, value in answer.items() if name != "forces"}
+    before = {**record, "output": {k: v for k, v in record["output"].items() if k != "forces"}}
+    for wanted, given in ((record, silent), (before, answer), (before, silent)):
+        verdict = case_verdict("step", case, wanted, given)
+        assert (verdict.verdict, verdict.without) == ("passed", ())
+
+
+def test_other_optimal_lam_stand_with_the_same_forces():
+    case, record, answer = stack()
+    own = layer("step").own(case)
+    assert own["lam"] != answer["lam"]
+    assert case_verdict("step", case, record, own).verdict == "acceptable"
+    assert case_verdict("step", case, record, {**own, "forces": own["wrench"]}).field == "forces"

@@ -120,7 +120,7 @@ COLOURED = """<mujoco>
 def test_what_mujoco_draws_is_seen_in_its_colours(tmp_path):
     path = written(tmp_path, COLOURED, "scene.xml")
     found = visuals(Scene(System([Body("a", mjcf_urdf(path))]), ()))
-    assert [visual.colour for visual in found] == [0x808080, 0xFF0000, 0x0000FF]
+    assert [visual.colour for visual in found] == ["#808080", "#ff0000", "#0000ff"]
 
 
 def test_the_reader_of_pinocchio_still_drops_bodies_and_masses(tmp_path):

@@ -11,6 +11,7 @@ from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read
 from quasistatic_ref.lab.reality.predict import predicted
+from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.pushes import pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.step.data import Array
@@ -47,7 +48,7 @@ def errors(cone: str) -> tuple[Array, Array, int]:
         some = pushes[pair.name].every(EVERY)
         assert found is not None
         assert some.published is not None
-        scene = Settings(cone=cone, advance=ADVANCE).pushed(pair, found.ratio)
+        scene = pushed(Settings(cone=cone, advance=ADVANCE), pair, found.ratio)
         ways = zip(some.before, some.path, strict=True)
         ends = [predicted(scene, before, path) for before, path in ways]
         unproved += sum(n for e in ends for kind, n in e.kinds.items() if kind not in PROOFS)

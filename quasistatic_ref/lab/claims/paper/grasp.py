@@ -8,7 +8,7 @@ import numpy as np
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, within
 from quasistatic_ref.lab.clouds.rows import held, margin, rows
 from quasistatic_ref.lab.clouds.study import NONE, TORSION, Cell, row
-from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
+from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, rotations
 from quasistatic_ref.lab.runs import grasp, lift
 
 HELD, SWUNG, LIFTED = 1.0, 30.0, 0.030
@@ -21,15 +21,13 @@ SEEDS = 1
 
 def evidence() -> Evidence:
     """Rotation during the lift, height of the lift, and how many steps are exact; other clouds."""
-    angles, lifts, exact, times = {}, [], [], np.zeros(0)
-    for case in CASES:
-        motion, steps = lift(case)
-        times = motion.times[steps]
-        angles[case] = np.degrees(motion.rotation_since(CLOSED)[steps])
-        lifts.append(motion.t[steps][-1, 2] - motion.t[steps][0, 2])
-        exact.append(np.mean(grasp(case)[1]["certificate"] == "exact"))
-    h = float(grasp("with torsion")[0].h)
-    picture = {"times": times, "angles": angles, "h": h}
+    scenario, _ = grasp("with torsion")
+    runs = {case: grasp(case)[1] for case in CASES}
+    picture = rotations(scenario, runs)
+    angles = picture["angles"]
+    motion, steps = lift("with torsion")
+    raised = motion.t[steps][-1, 2] - motion.t[steps][0, 2]
+    exact = [np.mean(run["certificate"] == "exact") for run in runs.values()]
     again = [row(cell) for cell in _cells()]
     known = {Cell(**{name: one[name] for name in vars(_PATTERN)}): one for one in rows()}
     before = [known[cell] for cell in _cells()]
@@ -40,7 +38,7 @@ def evidence() -> Evidence:
     return Evidence.of(
         within("rotation with torsion [deg]", angles["with torsion"].max(), 0.0, HELD),
         within("rotation without torsion [deg]", angles["without torsion"].max(), SWUNG, np.inf),
-        within("lift [m]", lifts[0], LIFTED, np.inf),
+        within("lift [m]", raised, LIFTED, np.inf),
         comparison("share of steps certified exactly [-]", exact, 1.0, 0.0),
         within("rotation of any cloud with a firm grip [deg]", max(firm), 0.0, HELD),
         within("share held of clouds with a weak grip [-]", float(np.mean(weak)), 0.0, 0.0),

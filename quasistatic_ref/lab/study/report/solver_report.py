@@ -103,24 +103,24 @@ def _profiles(comparison: Comparison, best: Sequence[str]) -> Block:
     found = {one.label: one.setting for one in comparison.soonest if one.label in best}
     own = comparison.called.kept(lambda row: found.get(row["label"]) == row["setting"]).common()
     parts = {label: part for (label,), part in own.groups("label").items()}
-    panels = []
+    data = {}
     if parts:
         times = np.array([part.sorted_by_unit("seconds") for part in parts.values()])
         good = np.array([part.sorted_by_unit("digits") for part in parts.values()])
         ratios = performance_ratios(times, good >= WANTED)
         title = f"right to {WANTED:g} digits"
-        panels.append({"title": title, "labels": list(parts), "ratios": ratios})
+        data = {"title": title, "labels": list(parts), "ratios": ratios}
     words = "Performance profiles, each solver at its setting and interface of the first table."
-    return _picture("profiles", panels, words, comparison.base, tables.same_problems(own))
+    return _picture("profiles", data, words, comparison.base, tables.same_problems(own))
 
 
-def _picture(name: str, panels: list[Any], caption: str, where: Where, said: str) -> Block:
+def _picture(name: str, data: Mapping[str, Any], caption: str, where: Where, said: str) -> Block:
     """A picture, or a sentence in place of one that would be empty."""
-    if not panels:
+    if not data:
         return (
             f"There is no problem that all solvers were run on: the figure `{name}` is not drawn."
         )
-    return Picture(name, name, {"panels": panels}, caption, f"{filter_words(where)}{said}")
+    return Picture(name, name, data, caption, f"{filter_words(where)}{said}")
 
 
 def _against_time(comparison: Comparison, best: Sequence[str]) -> Block:
@@ -136,14 +136,14 @@ def _against_time(comparison: Comparison, best: Sequence[str]) -> Block:
         for (label,), part in own.groups("label").items()
         if label in best
     }
-    panels = [{"title": f"{comparison.base['units']} units", "lines": lines}] if lines else []
+    data = {"title": f"{comparison.base['units']} units", "lines": lines} if lines else {}
     caption = (
         "Median digits against median time of a call. Each mark is a setting: half "
         "filled the solver's own, filled the tightest. A line joins the solver's other settings, "
         "from loose to tight."
     )
     more = tables.same_problems(own)
-    return _picture("digits_time", panels, caption, comparison.base, more)
+    return _picture("digits_time", data, caption, comparison.base, more)
 
 
 def _contrasts(comparison: Comparison) -> list[Block]:

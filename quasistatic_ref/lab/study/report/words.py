@@ -1,6 +1,5 @@
 """How filters, numbers, options and sentences stand in a report of a study."""
 
-import tomllib
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
@@ -8,8 +7,10 @@ from pathlib import Path
 
 @cache
 def _every_sentence() -> dict[str, list[str]]:
-    """The sentences, by what they are about."""
-    return tomllib.loads((Path(__file__).parent / "words.toml").read_text(encoding="utf-8"))
+    """The sentences, by what they are about: the headings of ``words.md``."""
+    text = (Path(__file__).parent / "words.md").read_text(encoding="utf-8")
+    parts = [part.strip().split("\n\n") for part in text.split("# ")[1:]]
+    return {about: [" ".join(one.split()) for one in own] for about, *own in parts}
 
 
 def sentences(about: str, **numbers: float) -> list[str]:

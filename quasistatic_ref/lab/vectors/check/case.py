@@ -45,6 +45,8 @@ def case_verdict(layer: str, case: Json, record: Json, answer: Json) -> Verdict:
         return derivative_verdict(record, answer)
     expected = record["output"]
     if layer in ("qp", "step") and isinstance(answer, dict):
+        if "forces" not in expected and "delta_q" in expected:  # as before version 6
+            answer = {name: value for name, value in answer.items() if name != "forces"}
         if "farkas" in answer and "farkas" in expected:
             return _infeasible(layer, case, record, answer)
         if "farkas" in answer:

@@ -9,15 +9,18 @@ from quasistatic_ref.lab.vectors.expected import Json
 
 OPTIONAL: Final = {
     "qp": ("A_lam", "slack", "certificate"),
-    "step": ("A_lam",),
+    "step": ("A_lam", "forces"),
 }
 """Fields that follow from others, and need not be answered."""
+WRENCH: Final = ("f_d1", "f_d2", "f_n", "tau_n")
+"""Components of a contact's wrench."""
 
 CONTACT: Final = ("pair", "index", "phi", "n", "alpha", "beta", "d1", "d2", "J")
 ORDER: Final = (
     *CONTACT,
     "indices",
-    *("H", "g", "A", "b", "delta_q", "lam", "A_lam", "slack", "wrench", "net", "q", "q_next"),
+    *("H", "g", "A", "b", "delta_q", "lam", "A_lam", "slack", "wrench", "forces", "net"),
+    *("q", "q_next"),
 )
 """Fields in the order in which a step comes to them: what fails first is the cause of the rest."""
 
@@ -153,6 +156,9 @@ def difference(
         size, error = max(size, abs(one)), abs(float(other) - float(one))
         if error > worst:
             worst, place = error, path
+    if field in ("wrench", "forces") and place:
+        contact, component = place[1:-1].split("][")
+        place += f", {WRENCH[int(component)]} of contact {contact},"
     return Difference(
         field,
         place,

@@ -14,8 +14,10 @@ import numpy as np
 from quasistatic_ref.lab.vectors.check.compare import tolerance_of
 from quasistatic_ref.lab.vectors.check.valid_witness import solid_cases, witness_problem
 from quasistatic_ref.lab.vectors.distances.candidates import parts
+from quasistatic_ref.lab.vectors.exact.compliant import compliant_forces
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.lab.vectors.layers.qp import matrices
 from quasistatic_ref.lab.vectors.layers.step import answered, of_pair, shape_pose, with_rows
 from quasistatic_ref.step.data import Array
 
@@ -97,5 +99,8 @@ def record_from(case: Json, record: Json, contacts: Json) -> Json:
     program = {key: record["output"][key] for key in ("H", "g")} | rows.output
     solved = layer("qp").expected(program)
     output, _, _ = answered(case, entries, program, solved)
+    if "forces" in record["output"]:
+        found, _ = compliant_forces(matrices(program), case, entries, output["lam"])
+        output["forces"] = found
     unique = record["flags"]["unique_multipliers"] and solved.flags["unique_multipliers"]
     return {**record, "output": output, "flags": {**record["flags"], "unique_multipliers": unique}}

@@ -12,7 +12,7 @@ from quasistatic_ref.lab.vectors.expected import Json
 
 MODULES: Final = (
     *("number", "rotation", "mechanism", "integration", "curved", "distance", "candidates"),
-    *("rows", "wrench", "optimum", "step", "derivative", "layers"),
+    *("rows", "wrench", "optimum", "forces", "step", "derivative", "layers"),
 )
 """Files of the program, each after those that it imports from."""
 
@@ -21,23 +21,24 @@ Program = Callable[[str, Json], Json]
 
 
 @cache
-def text_of(module: str) -> str:
-    """The text of a file of the program."""
-    return (files(plain_program) / f"{module}.py").read_text(encoding="utf-8")
+def _text(file: str) -> str:
+    return (files(plain_program) / file).read_text(encoding="utf-8")
 
 
 @cache
-def _code(module: str, text: str) -> CodeType:
-    return compile(text, f"{module}.py", "exec")
+def _code(file: str, text: str) -> CodeType:
+    return compile(text, file, "exec")
 
 
-def patched_texts(patch: str) -> dict[str, str]:
+def patched_texts(patch: str, text_of: Callable[[str], str] = _text) -> dict[str, str]:
     """The files that a patch changes.
 
     Parameters
     ----------
     patch : str
         A file and a colon, then its lines: those after ``-`` are replaced by those after ``+``.
+    text_of : callable
+        The text of a file; by default of the plain program.
 
     Raises
     ------
@@ -59,16 +60,16 @@ def patched_texts(patch: str) -> dict[str, str]:
             lines.insert(at, margin + text)
             at += 1
         else:
-            module = sign.removesuffix(".py:")
-            lines = found.setdefault(module, text_of(module).splitlines())
-    return {module: "\n".join(text) + "\n" for module, text in found.items()}
+            file = sign.removesuffix(":")
+            lines = found.setdefault(file, text_of(file).splitlines())
+    return {file: "\n".join(text) + "\n" for file, text in found.items()}
 
 
 @cache
 def program(patch: str = "") -> Program:
     """The program, with a patch or without: a copy of its own."""
     name = f"{plain_program.__name__}_{len(sys.modules)}_copy"
-    texts = {module: text_of(module) for module in MODULES} | patched_texts(patch)
+    changed = patched_texts(patch)
     copies = {name: ModuleType(name)}
     sys.modules[name] = copies[name]
     try:
@@ -76,7 +77,8 @@ def program(patch: str = "") -> Program:
             copy = ModuleType(f"{name}.{module}")
             copy.__package__ = name
             sys.modules[copy.__name__] = copies[copy.__name__] = copy
-            exec(_code(module, texts[module]), vars(copy))
+            file = f"{module}.py"
+            exec(_code(file, changed.get(file) or _text(file)), vars(copy))
     finally:
         for one in copies:
             del sys.modules[one]

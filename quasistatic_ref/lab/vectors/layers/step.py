@@ -14,17 +14,25 @@ import numpy as np
 
 from quasistatic_ref.lab.program import step as program
 from quasistatic_ref.lab.program.candidates import tangents
+from quasistatic_ref.lab.program.forces import COMPLIANCE
 from quasistatic_ref.lab.program.integration import way
 from quasistatic_ref.lab.program.mechanism import kinematics
 from quasistatic_ref.lab.program.rotation import quaternion_of
 from quasistatic_ref.lab.vectors.distances.candidates import FIELDS, Chosen, chosen
+from quasistatic_ref.lab.vectors.exact.compliant import compliant_forces, forces_bound
 from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
 from quasistatic_ref.lab.vectors.exact.entered import entered, exact
-from quasistatic_ref.lab.vectors.exact.precision import Real, rounded
+from quasistatic_ref.lab.vectors.exact.precision import Real, rounded, short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.layers import layer
-from quasistatic_ref.lab.vectors.layers.qp import flags_of, form_of, optimum_of, tolerances
+from quasistatic_ref.lab.vectors.layers.qp import (
+    flags_of,
+    form_of,
+    matrices,
+    optimum_of,
+    tolerances,
+)
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
 
 EPS: Final = 2.0**-52
@@ -64,15 +72,19 @@ def expected(
     if wrenches is None or after is None:
         return Expected(output, flags=flags, tolerance={**base_tolerance, **solved.tolerance})
     wrench_bound = _wrench_bound(case_input, solved, wrenches)
+    given = matrices(program)
+    output["forces"], digits = compliant_forces(given, case_input, contacts, output["lam"])
+    forces_off = forces_bound(given, case_input, contacts, output["delta_q"], errors)
     q_bound = _plus(after.tolerance["q"], 4 * solved.tolerance["delta_q"].absolute)
     return Expected(
         output,
-        solved.digits,
+        {**solved.digits, **short({"forces": digits})},
         flags,
         tolerance={
             **base_tolerance,
             **{name: solved.tolerance[name] for name in ANSWERED},
             "wrench": tolerance(wrench_bound, "that of lam, over h"),
+            "forces": tolerance(forces_off, f"that of gaps and slips, over {COMPLIANCE:g} m/N"),
             "q_next": tolerance(q_bound, "that of delta_q, and of the layer integrate"),
         },
     )

@@ -96,6 +96,7 @@ def own_step(case_input: Json) -> Json:
         "lam": solution.lam.tolist(),
         "A_lam": (np.array(output["A"]).reshape(-1, step.n_v).T @ solution.lam).tolist(),
         "wrench": solution.wrench.tolist(),
+        "forces": solution.forces.tolist(),
         "q_next": (after[mine.q] + 0.0).tolist(),
     }
 

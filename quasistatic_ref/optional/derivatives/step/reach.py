@@ -22,7 +22,7 @@ from quasistatic_ref.optional.derivatives.step.optimum_rates import (
     OptimumRates,
 )
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.tolerances import DEPENDENT, FACET, NEARLY, SPLIT
+from quasistatic_ref.tolerances import AHEAD, DEPENDENT, FACET, NEARLY, SPLIT
 
 TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 """The least that HiGHS takes."""
@@ -129,9 +129,22 @@ class Reach:
         slack, rates = self.touching.slack[:, None], np.abs(self.closing)
         found = [self.touching.open[(slack < distance * rates).any(axis=1)]]
         for column in np.flatnonzero(self.loaded < distance):
-            each = (self._unloaded(int(column), sign) for sign in (1, -1))
-            found += [one.rows for one in each if one.t < distance[column]]
+            for sign in (1, -1):
+                if not self._goes_on(int(column), sign, float(distance[column])):
+                    one = self._unloaded(int(column), sign)
+                    found += [one.rows] if one.t < distance[column] else []
         return np.unique(np.concatenate(found), axis=0)
+
+    def _goes_on(self, column: int, sign: int, distance: float) -> bool:
+        """Whether the rows surely bear what they exert beyond a distance: their cone is convex."""
+        change = sign * self.rates.exerted[:, column]
+        size = float(np.linalg.norm(self.force))
+        speed = float(np.linalg.norm(change))
+        if not size or not speed:
+            return True
+        ahead = max(2 * distance, AHEAD * size / speed)
+        miss = nnls(self.cone.T, self.force + ahead * change)[1]
+        return bool(miss <= SPLIT * size)
 
     def _unloaded(self, column: int, sign: int) -> Distance:
         """Where rows bear no more load."""

@@ -52,7 +52,7 @@ class CloudPairs:
     start : ndarray of int, shape (P + 1,)
         Where the list of each pair begins among these, and where the last ends.
     slope, offset : ndarray, shapes (P, B, 12) and (P, B)
-        The bounds of the lists, as :class:`Shortlist` has them.
+        The bounds of the lists, as ``Shortlist`` has them.
     """
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:

@@ -14,12 +14,12 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_written
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
+from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.moments import extent, frames
 from quasistatic_ref.optional.show.figures.style import figure_style, sized
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
-VIEW = Camera(azimuth=-62, elevation=12)
 FRAMES_PER_SECOND = 20
 DOTS_PER_INCH = 110
 WRITERS: dict[str, Callable[..., AbstractMovieWriter]] = {
@@ -33,7 +33,7 @@ def animate(
     run: Trajectory,
     path: str | Path,
     *,
-    view: str | Camera = VIEW,
+    view: str | Camera = CAMERA,
     fps: float = FRAMES_PER_SECOND,
     speed: float = 1.0,
     **options: Any,

@@ -8,11 +8,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.looks import CONE_EDGE, CONE_FACE, FORCE
 from quasistatic_ref.optional.show.figures.moments import BEARING, DrawnContact, Moment, extent
 from quasistatic_ref.optional.show.figures.pens import (
-    CONE_EDGE,
-    CONE_FACE,
-    CONTACT,
     MILLI,
     PLANES,
     Pen,
@@ -48,10 +46,10 @@ def draw_scene(
 ) -> None:
     """Draw a moment on axes, in millimetres: in 3D if the axes are, else as a camera sees it.
 
-    Bodies are grey, clouds blue dots. At each contact that bears load: its frame (n solid, d1
-    dashed, d2 dotted), the cone of forces that friction allows at its normal force, and the force
-    on beta's body. Where mu_omega is not zero, a circle of that radius in the tangent plane: drawn
-    in full when the torque about n is at its limit, in part below.
+    Robots are grey, what they act on is coloured. At each contact that bears load: its frame (n
+    solid, d1 dashed, d2 dotted), the cone of forces that friction allows at its normal force, and
+    the force on beta's body. Where mu_omega is not 0, a circle of that radius in the tangent plane:
+    drawn in full when the torque about n is at its limit, in part below.
 
     Parameters
     ----------
@@ -159,7 +157,7 @@ def _legend(axes: Any, of: Moment, parts: Collection[str], scale: float) -> None
     handles: list[Any] = []
     if "forces" in parts and scale > 0:
         label = f"1 N is {MILLI * scale:g} mm"
-        handles.append(Line2D([], [], color=CONTACT, marker=">", markersize=scaled(4), label=label))
+        handles.append(Line2D([], [], color=FORCE, marker=">", markersize=scaled(4), label=label))
     rough = [c for c, bears in zip(of.contacts, of.bearing, strict=True) if bears and c.mu_v > 0]
     if "cones" in parts and rough:
         label = "friction cone"

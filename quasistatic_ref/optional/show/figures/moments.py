@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.optional.show.figures.looks import link_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points
 from quasistatic_ref.optional.show.figures.visuals import Visual
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
@@ -75,6 +76,8 @@ class Moment:
     R, t_links : ndarray, shapes (L, 3, 3) and (L, 3)
         Poses of the links [-], [m].
     contacts : tuple of DrawnContact
+    colours : dict of int to str
+        The colour of each link, by its number.
     """
 
     t: float
@@ -82,6 +85,7 @@ class Moment:
     R: Array
     t_links: Array
     contacts: tuple[DrawnContact, ...]
+    colours: dict[int, str]
 
     def world(self, placed: PlacedShape, points: Array) -> Array:
         """Points of a shape's own frame, (N, 3), in the world [m]."""
@@ -105,7 +109,8 @@ class Moment:
 def still(scene: HasScene) -> Moment:
     """The start of a scene: its bodies where they are, without contacts."""
     kinematics = scene.system.kinematics(scene.system.q_start)
-    return Moment(0.0, drawn_shapes(scene), kinematics.R, kinematics.t, ())
+    colours = link_colours(scene.system)
+    return Moment(0.0, drawn_shapes(scene), kinematics.R, kinematics.t, (), colours)
 
 
 def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
@@ -134,6 +139,7 @@ def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
         R=kinematics.R,
         t_links=kinematics.t,
         contacts=tuple(_contact(run, k, j, wrench) for j, wrench in enumerate(reported(run, k))),
+        colours=link_colours(scene.system),
     )
 
 

@@ -5,24 +5,38 @@ from contextlib import suppress
 from typing import Any, Final
 
 import numpy as np
+from matplotlib.collections import PolyCollection
 from matplotlib.patches import Polygon
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial import ConvexHull, QhullError
 
 from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.looks import (
+    CAMERA,
+    CONE_EDGE,
+    CONE_FACE,
+    FLOOR,
+    FORCE,
+    OPACITY,
+    by_depth,
+    lit,
+)
 from quasistatic_ref.optional.show.figures.moments import Moment
 from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
-from quasistatic_ref.optional.show.figures.surfaces import faces, patch, surface_points
+from quasistatic_ref.optional.show.figures.surfaces import faces, patch, surface_points, triangles
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array
 
 PLANES: Final = {"xy": Camera(-90, 90), "xz": Camera(-90, 0), "yz": Camera(0, 0)}
 """Views along an axis of the world, named by what is to the right and what is up."""
 
-CONE_FACE, CONE_EDGE = "#E69F00", "#8a5f00"
-CLOUD, SOLID, FLOOR, CONTACT = "#0072B2", "0.55", "0.93", "#D55E00"
 MILLI = 1e3
+DOT = 5.0
+"""Size of a cloud's point on paper [pt^2]."""
+TINY = 1e-30
+"""Below the area of any face that is seen [m^2]."""
 
 
 class Pen(ABC):
@@ -63,7 +77,7 @@ class Pen(ABC):
         """A contact point, shape (3,) [m], filled where it bears load."""
         self.axes.plot(
             *self.seen(point).T, marker="o", linestyle="", color="black", markeredgewidth=0.6,
-            markersize=scaled(4 if bears else 2.5), markerfacecolor=CONTACT if bears else "white",
+            markersize=scaled(3.5 if bears else 2.2), markerfacecolor=FORCE if bears else "white",
             zorder=9 + bears, gid=DRAWING,
         )  # fmt: skip
 
@@ -105,19 +119,26 @@ class Pen2D(Pen):
         bounded.sort(key=lambda pair: float(pair[0]))
         for layer, (_, placed) in enumerate(bounded):
             points = self.camera.seen(of.world(placed, surface_points(placed.shape)))
-            self._body(placed, points, 1 + layer / len(bounded))
+            self._body(placed, points, of.colours[placed.link], 1 + layer / len(bounded))
 
-    def _body(self, placed: PlacedShape, seen: Array, zorder: float) -> None:
-        """Draw a cloud as dots, shaded by depth; a solid as its outline, filled."""
+    def _body(self, placed: PlacedShape, seen: Array, colour: str, zorder: float) -> None:
+        """Draw a cloud as dots, paler by depth; a solid as its faces, lit, and its outline."""
         if not isinstance(placed.shape, PointCloud):
+            corners = triangles(seen).reshape(-1, 3, 3)
+            normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), TINY)
+            front = normals[:, 2] > 0
+            shades, opacity = lit(colour, normals[front]), OPACITY.get(colour, 1.0)
+            self.axes.add_collection(PolyCollection(
+                list(MILLI * corners[front, :, :2]), facecolors=shades, edgecolors=shades,
+                linewidths=0.4 if opacity == 1 else 0, alpha=opacity, zorder=zorder,
+            ))  # fmt: skip
             outline = MILLI * seen[ConvexHull(seen[:, :2]).vertices, :2]
-            self._fill(outline, SOLID, "black", linewidth=0.7, alpha=0.6, zorder=zorder)
+            self._fill(outline, "none", "black", linewidth=0.7, zorder=zorder)
             return
         x, y, depth = seen[seen[:, 2].argsort()].T
-        near = (depth - depth[0]) / max(float(depth[-1] - depth[0]), 1e-12)
-        size, opacity = scaled(1) ** 2 * (0.8 + 1.1 * near), 0.25 + 0.6 * near
-        style = {"c": CLOUD, "alpha": opacity, "linewidths": 0, "zorder": zorder}
-        self.axes.scatter(MILLI * x, MILLI * y, s=size, **style)
+        style = {"c": by_depth(colour, depth), "linewidths": 0, "zorder": zorder}
+        self.axes.scatter(MILLI * x, MILLI * y, s=DOT * scaled(1) ** 2, **style)
 
     def _floor(self, corners: Array) -> None:
         outline = self.seen(corners)
@@ -141,7 +162,7 @@ class Pen2D(Pen):
             self._fill(outline, CONE_FACE, CONE_EDGE, alpha=0.35, zorder=6)
 
     def arrow(self, start: Array, along: Array) -> None:
-        """An arrow whose head keeps its size.
+        """An arrow with a white edge, which is seen in grey too; its head keeps its size.
 
         Parameters
         ----------
@@ -151,8 +172,9 @@ class Pen2D(Pen):
         (x, y), (u, v) = self.seen(start)[0], self.seen(along)[0]
         self.axes.annotate(
             "", (x + u, y + v), xytext=(x, y), annotation_clip=False, zorder=8,
-            arrowprops={"arrowstyle": "-|>", "color": CONTACT, "linewidth": scaled(1.6),
-                        "shrinkA": 0, "shrinkB": 0, "mutation_scale": scaled(8)},
+            arrowprops={"arrowstyle": "-|>", "color": FORCE, "linewidth": scaled(1.6),
+                        "shrinkA": 0, "shrinkB": 0, "mutation_scale": scaled(6.5),
+                        "path_effects": [withStroke(linewidth=scaled(3.2), foreground="white")]},
         )  # fmt: skip
 
     def finish(self, box: Array, view: str | Camera) -> None:
@@ -199,10 +221,12 @@ class Pen3D(Pen):
                 self._polygons([corners], FLOOR, "0.6", 0.5)
             elif isinstance(placed.shape, PointCloud):
                 points = self.seen(of.world(placed, placed.shape.points))
-                self.axes.scatter(*points.T, s=1.5, c=CLOUD, linewidths=0)
+                depth = CAMERA.seen(points)[:, 2]
+                colours = by_depth(of.colours[placed.link], depth)
+                self.axes.scatter(*points.T, s=1.5, c=colours, linewidths=0, depthshade=False)
             else:
                 points = self.seen(of.world(placed, surface_points(placed.shape, around=24, up=8)))
-                self._polygons(faces(points), SOLID, "0.2", 0.3)
+                self._polygons(faces(points), of.colours[placed.link], "0.2", 0.3)
 
     def _polygons(self, polygons: list[Array], face: str, edge: str, alpha: float) -> None:
         style = {"facecolor": face, "edgecolor": edge, "linewidth": 0.4, "alpha": alpha}
@@ -222,7 +246,7 @@ class Pen3D(Pen):
             Its tail, and the way from there to its head [m].
         """
         ends = *self.seen(start)[0], *self.seen(along)[0]
-        self.axes.quiver(*ends, color=CONTACT, linewidth=scaled(1.6), arrow_length_ratio=0.2)
+        self.axes.quiver(*ends, color=FORCE, linewidth=scaled(1.6), arrow_length_ratio=0.2)
 
     def finish(self, box: Array, view: str | Camera) -> None:
         """A cube about the box.
@@ -239,5 +263,5 @@ class Pen3D(Pen):
             self.axes.set(**{f"{name}lim": (low[k], high[k]), f"{name}label": f"{name} [mm]"})
             getattr(self.axes, f"{name}axis").set_major_locator(MaxNLocator(4))
         self.axes.set_box_aspect((1, 1, 1), zoom=0.85)  # labels are not laid out: leave room
-        camera = view if isinstance(view, Camera) else Camera(-60, 20)
+        camera = view if isinstance(view, Camera) else CAMERA
         self.axes.view_init(elev=camera.elevation, azim=camera.azimuth)

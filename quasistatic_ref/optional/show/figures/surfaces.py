@@ -76,7 +76,7 @@ def triangles(points: Array) -> Array:
 
 
 def normals(corners: Array) -> Array:
-    """Normals of a surface at the corners of its triangles, (3T, 3): means where it is round.
+    """Normals at the corners of a surface's triangles, shape (3T, 3): means where it is round.
 
     Parameters
     ----------

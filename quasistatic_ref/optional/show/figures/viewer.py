@@ -12,10 +12,20 @@ from string import Template
 from typing import Any, Final
 
 import numpy as np
+from matplotlib.colors import to_rgb
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text, text_written
 from quasistatic_ref.optional.show.figures.draw import force_scale
+from quasistatic_ref.optional.show.figures.looks import (
+    CAMERA,
+    FIXED,
+    FLOOR,
+    OPACITY,
+    STATES,
+    body_colours,
+    by_depth,
+)
 from quasistatic_ref.optional.show.figures.moments import (
     DrawnContact,
     Moment,
@@ -35,10 +45,8 @@ from quasistatic_ref.optional.show.figures.three import (
 )
 from quasistatic_ref.optional.show.figures.visuals import (
     AROUND,
-    FIXED,
     UP,
     Visual,
-    colours,
     visuals,
 )
 from quasistatic_ref.scenario.scenario import Scenario
@@ -57,15 +65,13 @@ THICK, DOT = 0.02, 0.012
 NOTHING = 1e-9
 """Length of a force that is zero [m]: an object that is scaled by zero has no inside."""
 
+POINT = 0.07
+"""Size of a cloud's point over half that size [-]."""
+
 REPETITIONS = 1000
-FLOOR: Final = 0xE8E8E8
-STATES: Final = {"sticking": 0x000000, "sliding": 0xD55E00, "apart": 0x909090}
-"""Colours of a contact and of its force."""
-FARTHEST = 0.35
-"""Brightness of the farthest point of a cloud; that of the nearest is 1 [-]."""
 HIDDEN: Final = ("/Grid", "/Axes")
 SKY: Final = {"top_color": [1.0, 1.0, 1.0], "bottom_color": [0.85, 0.9, 0.95]}
-EYE: Final = np.array([1.8, -3.6, 1.6])
+EYE: Final = 5.0 * CAMERA.axes()[2]
 """The eye from the middle of what is looked at, over half its size [-]."""
 ANGLE: Final = 40
 """Of what the eye sees from top to bottom [deg]: so far away, little is distorted."""
@@ -135,15 +141,15 @@ def _caption(title: str, scene: HasScene, run: Trajectory | None, scale: float) 
     words = [escape(title)]
     if run is not None:
         words.append(f"h = {1e3 * run.header['h']:g} ms, friction {escape(run.header['cone'])}")
-    words += [_coloured(name, colour) for name, colour in colours(scene).items()]
+    words += [_coloured(name, colour) for name, colour in body_colours(scene.system).items()]
     if scale:
         words.append(f"1 N is {1e3 * scale:.3g} mm")
         words += [_coloured(state, colour) for state, colour in STATES.items()]
     return "; ".join(words)
 
 
-def _coloured(word: str, colour: int) -> str:
-    return f'<b style="color: #{colour:06x}">&#9632;</b> {escape(word)}'
+def _coloured(word: str, colour: str) -> str:
+    return f'<b style="color: {colour}">&#9632;</b> {escape(word)}'
 
 
 def viewer_script() -> str:
@@ -222,7 +228,7 @@ def _contact_clips(
     force = scale * np.array([c.force for c in contacts])
     length = np.maximum(np.linalg.norm(force, axis=1), NOTHING)
     stretch = np.stack([np.ones_like(length), np.ones_like(length), length], axis=1)
-    colour = np.array([_parts(STATES[state]) for state in states])
+    colour = np.array([to_rgb(STATES[state]) for state in states])
     upright = np.tile(np.eye(3), (len(beta), 1, 1))
     yield clip(f"/contacts/{j}", fps, beta, upright)
     yield clip(f"/forces/{j}", fps, beta, z_along(force), stretch)
@@ -234,7 +240,6 @@ def _links(
     scene: HasScene, first: Moment, half: float, looks: Sequence[Visual]
 ) -> Iterator[dict[str, Any]]:
     """Objects of all links: what their URDFs show, or else what touches."""
-    colour = colours(scene)
     shown = {visual.link for visual in looks}
     for k, visual in enumerate(looks):
         yield object_set(f"/links/{visual.link}/visual{k}", _lit(visual.corners, visual.colour))
@@ -242,36 +247,32 @@ def _links(
         cloud = isinstance(placed.shape, PointCloud)
         if placed.link in shown and not cloud:
             continue
-        body = scene.system.links[placed.link].partition("/")[0]
         path = f"/links/{placed.link}/{k}"
-        yield object_set(path, _shape(placed, first, half, colour.get(body, FIXED)))
+        yield object_set(path, _shape(placed, first, half))
         if not isinstance(placed.shape, HalfSpace):
             yield transform_set(path, placed.R, placed.t)
 
 
-def _shape(placed: PlacedShape, of: Moment, half: float, colour: int) -> dict[str, Any]:
-    shape = placed.shape
+def _shape(placed: PlacedShape, of: Moment, half: float) -> dict[str, Any]:
+    shape, colour = placed.shape, of.colours[placed.link]
     if isinstance(shape, PointCloud):
         return _cloud(shape.points, of.world(placed, shape.points), half, colour)
     if isinstance(shape, HalfSpace):
         corners = patch(shape, focus([of]).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
-        return thing(corners, "Mesh", material(FLOOR, 0.8))
+        return thing(corners, "Mesh", material(_number(FLOOR), 0.8))
     points = surface_points(placed.shape, AROUND, UP)
     return _lit(triangles(points), colour)
 
 
-def _cloud(points: Array, world: Array, half: float, colour: int) -> dict[str, Any]:
-    """Points that are the darker the farther they are from the eye at the start."""
-    nearness = world @ EYE
-    share = (nearness - nearness.min()) / max(float(np.ptp(nearness)), NOTHING)
-    brightness = FARTHEST + (1 - FARTHEST) * share
-    look = {"type": "PointsMaterial", "size": 0.02 * half, "vertexColors": True}
-    return thing(points, "Points", look, brightness[:, None] * _parts(colour))
+def _cloud(points: Array, world: Array, half: float, colour: str) -> dict[str, Any]:
+    """Points that are the paler the farther they are from the eye at the start."""
+    look = {"type": "PointsMaterial", "size": POINT * half, "vertexColors": True}
+    return thing(points, "Points", look, by_depth(colour, world @ EYE))
 
 
-def _lit(corners: Array, colour: int) -> dict[str, Any]:
-    """A surface that is lit; through what is fixed in the world, what it hides is seen."""
-    return thing(corners, "Mesh", material(colour, 0.5 if colour == FIXED else 1.0))
+def _lit(corners: Array, colour: str) -> dict[str, Any]:
+    """A surface that is lit."""
+    return thing(corners, "Mesh", material(_number(colour), OPACITY.get(colour, 1.0)))
 
 
 def _ball(radius: float) -> dict[str, Any]:
@@ -289,15 +290,15 @@ def _spike(radius: float) -> dict[str, Any]:
 
 def _over(corners: Array) -> dict[str, Any]:
     """A surface that nothing hides."""
-    look = {"type": "MeshBasicMaterial", "color": FIXED, "depthTest": False, "transparent": True}
-    found = thing(corners, "Mesh", look)
+    look = {"type": "MeshBasicMaterial", "depthTest": False, "transparent": True}
+    found = thing(corners, "Mesh", look | {"color": _number(FIXED)})
     found["object"]["renderOrder"] = 1
     return found
 
 
-def _parts(colour: int) -> Array:
-    """Red, green and blue from 0 to 1, shape (3,) [-]."""
-    return np.frombuffer(colour.to_bytes(3, "big"), dtype=np.uint8) / 255
+def _number(colour: str) -> int:
+    """A colour as three.js has it, a byte each."""
+    return int(colour.removeprefix("#"), 16)
 
 
 def _y_up(point: Array) -> str:

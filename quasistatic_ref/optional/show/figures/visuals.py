@@ -1,11 +1,12 @@
-"""What bodies look like: the visual elements of their URDFs, and a colour for each body."""
+"""What bodies look like: the visual elements of their URDFs."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, Final, NamedTuple
+from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element
 
 import numpy as np
+from matplotlib.colors import to_hex
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
@@ -13,14 +14,11 @@ from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_path, tri
 from quasistatic_ref.model.system import System
 from quasistatic_ref.model.urdf.urdf_file import FileMesh, urdf_file, written_shape
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
+from quasistatic_ref.optional.show.figures.looks import body_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
 from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.data import Array
 
-PALETTE: Final = (0x0072B2, 0xE69F00, 0x009E73, 0xCC79A7, 0x56B4E9, 0xF0E442)
-"""Colours of bodies in turn, which colour-blind readers can distinguish (Okabe and Ito 2008)."""
-FIXED: Final = 0xBDBDBD
-"""What belongs to no body."""
 AROUND, UP = 32, 12
 """Corners of round shapes around their axis and along it."""
 
@@ -33,24 +31,18 @@ class Visual(NamedTuple):
     link : int
     corners : ndarray, shape (3T, 3)
         Triangles, in the link's frame [m].
-    colour : int
-        Red, green and blue, a byte each: of the URDF, or else of the body.
+    colour : str
+        ``#rrggbb``: of the URDF, or else of the body.
     """
 
     link: int
     corners: Array
-    colour: int
-
-
-def colours(scene: HasScene) -> dict[str, int]:
-    """A colour for each body, by its name."""
-    names = [body.name for body in scene.system.bodies]
-    return {name: PALETTE[i % len(PALETTE)] for i, name in enumerate(names)}
+    colour: str
 
 
 def visuals(scene: HasScene) -> list[Visual]:
     """Visual elements of all bodies; those that cannot be read are left out: they bear no load."""
-    own = colours(scene)
+    own = body_colours(scene.system)
     return [
         visual
         for body in scene.system.bodies
@@ -58,7 +50,7 @@ def visuals(scene: HasScene) -> list[Visual]:
     ]
 
 
-def _of_body(body: Body, system: System, own: int) -> Iterator[Visual]:
+def _of_body(body: Body, system: System, own: str) -> Iterator[Visual]:
     file = urdf_file(body.urdf)
     robot = xml_root(file.text)
     named = {material.get("name"): material for material in robot.findall("material")}
@@ -71,9 +63,9 @@ def _of_body(body: Body, system: System, own: int) -> Iterator[Visual]:
                 corners = _corners(shape, file.path.parent, body.package_dirs)
             except ModelError:
                 continue
-            colour = _colour(element.find("material"), named)
+            colour = _colour(element.find("material"), named) or own
             number = system.link(f"{body.name}/{link.get('name')}")
-            yield Visual(number, corners @ R.T + t, own if colour is None else colour)
+            yield Visual(number, corners @ R.T + t, colour)
 
 
 def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
@@ -83,7 +75,7 @@ def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
     return _mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
 
 
-def _colour(material: Element | None, named: dict[str | None, Element]) -> int | None:
+def _colour(material: Element | None, named: dict[str | None, Element]) -> str | None:
     """The colour of a visual element, or of the robot's material of that name."""
     if material is None:
         return None
@@ -96,8 +88,8 @@ def _colour(material: Element | None, named: dict[str | None, Element]) -> int |
         red, green, blue, _ = (float(x) for x in colour.get("rgba", "").split())
     except ValueError:
         return None
-    each = (round(255 * min(max(x, 0.0), 1.0)) for x in (red, green, blue))
-    return int.from_bytes(bytes(each), "big")
+    red, green, blue = np.clip([red, green, blue], 0.0, 1.0)
+    return to_hex((red, green, blue))
 
 
 def _mesh_corners(path: Path, scale: Array) -> Array:

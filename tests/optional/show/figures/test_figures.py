@@ -7,8 +7,11 @@ from matplotlib.text import Text
 
 from quasistatic_ref.cli.measures import rotation_angle
 from quasistatic_ref.lab.examples import boundary_layer
-from quasistatic_ref.lab.figures.grasp import CAMERA, grasp_strip, rotation_plot
+from quasistatic_ref.lab.figures.grasp import grasp_strip
+from quasistatic_ref.lab.figures.validation import PICTURES
+from quasistatic_ref.lab.grasp import rotations
 from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.style import figure_style, figure_written
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
@@ -37,7 +40,7 @@ def figures(grasp, runs):
     with figure_style():
         made = {
             "strip": grasp_strip(grasp, runs, INSTANTS, dict.fromkeys(runs, SPREAD)),
-            "rotation": rotation_plot(grasp, runs, "bunny", 0.7),
+            "rotation": PICTURES["grasp"](rotations(grasp, runs)),
             "boundary layer": boundary_layer.figure(),
         }
     yield made
@@ -86,8 +89,8 @@ def test_the_rotation_plot_shows_the_trajectories(figures, grasp, runs):
     bunny = grasp.system.link("bunny")
     for line, run in zip(axes.lines, runs.values(), strict=True):
         t, angle = line.get_data()
-        R = np.array([grasp.system.kinematics(q).R[bunny] for q in run["q"][70:]])
-        np.testing.assert_allclose(t, np.arange(70, 301) * 0.01, rtol=ROUNDING)
+        R = np.array([grasp.system.kinematics(q).R[bunny] for q in run["q"][70:291]])
+        np.testing.assert_allclose(t, np.arange(70, 291) * 0.01, rtol=ROUNDING)
         expected = np.degrees(rotation_angle(R @ R[0].T))
         np.testing.assert_allclose(angle, expected, rtol=ROUNDING, atol=ROUNDING)
     assert [t.get_text() for t in axes.get_legend().get_texts()] == list(runs)

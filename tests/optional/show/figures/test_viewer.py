@@ -7,22 +7,23 @@ import sys
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.show.figures import viewer
 from quasistatic_ref.optional.show.figures.draw import force_scale
+from quasistatic_ref.optional.show.figures.looks import OBJECTS, ROBOTS, STATES, body_colours
 from quasistatic_ref.optional.show.figures.moments import SLIP, focus, frames, still
 from quasistatic_ref.optional.show.figures.surfaces import normals, surface_points, triangles
 from quasistatic_ref.optional.show.figures.viewer import (
     FRAMES_PER_SECOND,
     LONGEST,
-    STATES,
     scene_commands,
     view_written,
 )
-from quasistatic_ref.optional.show.figures.visuals import PALETTE, visuals
+from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Sphere
 from quasistatic_ref.simulate.wrenches import Scene
@@ -134,8 +135,7 @@ def test_contacts_have_the_colours_of_their_states(commands, pushed):
             state = "sliding" if along > SLIP else "sticking"
             state = state if run.forces[2 * k, j, 2] > 1e-3 else "apart"
             assert moment.states[j] == state
-            red, green, blue = (round(255 * x) for x in found[k])
-            assert (red << 16) + (green << 8) + blue == STATES[state]
+            assert found[k] == pytest.approx(to_rgb(STATES[state]), abs=NANOMETRE)
     assert {state for m in moments for state in m.states} == {"sliding", "sticking", "apart"}
 
 
@@ -156,10 +156,15 @@ LOOKS = robot(
 def test_visual_elements_are_drawn_in_their_colours_and_missing_meshes_are_not():
     system = System([Body("crate", LOOKS, base="floating", actuated=["neck"])])
     found, hat = visuals(Scene(system, ()))
-    assert (found.link, found.colour) == (system.link("crate/box"), 0xFF0000)
-    assert (hat.link, hat.colour) == (system.link("crate/hat"), PALETTE[0])
+    assert (found.link, found.colour) == (system.link("crate/box"), "#ff0000")
+    assert (hat.link, hat.colour) == (system.link("crate/hat"), ROBOTS[0])
     np.testing.assert_allclose(found.corners.min(axis=0), [-0.1, -0.2, 0.2], atol=ROUNDING)
     np.testing.assert_allclose(found.corners.max(axis=0), [0.1, 0.2, 0.8], atol=ROUNDING)
+
+
+def test_robots_are_grey_and_what_they_act_on_is_not(pushed):
+    colours = body_colours(pushed[0].system)
+    assert colours == {"pusher": ROBOTS[0], "block": OBJECTS[0]}
 
 
 def test_a_link_that_only_looks_moves_and_is_looked_at():

@@ -1,4 +1,4 @@
-"""Layers of algebra, `selection`, `rows`, `qp`, `wrench`, against formulas by hand; tolerances."""
+"""Layer `qp`: cones, what the plain program takes for an optimum, and tolerances by hand."""
 
 from fractions import Fraction
 
@@ -13,90 +13,10 @@ from quasistatic_ref.lab.vectors.exact.entered import entered
 from quasistatic_ref.lab.vectors.exact.floor import floors
 from quasistatic_ref.lab.vectors.exact.precision import short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
-from quasistatic_ref.lab.vectors.layers import qp, rows, selection, wrench
+from quasistatic_ref.lab.vectors.layers import qp
 from tests.tolerances import ROUNDING
 
 EPS = Fraction(1, 2**53)
-
-
-def contact(**more):
-    frame = {"n": [0.0, 0.0, 1.0], "d1": [1.0, 0.0, 0.0], "d2": [0.0, 1.0, 0.0]}
-    return {**frame, "mu_v": 0.5, "mu_omega": 0.25, "rows": 6, **more}
-
-
-def test_selection_takes_the_smallest_first_and_the_least_index_of_a_tie():
-    case = {"phi": [[0.5, -1.0, 0.25, -1.0], [2.0]], "k": 3}
-    answer = selection.expected(case)
-    assert answer.output == selection.own(case) == {"indices": [[1, 3, 2], [0]]}
-    assert answer.flags == {"tie": True}
-
-
-@pytest.mark.parametrize(
-    ("phi", "k", "tie"),
-    [([1.0, 2.0, 2.0], 1, False), ([1.0, 2.0, 2.0], 2, True), ([1.0, 1.0, 2.0], 2, True)],
-)
-def test_a_tie_counts_where_it_meets_the_chosen(phi, k, tie):
-    assert selection.expected({"phi": [phi], "k": k}).flags["tie"] is tie
-
-
-def test_rows_are_n_plus_mu_times_each_direction():
-    # J = [x, y, z, spin] of one coordinate each: A's rows are (n + mu_v t) and mu_omega by column.
-    J = np.eye(4).tolist()
-    answer = rows.expected({"cone": "pyramid", "contacts": [contact(J=J, phi=-0.5)]})
-    assert answer.output["A"] == [
-        [0.5, 0.0, 1.0, 0.0],
-        [0.0, 0.5, 1.0, 0.0],
-        [-0.5, 0.0, 1.0, 0.0],
-        [0.0, -0.5, 1.0, 0.0],
-        [0.0, 0.0, 1.0, 0.25],
-        [0.0, 0.0, 1.0, -0.25],
-    ]
-    assert answer.output["b"] == [0.5] * 6
-
-
-def test_each_entry_of_a_row_is_rounded_once():
-    # n'J d = 1 + 2^-53 (2^-30 + ...): in float64 the small terms vanish one by one.
-    J = [[2.0**-53], [2.0**-54], [1.0], [0.0]]
-    one = contact(J=J, phi=0.0, mu_v=1.0, rows=4, d1=[1.0, 0.0, 0.0])
-    (first, *_) = rows.expected({"cone": "pyramid", "contacts": [one]}).output["A"]
-    assert first == [1.0]  # 1 + 2^-53 is half-way: to even
-    one["n"], one["J"] = [2.0**-20, 0.0, 1.0], [[2.0**-53], [0.0], [1.0], [0.0]]
-    (first, *_) = rows.expected({"cone": "pyramid", "contacts": [one]}).output["A"]
-    assert first == [1.0 + 2.0**-52]  # and beyond it with 2^-73 more
-
-
-def test_wrenches_are_sums_of_lam_over_h_and_act_at_beta_and_alpha():
-    # lam = (1, 2, 0, 0, 4, 1): f_n = 8 / h, f_d1 = 0.5 / h, f_d2 = 1 / h, tau_n = 0.25 (4 - 1) / h.
-    lam = [1.0, 2.0, 0.0, 0.0, 4.0, 1.0]
-    one = contact(alpha=[0.0, 0.0, 0.0], beta=[0.0, 0.0, 0.5], lam=lam)
-    one |= {"alpha_body": "a", "beta_body": "b"}
-    case = {"h": 0.5, "cone": "pyramid", "contacts": [one]}
-    case["bodies"] = {"a": {"point": [1.0, 0.0, 0.0]}, "b": {"point": [0.0, 0.0, 0.0]}}
-    answer = wrench.expected(case)
-    f = np.array([1.0, 2.0, 16.0])
-    assert answer.output["wrench"] == [[*f, 1.5]]
-    spin = np.array([0.0, 0.0, 1.5])
-    on_b = [*f, *(np.cross([0.0, 0.0, 0.5], f) + spin)]
-    on_a = [*-f, *(np.cross([-1.0, 0.0, 0.0], -f) - spin)]
-    assert answer.output["net"] == {"a": on_a, "b": on_b}
-    assert wrench.own(case)["net"]["b"] == on_b
-
-
-def test_the_multipliers_are_those_of_adding_the_first_violated_row():
-    # x >= 0 is there three times; lam_i a_i = 1 in all: the first row of the three carries it.
-    case = {"H": [[1.0]], "g": [-1.0], "A": [[2.0], [1.0], [4.0]], "b": [0.0, 0.0, 0.0]}
-    answer = qp.expected(case)
-    assert answer.output["lam"] == [0.5, 0.0, 0.0]
-    assert answer.output["certificate"]["working_set"] == [0]
-    assert answer.flags["unique_multipliers"] is False
-
-
-def test_a_program_without_solution_is_answered_by_its_proof():
-    # x >= 2 and -3 x >= -1: three times the first and the second give 0 >= 5; largest entry 1.
-    answer = qp.expected({"H": [[1.0]], "g": [0.0], "A": [[1.0], [-3.0]], "b": [2.0, -1.0]})
-    assert answer.output["certificate"]["farkas"] == ["1", "1/3"]
-    assert answer.output["farkas"] == [1.0, 1 / 3]
-    assert answer.flags["infeasible"] is True
 
 
 def test_an_answer_in_the_ellipsoid_has_thirty_digits():

@@ -1,0 +1,47 @@
+"""The forces of single contacts: each gives way a little, and of many optimal lam one is left."""
+
+import numpy as np
+
+from .optimum import optimum
+from .rows import cone_table
+
+COMPLIANCE = 1e-9
+"""c [m/N]."""
+
+
+def compliant_program(H, g, A, b, tables, h):
+    """H, g, A, b of a step in which four lengths s of each contact are added to gap, slips, spin.
+
+    Its unknowns are delta_q and then s, which costs h |s|^2 / (2 c). The t of a contact's rows
+    are in its table.
+    """
+    n, lengths = len(g), 4 * len(tables)
+    C = np.zeros((len(b), lengths))
+    row = 0
+    for j, T in enumerate(tables):
+        C[row : row + len(T), 4 * j : 4 * j + 4] = np.column_stack([np.ones(len(T)), T])
+        row += len(T)
+    aside = np.zeros((n, lengths))
+    stiffness = h / COMPLIANCE * np.eye(lengths)
+    return (
+        np.block([[H, aside], [aside.T, stiffness]]),
+        np.append(g, np.zeros(lengths)),
+        np.hstack([A, C]),
+        b,
+    )
+
+
+def forces_of(s, c, contacts):
+    """f_d1, f_d2, f_n, tau_n of each contact, of the lengths s and the compliance c."""
+    wrenches = []
+    for contact, (gap, slip_1, slip_2, spin) in zip(contacts, s.reshape(-1, 4), strict=True):
+        mu_v, mu_omega = contact["mu_v"], contact["mu_omega"]
+        wrenches.append([mu_v * slip_1 / c, mu_v * slip_2 / c, gap / c, mu_omega * spin / c])
+    return wrenches
+
+
+def forces(H, g, A, b, contacts, cone, h):
+    """The forces of the contacts of a step that has a solution."""
+    tables = [cone_table(cone, contact["rows"], contact["mu_v"]) for contact in contacts]
+    x, _ = optimum(*compliant_program(H, g, A, b, tables, h))
+    return forces_of(x[len(g) :], COMPLIANCE, contacts)

@@ -1,0 +1,85 @@
+r"""The forces of the contacts of a step by compliance, exact, and how well float64 knows them.
+
+Let errors r in the balance H x - g = k B's [N s], where k = h / c, and errors d in the lengths
+z = B x + (phi, 0, 0, 0) [m] lead to another x and other s. The s of a contact is the point nearest
+to -z of the cone of forces, and therefore ds'dz <= -\|ds\|^2, where dz = B dx + d. The balance,
+multiplied by dx, then says that \|dx\|_H^2 + k \|ds\|^2 <= k \|ds\| \|d\| + \|r\|_{H^-1} \|dx\|_H.
+Forces, ds / c, are therefore off by at most
+
+.. math:: \frac1c \sqrt{\|d\|^2 + \tfrac{c}{h} \|r\|_{H^{-1}}^2}.
+"""
+
+from dataclasses import astuple
+from math import sqrt
+from typing import Final, TypeAlias
+
+import numpy as np
+from flint import fmpq
+
+from quasistatic_ref.certify.active_set import Optimum, dual_active_set
+from quasistatic_ref.certify.point import rational_solution
+from quasistatic_ref.lab.program.forces import COMPLIANCE, compliant_program, forces_of
+from quasistatic_ref.lab.program.rows import cone_table
+from quasistatic_ref.lab.vectors.exact.conditioning import ROUNDINGS, Errors
+from quasistatic_ref.lab.vectors.exact.entered import exact
+from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from quasistatic_ref.lab.vectors.exact.precision import number, rounded
+from quasistatic_ref.lab.vectors.exact.rational import UNIT, fraction, inverse
+from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.step.data import Array
+
+Program: TypeAlias = "tuple[Array, Array, Array, Array]"
+"""H, g, A and b."""
+FRICTION: Final = ("mu_v", "mu_omega", "rows")
+
+
+def compliant_forces(program: Program, case: Json, contacts: Json, lam: Json) -> tuple[Json, Json]:
+    """(f_d1, f_d2, f_n, tau_n) of each contact [N, N m], rounded correctly, and in 30 digits.
+
+    Parameters
+    ----------
+    program : tuple of ndarray
+        Of a step that has a solution.
+    case : dict
+        Of which ``h`` and ``cone`` are read.
+    contacts : list of dict
+        Of which ``mu_v``, ``mu_omega`` and ``rows`` are read.
+    lam : list
+        Multipliers of the program: rows that bear load there are tried first.
+    """
+    entries = [exact({key: contact[key] for key in FRICTION}) for contact in contacts]
+    tables = [cone_table(case["cone"], entry["rows"], entry["mu_v"]) for entry in entries]
+    given = compliant_program(*program, tables, case["h"])
+    form = exact_form_of(*given)
+    end = dual_active_set(form, np.flatnonzero(lam).tolist())
+    assert isinstance(end, Optimum)
+    found = rational_solution(form, end.point.working)
+    lengths = found.x[len(program[1]) :]
+    s = np.array([form.x_unit * length / found.denominator for length in lengths])
+    return rounded(lambda: forces_of(s, number(COMPLIANCE), entries))
+
+
+def forces_bound(
+    program: Program, case: Json, contacts: Json, delta_q: Json, errors: Errors
+) -> float:
+    """How far forces may be off [N, N m] by errors of H, g, A and b, and by rounding of sums.
+
+    Parameters
+    ----------
+    program, case, contacts
+        As of `compliant_forces`.
+    delta_q : list
+    errors : Errors
+    """
+    if not contacts:
+        return 0.0
+    n = len(delta_q)
+    H, g, A, b, x = (np.abs(np.array(exact(np.array(v).tolist()))) for v in (*program, delta_q))
+    of_H, of_g, of_A, of_b = (fmpq(e.numerator, e.denominator) for e in astuple(errors))
+    share = fmpq(ROUNDINGS * (n + 1), UNIT.denominator)
+    r = of_H * sum(x) + of_g + share * max(H @ x + g)
+    d = of_A * sum(x) + of_b + share * max(A.reshape(-1, n) @ x + b)
+    soft = np.abs(inverse(np.array(exact(program[0].tolist())))).sum()
+    squares = 4 * len(contacts) * d * d + number(COMPLIANCE) / number(case["h"]) * soft * r * r
+    largest = max(max(1.0, one["mu_v"], one["mu_omega"]) for one in contacts)
+    return float(largest) * sqrt(fraction(squares)) / COMPLIANCE

@@ -1,0 +1,92 @@
+"""The look of every picture of a scene: its camera, and a colour for each role.
+
+The colours are those of Okabe and Ito (2008), which colour-blind readers can distinguish. Robots
+are grey: what is coloured is what they act on, and the forces on it.
+"""
+
+from itertools import cycle
+from typing import Final
+
+import numpy as np
+from matplotlib.colors import to_rgb
+
+from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.show.figures.camera import Camera
+from quasistatic_ref.step.data import Array
+
+CAMERA: Final = Camera(azimuth=-62, elevation=16)
+
+OBJECTS: Final = ("#0072B2", "#009E73", "#CC79A7", "#56B4E9", "#F0E442")
+"""Bodies without actuators, in turn."""
+ROBOTS: Final = ("#A0A0A0", "#B59A74", "#8296AB")
+"""Bodies with actuators, in turn."""
+FIXED: Final = "#BDBDBD"
+"""What belongs to no body."""
+OPACITY: Final = {FIXED: 0.5}
+"""Of solids of a colour, if not 1 [-]: through what is fixed, what it hides is seen."""
+FLOOR: Final = "#EDEDED"
+"""Half-spaces."""
+FORCE: Final = "#D55E00"
+STATES: Final = {"sticking": "#000000", "sliding": FORCE, "apart": "#909090"}
+"""Contacts, and their forces where states are shown."""
+CONE_FACE: Final = "#E69F00"
+CONE_EDGE: Final = "#8A5F00"
+
+FARTHEST: Final = 0.25
+"""Share of a cloud's colour in its farthest point; the rest is white [-]."""
+SHADE: Final = 0.45
+"""Brightness of a face that is turned away from the light; that of one towards it is 1 [-]."""
+LIGHT: Final = np.array([-0.35, 0.6, 0.72])
+"""Where light comes from, in the axes of the camera: right, up, near [-]."""
+
+
+def body_colours(system: System) -> dict[str, str]:
+    """A colour for each body, by its name."""
+    moved = {joint.name.partition("/")[0] for joint in system.joints if joint.actuated}
+    robots, objects = cycle(ROBOTS), cycle(OBJECTS)
+    return {body.name: next(robots if body.name in moved else objects) for body in system.bodies}
+
+
+def link_colours(system: System) -> dict[int, str]:
+    """The colour of its body for each link, by the number of the link."""
+    colours = body_colours(system)
+    bodies = [name.partition("/")[0] for name in system.links]
+    return {i: colours.get(body, FIXED) for i, body in enumerate(bodies)}
+
+
+def by_depth(colour: str, depth: Array) -> Array:
+    """Red, green and blue of points: the paler the farther away.
+
+    Parameters
+    ----------
+    colour : str
+        Of the nearest point.
+    depth : ndarray, shape (N,)
+        Nearness to the camera [m].
+
+    Returns
+    -------
+    ndarray, shape (N, 3)
+        From 0 to 1 [-].
+    """
+    near = (depth - depth.min()) / max(float(np.ptp(depth)), 1e-12)
+    share = FARTHEST + (1 - FARTHEST) * near[:, None]
+    return np.asarray(share * to_rgb(colour) + (1 - share))
+
+
+def lit(colour: str, normals: Array) -> Array:
+    """Red, green and blue of faces: the brighter the more they are turned to the light.
+
+    Parameters
+    ----------
+    colour : str
+    normals : ndarray, shape (N, 3)
+        In the axes of the camera [-].
+
+    Returns
+    -------
+    ndarray, shape (N, 3)
+        From 0 to 1 [-].
+    """
+    share = SHADE + (1 - SHADE) * np.clip(normals @ LIGHT, 0, 1)[:, None]
+    return np.asarray(share * to_rgb(colour))

@@ -1,0 +1,50 @@
+"""Whatever `quasistatic-ref vectors` cannot do is refused in one sentence, with status 2."""
+
+import pytest
+
+from quasistatic_ref.cli.main import main
+from tests.lab.vectors.material import VECTORS, answer_file, right_answers
+
+CHECK = ["check", "answers"]
+REPORT = ["report", "answers", "--out", "out"]
+CHALLENGE = ["challenge", "--command", "x"]
+BAD = [
+    (["own", "--layer", "row", "--out", "out"], "did you mean 'rows'?"),
+    (["generate", "--vectors", "nowhere", "--out", "out"], "no such file"),
+    (["check", "nowhere"], "no folder of answers"),
+    (["check", "."], "answers no layer"),
+    ([*CHECK, "--layer", "row"], "did you mean 'rows'?"),
+    ([*CHECK, "--vectors", "nowhere"], "expected"),
+    ([*CHECK, "--only", "selection/nothing"], "no beginning"),
+    ([*CHECK, "--digits", "0"], "digits: must be from 0 to 16"),
+    ([*CHECK, "--digits", "17"], "digits: must be from 0 to 16"),
+    ([*CHECK, "--digits", "nan"], "digits: must be from 0 to 16"),
+    ([*REPORT, "--implementation", ""], "--implementation: must be a name of 1 to 80 characters"),
+    ([*REPORT, "--implementation", "a\nb"], "--implementation: must be a name"),
+    ([*REPORT, "--implementation", "x" * 81], "--implementation: must be a name"),
+    ([*REPORT, "--vectors", "nowhere"], "nowhere"),
+    (["report", "answers", "--out", "answers/selection.json"], "cannot be written"),
+    (["challenge"], "--command: is missing"),
+    ([*CHALLENGE, "--cases", "0"], "--cases: must be positive"),
+    ([*CHALLENGE, "--timeout", "nan"], "--timeout: must be positive"),
+    ([*CHALLENGE, "--seed", "-1"], "--seed: must be 0 or more"),
+    ([*CHALLENGE, "--digits", "20"], "--digits: must be at most 16"),
+    ([*CHALLENGE, "--layer", "row"], "did you mean 'rows'?"),
+    ([*CHALLENGE, "--again", "no_such_file"], "no_such_file"),
+    (["challenge", "--command", "./no_such_program"], "cannot be started"),
+    (["challenge", "--command", "'unclosed"], "cannot be read"),
+    (["challenge", "--command", ""], "is empty"),
+]
+
+
+@pytest.mark.parametrize(("given", "says"), BAD)
+def test_it_is_refused_in_one_sentence(given, says, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "answers").mkdir()
+    answer_file(tmp_path / "answers", "selection", right_answers("selection"))
+    if given[0] in ("own", "check", "report") and "--vectors" not in given:
+        given = [*given, "--vectors", str(VECTORS)]
+    assert main(["vectors", *given]) == 2
+    errors = capsys.readouterr().err
+    assert says in errors
+    assert errors.count("\n") == 1

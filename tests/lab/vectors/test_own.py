@@ -1,0 +1,49 @@
+"""The package's own answers to every case, and mechanisms that cannot be."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.exact.entered import entered
+from quasistatic_ref.lab.vectors.families.mechanisms import follower, free_body, link
+from quasistatic_ref.lab.vectors.layers import LAYERS, layer
+from quasistatic_ref.lab.vectors.own.system import own_system
+from tests.lab.vectors.material import cases, report_on
+
+
+@pytest.mark.parametrize("name", ["distance", *LAYERS[1:4], "wrench", "integrate"])
+def test_the_package_meets_every_case(name):
+    report = report_on(name, {case.id: layer(name).own(case.input) for case in cases(name)})
+    assert report.ok, report.trouble
+
+
+def test_the_package_undoes_its_own_step_to_the_last_digits():
+    # pinocchio alone loses 4e-4 of the translation at 1e-13 rad, and the angle below 1e-8.
+    random = np.random.default_rng(6)
+    table = {"bodies": [link("base", None, "planar"), link("wheel", "base", "continuous")]}
+    system = own_system(table).system
+    for angle in (1e-15, 1e-13, 1e-9, 1e-5, 1e-3, 1.0, 3.0):
+        q = np.array([*random.normal(size=2), np.cos(0.3), np.sin(0.3), np.cos(2), np.sin(2)])
+        step = np.array([*random.normal(size=2), angle, -angle])
+        back = system.difference(q, system.integrate(q, step))
+        np.testing.assert_allclose(back, step, rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"joint": "screw"}, r"bodies\[1\].joint: is not a kind of joint"),
+        ({"parent": "nobody"}, r"bodies\[1\].parent: must be a body before it"),
+        ({"joint": "continuous"}, "must follow a revolute or prismatic joint"),
+        ({"mimic": {"of": "finger"}}, "must follow a revolute or prismatic joint"),
+    ],
+)
+def test_a_mechanism_that_cannot_be_is_refused(change, says):
+    drive, finger = follower("prismatic")
+    with pytest.raises(InputError, match=says):
+        entered({"mechanism": {"bodies": [drive, finger | change]}})
+
+
+def test_a_q_of_another_length_is_refused():
+    with pytest.raises(InputError, match="q: must contain 7 numbers"):
+        entered({"mechanism": {"bodies": [free_body()]}, "q": [0.0] * 6})
