@@ -20,6 +20,20 @@ FUZZED = 80
 """Random steps with answers made to look good."""
 
 
+def test_bound_shows_about_eight_digits_of_an_exact_answer():
+    rng = np.random.default_rng(8)
+    for _ in range(10):
+        step = grasp_step(rng)
+        exact = exact_step(step)
+        assert 1e-10 < error_bound(step, exact.delta_q, exact.lam).error < 1e-6
+
+
+def test_step_without_contacts_is_bounded_to_rounding():
+    step = point_between_walls(np.zeros((0, 3)), [], force=(1.0, 2.0, 3.0))
+    exact = exact_step(step)
+    assert error_bound(step, exact.delta_q, exact.lam).error < 1e-15
+
+
 def test_right_active_set_encloses_the_optimum_and_its_net_impulse():
     for seed in range(3):
         step = grasp_step(np.random.default_rng(seed))
