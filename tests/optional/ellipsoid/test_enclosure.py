@@ -92,6 +92,34 @@ def test_a_grasp_is_enclosed_and_every_backend_gives_the_same_bits(seed):
     assert verified(step, answers[0])
 
 
+def test_a_wrong_answer_is_refuted():
+    step = round_step(pinch(grip=5.0, offset=0.2))
+    answer = solve_step(step)
+    claims = answer.certificate
+    moved = answer.delta_q * (1 + 1e-12)
+    assert "error_bound" in verify(step, moved, (), flat(answer), claims).reason
+    lam = flat(answer)
+    assert "balance" in verify(step, answer.delta_q, (), 1.001 * lam, claims).reason
+    exact = replace(claims, kind="exact", error_bound=0.0)
+    assert not verify(step, answer.delta_q, (), lam, exact)
+    weak = replace(claims, kind="residual")
+    assert "proves nothing" in verify(step, answer.delta_q, (), lam, weak).reason
+    assert "nothing is proved without lam" in verify(step, answer.delta_q, (), None, claims).reason
+
+
+def test_an_exact_claim_is_checked_to_the_last_bit():
+    step = round_step(pinch(grip=5.0, offset=0.02))
+    answer = solve_step(step)
+    claims = answer.certificate
+    assert claims.kind == "exact"
+    assert verified(step, answer)
+    moved = answer.delta_q.copy()
+    moved[4] = 5e-324
+    assert "delta_q[4]" in verify(step, moved, claims.active, flat(answer), claims).reason
+    slipping = round_step(pinch(grip=5.0, offset=0.2))
+    assert not verify(slipping, answer.delta_q, claims.active, flat(answer), claims)
+
+
 def test_a_set_without_interior_is_reported_as_uncertified():
     # Two walls without friction, opposite, both touching: only the plane between them is left.
     step = random_step(np.random.default_rng(0), 3, 4, rows=())

@@ -8,6 +8,7 @@ from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_ene
 from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.optional.large.bound import error_bound, opening_direction
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
@@ -16,6 +17,20 @@ from tests.oracles.random_steps import any_step
 
 FUZZED = 80
 """Random steps with answers made to look good."""
+
+
+def test_bound_shows_about_eight_digits_of_an_exact_answer():
+    rng = np.random.default_rng(8)
+    for _ in range(10):
+        step = grasp_step(rng)
+        exact = exact_step(step)
+        assert 1e-10 < error_bound(step, exact.delta_q, exact.lam).error < 1e-6
+
+
+def test_step_without_contacts_is_bounded_to_rounding():
+    step = point_between_walls(np.zeros((0, 3)), [], force=(1.0, 2.0, 3.0))
+    exact = exact_step(step)
+    assert error_bound(step, exact.delta_q, exact.lam).error < 1e-15
 
 
 def test_wedged_or_broken_answers_are_not_bounded():

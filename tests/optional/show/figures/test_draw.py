@@ -8,8 +8,9 @@ from PIL import Image
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.show.figures import animate, draw_scene, moment, panels
-from quasistatic_ref.optional.show.figures.draw import round_scale
+from quasistatic_ref.optional.show.figures.draw import LONGEST, force_scale, round_scale
 from quasistatic_ref.optional.show.figures.looks import CAMERA
+from quasistatic_ref.optional.show.figures.moments import DrawnContact, Moment
 from quasistatic_ref.optional.show.figures.surfaces import (
     AROUND,
     UP,
@@ -192,6 +193,24 @@ def test_a_film_has_a_frame_for_every_twentieth_of_a_second(incline, tmp_path):
     with Image.open(path) as film:
         assert film.n_frames == 3  # 30 steps of 10 ms
         assert film.info["duration"] == 100
+
+
+def test_forces_are_scaled_by_what_of_them_is_in_view():
+    # A force of 12 N along y and one of 1.5 N along z: seen along y, 1.5 N is the largest.
+    frame, rim = np.eye(3), np.zeros((0, 3))
+    contacts = [
+        DrawnContact(np.zeros(3), frame, np.array(force), 0.0, 1.0, 0.0, 0.0, rim)
+        for force in ([0, 12.0, 0], [0, 0, 1.5])
+    ]
+    of = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts), {})
+    half = 0.1
+    expected = {"xz": 2 * LONGEST * half / 1.5, "yz": 2 * LONGEST * half / 12, None: 0.08 / 12}
+    for view, scale in expected.items():
+        found = force_scale([of], view, half)
+        np.testing.assert_allclose(found, round_scale(scale), rtol=ROUNDING)
+    # What is only along the view is scaled as in space.
+    lone = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts[:1]), {})
+    assert force_scale([lone], "xz", half) == force_scale([lone], None, half) > 0
 
 
 def test_films_that_cannot_be_written_are_refused(incline, tmp_path, monkeypatch):
