@@ -237,7 +237,8 @@ def _mended(app, what, name, obj, options, lines):
     lines[:] = _one_liners.pop(name, lines)
     types = dict(m.groups() for line in lines if (m := re.match(r":vartype ([^:]+): (.*)", line)))
     kept = [line for line in lines if not line.startswith(":vartype ")]
-    in_math, mended = False, []
+    in_math = False
+    mended = []
     for line in kept:
         in_math = line.startswith(".. math::") or (in_math and (not line or line.startswith(" ")))
         if (found := re.match(r":ivar ([^:]+):", line)) and (names := found.group(1)) in types:

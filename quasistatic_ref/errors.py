@@ -80,7 +80,10 @@ class InputError(QuasistaticError):
         value: Any = None,
         file: str | Path | None = None,
     ) -> None:
-        self.problem, self.field, self.value, self.file = problem, field, value, file
+        self.problem = problem
+        self.field = field
+        self.value = value
+        self.file = file
         super().__init__(problem)
 
     def __str__(self) -> str:
@@ -201,8 +204,11 @@ class StepNotSolved(QuasistaticError):
         accuracy: float,
         residuals: Residuals | None = None,
     ) -> None:
-        self.backend, self.status, self.step = backend, status, step
-        self.accuracy, self.residuals = accuracy, residuals
+        self.backend = backend
+        self.status = status
+        self.step = step
+        self.accuracy = accuracy
+        self.residuals = residuals
         super().__init__(
             f"{backend} did not solve the step ({status}; accuracy {accuracy:g}); "
             "try another backend, or check the step"
@@ -265,7 +271,8 @@ class StepIllPosed(StepNotSolved):
 
     def __init__(self, step: StepData, delta_q: Array, length: float) -> None:
         super().__init__("exact", "ill-posed", step, 0.0)
-        self.delta_q, self.length = delta_q, length
+        self.delta_q = delta_q
+        self.length = length
         self.args = (
             f"the exact optimum is {length:.0e} times longer than the step's forces, targets and "
             "gaps explain; its contacts almost contradict each other; look for opposite normals",
@@ -320,7 +327,8 @@ class NoFixedPoint(StepNotSolved):
 
     def __init__(self, step: StepData, iterations: int, residual: float) -> None:
         super().__init__("coulomb", "no fixed point", step, 0.0)
-        self.iterations, self.residual = iterations, residual
+        self.iterations = iterations
+        self.residual = residual
         self.args = (
             f"no solution under Coulomb's law was found in {iterations} iterations: s is still off "
             f'by {residual:.3g} m; take a smaller h, or law = "convex"',
@@ -380,7 +388,10 @@ class RunFailed(QuasistaticError):
         step: StepData | None = None,
         file: Path | None = None,
     ) -> None:
-        self.reason, self.trajectory, self.step, self.file = reason, trajectory, step, file
+        self.reason = reason
+        self.trajectory = trajectory
+        self.step = step
+        self.file = file
         super().__init__(reason)
 
 

@@ -103,7 +103,8 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> CommandRun:
     from quasistatic_ref.cli.main import main  # here, so that light tests stay light
 
     folder = tmp_path_factory.mktemp("demo") / "out"
-    output, errors = io.StringIO(), io.StringIO()
+    output = io.StringIO()
+    errors = io.StringIO()
     with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
         status = main(["demo", "--fast", "--json", "--out", str(folder)])
     return CommandRun(status, output.getvalue(), errors.getvalue(), folder)

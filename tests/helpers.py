@@ -77,7 +77,8 @@ def random_stiffness(rng, size, scale):
 
 def random_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
     """A random step with phi >= 0, which is always feasible: standing still is allowed."""
-    n_c, n_v = len(rows), n_a + n_u
+    n_c = len(rows)
+    n_v = n_a + n_u
     return StepData(
         h=0.01,
         K_q=random_stiffness(rng, n_a, 500.0),
@@ -98,7 +99,8 @@ def random_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
 
 def contact_row(contacts, j, i):
     """[J'(n~ + d~_i)]' of contact j by hand, i = 0 .. 5."""
-    mu_v, mu_omega = contacts.mu_v[j], contacts.mu_omega[j]
+    mu_v = contacts.mu_v[j]
+    mu_omega = contacts.mu_omega[j]
     along = (contacts.d1[j], contacts.d2[j], -contacts.d1[j], -contacts.d2[j])
     point = contacts.n[j] + mu_v * along[i] if i < 4 else contacts.n[j]
     spin = (0, 0, 0, 0, mu_omega, -mu_omega)[i]
@@ -119,7 +121,9 @@ def planted_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
     """
     step = random_step(rng, n_a, n_u, rows)
     delta_q = 1e-3 * rng.normal(size=n_a + n_u)
-    phi, lam, push = [], [], np.zeros(n_a + n_u)
+    phi = []
+    lam = []
+    push = np.zeros(n_a + n_u)
     for j, count in enumerate(rows):
         motion = [float(contact_row(step.contacts, j, i) @ delta_q) for i in range(count)]
         active = int(np.argmin(motion))
@@ -166,7 +170,8 @@ def pinch(m=0.2, grip=20.0, offset=0.01, mu_v=0.5, mu_omega=0.02, stiffness=1000
 
 def hessian(step):
     """H of (13), by blocks."""
-    n_a, n_v = step.n_a, step.n_v
+    n_a = step.n_a
+    n_v = step.n_v
     H = np.zeros((n_v, n_v))
     H[:n_a, :n_a] = step.h * step.K_q
     H[n_a:, n_a:] = step.M_u / step.h
@@ -181,7 +186,9 @@ def unconstrained(step):
 
 def error(step, delta_q, truth):
     """||x - x*||_H / ||H^-1 g||_H."""
-    H, free, gap = hessian(step), unconstrained(step), np.asarray(delta_q) - np.asarray(truth)
+    H = hessian(step)
+    free = unconstrained(step)
+    gap = np.asarray(delta_q) - np.asarray(truth)
     return float(np.sqrt(gap @ H @ gap) / np.sqrt(free @ H @ free))
 
 

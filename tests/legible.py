@@ -78,7 +78,8 @@ def _lost_text(figure: Figure) -> Iterator[str]:
     width, height = figure.bbox.size
     level = []
     for text in _drawn_texts(figure):
-        box, name = text.get_window_extent(), repr(text.get_text())
+        box = text.get_window_extent()
+        name = repr(text.get_text())
         for (low, high), most, way in (
             (box.intervalx, width, "across"),
             (box.intervaly, height, "up"),

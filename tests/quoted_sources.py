@@ -120,9 +120,11 @@ def levers():
     scenario, run = run_of("with torsion")
     urdf = (ROOT / "models" / "bunny_grasp" / "bunny.urdf").read_text()
     c = np.array(re.search(r'xyz="([^"]+)"', urdf)[1].split(), float)
-    kinematics, link = scenario.system.kinematics(run["q"][LIFTING]), scenario.system.link("bunny")
+    kinematics = scenario.system.kinematics(run["q"][LIFTING])
+    link = scenario.system.link("bunny")
     centre = kinematics.R[link] @ c + kinematics.t[link]
-    wrench, fingers = run["wrench"][LIFTING], run["rows"] == 6
+    wrench = run["wrench"][LIFTING]
+    fingers = run["rows"] == 6
     loaded = np.flatnonzero(fingers & (wrench[:, 2] > 0))
     first, second = np.sort(run["beta"][LIFTING][loaded, 0] - centre[0])
     middle = run["q_bar_a"][LIFTING][0] - centre[0]
@@ -158,7 +160,8 @@ def needed():
 def drag():
     """Halfway through the lift [N], and its shares [%]; the run's largest share."""
     _, run = run_of("with torsion")
-    force, largest = MASS * SPEED / H, run.header["largest_drag_share"]
+    force = MASS * SPEED / H
+    largest = run.header["largest_drag_share"]
     friction = run["mu_v"] @ run["wrench"][150, :, 2]
     return {"force": force, "weight": MASS * G, "of weight": 100 * force / (MASS * G),
             "of friction": 100 * force / friction, "largest": 100 * largest,
@@ -255,7 +258,8 @@ def distances():
 
     Two capsules; and a sphere or a half-space and anything, and boxes, capsules, meshes.
     """
-    flat, both = {"box", "capsule", "mesh"}, {"closed forms": [], "two capsules": []}
+    flat = {"box", "capsule", "mesh"}
+    both = {"closed forms": [], "two capsules": []}
     for row in table("pair_distances.md"):
         pair = set(row["pair"].split(" - "))
         if pair == {"capsule"}:
@@ -322,7 +326,8 @@ def dense_and_sparse():
 def large():
     """What the page says of large steps."""
     sparse = table("large_steps.md", "Sparse steps")
-    of_piqp, eight = sparse["piqp"], dense_and_sparse()["8"]
+    of_piqp = sparse["piqp"]
+    eight = dense_and_sparse()["8"]
     assert {row["without bound"] for row in of_piqp} == {"0"}
     assert {row["unsolved"] for row in of_piqp} == {"0"}
     chains = [float(of_piqp[boxes]["off, ms"]) for boxes in ("10", "20", "40", "80", "160")]

@@ -8,7 +8,8 @@ from tests.model.urdf.urdf_texts import BOX, CHAIN, collision, inertial, joint, 
 
 def chain_scene(folder: Path) -> System:
     """A floating arm, actuated in part; a fixed one on a tilted desk; a free box."""
-    chain, box = written(folder, CHAIN, "chain.urdf"), written(folder, BOX, "box.urdf")
+    chain = written(folder, CHAIN, "chain.urdf")
+    box = written(folder, BOX, "box.urdf")
     return System(
         [
             Body("box", box, "floating", xyz=(0.5, 0.6, 0.7), rpy=(0.1, 0.2, 0.3)),

@@ -14,7 +14,8 @@ SYSTEM = qr.System(
     [qr.Body.of_shape("b", qr.Sphere(0.05), mass=0.5, xyz=(0.1, 0.2, 0.12), rpy=(0.3, -0.4, 0.5))]
 )
 POSE = SYSTEM.kinematics(SYSTEM.q_start)
-R, T = POSE.R[1], POSE.t[1]
+R = POSE.R[1]
+T = POSE.t[1]
 FLOOR = qr.PlacedShape("floor", 0, np.eye(3), np.zeros(3), qr.HalfSpace((0, 0, 1), 0.0))
 CLOUD = qr.PlacedShape("cloud", 1, np.eye(3), np.zeros(3), qr.PointCloud(POINTS))
 PAIR = qr.ContactPair("floor", FLOOR, CLOUD, mu_v=0.5, mu_omega=0.0, rows=4, k=5)

@@ -9,7 +9,11 @@ import numpy as np
 import quasistatic_ref as qr
 from quasistatic_ref.step.standard_form import standard_form
 
-MU_V, MU_OMEGA, MASS, G, H = 0.5, 0.02, 1.0, 9.81, 0.01
+MU_V = 0.5
+MU_OMEGA = 0.02
+MASS = 1.0
+G = 9.81
+H = 0.01
 CONTACT = qr.Contacts(
     name=("table/block",), phi=[0.0], n=[[0, 0, 1]], d1=[[1, 0, 0]], d2=[[0, 1, 0]],
     J=[np.eye(4)], mu_v=[MU_V], mu_omega=[MU_OMEGA], rows=[6],
@@ -66,7 +70,8 @@ check(
 
 # %% task
 """(R8): how far the block slides and rises in one step under a push along x of 8 N [m]."""
-dx, dz = 0.0, 0.0
+dx = 0.0
+dz = 0.0
 
 # %% answer
 dx = H**2 * (8.0 - MU_V * MASS * G) / (MASS * (1 + MU_V**2))

@@ -61,7 +61,8 @@ def run(K_q, m, h, v, phi, steps):
 
 # %% answer
 def run(K_q, m, h, v, phi, steps):
-    q, places = np.array([0.0, phi]), []
+    q = np.array([0.0, phi])
+    places = []
     for k in range(steps):
         target = v * h * (k + 1)
         q = q + qr.solve_step(step_of(K_q, m, h, target - q[0], q[1] - q[0])).delta_q
@@ -72,9 +73,12 @@ def run(K_q, m, h, v, phi, steps):
 # %% check
 def exact_places(K_q, m, h, v, phi, steps):
     """The same loop in closed form."""
-    finger, block, places = 0.0, phi, []
+    finger = 0.0
+    block = phi
+    places = []
     for k in range(1, steps + 1):
-        target, gap = v * h * k - finger, block - finger
+        target = v * h * k - finger
+        gap = block - finger
         ahead = target if target <= gap else (h**2 * K_q * target + m * gap) / (h**2 * K_q + m)
         finger, block = finger + ahead, max(block, finger + ahead)
         places.append((finger, block))

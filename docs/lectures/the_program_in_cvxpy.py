@@ -27,7 +27,8 @@ def solved(step):
 
 # %% answer
 def solved(step):
-    a, u = cp.Variable(step.n_a), cp.Variable(step.n_u)
+    a = cp.Variable(step.n_a)
+    u = cp.Variable(step.n_u)
     delta_q = cp.hstack([a, u])
     c = step.contacts
     J_n, J_1, J_2 = (np.einsum("ci,civ->cv", axis, c.J[:, :3]) for axis in (c.n, c.d1, c.d2))
@@ -38,7 +39,8 @@ def solved(step):
     if len(six):
         spin = cp.multiply(c.mu_omega[six], c.J[six, 3] @ delta_q)
         rows += [gap[six] + spin >= 0, gap[six] - spin >= 0]
-    h, tau_k = step.h, step.K_q @ step.delta_q_bar_a
+    h = step.h
+    tau_k = step.K_q @ step.delta_q_bar_a
     cost = h / 2 * cp.quad_form(a, step.K_q) + cp.quad_form(u, step.M_u) / (2 * h)
     work = h * (tau_k + step.tau_a) @ a + h * step.tau_u @ u
     cp.Problem(cp.Minimize(cost - work), rows).solve(solver=cp.CLARABEL)
@@ -64,7 +66,8 @@ def error(x, exact, H, g):
 
 # %% answer
 def error(x, exact, H, g):
-    away, free = x - exact, np.linalg.solve(H, g)
+    away = x - exact
+    free = np.linalg.solve(H, g)
     return np.sqrt(away @ H @ away / (free @ H @ free))
 
 

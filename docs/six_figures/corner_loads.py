@@ -64,7 +64,8 @@ def figure(ax=None, *, pushes=PUSHES):
     mm_per_newton = 8
     made, row = panels(6.3, 3.0, columns=len(pushes), within=ax, narrow=12, sharey=True)
     colours = {"weight": "0.3", "push": "#D55E00", "forces of the table": "#0072B2"}
-    left, top = -1e3 * HALF_WIDTH, 2e3 * HALF_HEIGHT
+    left = -1e3 * HALF_WIDTH
+    top = 2e3 * HALF_HEIGHT
     for axes, push, (friction, f_left, f_right) in zip(row, pushes, main(pushes), strict=True):
         axes.add_patch(Rectangle((left, 0), -2 * left, top, facecolor="0.88", edgecolor="0.3"))
         axes.axhline(0.0, color="0.3", linewidth=scaled(1.2))

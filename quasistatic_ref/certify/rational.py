@@ -242,7 +242,8 @@ def friction_rows(contacts: Contacts, name: str, which: Which = ALL) -> Dyadic:
 
 def block_diagonal(K: Dyadic, M: Dyadic) -> Dyadic:
     """Two square blocks, of any units, on the diagonal of a matrix of zeros."""
-    (n_a, _), (n_u, _) = K.m.shape, M.m.shape
+    n_a, _ = K.m.shape
+    n_u, _ = M.m.shape
     right = np.full((n_a, n_u), 0, object)
     left = np.full((n_u, n_a), 0, object)
     above = joined([K, Dyadic(right, 0)], axis=1)

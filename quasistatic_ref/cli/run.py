@@ -147,7 +147,8 @@ def run(options: argparse.Namespace) -> int:
         f"{summary['certified']}; backend {scenario.backend}, {speed} path, worst residual {worst}"
     )
     if scenario.law == COULOMB and trajectory.steps:
-        solved, off = trajectory["s_iterations"], summary["largest_s_residual"]
+        solved = trajectory["s_iterations"]
+        off = summary["largest_s_residual"]
         print(
             f"Coulomb's law: {solved.mean():.1f} iterations a step, at most {solved.max()}; "
             f"s is its own to within {off:.1e} m"

@@ -105,7 +105,8 @@ def corner_surface(solid: ShapeInWorld, x: Array, n: Array, within: float) -> Su
         edge = some[~over]
         gap = dot(x[edge], n) - shape.support_value(n[None])
         on_edge = _over(shape, x[edge], gap, np.broadcast_to(n, (len(edge), 3)), near)
-        phi[edge[on_edge]], normal[edge[on_edge]] = gap[on_edge], n
+        phi[edge[on_edge]] = gap[on_edge]
+        normal[edge[on_edge]] = n
     tie[dot(own, normal) < 1 - SAME_NORMAL] = OF_PAIR
     return Surface(phi, normal, tie)
 

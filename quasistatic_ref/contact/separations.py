@@ -47,7 +47,8 @@ def pair_normal(name: str, a: ShapeInWorld, b: ShapeInWorld) -> tuple[Witness, i
     ContactError
         If the solids are as deep in each other along two normals, or have no trustworthy one.
     """
-    (found, every), within = pair_and_gaps(name, a, b), rounding(a, b)
+    found, every = pair_and_gaps(name, a, b)
+    within = rounding(a, b)
     normals = tied_normals(a, b, found, within, every)
     if len(normals) == 1:
         return found, OWN

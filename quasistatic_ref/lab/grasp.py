@@ -84,7 +84,8 @@ def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object
         units), findings, and the milliseconds of each part of a step.
     """
     motion = link_motion(scenario.system, trajectory, "bunny")
-    a, b = motion.index(CLOSED), motion.index(TOP)
+    a = motion.index(CLOSED)
+    b = motion.index(TOP)
     rotation = np.degrees(motion.rotation_since(CLOSED)[a : b + 1].max())
     parts = {f"{part}_ms": 1e3 * float(np.mean(s)) for part, s in trajectory.seconds.items()}
     return {

@@ -89,7 +89,8 @@ class Log:
         key: Callable[[Record], Hashable],
         head: Mapping[str, Any] | None = None,
     ) -> None:
-        self._path, self._key = path, key
+        self._path = path
+        self._key = key
         first = [] if head is None else [json.loads(json_text(head))]
         there = records_read(path) if path is not None and path.exists() else list(first)
         if there[: len(first)] != first:

@@ -125,7 +125,8 @@ def linear_part(t: Vector, w: Vector) -> list[float]:
 
 def dot(w: Vector, v: Vector) -> float:
     """The product w'v of three numbers each [any unit]; ``sum`` rounds as its Python does."""
-    (p, q, r), (x, y, z) = w, v
+    p, q, r = w
+    x, y, z = v
     return p * x + q * y + r * z
 
 
@@ -136,7 +137,9 @@ def length(w: Vector) -> float:
 
 def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> list[float]:
     """Sum of v, once w x v and twice e x (e x v), where w = a e; the last is (e . v) e - v."""
-    (x, y, z), (p, q, r), rest = v, w, 1 - twice
+    x, y, z = v
+    p, q, r = w
+    rest = 1 - twice
     along = twice * dot(w, v) / (a * a) if a * a else 0.0
     return [
         rest * x + once * (q * z - r * y) + along * p,
@@ -191,7 +194,8 @@ def _heading(q_joint: Vector, angle: float) -> list[float]:
     """(cos, sin) turned by an angle, of length one; without a turn as it is."""
     if angle == 0:
         return [*q_joint]
-    (c, s), (C, S) = q_joint, cos_sin(angle / 2)
+    c, s = q_joint
+    C, S = cos_sin(angle / 2)
     cosine = 1 - 2 * (S * S)
     sine = 2 * (S * C)
     x = c * cosine - s * sine
@@ -215,5 +219,6 @@ def _rotation(joint: Joint, q_joint: list[float]) -> list[list[float]]:
 
 def _turn(before: Vector, after: Vector) -> float:
     """Angle from one (cos, sin) to another."""
-    (c, s), (c_next, s_next) = before, after
+    c, s = before
+    c_next, s_next = after
     return angle_of(c * s_next - s * c_next, c * c_next + s * s_next)

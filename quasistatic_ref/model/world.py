@@ -253,7 +253,8 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
             quaternion = pin.Quaternion(placement.rotation).normalized()
             start = np.concatenate([placement.translation, quaternion.coeffs()])
         elif kind == "planar":
-            (x, y, _), yaw = np.asarray(body.xyz), np.asarray(body.rpy)[2]
+            x, y, _ = np.asarray(body.xyz)
+            yaw = np.asarray(body.rpy)[2]
             start = np.array([x, y, *cos_sin(float(yaw))])
         elif kind == "continuous":
             start = np.array(cos_sin(float(position)))

@@ -108,7 +108,8 @@ class BodyEntry(Plain):
 def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
     check_names(table, BODY)
-    urdf, mjcf = path_in(folder, table, "urdf"), path_in(folder, table, "mjcf")
+    urdf = path_in(folder, table, "urdf")
+    mjcf = path_in(folder, table, "mjcf")
     if urdf is None and mjcf is None:
         raise table.fail("urdf", "is missing")
     if urdf is not None and mjcf is not None:

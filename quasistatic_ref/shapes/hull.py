@@ -52,7 +52,8 @@ def _distance(points: Array, hull: "ConvexMesh") -> tuple[Array, Array]:
         sideways = norm(away - phi[outside, None] * normal[outside])
         edge = (sideways > OUTSIDE_FACE * size) & (distance > ON_SURFACE * size)
         at = outside[edge]
-        phi[at], normal[at] = distance[edge], away[edge] / distance[edge, None]
+        phi[at] = distance[edge]
+        normal[at] = away[edge] / distance[edge, None]
     return phi, normal
 
 

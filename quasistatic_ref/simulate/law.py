@@ -6,7 +6,8 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.parts import needed_part
 
-CONVEX, COULOMB = "convex", "coulomb"
+CONVEX = "convex"
+COULOMB = "coulomb"
 LAWS = (CONVEX, COULOMB)
 ITERATED = ("s", "s_residual", "s_iterations")
 """What Coulomb's law adds to each step of a record: by how much phi was raised, shape (n_c,) [m];

@@ -100,7 +100,8 @@ def exact_factor(S: Array, share: float) -> Array | None:
     fractions = [[v.as_integer_ratio() for v in row] for row in S.tolist()]
     common = max((q for row in fractions for _, q in row), default=1)  # a power of two
     rest = [[p * (common // q) for p, q in row[i:]] for i, row in enumerate(fractions)]
-    diagonal, (part, whole) = [row[0] for row in rest], share.as_integer_ratio()
+    diagonal = [row[0] for row in rest]
+    part, whole = share.as_integer_ratio()
     L = np.zeros(S.shape)
     last = 1
     for k, entry in enumerate(diagonal):  # Bareiss: all entries are minors, all divisions exact

@@ -134,7 +134,8 @@ class StepProblem(Shown):
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
         for name in differences(self.template, step):
-            own, other = KIND[name](self.template), KIND[name](step)
+            own = KIND[name](self.template)
+            other = KIND[name](step)
             problem = f"is {own} in this problem; make a problem like this step"
             raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
 

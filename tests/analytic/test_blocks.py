@@ -5,11 +5,15 @@ import numpy as np
 from quasistatic_ref import load_scenario
 from tests.tolerances import SCENARIO
 
-G, H = 9.81, 0.01
+G = 9.81
+H = 0.01
 
 
 def test_a_pushed_block_makes_its_pusher_lag_by_friction_and_drag() -> None:
-    mu_v, m, v, K_q = 0.4, 0.5, 0.01, 1000.0
+    mu_v = 0.4
+    m = 0.5
+    v = 0.01
+    K_q = 1000.0
     trajectory = load_scenario("block_push", fast=True).run(progress=False)
     lag = trajectory["q_bar_a"][:, 0] - trajectory["q"][1:, 0]
     expected = (mu_v * m * G + m * v / H) / K_q
@@ -31,7 +35,8 @@ def test_on_a_slope_the_rough_block_holds_and_the_smooth_one_slides() -> None:
 
 def test_a_stack_stands_and_each_contact_carries_what_is_above() -> None:
     trajectory = load_scenario("stack", fast=True).run(progress=False)
-    q, n_z = trajectory["q"], trajectory["wrench"][-1][:, 2]
+    q = trajectory["q"]
+    n_z = trajectory["wrench"][-1][:, 2]
     np.testing.assert_allclose(q[-1], q[0], rtol=0, atol=SCENARIO)
     loads = n_z.reshape(3, 4).sum(axis=1)
     np.testing.assert_allclose(loads, [1.0 * G, 0.5 * G, 0.2 * G], rtol=SCENARIO, atol=0)

@@ -32,7 +32,8 @@ def side_by_side(way, shape=CUBE):
     system = System([Body.of_shape("top", CUBE, 1.0, xyz=way)])
     low = PlacedShape("low", 0, np.eye(3), np.zeros(3), CUBE)
     top = PlacedShape("top", system.link("top/solid"), np.eye(3), np.zeros(3), shape)
-    pair, none = ContactPair("p", low, top, 0.0, 0.0, 4, 8), np.zeros((0, 0))
+    pair = ContactPair("p", low, top, 0.0, 0.0, 4, 8)
+    none = np.zeros((0, 0))
     simulator = Simulator(system, [pair], h=0.01, K_q=none, gravity=[0, 0, 0], backend="none")
     return simulator.step(system.q_start, np.zeros(0))
 

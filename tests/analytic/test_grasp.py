@@ -131,7 +131,8 @@ def test_each_finger_lifts_the_bunny_by_one_point(runs):
 
 @pytest.mark.parametrize("case", CASES)
 def test_the_bunny_leaves_the_floor_and_its_contacts_carry_it(runs, scenario, case):
-    run, bunny = runs[case], scenario.system.link("bunny")
+    run = runs[case]
+    bunny = scenario.system.link("bunny")
     assert run["phi"][TOP, 0] > 0.005
     for k in range(CLOSED, TOP, 20):
         n, d1, d2, f = (run[key][k] for key in ("n", "d1", "d2", "wrench"))

@@ -6,12 +6,18 @@ from quasistatic_ref import load_scenario
 from quasistatic_ref.simulate.trajectory import certified
 from tests.tolerances import FIRST_ORDER, SCENARIO
 
-G, H = 9.81, 0.01
+G = 9.81
+H = 0.01
 
 
 def test_of_two_pinched_bars_one_is_held_and_one_pivots_and_slips() -> None:
-    m, inertia, K_q, N_0 = 0.2, 1.0666666666666667e-3, 1e3, 5.0
-    mu_v, mu_omega, offset = 0.5, 0.02, 0.069
+    m = 0.2
+    inertia = 1.0666666666666667e-3
+    K_q = 1e3
+    N_0 = 5.0
+    mu_v = 0.5
+    mu_omega = 0.02
+    offset = 0.069
     assert 0.055 < mu_omega * (2 * N_0 / (m * G) - 1 / mu_v) < offset
     a = mu_omega / mu_v
     omega = (
@@ -35,7 +41,10 @@ def test_of_two_pinched_bars_one_is_held_and_one_pivots_and_slips() -> None:
 
 
 def test_a_door_follows_the_tip_that_pushes_it_and_stops_with_it() -> None:
-    inertia, K_q, r, w = 0.1 + 2 * 0.4**2, 2000.0, 0.6, 0.045
+    inertia = 0.1 + 2 * 0.4**2
+    K_q = 2000.0
+    r = 0.6
+    w = 0.045
     scenario = load_scenario("door", fast=True)
     trajectory = scenario.run(progress=False)
     assert certified(trajectory) == "500 of 500 steps exact"
@@ -58,13 +67,17 @@ def test_a_door_follows_the_tip_that_pushes_it_and_stops_with_it() -> None:
 
 
 def test_a_peg_finds_its_hole_and_lags_by_the_friction_of_two_walls() -> None:
-    v, mu_v, c, K = 0.01, 0.2, 0.0005, np.array([500.0, 500.0, 2000.0])
+    v = 0.01
+    mu_v = 0.2
+    c = 0.0005
+    K = np.array([500.0, 500.0, 2000.0])
     e = np.array([0.003, 0.002])
     trajectory = load_scenario("peg_in_hole", fast=True).run(progress=False)
     assert certified(trajectory) == "400 of 400 steps exact"
     b = mu_v * H * v
     N = K[:2] * (e - c + b)
-    q, forces = trajectory["q"][201:], trajectory["wrench"][200:, :, 2]
+    q = trajectory["q"][201:]
+    forces = trajectory["wrench"][200:, :, 2]
     east_west_north_south = np.array([N[0], 0, N[1], 0])
     np.testing.assert_allclose(forces - east_west_north_south, 0, rtol=0, atol=SCENARIO)
     np.testing.assert_allclose(q[:, :2] - (c - b), 0, rtol=0, atol=SCENARIO * c)

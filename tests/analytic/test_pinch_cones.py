@@ -12,7 +12,10 @@ from quasistatic_ref.solve.solve import solve_step
 from tests.helpers import pinch
 from tests.tolerances import EXACT, THRESHOLD
 
-M, MU_V, MU_OMEGA, G = 0.2, 0.5, 0.02, 9.81
+M = 0.2
+MU_V = 0.5
+MU_OMEGA = 0.02
+G = 9.81
 SLIDE = M * G / (2 * MU_V)  # what the weight alone needs
 
 THRESHOLDS = {

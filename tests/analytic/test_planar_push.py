@@ -11,8 +11,13 @@ from quasistatic_ref.lab.scenes.slider import push, push_step, sticking_motion
 from quasistatic_ref.solve.solve import solve_step
 from tests.tolerances import ROUNDING
 
-X_C, Y_C, U_X, U_Y, C = 0.03, -0.02, 0.6, 0.8, 0.025
-POINT, MOVED = np.array([X_C, Y_C]), np.array([U_X, U_Y])
+X_C = 0.03
+Y_C = -0.02
+U_X = 0.6
+U_Y = 0.8
+C = 0.025
+POINT = np.array([X_C, Y_C])
+MOVED = np.array([U_X, U_Y])
 
 
 def test_a_sticking_push_is_lynchs_formula_by_components():

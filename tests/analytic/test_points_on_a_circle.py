@@ -6,7 +6,12 @@ import pytest
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.solve.solve import solve_step
 
-MASS, INERTIA, MU_V, RADIUS, HEIGHT, GRAVITY = 0.5, 2e-4, 0.5, 0.03, 0.02, 9.81
+MASS = 0.5
+INERTIA = 2e-4
+MU_V = 0.5
+RADIUS = 0.03
+HEIGHT = 0.02
+GRAVITY = 9.81
 STILL = 1e-12
 """A turn below this [rad] is none."""
 

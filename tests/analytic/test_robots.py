@@ -6,15 +6,19 @@ from quasistatic_ref import load_scenario
 from quasistatic_ref.simulate.trajectory import certified
 from tests.tolerances import FIRST_ORDER, SCENARIO
 
-G, H = 9.81, 0.01
+G = 9.81
+H = 0.01
 
 
 def test_a_panda_that_pushes_a_block_yields_by_the_torques_of_the_push() -> None:
-    m, mu_v, K_q = 0.4, 0.4, 7000.0
+    m = 0.4
+    mu_v = 0.4
+    K_q = 7000.0
     scenario = load_scenario("panda_push", fast=True)
     trajectory = scenario.run(progress=False)
     assert certified(trajectory) == "400 of 400 steps exact"
-    system, q = scenario.system, trajectory["q"]
+    system = scenario.system
+    q = trajectory["q"]
     block = system.joint("block/base")
     axes = [system.link(f"panda/panda_link{i}") for i in (2, 4, 6)]
     for k in (100, 250, 399):
@@ -29,12 +33,15 @@ def test_a_panda_that_pushes_a_block_yields_by_the_torques_of_the_push() -> None
 
 
 def test_a_finger_of_the_allegro_hand_rolls_on_the_drum_that_it_turns() -> None:
-    R, rho, axle = 0.03, 0.012, np.array([0.055, 0.0, 0.0525])
+    R = 0.03
+    rho = 0.012
+    axle = np.array([0.055, 0.0, 0.0525])
     scenario = load_scenario("allegro_turn", fast=True)
     trajectory = scenario.run(progress=False)
     assert certified(trajectory) == "300 of 300 steps exact"
     system = scenario.system
-    tip, drum = system.link("hand/link_7.0_tip"), system.joint("roller/axle")
+    tip = system.link("hand/link_7.0_tip")
+    drum = system.joint("roller/axle")
     poses = [system.kinematics(q) for q in trajectory["q"]]
     x, _, z = np.transpose([pose.t[tip] - axle for pose in poses])
     turned = np.array([pose.R[tip] for pose in poses])

@@ -9,7 +9,12 @@ import pytest
 from quasistatic_ref.scenario.scenario import load_scenario
 from tests.tolerances import EXACT, ROUNDING
 
-MASS, INERTIA, RADIUS, MU_OMEGA, H, GRAVITY = 0.3, 8e-5, 0.05, 0.01, 0.01, 9.81
+MASS = 0.3
+INERTIA = 8e-5
+RADIUS = 0.05
+MU_OMEGA = 0.01
+H = 0.01
+GRAVITY = 9.81
 LIMIT = MU_OMEGA * MASS * GRAVITY
 AT_LIMIT = 39
 """The step whose torque is the limit, to rounding."""
@@ -51,7 +56,10 @@ def test_it_sticks_up_to_the_limit(run):
 
 
 def test_the_whole_run_is_the_recurrence_from_rest(run):
-    phi, angle, heights, turns = 0.0, 0.0, [RADIUS], [0.0]
+    phi = 0.0
+    angle = 0.0
+    heights = [RADIUS]
+    turns = [0.0]
     for k in range(200):
         turn = (H**2 * (torque(k) - LIMIT) + MASS * MU_OMEGA * phi) / (INERTIA + MASS * MU_OMEGA**2)
         if torque(k) <= LIMIT:

@@ -45,7 +45,8 @@ def test_multiplier_that_vanishes_first_leaves_the_longest_held_in_a_tie(
     order, right, first, balls
 ):
     form = program([[1, 0, 0], [0, 1, 0], [1, 1, 1]], [*right, 9])
-    before, after = point_on(form, order, balls), point_on(form, (*order, 2), balls)
+    before = point_on(form, order, balls)
+    after = point_on(form, (*order, 2), balls)
     leaving = active_set._first_to_vanish(before, after)
     assert order[leaving] == (order[0] if first is None else first)
 

@@ -82,7 +82,8 @@ def test_zero_row_is_the_empty_combination():
 )
 def test_small_coefficients_are_read_from_their_residues(monkeypatch, c, eliminations):
     """One elimination modulo the prime shows them; others take a second one, and fractions."""
-    calls, echelon = [], dependence._echelon
+    calls = []
+    echelon = dependence._echelon
     monkeypatch.setattr(dependence, "_echelon", lambda *a: calls.append(a) or echelon(*a))
     assert combination(rows([3, 0], [0, 7], [3 * c[0], 7 * c[1]]), [0, 1], 2) == list(c)
     assert len(calls) == eliminations

@@ -35,7 +35,8 @@ def test_relative_error_of_ten_to_minus_k_is_k_digits(k):
 
 def test_without_forces_only_the_exact_answer_has_digits():
     step = point_between_walls([EAST], [1.0])
-    zero, nearly = np.zeros(3), np.array([1e-300, 0, 0])
+    zero = np.zeros(3)
+    nearly = np.array([1e-300, 0, 0])
     assert correct_digits(step, zero, zero) == 16.0
     assert correct_digits(step, nearly, zero) == 0.0
 
@@ -43,7 +44,8 @@ def test_without_forces_only_the_exact_answer_has_digits():
 @pytest.mark.parametrize("scale", [1e-200, 1.0, 1e200])
 def test_norms_neither_underflow_nor_overflow(scale):
     """H = 4: ||H^-1 p||_H = ||p|| / 2, and 3, 4, 5 is a right triangle."""
-    norm, p = energy_norm(4 * np.eye(2)), scale * np.array([3.0, 4.0])
+    norm = energy_norm(4 * np.eye(2))
+    p = scale * np.array([3.0, 4.0])
     assert norm.impulses(p[None]) == pytest.approx([2.5 * scale], rel=ROUNDING)
     assert norm.impulse(p) == pytest.approx(2.5 * scale, rel=ROUNDING)
     assert norm.displacement(p) == pytest.approx(10 * scale, rel=ROUNDING)

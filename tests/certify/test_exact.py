@@ -57,7 +57,8 @@ def test_limit_of_friction_is_a_kink(tau_x, slides):
     """At |tau_x| = mu_v weight one row carries all and the others are idle."""
     optimum = exact_step(resting_point(tau_x=tau_x))
     # Sliding: H = 1/h, only the row -d1 presses: dz = mu dx, (dx + mu dz) / h = h (tau_x - mu w).
-    h, mu = F(1, 2), F(1, 2)
+    h = F(1, 2)
+    mu = F(1, 2)
     dx = h * h * (F(tau_x) - mu * 2) / (1 + mu * mu) if slides else F(0)
     assert optimum.delta_q.tolist() == [float(dx), 0.0, float(mu * dx), 0.0]
     at_limit = tau_x == 1.0

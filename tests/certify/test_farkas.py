@@ -21,7 +21,8 @@ def point_between_walls(normals, phi, force=(0.0, 0.0, 0.0)):
     return free_step(np.eye(3), force, contacts_of(phi, frames_about(n, -Z), J, 0.0), 0.01)
 
 
-EAST, NORTH = [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]
+EAST = [1.0, 0.0, 0.0]
+NORTH = [0.0, 1.0, 0.0]
 WEST = [-1.0, 0.0, 0.0]
 
 
@@ -93,7 +94,8 @@ def test_length_counts_from_the_push_that_the_step_wants(k, is_refused):
     Each row alone is satisfied at the distance b, nearly, and the force f = b / h^2 along z moves
     by b: y is 2^k times longer. 2^19 < 1e6 < 2^21 < 4e6.
     """
-    b, e = 2.0**-10, 2.0**-k
+    b = 2.0**-10
+    e = 2.0**-k
     pair = Extra(("one", "two"), np.array([[1.0, e, 0], [-1.0, e, 0]]), np.full(2, b))
     step = free_step(np.eye(3), [0.0, 0.0, 4 * b], no_contacts(3), 0.5).replace(extra=pair)
     if is_refused:

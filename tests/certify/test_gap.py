@@ -33,12 +33,14 @@ def steps():
 @pytest.mark.parametrize("step", steps())
 def test_gap_and_energies_are_those_of_their_formulas(step, rng):
     form = exact_form(step)
-    delta_q, lam = rng.normal(size=step.n_v), rng.random(form.m)
+    delta_q = rng.normal(size=step.n_v)
+    lam = rng.random(form.m)
     x = fractions(delta_q, form.x_unit)
     # lam's unit: that of an impulse over that of a row; f(x) - d(lam) =
     # 1/2 ||H x - g - A' lam||^2 in the norm of H^-1, plus lam'(A x - b).
     H, g, A, b = program(step)
-    X, Y = [Fraction(v) for v in delta_q.tolist()], [Fraction(v) for v in lam.tolist()]
+    X = [Fraction(v) for v in delta_q.tolist()]
+    Y = [Fraction(v) for v in lam.tolist()]
     off = [
         dot(row, X) - g_v - dot(Y, [a[v] for a in A])
         for v, (row, g_v) in enumerate(zip(H, g, strict=True))
@@ -48,7 +50,8 @@ def test_gap_and_energies_are_those_of_their_formulas(step, rng):
     expected = dot(off, solved(H, off)) / 2 + dot(Y, slack)
     found = duality_gap(form, x, fractions(lam, form.lam_unit))
     assert plain(found) * unit == expected
-    free, taken = dot(g, solved(H, g)) / 2, dot(X, [dot(row, X) for row in H]) / 2
+    free = dot(g, solved(H, g)) / 2
+    taken = dot(X, [dot(row, X) for row in H]) / 2
     assert plain(free_energy(form)) * unit == free
     assert plain(energy(form, x)) * unit == taken
     joules = in_joules(form, found)

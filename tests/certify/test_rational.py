@@ -21,7 +21,8 @@ def fraction(q):
 def in_si(form):
     """H, g, A, b of a form in SI units, as fractions."""
     x, s, net = (fraction(u) for u in (form.x_unit, form.slack_unit, form.net_unit))
-    n, m = range(form.n), range(form.m)
+    n = range(form.n)
+    m = range(form.m)
     H = [[int(form.H[i, j]) * net / x for j in n] for i in n]
     g = [int(form.g[i, 0]) * net for i in n]
     A = [[int(form.A[i, j]) * s / x for j in n] for i in m]
@@ -30,7 +31,8 @@ def in_si(form):
 
 
 def with_extra(step, rng):
-    A, b = rng.standard_normal((2, step.n_v)), np.array([1e-9, -3.0])
+    A = rng.standard_normal((2, step.n_v))
+    b = np.array([1e-9, -3.0])
     return step.replace(extra=Extra(("one", "two"), A, b))
 
 
@@ -54,7 +56,8 @@ def test_multipliers_and_slacks_have_consistent_units():
 
 
 def test_matrices_that_are_not_symmetric_or_finite_are_refused():
-    one, none = np.ones(2), np.zeros((0, 2))
+    one = np.ones(2)
+    none = np.zeros((0, 2))
     with pytest.raises(StepDataError, match="symmetric"):
         exact_form_of(np.array([[1.0, 1e-17], [0.0, 1.0]]), one, none, np.zeros(0))
     with pytest.raises(StepDataError, match="finite"):

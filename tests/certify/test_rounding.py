@@ -44,7 +44,8 @@ def test_nearest_rounds_half_to_even_and_never_to_minus_zero(exact, rounded):
 def test_nearest_is_no_farther_than_its_neighbours():
     rng = np.random.default_rng(0)
     for _ in range(300):
-        p, q = int(rng.integers(1, 2**62)) ** 7, int(rng.integers(1, 2**62)) ** 8
+        p = int(rng.integers(1, 2**62)) ** 7
+        q = int(rng.integers(1, 2**62)) ** 8
         found = nearest_fraction(fmpq(p, q))
         exact = F(p, q)
         for side in (-math.inf, math.inf):

@@ -9,7 +9,8 @@ from tests.certify.test_exact import resting_point
 
 
 def test_open_rows_are_left_out_and_the_most_pressed_comes_first():
-    lam, slack = np.array([1e-9, 2.0, 1.0, 1e-12]), np.array([1.0, 1e-9, 1e-12, 3.0])
+    lam = np.array([1e-9, 2.0, 1.0, 1e-12])
+    slack = np.array([1.0, 1e-9, 1e-12, 3.0])
     assert warm_rows(np.eye(4), lam, slack) == [1, 2]
     assert warm_rows(np.zeros((0, 4)), np.zeros(0), np.zeros(0)) == []
 

@@ -141,7 +141,8 @@ def test_inspect_says_how_far_a_target_turns_in_a_step(tmp_path, capsys):
     """270 degrees in 10 ms and h = 2 ms: 54 degrees a step, a chord of 2 r sin(27 deg)."""
     club = str(written_scenario(tmp_path, SWING))
     record, text = inspected(capsys, club, "--set", "h=0.002", "--set", "steps=30")
-    turn, r = 1.5 * np.pi / 5, 0.2
+    turn = 1.5 * np.pi / 5
+    r = 0.2
     assert record["target_turn"] == pytest.approx(turn, rel=ROUNDING)
     assert record["target_speed"] == pytest.approx(2 * r * np.sin(turn / 2) / 0.002, rel=ROUNDING)
     assert "targets turn by up to 0.9425 rad a step; waypoints are at least 0.01 s apart" in text

@@ -57,7 +57,8 @@ def test_options_change_the_scenario(scene, out, capsys):
 
 
 def test_an_interrupted_run_leaves_its_steps(scene, out, capsys, monkeypatch):
-    honest, calls = simulator.Simulator.step, []
+    honest = simulator.Simulator.step
+    calls = []
 
     def interrupted(*arguments, **options):
         calls.append(1)

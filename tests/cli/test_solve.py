@@ -26,7 +26,8 @@ def test_decimals_are_those_of_the_exact_fraction(falling, capsys, digits):
     assert main(["solve", str(falling), "--digits", str(digits)]) == 0
     said = decimals_of(capsys.readouterr().out)
     assert list(said) == ["delta_q_u[0]", "delta_q_u[1]", "delta_q_u[2]"]
-    h, m = Fraction(0.01), Fraction(0.3)
+    h = Fraction(0.01)
+    m = Fraction(0.3)
     for text, force in zip(said.values(), (1.0, -0.7, 0.0), strict=True):
         exact = h * h * Fraction(force) / m
         assert len(text.lstrip("-").split("e")[0]) == digits + 1  # and a point

@@ -28,7 +28,8 @@ NAMES = ("product", "facets-6", "frictionless", "ellipsoid")
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_solution_in_another_cone_is_verified_in_that_cone_only(name, tmp_path, capsys):
-    step, solution = tmp_path / "step.json", tmp_path / "solution.json"
+    step = tmp_path / "step.json"
+    solution = tmp_path / "solution.json"
     step_written(step, pinch(grip=5.0, offset=0.2))
     assert main(["solve", str(step), "--cone", name, "-o", str(solution)]) == 0
     assert main(["verify", str(step), str(solution), "--cone", name]) == 0

@@ -42,7 +42,8 @@ SHAPE = st.sampled_from(sorted(SHAPES))
 
 def asked_of_coal(shape, point):
     """Distance of a point, as a coal ball of radius zero."""
-    request, result = coal.DistanceRequest(), coal.DistanceResult()
+    request = coal.DistanceRequest()
+    result = coal.DistanceResult()
     request.enable_signed_distance = True
     there = coal.Transform3s(np.eye(3), point)
     return coal.distance(shape.coal, coal.Transform3s(), coal.Sphere(0.0), there, request, result)
@@ -60,7 +61,8 @@ def cylinder_distance(shape, point):
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_a_distance_is_that_of_coal_or_of_the_plane_of_radius_and_height(name, rng):
-    shape, points = SHAPES[name], rng.uniform(-0.8, 0.8, size=(400, 3))
+    shape = SHAPES[name]
+    points = rng.uniform(-0.8, 0.8, size=(400, 3))
     phi, _ = shape.signed_distance(points)
     other = cylinder_distance if name == "cylinder" else asked_of_coal  # coal's is wrong inside one
     expected = [other(shape, point) for point in points]
@@ -71,7 +73,8 @@ def test_a_distance_is_that_of_coal_or_of_the_plane_of_radius_and_height(name, r
 @given(name=SHAPE, point=POINT)
 def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
     """So that, by its distance, it is the normal at the nearest point."""
-    shape, points = SHAPES[name], np.array([point])
+    shape = SHAPES[name]
+    points = np.array([point])
     phi, normal = shape.signed_distance(points)
     np.testing.assert_allclose(np.linalg.norm(normal[0]), 1.0, rtol=ROUNDING)
     foot, _ = shape.signed_distance(points - phi[:, None] * normal)
@@ -79,7 +82,8 @@ def test_every_normal_has_length_one_and_leads_to_the_surface(name, point):
 
 
 # Sizes that are exact in binary, so that ties are exact.
-BRICK, DISC = Box(np.array([0.25, 0.5, 0.75])), Cylinder(0.25, 0.125)
+BRICK = Box(np.array([0.25, 0.5, 0.75]))
+DISC = Cylinder(0.25, 0.125)
 BALL, CAPSULE, BOX, CAN, WALL = SHAPES.values()
 DEGENERATE = {
     "centre of a sphere": (BALL, (0, 0, 0), -0.3, (1, 0, 0)),
@@ -111,7 +115,8 @@ def test_where_the_normal_is_not_unique_the_first_one_wins(shape, point, phi, n)
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_a_point_s_distance_does_not_depend_on_its_batch(name, rng):
-    shape, points = SHAPES[name], rng.uniform(-0.8, 0.8, size=(37, 3))
+    shape = SHAPES[name]
+    points = rng.uniform(-0.8, 0.8, size=(37, 3))
     phi, normal = shape.signed_distance(points)
     for i, point in enumerate(points):
         alone_phi, alone_normal = shape.signed_distance(point[None])
@@ -182,7 +187,9 @@ def test_half_way_through_an_ellipsoid_the_upper_side_is_the_nearest(x, z) -> No
     # Near the middle of the plane z = 0 the nearest points are two, one above and one below. Of
     # (x, 0, 0) they are at x' = a^2 x / (a^2 - c^2): there the gradient (x' / a^2, 0, z' / c^2) is
     # parallel to the way (x' - x, 0, z').
-    a, b, c = 0.3, 0.2, 0.1
+    a = 0.3
+    b = 0.2
+    c = 0.1
     foot_x = a**2 * x / (a**2 - c**2)
     way = np.array([foot_x - x, 0.0, c * np.sqrt(1 - (foot_x / a) ** 2)])
     phi, n = Ellipsoid(np.array([a, b, c])).signed_distance(np.array([[x, 0.0, z]]))

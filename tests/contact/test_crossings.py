@@ -11,11 +11,17 @@ from tests.tolerances import ROUNDING
 from validation.make.aligned_poses import FLAT, HALF, UP
 from validation.make.forces_by_hand import Scene, wrong
 
-ORIGIN, STRAIGHT = np.zeros(3), np.eye(3)
-CUBE, HULL = FLAT["box"](HALF), FLAT["hull"](HALF)
-TABLE, RAIL = Box(np.array([0.2, 0.2, 0.01])), Box(np.array([0.02, 0.2, 0.01]))
-BOOK, PUCK = Box(np.array([0.1, 0.07, 0.01])), Cylinder(0.07, 0.01)
-LOG, CAPSULE, SPIRE = Cylinder(0.03, 0.1), Capsule(0.03, 0.1), Cone(0.03, 0.1)
+ORIGIN = np.zeros(3)
+STRAIGHT = np.eye(3)
+CUBE = FLAT["box"](HALF)
+HULL = FLAT["hull"](HALF)
+TABLE = Box(np.array([0.2, 0.2, 0.01]))
+RAIL = Box(np.array([0.02, 0.2, 0.01]))
+BOOK = Box(np.array([0.1, 0.07, 0.01]))
+PUCK = Cylinder(0.07, 0.01)
+LOG = Cylinder(0.03, 0.1)
+CAPSULE = Capsule(0.03, 0.1)
+SPIRE = Cone(0.03, 0.1)
 AN_EIGHTH = Rotation.from_rotvec(np.pi / 4 * UP).as_matrix()
 ALONG_X = Rotation.from_rotvec([0.0, np.pi / 2, 0.0]).as_matrix()
 ON_EDGE = Rotation.from_rotvec([np.pi / 4, 0.0, 0.0]).as_matrix()
@@ -51,7 +57,8 @@ def test_a_body_whose_centre_is_over_what_touches_rests(name):
 
 def found(low, top, R, place, nearest):
     """Points of alpha's, sorted, of a body over a fixed one."""
-    a, b = ShapeInWorld(low, STRAIGHT, ORIGIN), ShapeInWorld(top, R, np.array(place))
+    a = ShapeInWorld(low, STRAIGHT, ORIGIN)
+    b = ShapeInWorld(top, R, np.array(place))
     alpha = np.array([*nearest, 0.01])
     points = crossings(a, b, alpha, alpha, UP)
     assert len(set(points.number.tolist())) == len(points.number)
@@ -89,7 +96,9 @@ def test_rims_of_tilted_discs_do_not_cross_outside_of_them(swapped):
 
     Seen along the normal its rim is an ellipse, by radius (1 - cos tilt) narrower than its circle.
     """
-    radius, half, tilt = 0.1, 0.02, 0.2
+    radius = 0.1
+    half = 0.02
+    tilt = 0.2
     R = Rotation.from_rotvec([0.0, tilt, 0.0]).as_matrix()
     lowest = R @ [radius, 0.0, -half]
     over = 0.1 * radius * (1 - np.cos(tilt))  # how far the lowest point is inside of the other rim

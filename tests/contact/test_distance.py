@@ -41,7 +41,8 @@ def test_a_cloud_s_contacts_are_its_nearest_points_by_brute_force(name, rng):
     (R_solid, t_solid), (R_cloud, t_cloud) = (
         (S @ R, S @ t + s) for (S, s), (R, t) in zip(links, own, strict=True)
     )
-    solid, cloud = placed(SOLIDS[name], 1, *own[0]), placed(PointCloud(points), 2, *own[1])
+    solid = placed(SOLIDS[name], 1, *own[0])
+    cloud = placed(PointCloud(points), 2, *own[1])
     found = found_for(solid, cloud, standing(*links), k=7)
     each = []
     for i, p in enumerate(points):
@@ -58,7 +59,8 @@ def test_a_cloud_s_contacts_are_its_nearest_points_by_brute_force(name, rng):
 
 
 def test_pairs_follow_one_another_each_nearest_first(rng):
-    floor, ball = placed(HalfSpace(Z, 0.0)), placed(Sphere(0.1), 2)
+    floor = placed(HalfSpace(Z, 0.0))
+    ball = placed(Sphere(0.1), 2)
     cloud = placed(PointCloud(rng.uniform(-0.4, 0.4, size=(20, 3))), 1)
     kinematics = standing(random_pose(rng, 0.2), random_pose(rng, 0.3))
     pairs = [pair(floor, cloud, 3), pair(floor, ball), pair(ball, cloud, 2)]

@@ -54,7 +54,8 @@ def test_no_normals_have_no_tangents():
 
 def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
     system = chain_scene(tmp_path)
-    box, upper = system.link("box/box"), system.link("arm/upper")
+    box = system.link("box/box")
+    upper = system.link("arm/upper")
     floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(Z, 0.0))
     cloud = PlacedShape("cloud", box, np.eye(3), np.zeros(3), PointCloud(rng.normal(size=(9, 3))))
     ball = PlacedShape("ball", upper, np.eye(3), np.zeros(3), Sphere(0.1))
@@ -63,7 +64,8 @@ def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
         ContactPair("b", ball, cloud, 0.6, 0.02, 6, 2),
         ContactPair("c", floor, ball, 0.7, 0.03, 6, 1),
     ]
-    kinematics, layout = system.kinematics(system.q_start), contact_layout(pairs)
+    kinematics = system.kinematics(system.q_start)
+    layout = contact_layout(pairs)
     points = closest_points(pairs, kinematics)
     found = ContactGeometry(layout, system.column_map).contacts(points, kinematics)
     assert layout.names == ("a", "a", "a", "b", "b", "c")

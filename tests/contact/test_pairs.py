@@ -8,8 +8,10 @@ from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape, PointCloud, Sphere
 
-CLOUD, BALL = PointCloud(np.eye(3)), Sphere(0.1)
-BOX, FLOOR = Box(np.ones(3)), HalfSpace(np.eye(3)[2], 0.0)
+CLOUD = PointCloud(np.eye(3))
+BALL = Sphere(0.1)
+BOX = Box(np.ones(3))
+FLOOR = HalfSpace(np.eye(3)[2], 0.0)
 
 
 def pair(alpha, beta, link_alpha=0, link_beta=1, k=1):

@@ -58,7 +58,8 @@ def test_a_box_that_lies_flat_touches_with_its_four_lower_corners(box, floor, ga
 
 
 def test_candidates_are_alphas_corners_betas_corners_and_the_closest_pair() -> None:
-    cube, shelf = Box(np.full(3, 0.05)), Box(np.array([0.3, 0.3, 0.1]))
+    cube = Box(np.full(3, 0.05))
+    shelf = Box(np.array([0.3, 0.3, 0.1]))
     points = found(cube, shelf, np.eye(3), np.array([0.02, 0.01, -0.15]), 17)
     # alpha's corners are 0..7 (binary: x lowest), beta's 8..15, the pair 16. The four lower
     # corners of the cube touch, and the pair, which is one of them again.
@@ -85,7 +86,8 @@ def test_a_rims_first_corner_is_the_closest_point_and_repeats_it(seed: int) -> N
     # Rims of two cylinders 1e-5 m apart: the normal is right to 1e-11, and a corner that it led to
     # would have another by 1e-7. The closest pair, and each rim's corner there, are one contact.
     rng = np.random.default_rng(seed)
-    one, other = Cylinder(0.06, 0.04), Cylinder(0.05, 0.07)
+    one = Cylinder(0.06, 0.04)
+    other = Cylinder(0.05, 0.07)
     R = Rotation.random(random_state=seed).as_matrix()
     way = rng.normal(size=3)
     t = 0.3 * way / np.sqrt(way @ way)
@@ -110,6 +112,7 @@ def test_a_rims_first_corner_is_the_closest_point_and_repeats_it(seed: int) -> N
 def test_of_two_corners_that_are_one_contact_alpha_s_is_kept() -> None:
     # Two equal cubes, one on the other: the four corners of either's face are in the same places.
     # Alpha's corners are 0 to 7 (binary: x lowest), so that its upper ones are 4 to 7.
-    lower, upper = placed(Box(np.full(3, 0.25))), placed(Box(np.full(3, 0.25)), 1)
+    lower = placed(Box(np.full(3, 0.25)))
+    upper = placed(Box(np.full(3, 0.25)), 1)
     found = found_for(lower, upper, standing((np.eye(3), np.array([0, 0, 0.5]))), k=4)
     assert sorted(found.point.tolist()) == [4, 5, 6, 7]

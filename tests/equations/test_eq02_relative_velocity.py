@@ -28,25 +28,30 @@ def turn_rate(R_before, R_after, seconds):
 
 def moved(kinematics, link, local):
     """R local + t by loops: where a point fixed in a link is."""
-    R, t = kinematics.R[link], kinematics.t[link]
+    R = kinematics.R[link]
+    t = kinematics.t[link]
     return [sum(R[i][k] * local[k] for k in range(3)) + t[i] for i in range(3)]
 
 
 def local(kinematics, link, point):
     """R'(point - t) by loops: the same point in the link's frame."""
-    R, t = kinematics.R[link], kinematics.t[link]
+    R = kinematics.R[link]
+    t = kinematics.t[link]
     return [sum(R[k][i] * (point[k] - t[k]) for k in range(3)) for i in range(3)]
 
 
 def relative_velocity(system, q, v, link_alpha, link_beta, alpha, beta, n):
     """f(q, v) of Eq. (2) from positions a little before and after q, moving at v."""
-    here, seconds = system.kinematics(q), 2 * DIFFERENCE_STEP
+    here = system.kinematics(q)
+    seconds = 2 * DIFFERENCE_STEP
     before = system.kinematics(system.integrate(q, -DIFFERENCE_STEP * v))
     after = system.kinematics(system.integrate(q, DIFFERENCE_STEP * v))
-    nu, omega = {}, {}
+    nu = {}
+    omega = {}
     for side, link, point in (("alpha", link_alpha, alpha), ("beta", link_beta, beta)):
         fixed = local(here, link, point)
-        one, two = moved(before, link, fixed), moved(after, link, fixed)
+        one = moved(before, link, fixed)
+        two = moved(after, link, fixed)
         nu[side] = [(two[i] - one[i]) / seconds for i in range(3)]
         omega[side] = turn_rate(before.R[link], after.R[link], seconds)
     spin = sum(n[i] * (omega["beta"][i] - omega["alpha"][i]) for i in range(3))
@@ -60,7 +65,8 @@ def system(tmp_path):
 
 @pytest.mark.parametrize(("alpha_link", "beta_link"), LINKS.values(), ids=LINKS)
 def test_the_jacobian_times_a_velocity_is_the_relative_velocity(system, rng, alpha_link, beta_link):
-    a, b = system.link(alpha_link), system.link(beta_link)
+    a = system.link(alpha_link)
+    b = system.link(beta_link)
     for _ in range(3):
         q = system.integrate(system.neutral(), rng.normal(size=system.n_v))
         v = rng.uniform(-1, 1, size=system.n_v)
@@ -76,12 +82,15 @@ def test_the_jacobian_times_a_velocity_is_the_relative_velocity(system, rng, alp
 
 def test_alpha_and_beta_are_two_points_where_there_is_a_gap(system):
     # Turning at rate 1 about its own z, the box carries a point at R [r, 0, 0] along R [0, r, 0].
-    q, box = system.q_start, system.link("box/box")
+    q = system.q_start
+    box = system.link("box/box")
     v = np.zeros(system.n_v)
     v[system.joint("box/base").v] = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
     kinematics = system.kinematics(q)
-    R, t = kinematics.R[box], kinematics.t[box]
-    beta, alpha = (t + 0.4 * R[:, 0])[None], (t + 0.1 * R[:, 0])[None]
+    R = kinematics.R[box]
+    t = kinematics.t[box]
+    beta = (t + 0.4 * R[:, 0])[None]
+    alpha = (t + 0.1 * R[:, 0])[None]
     f = contact_jacobian(kinematics, np.array([0]), np.array([box]), alpha, beta, R[:, 2][None])
     np.testing.assert_allclose(f[0, :3] @ v, 0.4 * R[:, 1], rtol=ROUNDING, atol=ROUNDING)
     np.testing.assert_allclose(f[0, 3] @ v, 1.0, rtol=ROUNDING)

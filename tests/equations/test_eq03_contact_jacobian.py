@@ -46,7 +46,8 @@ def test_erratum_the_transpose_of_J_maps_wrenches_to_joint_forces(system, rng):
     J = contact_jacobian(system.kinematics(q), a, b, alpha, beta, n)
     assert J.shape[2] not in (3, 4)
     for j in range(len(a)):
-        wrench, v = rng.uniform(-1, 1, size=4), rng.uniform(-1, 1, size=system.n_v)
+        wrench = rng.uniform(-1, 1, size=4)
+        v = rng.uniform(-1, 1, size=system.n_v)
         motion = relative_velocity(system, q, v, a[j], b[j], alpha[j], beta[j], n[j])
         work = sum(wrench[r] * motion[r] for r in range(4))
         # Motions reach some metres a second, as in the test above.

@@ -21,8 +21,10 @@ def row(contacts, j, d_tilde_i):
 
 
 def directions(contacts, j):
-    v, w = contacts.mu_v[j], contacts.mu_omega[j]
-    d1, d2 = contacts.d1[j], contacts.d2[j]
+    v = contacts.mu_v[j]
+    w = contacts.mu_omega[j]
+    d1 = contacts.d1[j]
+    d2 = contacts.d2[j]
     return [
         [v * d1[0], v * d1[1], v * d1[2], 0.0],
         [v * d2[0], v * d2[1], v * d2[2], 0.0],
@@ -43,10 +45,12 @@ def test_every_row_of_A_is_the_printed_one(rng):
 
 def test_the_cvxpy_constraints_are_the_printed_left_hand_sides(rng):
     step = random_step(rng, rows=(6, 4, 6))
-    contacts, delta_q = step.contacts, rng.normal(size=step.n_v)
+    contacts = step.contacts
+    delta_q = rng.normal(size=step.n_v)
     problem = StepProblem(step)
     problem.fill(step)
-    problem.delta_q_a.value, problem.delta_q_u.value = delta_q[:3], delta_q[3:]
+    problem.delta_q_a.value = delta_q[:3]
+    problem.delta_q_u.value = delta_q[3:]
     for i in range(6):
         expected = []
         for j in range(3):

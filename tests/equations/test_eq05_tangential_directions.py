@@ -20,7 +20,8 @@ def shares_of_the_problem(step, delta_q):
     """What each CVXPY constraint i adds to the gap phi + J_n delta_q: d~_i' J delta_q by (4)."""
     problem = StepProblem(step)
     problem.fill(step)
-    problem.delta_q_a.value, problem.delta_q_u.value = delta_q[: step.n_a], delta_q[step.n_a :]
+    problem.delta_q_a.value = delta_q[: step.n_a]
+    problem.delta_q_u.value = delta_q[step.n_a :]
     gap = problem.contact_motion[0].value
     # CVXPY keeps a >= 0 as 0 - a <= 0.
     return [-constraint.expr.value - gap for constraint in problem.contact_rows]

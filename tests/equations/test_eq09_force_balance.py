@@ -47,7 +47,8 @@ def relative(step, residual):
 def test_the_residual_is_the_largest_entry_of_the_mended_left_hand_side(seed):
     rng = np.random.default_rng(seed)
     step = random_step(rng)
-    delta_q, lam = rng.normal(size=7), rng.normal(size=16)
+    delta_q = rng.normal(size=7)
+    lam = rng.normal(size=16)
     expected = max(abs(entry) for entry in balance(step, delta_q, lam))
     actual = optimality_residuals(standard_form(step), delta_q, lam).stationarity
     np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)

@@ -24,7 +24,8 @@ def slacks(step, delta_q):
 @pytest.mark.parametrize("seed", range(2))
 def test_the_residual_is_the_deepest_violation(seed):
     rng = np.random.default_rng(seed)
-    step, delta_q = random_step(rng), rng.normal(size=7)
+    step = random_step(rng)
+    delta_q = rng.normal(size=7)
     expected = max([0.0] + [-slack for slack in slacks(step, delta_q)])
     actual = optimality_residuals(standard_form(step), delta_q, np.zeros(16)).primal
     assert expected > 0

@@ -11,7 +11,8 @@ from tests.tolerances import ROUNDING
 
 def products(step, delta_q, lam):
     """The printed products by loops, contact by contact with that contact's own lam_j."""
-    left, at = [], 0
+    left = []
+    at = 0
     for j, count in enumerate(step.contacts.rows):
         lam_j = lam[at : at + count]
         for i in range(count):
@@ -26,7 +27,9 @@ def products(step, delta_q, lam):
 @pytest.mark.parametrize("seed", range(2))
 def test_the_residual_is_the_largest_product(seed):
     rng = np.random.default_rng(seed)
-    step, delta_q, lam = random_step(rng), rng.normal(size=7), rng.normal(size=16)
+    step = random_step(rng)
+    delta_q = rng.normal(size=7)
+    lam = rng.normal(size=16)
     expected = max(abs(product) for product in products(step, delta_q, lam))
     actual = optimality_residuals(standard_form(step), delta_q, lam).complementarity
     np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)

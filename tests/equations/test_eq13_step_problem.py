@@ -11,7 +11,8 @@ from tests.tolerances import ROUNDING
 
 def objective(step, delta_q):
     """1/2 dq' [h K_q, 0; 0, M_u / h] dq - h [K_q dq_bar_a + tau_a; tau_u]' dq, by loops."""
-    n_a, value = step.n_a, 0.0
+    n_a = step.n_a
+    value = 0.0
     for i in range(n_a):
         pull = step.tau_a[i]
         for k in range(n_a):
@@ -40,7 +41,8 @@ def test_the_cvxpy_objective_is_the_printed_one(n_a, n_u, rng):
     problem.fill(step)
     for _ in range(5):
         delta_q = rng.normal(size=step.n_v)
-        problem.delta_q_a.value, problem.delta_q_u.value = delta_q[:n_a], delta_q[n_a:]
+        problem.delta_q_a.value = delta_q[:n_a]
+        problem.delta_q_u.value = delta_q[n_a:]
         np.testing.assert_allclose(
             problem.problem.objective.value, objective(step, delta_q), rtol=ROUNDING, atol=0.0
         )
@@ -60,7 +62,8 @@ def test_no_feasible_neighbour_is_better(seed):
     # Needs no optimality condition: only the printed objective and the printed rows.
     rng = np.random.default_rng(seed)
     step, delta_q, _ = planted_step(rng)
-    best, compared = objective(step, delta_q), 0
+    best = objective(step, delta_q)
+    compared = 0
     for _ in range(400):
         other = delta_q + 1e-4 * rng.normal(size=step.n_v)
         if feasible(step, other):

@@ -201,10 +201,8 @@ def answers(folder: Path) -> dict[str, Reader]:
     """Right answers to three cases of each layer: a short one, one in the middle, a long one."""
     found = {}
     for layer in LAYERS:
-        inputs, expected = (
-            inputs_read(vectors_folder(), layer),
-            expected_read(vectors_folder(), layer),
-        )
+        inputs = inputs_read(vectors_folder(), layer)
+        expected = expected_read(vectors_folder(), layer)
         sizes = sorted((len(str(expected[case.id]["output"])), case.id) for case in inputs)
         chosen = {sizes[at][1] for at in (0, len(sizes) // 3, len(sizes) // 2)}
         cases = [case for case in inputs if case.id in chosen]

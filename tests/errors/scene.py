@@ -91,15 +91,15 @@ def numeric_fields(value: Any, above: str = "") -> Iterator[str]:
 
 def dotted(record: dict[str, Any], path: str) -> str:
     """The name that messages give to a path: ``a.b[0].c``, without indices into numbers."""
-    name, at = "", record
+    name = ""
+    at = record
     for part in path.split("/"):
         if isinstance(at, dict):
-            name, at = f"{name}.{part}", at[part]
+            name = f"{name}.{part}"
+            at = at[part]
         else:
-            name, at = (
-                (name if isinstance(at[0], int | float | list) else f"{name}[{part}]"),
-                at[int(part)],
-            )
+            name = name if isinstance(at[0], int | float | list) else f"{name}[{part}]"
+            at = at[int(part)]
     return name.lstrip(".")
 
 

@@ -164,7 +164,8 @@ def test_a_folder_that_cannot_be_written_to_is_known_before_the_run(
         raise AssertionError("work was done before the folder was looked at")
 
     monkeypatch.setattr(Scenario, "run", run)
-    scene, (folder, words) = scene_written(tmp_path), FOLDERS[cause]
+    scene = scene_written(tmp_path)
+    folder, words = FOLDERS[cause]
     path = folder(tmp_path)
     sentence = refused(command, *([scene] if command == "run" else []), "--out", path)
     shown = clipped(str(path)).replace("\0", "\\x00")

@@ -193,7 +193,8 @@ AT_THE_ENDS = (5e-324, 1e-160, 1e15, 1.7e308)
 @pytest.mark.parametrize("field", list(numeric_fields(ROUND)))
 def test_numbers_at_the_ends_of_the_range_run_or_are_refused_in_a_sentence(tmp_path, field):
     """Any warning of NumPy's, as of an overflow, is an error here."""
-    path, refusals = scene_written(tmp_path), []
+    path = scene_written(tmp_path)
+    refusals = []
     for size in AT_THE_ENDS:
         for number in (size, -size):
             path.write_bytes(toml_text(changed(ROUND, ("steps", 1), (field, number))))

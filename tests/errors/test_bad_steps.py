@@ -44,7 +44,8 @@ NO_NUMBERS = ("NaN", "-Infinity", "1e999", "1" * 400)
 
 @pytest.mark.parametrize("field", list(numeric_fields(STEP)))
 def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field):
-    text, name = json.dumps(changed(STEP, (field, "MARK"))), dotted(STEP, field)
+    text = json.dumps(changed(STEP, (field, "MARK")))
+    name = dotted(STEP, field)
     # A count of many digits is a whole number: it is the matrix that cannot have that size.
     known = {"n_a": ("n_a", "K_q"), "n_u": ("n_u", "M_u")}.get(name, (name,))
     for number in NO_NUMBERS:
@@ -62,7 +63,8 @@ def test_a_step_whose_products_leave_the_range_says_so(tmp_path, refused):
 def solved(tmp_path_factory):
     """The good step, in a folder with its true solution."""
     folder = tmp_path_factory.mktemp("solved")
-    step, solution = written(folder, STEP), folder / "solution.json"
+    step = written(folder, STEP)
+    solution = folder / "solution.json"
     assert main(["solve", str(step), "-o", str(solution)]) == 0
     return step, json.loads(solution.read_text())
 

@@ -164,7 +164,8 @@ def test_a_step_that_a_run_does_not_have_is_refused(tmp_path, refused, run, k):
 
 
 def test_a_light_record_has_no_steps_to_extract(tmp_path, refused, capsys):
-    path, out = scene_written(tmp_path), tmp_path / "out"
+    path = scene_written(tmp_path)
+    out = tmp_path / "out"
     assert main(["run", str(path), "--set", "record=light", "--out", str(out)]) == 0
     capsys.readouterr()
     sentence = refused("extract", out / "scene.npz", "--step", 0)

@@ -55,7 +55,8 @@ CASES = {
 @pytest.mark.parametrize("case", CASES)
 def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, capsys, case):
     changes, steps, words = CASES[case]
-    path, out = scene_written(tmp_path, changed(SCENE, *changes)), tmp_path / "out"
+    path = scene_written(tmp_path, changed(SCENE, *changes))
+    out = tmp_path / "out"
     assert main(["run", str(path), "--out", str(out)]) == 3
     captured = capsys.readouterr()
     assert captured.out == ""
@@ -83,7 +84,8 @@ def test_a_run_that_fails_leaves_its_steps_and_the_one_that_failed(tmp_path, cap
 def test_the_failing_step_fails_again_by_itself(tmp_path, capsys):
     path = scene_written(tmp_path, changed(SCENE, *WEDGE))
     main(["run", str(path), "--out", str(tmp_path)])
-    step, proof = str(tmp_path / "scene_failed_step.json"), str(tmp_path / "proof.json")
+    step = str(tmp_path / "scene_failed_step.json")
+    proof = str(tmp_path / "proof.json")
     assert main(["solve", step, "-o", proof]) == 3
     assert main(["verify", step, proof]) == 0
     assert "the step has no solution" in capsys.readouterr().out
@@ -152,7 +154,8 @@ def test_somebody_else_s_handler_is_left_alone():
 
 
 def test_a_run_in_another_thread_needs_no_signals(tmp_path):
-    scenario, runs = load_scenario(scene_written(tmp_path), fast=True), []
+    scenario = load_scenario(scene_written(tmp_path), fast=True)
+    runs = []
     thread = threading.Thread(target=lambda: runs.append(scenario.run(progress=False)))
     thread.start()
     thread.join()

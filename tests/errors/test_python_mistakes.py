@@ -84,7 +84,8 @@ def test_a_body_that_is_not_said_to_float_is_offered_a_base(tmp_path):
 
 
 def test_shapes_are_made_of_whole_sizes_as_in_files():
-    size, length = np.array([0.1, 0.2, 0.3]), 0.4
+    size = np.array([0.1, 0.2, 0.3])
+    length = 0.4
     assert Box(size=size) == Box(size / 2)
     assert Ellipsoid(size=size) == Ellipsoid(size / 2)
     assert Cylinder(0.1, length=length) == Cylinder(0.1, length / 2)

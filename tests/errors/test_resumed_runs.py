@@ -16,7 +16,8 @@ from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.step.extension import Extension
 from tests.errors.scene import SCENE, SUNK, changed, contents, scene_written
 
-STEPS, STRETCH = 9, 4
+STEPS = 9
+STRETCH = 4
 
 
 class Killed(BaseException):
@@ -69,7 +70,8 @@ KINDS = {
 def test_a_run_that_was_ended_twice_ends_with_the_bits_of_one_that_was_not(tmp_path, scene, kind):
     settings, extension = KINDS[kind]
     scenario = load_scenario(scene, {"fast": True, **settings, "steps": STEPS})
-    whole, parted = tmp_path / "whole.npz", tmp_path / "parted.npz"
+    whole = tmp_path / "whole.npz"
+    parted = tmp_path / "parted.npz"
     ran(scenario, whole, extension=extension)
     # Within the first stretch, and where another has just begun and gone on by two steps.
     for killed_at in (STRETCH - 1, STRETCH + 2):
@@ -84,7 +86,8 @@ def test_a_run_that_was_ended_twice_ends_with_the_bits_of_one_that_was_not(tmp_p
 
 def test_a_killed_run_is_resumed_from_the_command_line(tmp_path, scene, capsys):
     arguments = ["run", str(scene), "--fast", "--set", f"steps={STEPS}"]
-    path, once = tmp_path / "again" / "scene.npz", tmp_path / "once" / "scene.npz"
+    path = tmp_path / "again" / "scene.npz"
+    once = tmp_path / "once" / "scene.npz"
     path.parent.mkdir()
     ran(load_scenario(scene, {"steps": STEPS}, fast=True), path, killed_at=5)
     assert main([*arguments, "--out", str(path.parent)]) == 2  # nothing is lost for want of a word
@@ -126,7 +129,8 @@ OTHERS = {
 @pytest.mark.parametrize("other", OTHERS)
 def test_another_run_is_not_resumed_and_what_differs_is_named(tmp_path, scene, other):
     changes, says = OTHERS[other]
-    path, settings = tmp_path / "run.npz", {"steps": STEPS}
+    path = tmp_path / "run.npz"
+    settings = {"steps": STEPS}
     ran(load_scenario(scene, settings, fast=True), path, killed_at=STRETCH + 1)
     before = sorted(saved_folder(path).iterdir())
     with pytest.raises(InputError) as caught:
@@ -154,7 +158,8 @@ def test_a_changed_urdf_another_record_and_another_version_are_named(tmp_path, s
 
 @pytest.mark.parametrize("steps", [4, STEPS])
 def test_a_resumed_run_may_end_where_it_was_saved_or_later(tmp_path, scene, steps):
-    path, plain = tmp_path / "run.npz", tmp_path / "plain.npz"
+    path = tmp_path / "run.npz"
+    plain = tmp_path / "plain.npz"
     ran(load_scenario(scene, {"steps": 6}, fast=True), path, killed_at=4)
     other = load_scenario(scene, {"steps": steps}, fast=True)
     ran(other, path, resume=True)
@@ -181,7 +186,8 @@ def test_a_run_that_ends_leaves_its_trajectory_and_nothing_else(tmp_path, change
 
 @pytest.mark.parametrize(("every", "kept"), [(0.0, True), (3600.0, False)])
 def test_ctrl_c_keeps_the_saved_steps_of_a_run_that_was_long(tmp_path, scene, every, kept, capsys):
-    scenario, path = load_scenario(scene, fast=True), tmp_path / "run.npz"
+    scenario = load_scenario(scene, fast=True)
+    path = tmp_path / "run.npz"
 
     def target(t):
         if t > 0.025:
@@ -198,7 +204,8 @@ def test_ctrl_c_keeps_the_saved_steps_of_a_run_that_was_long(tmp_path, scene, ev
 
 
 def test_steps_that_could_not_be_saved_are_saved_with_the_next(tmp_path, scene, monkeypatch):
-    honest, calls = saved.written_whole, []
+    honest = saved.written_whole
+    calls = []
 
     def now_and_then(path, write):
         calls.append(path.name)
@@ -207,7 +214,8 @@ def test_steps_that_could_not_be_saved_are_saved_with_the_next(tmp_path, scene, 
         return honest(path, write)
 
     monkeypatch.setattr(saved, "written_whole", now_and_then)
-    path, plain = tmp_path / "run.npz", tmp_path / "plain.npz"
+    path = tmp_path / "run.npz"
+    plain = tmp_path / "plain.npz"
     scenario = load_scenario(scene, {"steps": STEPS}, fast=True)
     ran(scenario, path, killed_at=6)
     assert calls == ["000000000.npz", *["000000001.npz"] * 3, "000000004.npz", "000000005.npz"]

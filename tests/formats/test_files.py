@@ -80,7 +80,8 @@ def test_a_folder_that_cannot_be_made_is_a_plain_error(tmp_path):
 
 def test_an_open_stream_is_written_into_behind_what_it_holds(tmp_path):
     """As by the shell's ``-o /dev/stdout >> log``: the name leads to a regular file."""
-    log, link = tmp_path / "log", tmp_path / "link"
+    log = tmp_path / "log"
+    link = tmp_path / "link"
     log.write_text("before\n")
     with log.open("a") as stream:
         link.symlink_to(f"/dev/fd/{stream.fileno()}")

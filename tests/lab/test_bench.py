@@ -50,7 +50,8 @@ def test_the_interfaces_lead_to_the_same_step(at):
     native = at.scenario.simulator()
     for q, goal in zip(at.q, at.goals, strict=True):
         result = native.step(q, goal)
-        step, delta_q = result.step, result.solution.delta_q
+        step = result.step
+        delta_q = result.solution.delta_q
         x = bare_daqp(native.solver.program)()[0]
         alone, _ = from_natural(x, np.zeros(0), DenseStep(step).units)
         assert error(step, alone, delta_q) <= ACTIVE_SET

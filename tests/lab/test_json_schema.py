@@ -48,7 +48,8 @@ def test_other_scenes_are_valid(validator, scene):
 
 def test_every_field_is_in_the_schema_and_on_the_page():
     schema = scenario_schema()
-    page, parts = reference_page(TABLES), [schema, *schema["definitions"].values()]
+    page = reference_page(TABLES)
+    parts = [schema, *schema["definitions"].values()]
     assert len(parts) == len(TABLES)
     for fields, part in zip(TABLES.values(), parts, strict=True):
         assert set(part["properties"]) == set(fields)
@@ -60,7 +61,9 @@ def test_every_field_is_in_the_schema_and_on_the_page():
     assert set(SOLIDS) <= set(TABLES)
 
 
-FLOOR, BALL, RAIL = "contacts/floor", "bodies/ball", "bodies/rail"
+FLOOR = "contacts/floor"
+BALL = "bodies/ball"
+RAIL = "bodies/rail"
 MISTAKES = {
     # name: a change of a good scene that makes it bad
     "another format": ("format", "quasistatic-ref/step"),

@@ -19,8 +19,11 @@ def test_one_point_midway_changes_tangential_rows_by_the_formula(rng):
     system = heap(3).system
     kinematics = system.kinematics(system.q_start)
     d1, d2, n = random_frame(rng)
-    p, phi, mu = rng.normal(size=3), 0.03, 0.7
-    one, two = np.array([1]), np.array([2])
+    p = rng.normal(size=3)
+    phi = 0.03
+    mu = 0.7
+    one = np.array([1])
+    two = np.array([2])
 
     def rows(half):
         J = contact_jacobian(kinematics, one, two, (p - half)[None], (p + half)[None], n[None])

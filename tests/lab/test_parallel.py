@@ -13,7 +13,8 @@ def log_of(path, head=HEAD):
 
 
 def test_a_run_goes_on_after_the_last_whole_line(tmp_path):
-    path, made = tmp_path / "log.jsonl", []
+    path = tmp_path / "log.jsonl"
+    made = []
 
     def record(i):
         made.append(i)

@@ -65,7 +65,8 @@ def test_a_claim_without_its_engine_is_not_run_and_says_so():
 
 
 def test_a_claim_fails_with_its_worst_comparison_or_with_an_error():
-    good, bad = comparison("good", 1.0, 1.0, 0.0), comparison("bad", 1.0, 2.0, 0.1)
+    good = comparison("good", 1.0, 1.0, 0.0)
+    bad = comparison("bad", 1.0, 2.0, 0.1)
     assert finding(claim_of(good)).verdict == HOLDS
     assert finding(claim_of(good, bad)).verdict == FAILS
     assert finding(claim_of()).verdict == FAILS  # no evidence is no claim

@@ -27,7 +27,8 @@ def units_of_symbols(notation):
 def complaints(path, source, symbols):
     """One sentence for each thing that the docstrings of a file do not say."""
     for node in public(ast.parse(source).body):
-        said, where = ast.get_docstring(node), f"{path}:{node.lineno} {node.name}"
+        said = ast.get_docstring(node)
+        where = f"{path}:{node.lineno} {node.name}"
         if said is None:
             yield f"{where} has no docstring"
             continue
@@ -64,7 +65,8 @@ def of_value(where, name, annotation, said, symbols):
     It says so in its entry under Parameters or, where there is none, in the prose that names it.
     """
     kind = ast.unparse(annotation)
-    array, number = ARRAYS.search(kind), NUMBERS.search(kind)
+    array = ARRAYS.search(kind)
+    number = NUMBERS.search(kind)
     if not (array or number) or "Callable" in kind or name in symbols:
         return
     entry = re.search(rf"^\*?(?:\w+, )*{name}\b.* : .*(?:\n(?: .*)?)*", said, re.MULTILINE)
@@ -79,7 +81,8 @@ def of_value(where, name, annotation, said, symbols):
 
 def of_result(where, node, said, symbols):
     """What is returned, and which classes of errors are raised by name in the function itself."""
-    returned, result = ast.unparse(node.returns) if node.returns else "", PARAMETERS.sub("", said)
+    returned = ast.unparse(node.returns) if node.returns else ""
+    result = PARAMETERS.sub("", said)
     if ARRAYS.search(returned) and not SHAPE.search(result):
         yield f"{where}: no shape of what is returned, {returned}"
     if returned == "float" and node.name not in symbols and not UNIT.search(result):

@@ -57,7 +57,9 @@ def test_a_reproduction_of_mujoco_prints_what_is_committed(file):
 @pytest.mark.parametrize("scene", second_order.STUDY["scene"])
 def test_a_run_of_the_study_of_second_order_simulators_is_the_committed_one(scene):
     # One engine's own run, and the reference of the scene without a closed form.
-    engine, setting, h = "mujoco", "implicitfast, elliptic, impratio 100, solref 5 ms", 0.002
+    engine = "mujoco"
+    setting = "implicitfast, elliptic, impratio 100, solref 5 ms"
+    h = 0.002
     run = second_order.Run(scene, 0.3, engine, setting, h)
     engines = Engines(Path(sys.prefix))
     engines.programs[engine] = Program(f"{sys.executable} {HERE / 'mujoco_adapter.py'}", 60.0)
@@ -71,9 +73,15 @@ def test_a_run_of_the_study_of_second_order_simulators_is_the_committed_one(scen
 def test_a_servo_of_mujoco_is_a_spring_and_a_damper_with_the_stated_rule(implicit):
     # m (v' - v) / h = K (r - x) + d (w - v'), x and r at the start of the step, w = dr/dt; with
     # an implicit spring x' = x + h v' and the end's r stand in their place.
-    h, m, K, w, steps = 0.02, 0.1, 2000.0, 0.05, 10
+    h = 0.02
+    m = 0.1
+    K = 2000.0
+    w = 0.05
+    steps = 10
     d = 2 * math.sqrt(K * m)
-    x, v, expected = 0.0, 0.0, []
+    x = 0.0
+    v = 0.0
+    expected = []
     for k in range(steps):
         r = w * h * (k + implicit)
         v = (m * v + h * (K * (r - x) + d * w)) / (m + h * d + implicit * h**2 * K)

@@ -8,12 +8,19 @@ from validation.tools.mutating.mutants import mutants
 from validation.tools.mutating.mutated import TESTS
 from validation.tools.mutations import PACKAGE, all_mutants, outcomes
 
-PAGE, FORM = "step/problem.py", "step/standard_form.py"
-CONES, FRICTION, ELLIPSOID = "step/cones.py", "step/friction.py", "optional/ellipsoid/cone.py"
+PAGE = "step/problem.py"
+FORM = "step/standard_form.py"
+CONES = "step/cones.py"
+FRICTION = "step/friction.py"
+ELLIPSOID = "optional/ellipsoid/cone.py"
 JUDGE = "certify/optimality.py"
-RATIONAL, DEPENDENCE = "certify/rational.py", "certify/dependence.py"
-POINT, ROUNDING, EXACT = "certify/point.py", "certify/rounding.py", "certify/exact.py"
-FARKAS, CLAIMS = "certify/farkas.py", "certify/certificate.py"
+RATIONAL = "certify/rational.py"
+DEPENDENCE = "certify/dependence.py"
+POINT = "certify/point.py"
+ROUNDING = "certify/rounding.py"
+EXACT = "certify/exact.py"
+FARKAS = "certify/farkas.py"
+CLAIMS = "certify/certificate.py"
 
 SAMPLE = {
     "step/test_standard_form.py": (

@@ -9,7 +9,8 @@ import pytest
 from quasistatic_ref.lab.claims.registry import BY_NAME
 
 ROOT = Path(__file__).parents[2]
-THEORY, TESTS = ROOT / "docs" / "theory", ROOT / "tests"
+THEORY = ROOT / "docs" / "theory"
+TESTS = ROOT / "tests"
 PAGES = ("errata.md", "the_paper.md")
 NAMED = re.compile(r"`([^`]+)`")
 LIST = r"((?:`\w+`(?:, | and )?)+)"
@@ -32,7 +33,8 @@ def functions_of(path):
 def evidence(text):
     """Tests and claims that a text names and that exist; a test is of the file before it."""
     claims = [name for name in listed("claim", text) if name in BY_NAME]
-    tests, inside = [], set()
+    tests = []
+    inside = set()
     for name in NAMED.findall(text):
         if name.endswith(".py"):
             inside = functions_of(TESTS / name)

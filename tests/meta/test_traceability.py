@@ -8,7 +8,8 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-PACKAGE, EQUATIONS = ROOT / "quasistatic_ref", ROOT / "tests" / "equations"
+PACKAGE = ROOT / "quasistatic_ref"
+EQUATIONS = ROOT / "tests" / "equations"
 PAPER = set(range(1, 14))
 NUMBER = r"(?:\(|:eq:`eq-)(\d+)[)`]"
 LABEL = re.compile(r"^\$\$.*\$\$ \(eq-(\d+)\)$", re.MULTILINE)

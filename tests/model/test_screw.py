@@ -54,7 +54,9 @@ def test_the_linear_part_carries_a_base_by_the_translation_it_is_made_for(angle)
 @pytest.mark.parametrize("angle", ANGLES)
 def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
     # position' = position + R t, where t is the translation of the screw
-    about, at, w = np.array([1.0, 2.0, -2.0]) / 3, np.array([0.5, -0.25, 2.0]), angle * AXIS
+    about = np.array([1.0, 2.0, -2.0]) / 3
+    at = np.array([0.5, -0.25, 2.0])
+    w = angle * AXIS
     R = screw(np.zeros(3), 0.8 * about)[0]
     q = [9.0, *at, *quaternion_about(about, 0.8)]
     delta_q = [7.0, *LINEAR, *w]
@@ -67,7 +69,9 @@ def test_a_floating_base_moves_by_its_twist_in_its_own_frame(angle):
 
 @pytest.mark.parametrize("angle", ANGLES)
 def test_a_planar_base_moves_by_its_twist_in_its_own_frame(angle):
-    heading, at, delta_q = 0.7, np.array([0.5, -0.25]), [7.0, 0.3, -0.7, angle]
+    heading = 0.7
+    at = np.array([0.5, -0.25])
+    delta_q = [7.0, 0.3, -0.7, angle]
     R = screw(np.zeros(3), [0, 0, heading])[0]
     q = [9.0, *at, np.cos(heading), np.sin(heading)]
     expected = at + (R @ screw([0.3, -0.7, 0.0], [0.0, 0.0, angle])[1])[:2]
@@ -88,7 +92,8 @@ def test_a_continuous_joint_turns_by_the_angle_between_both_configurations(angle
 @pytest.mark.parametrize("angle", [*ANGLES, 1e-200, 6.0])
 def test_a_floating_base_turns_by_its_rotation_vector(angle):
     # The product of both matrices, which q and -q stand for; and a turn back is that by -w.
-    about, w = np.array([1.0, 2.0, -2.0]) / 3, angle * AXIS
+    about = np.array([1.0, 2.0, -2.0]) / 3
+    w = angle * AXIS
     q = [9.0, 0.0, 0.0, 0.0, *quaternion_about(about, 0.8)]
     after = [9.0, *moved(FLOATING, q, [7.0, 0.0, 0.0, 0.0, *w])]
     expected = screw(np.zeros(3), 0.8 * about)[0] @ screw(np.zeros(3), w)[0]

@@ -45,7 +45,8 @@ def test_difference_is_the_inverse_of_integrate(
     q_next = scene.integrate(scene.neutral(), rng.normal(size=scene.n_v))
     there = scene.integrate(q, scene.difference(q, q_next))
     for each in scene.joints:
-        part, other = there[each.q].copy(), q_next[each.q].copy()
+        part = there[each.q].copy()
+        other = q_next[each.q].copy()
         if each.kind == "floating":  # x and -x are the same orientation
             part[3:] *= np.sign(part[3:] @ other[3:])
         assert np.abs(part - other).max() < ROUNDING

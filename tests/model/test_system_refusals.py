@@ -22,7 +22,8 @@ BAD_Q: dict[str, tuple[str, int, float, str]] = {
 def test_a_configuration_that_is_none_is_refused(
     scene: System, name: str, entry: int, value: float, words: str
 ) -> None:
-    q, at = scene.q_start.copy(), scene.joint(name).q
+    q = scene.q_start.copy()
+    at = scene.joint(name).q
     if entry < 0:
         start = at.start + 3 if scene.joint(name).kind == "floating" else at.start
         q[start : at.stop] = value

@@ -37,7 +37,8 @@ def test_bodies_of_all_parts_move_and_weigh_as_each_alone() -> None:
     J = np.zeros((10, 6, 54))
     weight = np.zeros(54)
     for k in range(9):
-        number, v = system.link(f"ball{k}"), system.joint(f"ball{k}/base").v
+        number = system.link(f"ball{k}")
+        v = system.joint(f"ball{k}/base").v
         R = Rotation.from_euler("xyz", [0.1 * k, 0.2, 0.3]).as_matrix()
         np.testing.assert_allclose(kinematics.R[number], R, rtol=0, atol=ROUNDING)
         assert kinematics.t[number] == pytest.approx([k, 2 * k, -k], abs=ROUNDING)

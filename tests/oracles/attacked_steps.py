@@ -29,7 +29,9 @@ def hostile_step(rng: random.Random) -> StepData:
         If the numbers are no step.
     """
     draw = np.random.default_rng(rng.getrandbits(64))
-    n_a, n_u, n_c = draw.integers(0, 7), draw.integers(0, 7), draw.integers(1, 9)
+    n_a = draw.integers(0, 7)
+    n_u = draw.integers(0, 7)
+    n_c = draw.integers(1, 9)
     n_u += n_a + n_u == 0
     step = any_step(draw, int(n_a), int(n_u), int(n_c), draw.choice([1.0, 1e4, 1e9]))
     often = draw.choice([0.15, 0.5, 1.0])

@@ -92,7 +92,8 @@ def gap(a: Shape, b: Shape, R: Array, t: Array, n: Array) -> Array:
 
 def _most(solid: Shape, n: Array) -> Array:
     """Support function: the largest n . x over the solid, for each n, shape (N, 3)."""
-    axial, radial = n[:, 2], np.hypot(n[:, 0], n[:, 1])
+    axial = n[:, 2]
+    radial = np.hypot(n[:, 0], n[:, 1])
     match solid:
         case Sphere():
             return np.full(len(n), solid.radius) * np.linalg.norm(n, axis=1)
@@ -125,7 +126,8 @@ def signed_distance(a: Shape, b: Shape, R: Array, t: Array) -> float | None:
         return _on_sphere(b, -R.T @ t, a.radius)
     if isinstance(b, Sphere):
         return _on_sphere(a, t, b.radius)
-    (P, p), (Q, q) = _corners(a), _corners(b)
+    P, p = _corners(a)
+    Q, q = _corners(b)
     if isinstance(a, Capsule) and isinstance(b, Capsule):
         assert P is not None
         assert Q is not None
@@ -161,10 +163,12 @@ def _on_sphere(solid: Shape, centre: Array, radius: float) -> float:
             assert corners is not None
             return _of_differences((centre - corners)[:, None]) - radius
         case Cylinder():
-            r, h = solid.radius, solid.half_length
+            r = solid.radius
+            h = solid.half_length
             return _polygon([(r, -h), (r, h), (-r, h), (-r, -h)], centre) - radius
         case Cone():
-            r, h = solid.radius, solid.half_length
+            r = solid.radius
+            h = solid.half_length
             return _polygon([(r, -h), (0, h), (-r, -h)], centre) - radius
         case Ellipsoid():
             return _ellipsoid(solid.half_axes, centre) - radius
@@ -175,7 +179,8 @@ def _on_sphere(solid: Shape, centre: Array, radius: float) -> float:
 def _polygon(corners: list[tuple[float, float]], point: Array) -> float:
     """Signed distance to the cross-section of a solid of revolution, counter-clockwise."""
     p = np.array([np.hypot(point[0], point[1]), point[2]])
-    nearest, inside = np.inf, True
+    nearest = np.inf
+    inside = True
     for u, v in zip(corners, corners[1:] + corners[:1], strict=True):
         u, way = np.array(u), np.subtract(v, u)
         s = np.clip((p - u) @ way / (way @ way), 0, 1)
@@ -187,7 +192,8 @@ def _polygon(corners: list[tuple[float, float]], point: Array) -> float:
 def _ellipsoid(half_axes: Array, point: Array) -> float:
     """Largest root t of sum (e_i p_i / (t + e_i^2))^2 = 1 by bisection in 40 digits."""
     with mpmath.workdps(40):
-        e, p = [mpmath.mpf(float(x)) for x in half_axes], [abs(mpmath.mpf(float(x))) for x in point]
+        e = [mpmath.mpf(float(x)) for x in half_axes]
+        p = [abs(mpmath.mpf(float(x))) for x in point]
         least = min(range(3), key=lambda i: e[i])
         low = -(e[least] ** 2) + mpmath.mpf(10) ** -60
         p[least] = max(p[least], mpmath.mpf(10) ** -30)
@@ -206,7 +212,8 @@ def _ellipsoid(half_axes: Array, point: Array) -> float:
 
 def _segments(P: Array, Q: Array) -> float:
     """Distance of two segments: its square is convex along the first; by thirds, in 80 bits."""
-    p, q = P.astype(np.longdouble), Q.astype(np.longdouble)
+    p = P.astype(np.longdouble)
+    q = Q.astype(np.longdouble)
     way = q[1] - q[0]
 
     def square(s: np.longdouble) -> np.longdouble:
@@ -214,9 +221,11 @@ def _segments(P: Array, Q: Array) -> float:
         off = arm - np.clip(arm @ way / (way @ way), 0, 1) * way
         return off @ off
 
-    low, high = np.longdouble(0), np.longdouble(1)
+    low = np.longdouble(0)
+    high = np.longdouble(1)
     for _ in range(110):
-        u, v = low + (high - low) / 3, high - (high - low) / 3
+        u = low + (high - low) / 3
+        v = high - (high - low) / 3
         low, high = (low, v) if square(u) <= square(v) else (u, high)
     return float(np.sqrt(min(square(low), square(high), square((low + high) / 2))))
 
@@ -252,14 +261,17 @@ def _by_cones(a: Shape, b: Shape, R: Array, t: Array) -> float:
     """Distance, at least 0, as a second-order cone program."""
     key = (id(a), id(b))
     if key not in _PROBLEMS:
-        x, y = cp.Variable(3), cp.Variable(3)
-        turn, shift = cp.Parameter((3, 3)), cp.Parameter(3)
+        x = cp.Variable(3)
+        y = cp.Variable(3)
+        turn = cp.Parameter((3, 3))
+        shift = cp.Parameter(3)
         rules = _membership(a, x) + _membership(b, y)
         # In decimetres, so that the solver's tolerances are relative to something of size one.
         problem = cp.Problem(cp.Minimize(cp.norm(10 * (turn @ y + shift - x))), rules)
         _PROBLEMS[key] = problem, turn, shift
     problem, turn, shift = _PROBLEMS[key]
-    turn.value, shift.value = R, t
+    turn.value = R
+    shift.value = t
     tight = dict.fromkeys(("tol_gap_abs", "tol_gap_rel", "tol_feas"), 1e-11)
     with warnings.catch_warnings():  # "may be inaccurate": judged by the comparison itself
         warnings.simplefilter("ignore")

@@ -51,7 +51,8 @@ def raised(z):
             break
     else:
         cut, t = [], None  # the apex: all of z goes
-    s, D = [mp.mpf(0)] * 4, mp.matrix(4, 4)
+    s = [mp.mpf(0)] * 4
+    D = mp.matrix(4, 4)
     if t is None:
         for i in range(4):
             s[i], D[i, i] = -z[i], mp.mpf(-1)
@@ -73,7 +74,8 @@ def forces(step, compliance):
     """
     with mp.workdps(DIGITS):
         h, H, g, blocks = exact_numbers(step)
-        c, n = number(Fraction(compliance)), step.n_v
+        c = number(Fraction(compliance))
+        n = step.n_v
         H_mp = mp.matrix([[number(v) for v in row] for row in H])
         g_mp = mp.matrix([number(v) for v in g])
         B = [mp.matrix([[number(v) for v in row] for row in rows]) for rows, _, _ in blocks]
@@ -89,7 +91,8 @@ def forces(step, compliance):
         x = mp.lu_solve(H_mp, g_mp)
         found, energy = at(x)
         for _ in range(MOST):
-            gradient, K = H_mp * x - g_mp, H_mp.copy()
+            gradient = H_mp * x - g_mp
+            K = H_mp.copy()
             for B_j, (s, D) in zip(B, found, strict=True):
                 gradient -= stiffness * (B_j.T * mp.matrix(s))
                 K -= stiffness * (B_j.T * D * B_j)
@@ -101,7 +104,9 @@ def forces(step, compliance):
                 if lower <= energy + share * slope / 10**4 or share < mp.mpf(2) ** -80:
                     break
                 share /= 2
-            x, found, energy = x + share * way, there, lower
+            x = x + share * way
+            found = there
+            energy = lower
             if mp.norm(way) <= EQUAL * (mp.norm(x) + EQUAL):
                 break
         else:

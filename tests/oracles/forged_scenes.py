@@ -13,7 +13,9 @@ from quasistatic_ref.step.data import Extra, StepData
 
 def scenes(every: bool = False) -> dict[tuple[str, str], StepData]:
     """Steps by the kind of their solution and a name; `every` adds larger ones."""
-    slides, sticks, flies = (4.0, 1.0, -2.943), (1.0, 0.5, -2.943), (1.0, 0.0, 1.0)
+    slides = (4.0, 1.0, -2.943)
+    sticks = (1.0, 0.5, -2.943)
+    flies = (1.0, 0.0, 1.0)
 
     def on_floor(force: tuple[float, float, float], mu_v: float = 0.5) -> StepData:
         return point_step(0.3, force, mu_v, 0.0, 0.01)

@@ -71,6 +71,7 @@ def mixed_step(seed: int) -> StepData:
     rng = np.random.default_rng(seed)
     if seed % 5 == 0:
         return grasp_step(rng)
-    n_a, n_u = int(rng.integers(0, 7)), int(rng.integers(0, 7))
+    n_a = int(rng.integers(0, 7))
+    n_u = int(rng.integers(0, 7))
     n_u += n_a + n_u == 0
     return any_step(rng, n_a, n_u, int(rng.integers(0, 8)), rng.choice([1.0, 1e4, 1e9]))

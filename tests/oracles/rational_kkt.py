@@ -24,12 +24,14 @@ def solution(K, v):
         whole = [*row, last]
         common = lcm(*(entry.denominator for entry in whole))
         rows.append(np.array([int(entry * common) for entry in whole], dtype=object))
-    size, before = len(rows), 1
+    size = len(rows)
+    before = 1
     for k in range(size):
         p = next(i for i in range(k, size) if rows[i][k])
         rows[k], rows[p] = rows[p], rows[k]
         for i in range(k + 1, size):
-            pivot, factor = rows[k][k], rows[i][k]
+            pivot = rows[k][k]
+            factor = rows[i][k]
             rows[i][k:] = (pivot * rows[i][k:] - factor * rows[k][k:]) // before
         before = rows[k][k]
     found = np.empty(size, dtype=object)
@@ -45,13 +47,15 @@ def refutation(H, g, A, b, x, net, slack, lam):
     `lam` is read for which rows bear.
     """
     W = np.flatnonzero(lam)
-    n, k = len(g), len(W)
+    n = len(g)
+    k = len(W)
     H, g, A, b = (fractions_of(part) for part in (H, g, A, b))
     A_W = A[W]
     corner = fractions_of(np.zeros((k, k)))
     K = np.concatenate([np.hstack([H, -A_W.T]), np.hstack([A_W, corner])])
     both = solution(K, [*g, *b[W]])
-    exact_x, exact_lam = both[:n], both[n:]
+    exact_x = both[:n]
+    exact_lam = both[n:]
     if not all(value > 0 for value in exact_lam):
         return "a multiplier is not positive"
     exact_slack = A @ exact_x - b

@@ -53,7 +53,8 @@ def spoilt_record(rng: Rng, good: Any) -> Any:
         if not everywhere:
             return _any_value(rng, record)
         place = rng.choice(everywhere)
-        above, key = value_at(record, place[:-1]), place[-1]
+        above = value_at(record, place[:-1])
+        key = place[-1]
         kind = rng.random()
         if kind < 0.65:
             above[key] = _other_value(rng, above[key])

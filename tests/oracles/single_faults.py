@@ -54,13 +54,15 @@ def in_the_files() -> Iterator[Fault]:
     """Texts that are no JSON, steps that are none, and solutions that claim nothing."""
     of = {kind: step for (kind, _), step in scenes().items()}
     step = of["residual"]
-    text, good = step_text(step), good_file(step, "residual")
+    text = step_text(step)
+    good = good_file(step, "residual")
     for wrong in (
         text.replace("[4.0, 1.0", "[4.0 5.0 1.0"), text.replace(": ", ", ", 1), f"{text} 1",
         "[" * 30 + "]" * 30,
     ):  # fmt: skip
         yield wrong, json.dumps(good), "the step is not JSON"
-    record, solution = json.loads(text), json.dumps(good)
+    record = json.loads(text)
+    solution = json.dumps(good)
     for where, value, reason in (
         (("h",), MISSING, "the step has no field h"),
         (("h",), 0.0, "h is not greater than 0"),
@@ -135,7 +137,8 @@ def stuck(step: StepData, lam: list[list[float]], active: list[list[int]], gap: 
 
 def in_the_ellipsoid() -> Iterator[Fault]:
     """Exact answers whose multipliers, slacks or products alone are wrong, by less than the gap."""
-    rows, push = [[0, 0], [0, 1], [0, 2]], H * DOWN
+    rows = [[0, 0], [0, 1], [0, 2]]
+    push = H * DOWN
     edge, over = 0.5 * DOWN, 0.5 * DOWN * (1 + 2.0**-40)  # of the friction that the floor can give
     at_the_edge = stuck(on_floor(edge), [[push, -H * edge, 0.0, 0.0]], rows, 0.0)
     yield fault(on_floor(edge), at_the_edge, PROVED)

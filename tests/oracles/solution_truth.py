@@ -79,7 +79,8 @@ def exact(values: Any) -> Any:
 
 def combinations(step: StepData) -> list[Matrix]:
     """Of each contact: what its rows take of n, d1, d2 and spin, with the friction coefficients."""
-    c, one = step.contacts, Fraction(1)
+    c = step.contacts
+    one = Fraction(1)
     if step.cone == "ellipsoid":
         return [[[Fraction(i == k) for k in range(4)] for i in range(4)]] * c.n_c
     return [
@@ -91,8 +92,11 @@ def combinations(step: StepData) -> list[Matrix]:
 
 def program(step: StepData) -> Program:
     """H, g, A and b, without rounding."""
-    h, n_a, n = Fraction(step.h), step.n_a, step.n_v
-    K, M = exact(step.K_q), exact(step.M_u)
+    h = Fraction(step.h)
+    n_a = step.n_a
+    n = step.n_v
+    K = exact(step.K_q)
+    M = exact(step.M_u)
     H = [[Fraction(0)] * n for _ in range(n)]
     for i in range(n):
         for j in range(n):
@@ -103,9 +107,12 @@ def program(step: StepData) -> Program:
     springs = [dot(row, exact(step.delta_q_bar_a)) for row in K]
     g = [h * (k + tau) for k, tau in zip(springs, exact(step.tau_a), strict=True)]
     g += [h * tau for tau in exact(step.tau_u)]
-    A, b, c = [], [], step.contacts
+    A = []
+    b = []
+    c = step.contacts
     for j, rows in enumerate(combinations(step)):
-        J, axes = exact(c.J[j]), [exact(axis[j]) for axis in (c.n, c.d1, c.d2)]
+        J = exact(c.J[j])
+        axes = [exact(axis[j]) for axis in (c.n, c.d1, c.d2)]
         motion = [[dot(axis, [J[r][v] for r in range(3)]) for v in range(n)] for axis in axes]
         motion.append(J[3])
         for row in rows:
@@ -117,7 +124,8 @@ def program(step: StepData) -> Program:
 def on_rows(of: Program, working: Sequence[int]) -> tuple[Vector, Vector]:
     """The minimiser on A_i x = b_i of a working set, and its multipliers."""
     H, g, A, b = of
-    n, k = len(g), len(working)
+    n = len(g)
+    k = len(working)
     K = [[*H[v], *(-A[i][v] for i in working)] for v in range(n)]
     K += [[*A[i], *[Fraction(0)] * k] for i in working]
     both = solved(K, [*g, *(b[i] for i in working)])
@@ -217,7 +225,8 @@ class Judge:
 
     def _optimum(self, step: StepData, claims: Json) -> Vector:
         if claims["kind"] == "enclosure":
-            found, unit = checked_pair(step, arb(2) ** -280, 1536), exact_form(step).x_unit
+            found = checked_pair(step, arb(2) ** -280, 1536)
+            unit = exact_form(step).x_unit
             assert found is not None
             scaled = [v * unit for v in point(found)]
             return [Fraction(int(v.p), int(v.q)) for v in scaled]

@@ -51,7 +51,8 @@ def spoilt_text(rng: Rng, good: bytes) -> bytes:
         if not tokens or rng.random() < 0.25:
             content = spoilt_bytes(rng, content)
             continue
-        token, other = rng.choice(tokens), rng.choice(tokens)[0]
+        token = rng.choice(tokens)
+        other = rng.choice(tokens)[0]
         word = rng.choice(WORDS).encode()
         new = rng.choice((rng.choice(NUMBERS).encode(), word, b'"%b"' % word, other, b""))
         content = content[: token.start()] + new + content[token.end() :]

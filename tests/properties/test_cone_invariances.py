@@ -14,8 +14,10 @@ EIGHTH = np.pi / 4
 
 def turned(step, angle):
     """The same step, its tangents turned about n."""
-    c, s = np.cos(angle), np.sin(angle)
-    d1, d2 = step.contacts.d1, step.contacts.d2
+    c = np.cos(angle)
+    s = np.sin(angle)
+    d1 = step.contacts.d1
+    d2 = step.contacts.d2
     return step.replace(contacts=changed(step.contacts, d1=c * d1 + s * d2, d2=c * d2 - s * d1))
 
 
@@ -69,9 +71,11 @@ def test_facets_converge_as_K_to_the_minus_2_and_motions_as_1_over_K():
     # root of that at most, and is: a facet turns the direction of slip by up to pi/K.
     angle = 0.2
     force = 4.0 * np.array([np.cos(angle), np.sin(angle)])
-    values, motions = [], []
+    values = []
+    motions = []
     for K in (8, 32, 128):
-        value, motion = [], []
+        value = []
+        motion = []
         for turn in np.linspace(0.0, 2 * np.pi / K, 9)[:-1]:
             step = turned(point_on_floor(force=(*force, -3.0)), turn)
             circle = solve_step(step.replace(cone="ellipsoid"), "none").delta_q

@@ -46,7 +46,8 @@ class Enumeration:
         self.H_inv = eliminated(H, identity)
         self.free = [dot(row, g) for row in self.H_inv]
         self.reach = [[dot(row, a) for row in self.H_inv] for a in A]
-        self.x, self.vertices = None, []
+        self.x = None
+        self.vertices = []
         for k in range(min(self.n, self.m) + 1):
             for W in combinations(range(self.m), k):
                 self._try(W)
@@ -95,7 +96,8 @@ class Enumeration:
 def small_problem(seed):
     """H, g, A, b as floats: integers, sixteenths or full float64, n <= 4, m <= 8."""
     rng = random.Random(seed)
-    n, m = rng.randint(1, 4), rng.randint(0, 8)
+    n = rng.randint(1, 4)
+    m = rng.randint(0, 8)
     number = rng.choice(
         [
             lambda: float(rng.randint(-2, 2)),
@@ -115,9 +117,11 @@ def small_problem(seed):
         kind = rng.random()
         j = rng.randrange(i)
         if kind < 0.15:  # a duplicate, scaled
-            A[i], b[i] = [2 * a for a in A[j]], 2 * b[j]
+            A[i] = [2 * a for a in A[j]]
+            b[i] = 2 * b[j]
         elif kind < 0.25:  # an equation, if both hold
-            A[i], b[i] = [-a for a in A[j]], -b[j]
+            A[i] = [-a for a in A[j]]
+            b[i] = -b[j]
         elif kind < 0.3:  # the same direction, another offset: infeasible or idle
             A[i], b[i] = [-a for a in A[j]], -b[j] + rng.choice([-1.0, 1.0])
         elif kind < 0.4 and i >= 2:  # dependent on two rows
@@ -141,7 +145,8 @@ def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
     kinds = Counter()
     for seed in range(PROBLEMS):
         H, g, A, b = small_problem(seed)
-        form, truth = exact_form_of(H, g, A, b), enumeration_of(H, g, A, b)
+        form = exact_form_of(H, g, A, b)
+        truth = enumeration_of(H, g, A, b)
         kinds["infeasible"] += truth.x is None
         kinds["ambiguous"] += truth.x is not None and not truth.unique
         kinds["kink"] += truth.x is not None and not truth.differentiable

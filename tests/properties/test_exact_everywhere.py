@@ -56,10 +56,12 @@ def test_every_backend_ends_at_the_same_bits_of_a_grasp():
 
 def test_every_backend_and_every_start_end_at_the_same_bits_of_random_steps():
     """Rows to start with: none, all, every other one backwards, at random."""
-    optima, infeasible = [], 0
+    optima = []
+    infeasible = 0
     for seed in range(60):
         step = mixed_step(seed)
-        first, m = optimum_of(step), int(step.contacts.rows.sum())
+        first = optimum_of(step)
+        m = int(step.contacts.rows.sum())
         starts = (range(m), range(m - 1, -1, -2), np.random.default_rng(seed).permutation(m))
         others = [optimum_of(step, [int(i) for i in rows]) for rows in starts]
         if first is None:

@@ -56,7 +56,9 @@ def test_no_false_file_passes(path, kind, name):
 def test_no_random_forgery_passes(path, kind, name):
     step = SCENES[kind, name]
     good = good_file(step, kind)
-    rng, truth, tried = np.random.default_rng(1), truth_of(step, good), 0
+    rng = np.random.default_rng(1)
+    truth = truth_of(step, good)
+    tried = 0
     for forged in (at_random(rng, step, good) for _ in range(RANDOM)):
         tried += forged != good
         assert refused(step, forged, path) or truth(forged), forged

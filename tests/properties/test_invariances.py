@@ -59,7 +59,8 @@ def push(step, lam):
 def test_the_order_of_contacts_leaves_delta_q_and_each_push(step, seed):
     order = np.random.default_rng(seed).permutation(step.contacts.n_c)
     moved = step.replace(contacts=repeated(step.contacts, order))
-    one, two = solved(step), solved(moved)
+    one = solved(step)
+    two = solved(moved)
     assert_same_motion(step, two.delta_q, one.delta_q)
     scale = np.abs(push(step, one.lam)).max() + np.abs(standard_form(step).g).max()
     np.testing.assert_allclose(
@@ -83,7 +84,9 @@ def test_another_unit_of_length_leaves_the_motion(step, s, seed):
     # Coordinates are lengths or angles. In a unit 1/s as long: lengths x s, energies x s^2,
     # angles as they are; mu_omega is a length.
     length = np.random.default_rng(seed).uniform(size=step.n_v) < 0.5
-    D, n_a, contacts = np.where(length, s, 1.0), step.n_a, step.contacts
+    D = np.where(length, s, 1.0)
+    n_a = step.n_a
+    contacts = step.contacts
     J = contacts.J / D
     J[:, :3] *= s
     scaled = StepData(

@@ -134,7 +134,8 @@ def test_followed_contacts_are_those_of_brute_force(names, kinds, moves, N, k, l
         pairs = scene(names, kinds[: len(names)], rng, N, k)
         tracker = ContactTracker(pairs)
         L = 1 + 2 * len(names)
-        R, t = np.tile(np.eye(3), (L, 1, 1)), np.zeros((L, 3))
+        R = np.tile(np.eye(3), (L, 1, 1))
+        t = np.zeros((L, 3))
         t[1 + len(names) :] = rng.uniform(-0.3, 0.3, size=(len(names), 3))
         for move in moves:
             for link in range(1, L):
@@ -167,7 +168,8 @@ def test_points_from_the_side_are_seen_once_they_are_nearer(name, rng):
     points[:above, 2] += 0.4
     points[above:, 0] -= 0.6
     pairs = one_pair(SHAPES[name], points, 5)
-    tracker, seen = ContactTracker(pairs), []
+    tracker = ContactTracker(pairs)
+    seen = []
     for x in np.linspace(0, 0.5, 26):
         R, t = poses((0, 0, 0), (x, 0, 0))
         same_bits(tracker, pairs, R, t)
@@ -188,7 +190,8 @@ def test_a_sheet_that_comes_and_goes_above_a_floor_needs_no_new_list(rng):
 
 
 def test_pairs_of_solids_and_of_clouds_stay_in_their_order(rng):
-    box, ball = SHAPES["box"], SHAPES["sphere"]
+    box = SHAPES["box"]
+    ball = SHAPES["sphere"]
     solid = [PlacedShape(f"s{i}", i, np.eye(3), np.zeros(3), box) for i in (1, 2)]
     points = PlacedShape("c", 3, np.eye(3), np.zeros(3), PointCloud(cloud("random", 99, rng)))
     other = PlacedShape("b", 3, np.eye(3), np.zeros(3), ball)

@@ -122,7 +122,8 @@ def test_a_waypoint_may_leave_joints_out(load):
 
 def test_wrenches_are_linear_in_time_and_act_at_the_centre_of_mass(load):
     scenario = load()
-    system, q = scenario.system, scenario.system.q_start
+    system = scenario.system
+    q = scenario.system.q_start
     force = scenario.force(0.04, q)
     # The ball's frame is the world's and its origin the centre of mass: 0.4 of the last waypoint.
     expected = [0, 0, 0, 0.04, 0, 0, 0, 0.0004]
@@ -154,7 +155,8 @@ def test_gravity_is_in_tau_a_only_where_it_is_not_compensated(load, compensated,
         (K_Q, f"{K_Q}\ngravity_compensated = {compensated}"),
         ("gravity = [0, 0, -9.81]", "gravity = [1, 0, -9.81]"),
     )
-    simulator, q = scenario.simulator(), scenario.system.q_start
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
     step = simulator.step(q, scenario.targets(0.0)).step
     # The plate of 2 kg slides along x, where gravity pulls at 1 m/s^2; the wheel is off its axis
     # by 0.1 and -0.2 m, but turns about z: the torque is r x f = 0.2 * 2 * 1.

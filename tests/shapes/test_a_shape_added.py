@@ -26,7 +26,8 @@ from quasistatic_ref.shapes.shape import lengths
 from tests.errors.scene import SCENE, changed, scene_written
 from tests.tolerances import ROUNDING, SCENARIO
 
-HALF, RADIUS = np.array([0.2, 0.3, 0.04]), 0.01
+HALF = np.array([0.2, 0.3, 0.04])
+RADIUS = 0.01
 SIZES = {"size": (2 * HALF).tolist(), "radius": RADIUS}
 
 
@@ -67,7 +68,8 @@ def scene(tmp_path, monkeypatch):
 
 
 def test_its_distances_of_points_are_those_of_the_formula():
-    corner, beyond = HALF, np.array([0.02, 0.03, 0.06])
+    corner = HALF
+    beyond = np.array([0.02, 0.03, 0.06])
     points = np.array([[0.0, 0.1, HALF[2] + 0.05], [0.0, 0.0, 0.03], corner + beyond])
     phi, normal = PAD.signed_distance(points)
     away = np.sqrt(beyond @ beyond)

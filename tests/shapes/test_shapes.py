@@ -88,7 +88,8 @@ def test_the_normal_of_a_half_space_points_out_of_the_solid() -> None:
     floor = HalfSpace(np.array([0.0, 0.0, 2.0]), 0.6)
     result = coal.DistanceResult()
     centre = coal.Transform3s(np.eye(3), np.array([0.0, 0.0, 1.0]))
-    ball, request = coal.Sphere(0.25), coal.DistanceRequest()
+    ball = coal.Sphere(0.25)
+    request = coal.DistanceRequest()
     distance = coal.distance(floor.coal, coal.Transform3s(), ball, centre, request, result)
     # 2 z <= 0.6 is solid up to z = 0.3; the ball's lowest point is at 0.75.
     assert distance == pytest.approx(0.45, abs=ROUNDING)

@@ -123,7 +123,8 @@ def test_an_error_of_the_callers_own_is_left_alone(run):
 
 
 def test_a_loop_by_hand_ends_in_the_trajectory_of_rollout(scenario):
-    simulator, q = scenario.simulator(), scenario.system.q_start
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
     expected = rollout(scenario.simulator(), q, goal, STEPS, progress=False)
     recorder = Recorder(simulator, q, "full")
     for _ in range(STEPS):

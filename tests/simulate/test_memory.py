@@ -45,8 +45,11 @@ def test_certified_steps_leave_nothing_behind():
 
 def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more():
     scenario = load_scenario("sphere_spin", record="full", fast=True)
-    simulator, q, target = scenario.simulator(), scenario.system.q_start, np.zeros(0)
-    recorder, result = Recorder(simulator, q, "full"), simulator.step(q, target)
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
+    target = np.zeros(0)
+    recorder = Recorder(simulator, q, "full")
+    result = simulator.step(q, target)
     gc.collect()
     tracemalloc.start()
     for _ in range(PACKED):

@@ -25,7 +25,8 @@ class Witness(Observer):
     notes = ("height", "unknown")
 
     def __init__(self, ends_at=None):
-        self.ends_at, self.asked = ends_at, []
+        self.ends_at = ends_at
+        self.asked = []
 
     def before(self, recorder):
         """Before a step."""
@@ -53,7 +54,8 @@ def ran(scenario, witness):
 
 
 def test_an_observer_is_asked_before_and_after_each_step_and_at_the_end(scenario):
-    witness, plain = Witness(), scenario.run(progress=False)
+    witness = Witness()
+    plain = scenario.run(progress=False)
     run = ran(scenario, witness)
     steps = [(when, k) for k in range(STEPS) for when in ("before", "after")]
     assert witness.asked == [*steps, ("end", STEPS, None, False)]
@@ -72,8 +74,10 @@ def test_an_observer_ends_a_run_as_any_failure_does(scenario):
 
 
 def test_what_is_not_known_is_nan_and_notes_outlast_the_packing(scenario):
-    simulator, q = scenario.simulator(), scenario.system.q_start
-    recorder, result = Recorder(simulator, q, "light", [Witness()]), simulator.step(q, np.zeros(0))
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
+    recorder = Recorder(simulator, q, "light", [Witness()])
+    result = simulator.step(q, np.zeros(0))
     assert recorder.noted("height").shape == (0,)
     for _ in range(PACKED + 1):
         recorder.add(np.zeros(0), result)

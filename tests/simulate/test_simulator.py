@@ -33,8 +33,10 @@ def lift(tmp_path):
 
 
 def test_a_step_is_the_hand_assembled_one_solved(scenario, rng):
-    system, simulator = scenario.system, scenario.simulator()
-    q, force = system.q_start, rng.normal(size=8)
+    system = scenario.system
+    simulator = scenario.simulator()
+    q = system.q_start
+    force = rng.normal(size=8)
     q_bar_a = np.array([0.01, np.cos(0.3), np.sin(0.3)])
     kinematics = system.kinematics(q)
     points = closest_points(scenario.pairs, kinematics)
@@ -55,7 +57,8 @@ def test_a_step_is_the_hand_assembled_one_solved(scenario, rng):
             getattr(found.step, key), getattr(expected, key), rtol=ROUNDING, atol=ROUNDING
         )
     for key in ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows"):
-        one, two = getattr(found.step.contacts, key), getattr(expected.contacts, key)
+        one = getattr(found.step.contacts, key)
+        two = getattr(expected.contacts, key)
         np.testing.assert_allclose(one, two, rtol=EXACT, atol=EXACT)
     solution = solve_step(found.step)
     np.testing.assert_allclose(found.solution.delta_q, solution.delta_q, rtol=EXACT, atol=EXACT)
@@ -64,7 +67,8 @@ def test_a_step_is_the_hand_assembled_one_solved(scenario, rng):
 
 
 def test_the_target_is_a_change_from_where_the_joints_are(scenario):
-    system, simulator = scenario.system, scenario.simulator()
+    system = scenario.system
+    simulator = scenario.simulator()
     q = system.integrate(system.q_start, np.array([0.004, 3.0, 0, 0, 0, 0, 0, 0]))
     q_bar_a = np.array([0.01, np.cos(3.4), np.sin(3.4)])
     step = simulator.step(q, q_bar_a).step

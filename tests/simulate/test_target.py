@@ -11,7 +11,8 @@ from quasistatic_ref.simulate.target import JointTrack, Targets, piecewise_linea
 from tests.scenes import chain_scene
 from tests.tolerances import DIFFERENCE, EXACT, ROUNDING
 
-TIMES, VALUES = np.array([1.0, 2.0, 4.0]), np.array([[0.0, 5.0], [10.0, 5.0], [-10.0, 6.0]])
+TIMES = np.array([1.0, 2.0, 4.0])
+VALUES = np.array([[0.0, 5.0], [10.0, 5.0], [-10.0, 6.0]])
 BETWEEN = {
     "before the first": (-3.0, [0.0, 5.0]),
     "at the first": (1.0, [0.0, 5.0]),
@@ -59,7 +60,8 @@ def test_a_base_follows_the_screw_between_its_waypoints(system, rng):
     values = np.array([placed(rng), placed(rng), placed(rng)])
     track = JointTrack(system, system.joint("arm/base"), TIMES, values)
     for t, i, s in ((1.25, 0, 0.25), (1.9, 0, 0.9), (3.0, 1, 0.5)):
-        start, end = transform(values[i]), transform(values[i + 1])
+        start = transform(values[i])
+        end = transform(values[i + 1])
         xi = np.real(logm(np.linalg.inv(start) @ end))
         expected = start @ expm(s * xi)
         np.testing.assert_allclose(

@@ -59,9 +59,12 @@ def test_the_first_axis_is_the_step_and_q_has_the_start_as_well(scenario, run):
 
 
 def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
-    simulator, targets, force = scenario.simulator(), scenario.targets, scenario.force
+    simulator = scenario.simulator()
+    targets = scenario.targets
+    force = scenario.force
     for k in range(run.steps):
-        t, q = (k + 1) * scenario.h, run["q"][k]
+        t = (k + 1) * scenario.h
+        q = run["q"][k]
         solved = simulator.step(q, targets(t), force(t, q))
         assert run.step_data(k) == solved.step
         np.testing.assert_allclose(run["delta_q"][k], solved.solution.delta_q, rtol=EXACT)

@@ -33,7 +33,8 @@ def test_certified_runs_have_the_same_bits_at_both_speeds(name):
         assert plain[key].tobytes() == fast[key].tobytes(), key
     for k in range(steps):  # lam may differ where it is not unique, A'lam only by its rounding
         A = standard_form(plain.step_data(k)).A
-        one, other = A.T @ plain["lam"][k], A.T @ fast["lam"][k]
+        one = A.T @ plain["lam"][k]
+        other = A.T @ fast["lam"][k]
         np.testing.assert_allclose(one, other, rtol=0.0, atol=EXACT + 1e-12 * np.abs(one).max())
 
 

@@ -43,7 +43,8 @@ def generalised(run, k):
 def test_a_wrench_does_to_the_coordinates_what_the_rows_did(scenario, run):
     """J' w = A' lam / h: the ball is beta of the floor and of the plate, the plate is alpha."""
     system = scenario.system
-    ball, plate = run.wrench_on("ball"), run.wrench_on("rail/plate")
+    ball = run.wrench_on("ball")
+    plate = run.wrench_on("rail/plate")
     for k in range(run.steps):
         J = system.kinematics(run["q"][k]).J
         both = J[system.link("ball")].T @ ball[k] + J[system.link("rail/plate")].T @ plate[k]

@@ -57,7 +57,8 @@ def test_every_interface_agrees_with_an_active_set_solver_at_1e_12(interface, sh
         np.testing.assert_allclose(gap, 0.0, rtol=0.0, atol=OPTIMUM)
         # lam is not unique with 15 contacts in R^13; what it does to the coordinates is.
         A = standard_form(step).A
-        push, expected = A.T @ answer.lam, A.T @ truth.lam
+        push = A.T @ answer.lam
+        expected = A.T @ truth.lam
         scale = np.abs(expected).max(initial=0.0)
         np.testing.assert_allclose(push, expected, rtol=0.0, atol=MULTIPLIERS * scale)
         assert answer.backend == interface

@@ -33,7 +33,8 @@ def test_the_default_of_fast_and_rows_is_daqp_then_piqp():
     assert sparse_from("piqp", "product") == SPARSE_FROM_PIQP
     assert sparse_from("daqp", "product") == sparse_from("piqp", "ellipsoid") == 0
     assert sparse_from("qpsolvers:piqp", "product") == 0
-    few, many = pile((2, 1, 1), certify="residual"), pile((8, 1, 1), certify="residual")
+    few = pile((2, 1, 1), certify="residual")
+    many = pile((8, 1, 1), certify="residual")
     for some, named in ((few, "daqp"), (many, "piqp")):
         own = some.simulator
         made = Simulator(own.system, own.pairs, h=own.h, K_q=own.K_q, certify="residual", fast=True)
@@ -79,7 +80,9 @@ def test_without_daqp_and_piqp_clarabel_takes_their_place_but_in_bench(tmp_path)
 @pytest.mark.parametrize("by_code", [True, False])
 def test_clarabel_takes_steps_on_which_the_default_backend_fails(monkeypatch, by_code):
     scenario = load_scenario("sphere_spin", ["solver.certify=off"], fast=True)
-    simulator, honest, q = scenario.simulator(), Daqp.reply, scenario.system.q_start
+    simulator = scenario.simulator()
+    honest = Daqp.reply
+    q = scenario.system.q_start
     simulator.compiled = simulator.compiled if by_code else None
     backends = []
     for k in range(4):

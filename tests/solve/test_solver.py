@@ -163,7 +163,8 @@ def test_no_solver_gives_no_answer_of_its_own(step):
 @pytest.mark.parametrize(("fast", "engine"), [(False, "cvxpy"), (True, "native")])
 def test_a_simulator_keeps_its_solver_while_steps_fit(fast, engine):
     some = load_scenario("two_finger_pinch", ["solver.certify=off"], fast=fast)
-    run, q = some.simulator(), some.system.q_start
+    run = some.simulator()
+    q = some.system.q_start
     result = run.step(q, some.targets(some.h))
     first = run.solver
     run.step(result.q, some.targets(2 * some.h))
@@ -197,7 +198,8 @@ def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, engine, s
 
 
 def test_a_backend_that_raises_is_set_up_again_for_the_next_step(step, monkeypatch):
-    solver, honest = NativeSolver(step, "clarabel"), Clarabel.reply
+    solver = NativeSolver(step, "clarabel")
+    honest = Clarabel.reply
 
     def broken(*_):
         raise RuntimeError("out of order")

@@ -86,8 +86,11 @@ def test_the_natural_unconstrained_step_is_no_longer_than_about_one(step):
 @every_step
 def test_natural_units_keep_the_form_of_13_and_4(step):
     # H' = S H S, g' = S g / rho, A' = A S / ell, b' = b / (rho ell), all exact.
-    units, given = natural_units(step), standard_form(step)
-    S, ell, rho = units.coordinate, units.length, units.size
+    units = natural_units(step)
+    given = standard_form(step)
+    S = units.coordinate
+    ell = units.length
+    rho = units.size
     natural = standard_form(to_natural(step, units))
     np.testing.assert_allclose(natural.H, given.H * np.outer(S, S), rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(natural.b, given.b / (rho * ell), rtol=EXACT, atol=EXACT)
@@ -104,7 +107,8 @@ def test_a_power_of_two_in_the_data_moves_the_units_and_nothing_else(power):
         **{name: power * getattr(step, name) for name in loads},
         contacts=dataclasses.replace(step.contacts, phi=power * step.contacts.phi),
     )
-    one, two = natural_units(step), natural_units(other)
+    one = natural_units(step)
+    two = natural_units(other)
     assert two.size == power * one.size
     assert to_natural(other, two) == to_natural(step, one)
 
@@ -138,7 +142,8 @@ def test_contacts_out_of_reach_are_moved_nearer_and_the_others_are_not():
 
 @every_step
 def test_the_natural_form_is_that_of_the_natural_step_bit_for_bit(step):
-    units, form = natural_units(step), standard_form(step)
+    units = natural_units(step)
+    form = standard_form(step)
     expected = standard_form(to_natural(step, units))
     for found, value in zip(natural_form(form, units), expected, strict=True):
         np.testing.assert_array_equal(found, value)
@@ -146,7 +151,8 @@ def test_the_natural_form_is_that_of_the_natural_step_bit_for_bit(step):
 
 
 def test_units_that_are_not_finite_and_positive_are_refused():
-    step, units = STEPS["sphere"], natural_units(STEPS["sphere"])
+    step = STEPS["sphere"]
+    units = natural_units(STEPS["sphere"])
     check_units(units, step)
     for name in ("length", "size"):
         for bad in (0.0, np.inf, np.nan):

@@ -55,7 +55,8 @@ def public_data(folder):
     """Every kind of public data, by name; a scenario is written into a folder."""
     scenario = load_scenario(written_scenario(folder), fast=True)
     grasp = load_scenario("bunny_grasp", ["steps=2"], fast=True)
-    system, simulator = scenario.system, scenario.simulator()
+    system = scenario.system
+    simulator = scenario.simulator()
     result = simulator.step(system.q_start, scenario.targets(scenario.h))
     run = rollout(simulator, system.q_start, scenario.targets, 3, progress=False)
     step = random_step(np.random.default_rng(0))

@@ -107,7 +107,8 @@ def spent(name, f_1, f_2, tau):
 def test_every_wrench_is_inside_of_the_limit_surface(name, seed):
     rng = np.random.default_rng(seed)
     step = random_step(rng, rows=(6, 4, 6)).replace(cone=name)
-    contacts, m = step.contacts, int(step.offsets[-1])
+    contacts = step.contacts
+    m = int(step.offsets[-1])
     lam = rng.exponential(size=m) * (rng.uniform(size=m) < 0.7)
     for j, (f_1, f_2, f_n, tau) in enumerate(contact_wrenches(contacts, lam, 0.01, name)):
         units = contacts.mu_v[j], contacts.mu_v[j], contacts.mu_omega[j]
@@ -118,7 +119,8 @@ def test_every_wrench_is_inside_of_the_limit_surface(name, seed):
 @pytest.mark.parametrize("name", [*POLYHEDRAL, "ellipsoid"])
 def test_the_wrenches_do_the_same_generalised_work_as_the_rows(name, rng):
     step = random_step(rng, rows=(6, 4, 6)).replace(cone=name)
-    contacts, lam = step.contacts, rng.exponential(size=int(step.offsets[-1]))
+    contacts = step.contacts
+    lam = rng.exponential(size=int(step.offsets[-1]))
     work = np.zeros(step.n_v)
     for j, (f_1, f_2, f_n, tau) in enumerate(contact_wrenches(contacts, lam, 0.01, name)):
         force = f_1 * contacts.d1[j] + f_2 * contacts.d2[j] + f_n * contacts.n[j]

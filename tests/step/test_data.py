@@ -12,7 +12,8 @@ from tests.tolerances import EXACT
 
 STEP = random_step(np.random.default_rng(7), n_a=2, n_u=3, rows=(6, 4))
 CONTACTS = STEP.contacts
-NAN, INF = float("nan"), float("inf")
+NAN = float("nan")
+INF = float("inf")
 
 STEP_REFUSALS = {
     "h zero": ({"h": 0.0}, "h:"),

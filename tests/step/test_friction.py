@@ -18,7 +18,8 @@ from tests.tolerances import EXACT, ROUNDING
 @pytest.mark.parametrize("row", range(6))
 def test_each_row_alone_reaches_a_vertex_of_the_octahedron(row, rng):
     contacts = random_step(rng, rows=(6,)).contacts
-    mu_v, mu_omega = contacts.mu_v[0], contacts.mu_omega[0]
+    mu_v = contacts.mu_v[0]
+    mu_omega = contacts.mu_omega[0]
     vertices = [
         [mu_v, 0, 1, 0],
         [0, mu_v, 1, 0],

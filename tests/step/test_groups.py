@@ -89,7 +89,8 @@ def test_groups_in_blocks_are_proved_and_verified(monkeypatch):
     always_in_blocks(monkeypatch)
     some = pile((3, 1, 2), gap=SIDE, yaw=1.0, backend="clarabel", certify="full")
     result = some.simulator.step(some.q, np.zeros(0), some.force)
-    step, answer = result.step, result.solution
+    step = result.step
+    answer = result.solution
     assert len(groups(step)) == 3
     assert isinstance(step.contacts, SparseContacts)
     assert verify(step, answer.delta_q, answer.certificate.active, answer.lam, answer.certificate)

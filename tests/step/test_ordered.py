@@ -25,7 +25,8 @@ def by_loops(A, B):
 
 @pytest.mark.parametrize(("m", "k", "n"), [(3, 3, 3), (3, 3, 4), (50, 3, 20), (4, 6, 13)])
 def test_a_product_of_matrices_is_that_of_loops(m, k, n):
-    A, B = RNG.normal(size=(m, k)), RNG.normal(size=(k, n))
+    A = RNG.normal(size=(m, k))
+    B = RNG.normal(size=(k, n))
     expected = by_loops(A, B)
     assert product(A, B).tobytes() == expected.tobytes()
     assert product(np.array([A, A]), B)[1].tobytes() == expected.tobytes()
@@ -35,7 +36,8 @@ def test_a_product_of_matrices_is_that_of_loops(m, k, n):
 
 
 def test_points_are_turned_by_one_matrix_or_each_by_its_own():
-    R, points = RNG.normal(size=(5, 3, 3)), RNG.normal(size=(5, 3))
+    R = RNG.normal(size=(5, 3, 3))
+    points = RNG.normal(size=(5, 3))
     assert rotated(R[0], points).tobytes() == by_loops(points, R[0].T).tobytes()
     each = [by_loops(x[None], own.T)[0] for x, own in zip(points, R, strict=True)]
     assert rotated(R, points).tobytes() == np.array(each).tobytes()

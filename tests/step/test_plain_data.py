@@ -99,7 +99,8 @@ def test_a_copy_of_a_scenario_runs_to_the_same_bits(things, name, trip):
 @every_trip
 def test_a_copy_of_a_simulator_takes_the_same_step_afresh(things, trip):
     scenario = replace(things["Scenario of the grasp"], certify="off", backend="daqp")
-    one, q = scenario.simulator(), scenario.system.q_start
+    one = scenario.simulator()
+    q = scenario.system.q_start
     first = one.step(q, scenario.targets(0.01))
     assert trip(one).step(q, scenario.targets(0.01)) == first
 
@@ -133,7 +134,8 @@ def test_a_copy_of_a_simulator_has_every_setting(things, trip):
 
 
 def test_what_a_solver_took_of_the_clock_is_not_compared_but_copied(things):
-    solution, result = things["StepSolution"], things["StepResult"]
+    solution = things["StepSolution"]
+    result = things["StepResult"]
     slower = solution.statistics._replace(solve_time=1e3)
     assert replace(solution, statistics=slower) == solution
     assert replace(result, seconds={"solve": 1e3}) == result

@@ -31,7 +31,8 @@ def test_the_files_are_of_version_1_and_of_every_kind():
 
 @pytest.mark.parametrize("kind", PROVED)
 def test_what_was_true_is_verified(tmp_path, capsys, kind):
-    step, solution = tmp_path / "step.json", tmp_path / "solution.json"
+    step = tmp_path / "step.json"
+    solution = tmp_path / "solution.json"
     step.write_text(json.dumps(FILES[kind]["step"]))
     solution.write_text(json.dumps(FILES[kind]["solution"]))
     assert main(["verify", str(step), str(solution)]) == 0

@@ -17,7 +17,10 @@ def by_cvxpy(step):
     problem.fill(step)
     data, _, _ = problem.problem.get_problem_data(cp.OSQP, solver_opts={})
     assert data["A"].shape[0] == 0  # no equality
-    P, q, F, G = data["P"].toarray(), data["q"], data["F"].toarray(), data["G"]
+    P = data["P"].toarray()
+    q = data["q"]
+    F = data["F"].toarray()
+    G = data["G"]
     P = np.triu(P) + np.triu(P, 1).T
     return P, -q, np.column_stack([-F, -G])  # F x <= G
 
@@ -45,7 +48,8 @@ CONES = ("pyramid", "product", "facets-8", "frictionless")
 def test_cvxpy_compiles_the_rows_of_every_cone_in_order(name, rows, rng):
     # CVXPY's list goes over the rows i first, ours over the contacts; no entry is sorted away.
     step = with_extra(random_step(rng, 3, 4, rows).replace(cone=name), rng)
-    form, m = standard_form(step), int(step.offsets[-1])
+    form = standard_form(step)
+    m = int(step.offsets[-1])
     by_row = np.argsort(np.nonzero(step.mask)[1], kind="stable")
     ours = np.column_stack([form.A, form.b])[[*by_row, m, m + 1]]
     _, _, rows_of_cvxpy = by_cvxpy(step)

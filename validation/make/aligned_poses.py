@@ -42,7 +42,10 @@ from validation.tools.scripts import asked, shown
 Array = np.ndarray
 PAGE = Path(__file__).parents[1] / "results" / "aligned_poses.md"
 COUNT = 10_500
-H, G, MASS, HALF = 0.01, 9.81, 1.0, 0.05
+H = 0.01
+G = 9.81
+MASS = 1.0
+HALF = 0.05
 EDGE = 2 * HALF
 LENGTHS = (0.0, 1e-9, 1e-6, 1e-3)
 """Insets and depths [m]."""
@@ -53,7 +56,8 @@ quarter turns of the world and at places that are moved by 1e-16 m, either one b
 (`python -m validation.make.aligned_poses`). *Alike* are two free bodies, four times each: swapped,
 relabelled, moved and turned.
 """
-UP, OVER = np.array([0.0, 0.0, 1.0]), np.diag([1.0, -1.0, -1.0])
+UP = np.array([0.0, 0.0, 1.0])
+OVER = np.diag([1.0, -1.0, -1.0])
 TURNS = list(Rotation.create_group("O").as_matrix().round())
 FORCE, MOTION, ALIKE = 1e-9, 1e-12, 1e-9
 """Relative error of a force; of a motion [m, rad]; relative difference of equal motions. Places of
@@ -137,7 +141,8 @@ def lying(low: str, top: str, inset: float, depth: float, k: int, rng: np.random
         else np.round(Rotation.from_rotvec([0, 0, rng.integers(4) * np.pi / 2]).as_matrix())
     )
     place = W @ [0.0, 0.0, EDGE - depth] + shift
-    n, mu_v = W @ UP, float(rng.choice([0.0, 0.5]))
+    n = W @ UP
+    mu_v = float(rng.choice([0.0, 0.5]))
     weight = np.concatenate([-MASS * G * n, np.zeros(3)])
     _, result = step_of(
         [(above, W @ quarter, place)], (below, W @ turned, shift), k, mu_v, [weight],
@@ -148,7 +153,8 @@ def lying(low: str, top: str, inset: float, depth: float, k: int, rng: np.random
 
 def judged(result: StepResult, n: Array, depth: float) -> str:
     """What differs from a body that is lifted by its depth."""
-    c, wrench = result.step.contacts, result.solution.wrench
+    c = result.step.contacts
+    wrench = result.solution.wrench
     loaded = wrench[:, 2] > FORCE * wrench[:, 2].max(initial=0.0)
     if not loaded.any() or (np.abs(np.abs(c.n[loaded] @ n) - 1.0) > 1e-9).any():
         return "normal"
@@ -178,9 +184,11 @@ def lying_anyhow(low: str, top: str, rng: np.random.Generator) -> str:
 def beside(rng: np.random.Generator) -> str:
     """A box that overhangs another along one side and is flush along the other."""
     W, shift = world_of(rng)
-    depth, off = float(rng.choice(LENGTHS)), float(rng.choice([1e-9, 1e-6, 1e-3, 0.03]))
+    depth = float(rng.choice(LENGTHS))
+    off = float(rng.choice([1e-9, 1e-6, 1e-3, 0.03]))
     n = W @ UP
-    box, place = FLAT["box"](HALF), W @ [off, 0.0, EDGE - depth] + shift
+    box = FLAT["box"](HALF)
+    place = W @ [off, 0.0, EDGE - depth] + shift
     weight = np.concatenate([-MASS * G * n, np.zeros(3)])
     kind = rng.choice(["box", "hull"])
     below = box if kind == "box" else hull(HALF, HALF)
@@ -217,7 +225,8 @@ def alike(rng: np.random.Generator) -> str:
         if top in SQUARE and round_low
         else HALF - float(rng.choice(LENGTHS))
     )
-    below, above = FLAT[low](HALF), FLAT[top](half)
+    below = FLAT[low](HALF)
+    above = FLAT[top](half)
     R_low = OVER if low in TIPPED else np.eye(3)
     at = np.array([0.0, 0.0, EDGE - depth])
     press = np.array([*rng.uniform(-3, 3, 2), -20.0, *rng.uniform(-0.1, 0.1, 3)])
@@ -254,7 +263,9 @@ def tries(scenes: Iterable[int]) -> tuple[Counter[str], list[tuple[str, str]]]:
 
     A scene depends on its number alone.
     """
-    tried, wrong, pairs = Counter[str](), list[tuple[str, str]](), lyings()
+    tried = Counter[str]()
+    wrong = list[tuple[str, str]]()
+    pairs = lyings()
     others = (("overhanging", beside), ("edge on edge", on_edge), ("alike", alike))
     for i in scenes:
         rng = np.random.default_rng([32, i])

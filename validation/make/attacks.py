@@ -151,7 +151,8 @@ def positive_definite(S: np.ndarray) -> bool:
 
 def right_file(step: StepData, record: Json) -> Json:
     """What of an exact solution file fractions decide, from the working set that it names."""
-    of, sizes = program(step), [len(rows) for rows in combinations(step)]
+    of = program(step)
+    sizes = [len(rows) for rows in combinations(step)]
     starts = np.cumsum([0, *sizes]).tolist()
     working = [starts[j] + i for j, i in record["certificate"]["active"]]
     x, lam_w, slack = proved(of, working)
@@ -177,7 +178,8 @@ def exact_answers(attack: Attack, family: str, number: int, first: int = 0) -> N
     for step in islice(steps(family, first), 50 * number):
         if attack.counts["optimal"] + attack.counts["infeasible"] == number:
             break
-        text, file = step_text(step), attack.file(step, NONE, "full")
+        text = step_text(step)
+        file = attack.file(step, NONE, "full")
         if file is None:
             continue
         record = json.loads(file)
@@ -198,7 +200,8 @@ def bounds(attack: Attack, family: str, number: int, first: int = 0) -> None:
     for backend, step in islice(tried, 50 * number):
         if attack.counts["bounded"] == number:
             break
-        text, file = step_text(step), attack.file(step, backend, "residual")
+        text = step_text(step)
+        file = attack.file(step, backend, "residual")
         if file is None:
             continue
         record = json.loads(file)
@@ -222,7 +225,8 @@ def forgeries(attack: Attack, kind: str, number: int, first: int = 0) -> None:
     files = [good_file(step, kind) for step in genuine]
     judges = [truth_of(step, file) for step, file in zip(genuine, files, strict=True)]
     for seed in range(first, first + number):
-        step, file = genuine[seed % len(genuine)], files[seed % len(genuine)]
+        step = genuine[seed % len(genuine)]
+        file = files[seed % len(genuine)]
         forged = at_random(np.random.default_rng(seed), step, file)
         if forged == file:
             attack.add("the same file")
@@ -237,9 +241,11 @@ def matrices(attack: Attack, key: str, number: int, first: int = 0) -> None:
     """Nearly singular matrices, through both checkers and all that is made of a step."""
     for seed in range(first, first + number):
         rng = np.random.default_rng(seed)
-        n, n_c = int(rng.integers(1, 8)), int(rng.integers(0, 4))
+        n = int(rng.integers(1, 8))
+        n_c = int(rng.integers(0, 4))
         sizes = (n, 0) if key == "K_q" else (0, n)
-        S, step = singular(rng, n), any_step(rng, *sizes, n_c)
+        S = singular(rng, n)
+        step = any_step(rng, *sizes, n_c)
         text = json.dumps(json.loads(step_text(step)) | {key: S.tolist()})
         attack.paths[0].write_text(text)
         try:
@@ -291,7 +297,8 @@ def batches(kind: str, family: str, number: int) -> Iterator[tuple[str, str, int
 def main() -> int:
     """Print the table; exit status 1 if anything is wrong."""
     options = asked(__doc__, count=500, seconds=float("inf"), jobs=1, log=Path, out=Path)
-    count, kinds = options.count, dict.fromkeys(kind for kind, _ in scenes(every=True))
+    count = options.count
+    kinds = dict.fromkeys(kind for kind, _ in scenes(every=True))
     families = [("exact answers", family, count) for family in FAMILIES]
     families += [("bounds", family, 2 * count) for family in FAMILIES]
     families += [("forgeries", kind, 10 * count // len(kinds) + 1) for kind in kinds]
@@ -306,7 +313,8 @@ def main() -> int:
             log.add(record)
             if time.monotonic() - begun > options.seconds:
                 break
-    sums, wrong = dict[str, Counter[str]](), list[str]()
+    sums = dict[str, Counter[str]]()
+    wrong = list[str]()
     for record in sorted(log.found.values(), key=itemgetter("family", "first")):
         sums.setdefault(record["family"], Counter()).update(record["counts"])
         wrong += record["wrong"]

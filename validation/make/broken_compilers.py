@@ -142,10 +142,12 @@ def steps_of(environment: str) -> dict[str, str | None]:
     made = hashlib.sha256()
     for name in ("bunny_grasp", "sphere_spin"):
         scenario = load_scenario(name, fast=True)
-        simulator, q = scenario.simulator(), scenario.system.q_start
+        simulator = scenario.simulator()
+        q = scenario.system.q_start
         for k in range(STEPS):
             result = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
-            q, solution = result.q, result.solution
+            q = result.q
+            solution = result.solution
             for array in (q, solution.delta_q, solution.lam, *standard_form(result.step)):
                 made.update(array.tobytes())
             made.update(repr(solution.certificate.active).encode())

@@ -31,7 +31,8 @@ def main() -> None:
         if cell in log.found:
             continue
         if drawn != (cell.sampling, cell.count, cell.seed):
-            drawn, cloud = (cell.sampling, cell.count, cell.seed), cell.cloud()
+            drawn = (cell.sampling, cell.count, cell.seed)
+            cloud = cell.cloud()
         log.add(row(cell, cloud))
         if options.count:
             print(log.found[cell])

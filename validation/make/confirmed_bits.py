@@ -119,8 +119,11 @@ def nearby_answer(
 def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     """The kind of a random step, what was found on it, and faults in words."""
     kind, step = random_case(seed)
-    found, faults = Counter[str](), []
-    rng, form, hessian = np.random.default_rng([seed, 2]), exact_form(step), BallHessian(step)
+    found = Counter[str]()
+    faults = []
+    rng = np.random.default_rng([seed, 2])
+    form = exact_form(step)
+    hessian = BallHessian(step)
     truth = exact_optimum(form)
     if isinstance(truth, Farkas):
         found["infeasible"] += 1
@@ -128,14 +131,16 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     else:
         found["optima"] += 1
         right = list(truth.working_set)
-        answer, proved = confirmed_answer(step, right, hessian), compiled_answer(step, right)
+        answer = confirmed_answer(step, right, hessian)
+        proved = compiled_answer(step, right)
         found["left open" if answer is None else "confirmed"] += 1
         found["compiled"] += proved is not None
         for one in (answer, proved):
             if one is not None and (wrong := differing(one, exact_optimum(form, right))):
                 faults.append(f"{kind}, step {seed}: {', '.join(wrong)}")
     for guess in wrong_sets(rng, right, form.m):
-        answer, proved = confirmed_answer(step, guess, hessian), compiled_answer(step, guess)
+        answer = confirmed_answer(step, guess, hessian)
+        proved = compiled_answer(step, guess)
         found["wrong sets"] += 1
         found["refused" if answer is None else "also right"] += 1
         found["proved too"] += proved is not None

@@ -48,10 +48,12 @@ def clarabel(form: StandardForm, options: dict) -> object:
     import clarabel as package
 
     settings = package.DefaultSettings()
-    settings.verbose, settings.presolve_enable = False, False
+    settings.verbose = False
+    settings.presolve_enable = False
     for name, value in options.items():
         setattr(settings, name, value)
-    P, A = csc_matrix(np.triu(form.H)), csc_matrix(-form.A)
+    P = csc_matrix(np.triu(form.H))
+    A = csc_matrix(-form.A)
     cones = [package.NonnegativeConeT(len(form.b))]
     return package.DefaultSolver(P, -form.g, A, -form.b, cones, settings).solve().status
 
@@ -60,7 +62,9 @@ def osqp(form: StandardForm, options: dict) -> object:
     """Its status_val."""
     import osqp as package
 
-    P, A, above = triu(csc_matrix(form.H)), csc_matrix(form.A), np.full(len(form.b), np.inf)
+    P = triu(csc_matrix(form.H))
+    A = csc_matrix(form.A)
+    above = np.full(len(form.b), np.inf)
     solver = package.OSQP()
     solver.setup(P=csc_matrix(P), q=-form.g, A=A, l=form.b, u=above, verbose=False, **options)
     return package.SolverStatus(solver.solve(raise_error=False).info.status_val)
@@ -81,7 +85,8 @@ def daqp(form: StandardForm, options: dict) -> object:
     """Its exit flag."""
     import daqp as package
 
-    upper, sense = np.full(len(form.b), np.inf), np.zeros(len(form.b), dtype=np.int32)
+    upper = np.full(len(form.b), np.inf)
+    sense = np.zeros(len(form.b), dtype=np.int32)
     H, f, A = (np.ascontiguousarray(part) for part in (form.H, -form.g, form.A))
     return package.solve(H, f, A, upper, form.b, sense, **options)[2]
 
@@ -103,7 +108,8 @@ def scs(form: StandardForm, options: dict) -> object:
     """Its status_val."""
     import scs as package
 
-    P, A = csc_matrix(np.triu(form.H)), csc_matrix(-form.A)
+    P = csc_matrix(np.triu(form.H))
+    A = csc_matrix(-form.A)
     data = {"P": P, "c": -form.g, "A": A, "b": -form.b}
     solver = package.SCS(data, {"l": len(form.b)}, verbose=False, **options)
     return solver.solve()["info"]["status_val"]
@@ -117,7 +123,8 @@ def highs(form: StandardForm, options: dict) -> object:
     solver.silent()
     for name, value in {**options, "time_limit": SECONDS}.items():
         solver.setOptionValue(name, value)
-    n, inf = len(form.g), highspy.kHighsInf
+    n = len(form.g)
+    inf = highspy.kHighsInf
     for i in range(n):
         solver.addVar(-inf, inf)
         solver.changeColCost(i, float(-form.g[i]))

@@ -59,7 +59,8 @@ Record = dict[str, Any]
 def differences(step: StepData, oracle: bool) -> Record:
     """Of each check 1 if it fails and 0 if it holds; a check that was not made is not there."""
     first = solve_step(step, "none")
-    forces, k = first.forces, step.contacts
+    forces = first.forces
+    k = step.contacts
     bits = forces.tobytes()
     order = np.random.default_rng(0).permutation(k.n_c)
     moved = contact_forces(step.replace(contacts=repeated(k, order))).wrench
@@ -83,7 +84,9 @@ def noise_of_rounding(step: StepData, clean: StepSolution) -> float:
 
     A contact that moves with nothing may contradict the noise; it gives way all the same.
     """
-    rng, k, forces = np.random.default_rng(1), step.contacts, clean.forces
+    rng = np.random.default_rng(1)
+    k = step.contacts
+    forces = clean.forces
     phi = k.phi + NOISE * rng.standard_normal(k.phi.shape)
     J = k.J + NOISE * rng.standard_normal(k.J.shape)
     everyone = range(k.n_c)
@@ -140,7 +143,8 @@ def main(arguments: list[str] | None = None) -> int:
         "vectors": vector_steps(),
         "scenarios": scenario_steps(given.every),
     }
-    rows, failed = [], 0
+    rows = []
+    failed = 0
     for family, steps in families.items():
         found = []
         for i, (name, step) in enumerate(steps):

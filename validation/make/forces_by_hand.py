@@ -88,7 +88,8 @@ def column(kind: str, count: int, tall: float, inset: float, depth: float) -> Sc
     """Bodies on each other: number i goes up by i + 1 depths."""
     bodies = []
     for i in range(count):
-        half, middle = HALF - i * inset, (i + 0.5) * tall - (i + 1) * depth
+        half = HALF - i * inset
+        middle = (i + 0.5) * tall - (i + 1) * depth
         shape = (
             Cylinder(half, tall / 2) if kind == "coin" else Box(np.array([half, half, tall / 2]))
         )
@@ -100,12 +101,14 @@ def column(kind: str, count: int, tall: float, inset: float, depth: float) -> Sc
 def wall(rows: Sequence[Sequence[float]], inset: float, depth: float) -> Scene:
     """Cubes in rows, whose middles are at these multiples of their edge: row r goes up by r + 1."""
     at = [(x, r) for r, row in enumerate(rows) for x in row]
-    half, count = HALF - inset, len(at)
+    half = HALF - inset
+    count = len(at)
     places = [np.array([x * EDGE, 0.0, (r + 0.5) * EDGE - (r + 1) * depth]) for x, r in at]
     brick = Box(np.array([half, HALF, HALF]))
     normals = {(count, j): UP for j, (_, r) in enumerate(at) if r == 0}
     for (i, (x, r)), (j, (y, s)) in combinations(enumerate(at), 2):
-        along, up = abs(y - x), s - r
+        along = abs(y - x)
+        up = s - r
         if along <= 1 and up <= 1:
             edges = along == up == 1 and inset == depth == 0.0  # no gap is larger: the bisector
             way = np.array([np.sign(y - x) * (along == 1), 0.0, float(along < 1 or edges)])
@@ -160,7 +163,8 @@ FAMILIES: dict[str, Callable[[float, float], Scene]] = {
 
 def wrong(scene: Scene, k: int, mu_v: float) -> str:
     """What differs from what is known; nothing if it is empty."""
-    count, cube = len(scene.motion), FLAT["box"](HALF)
+    count = len(scene.motion)
+    cube = FLAT["box"](HALF)
     places = np.array([t for _, _, t in scene.bodies])
     system = System(
         [Body.of_shape(f"b{i}", cube, MASS, xyz=t) for i, t in enumerate(places[:count])]
@@ -181,7 +185,9 @@ def wrong(scene: Scene, k: int, mu_v: float) -> str:
         result = simulator.step(system.q_start, np.zeros(0))
     except QuasistaticError as error:
         return f"{type(error).__name__}: {error}"
-    c, points, wrench = result.step.contacts, result.points, result.solution.wrench
+    c = result.step.contacts
+    points = result.points
+    wrench = result.solution.wrench
     bodies = np.array([[int(i) for i in name.split("/")[0].split("-")] for name in c.name])
     n = np.array([scene.normals[a, b] for a, b in bodies])
     bears = wrench[:, 2] != 0.0
@@ -190,7 +196,8 @@ def wrong(scene: Scene, k: int, mu_v: float) -> str:
     moved = np.zeros((len(places), 6))  # translations, then rotations
     moved[:count] = result.solution.delta_q.reshape(count, 6)
     force = (wrench[:, :3, None] * np.stack([c.d1, c.d2, n], axis=1)).sum(axis=1)
-    net, closes = np.zeros_like(moved), points.phi.copy()
+    net = np.zeros_like(moved)
+    closes = points.phi.copy()
     for body, r, sign in ((bodies[:, 0], points.alpha, -1.0), (bodies[:, 1], points.beta, 1.0)):
         lever = r - places[body]
         np.add.at(net, body, sign * np.hstack([force, np.cross(lever, force)]))
@@ -220,7 +227,8 @@ def attempts(name: str) -> Iterator[tuple[Scene, int, float]]:
 
 def main() -> int:
     """Print the page; exit status 1 if anything is wrong."""
-    rows, found = [], list[str]()
+    rows = []
+    found = list[str]()
     for name in tqdm(FAMILIES):
         said = [wrong(*attempt) for attempt in attempts(name)]
         found += [f"- {name}: {problem}" for problem in said if problem]

@@ -153,8 +153,11 @@ class Cost:
 
 def cost(scene: Scene, certify: str) -> Cost:
     """What the steps of a scene cost, with `fast` and the backend that it takes by itself."""
-    some, free = _pile(scene, certify), None
-    q, times, exact = some.q, [], 0
+    some = _pile(scene, certify)
+    free = None
+    q = some.q
+    times = []
+    exact = 0
     force = float(scene.pushed) * some.force
     for _ in range(scene.before):
         free = free or _pile(scene, "off").simulator
@@ -166,21 +169,25 @@ def cost(scene: Scene, certify: str) -> Cost:
         begin = time.process_time()
         if copied is None:
             result = some.simulator.step(q, np.zeros(0), force)
-            q, solution = result.q, result.solution
+            q = result.q
+            solution = result.solution
         else:
             solution = solve_step(copied, solver, certify=certify)
         times.append(time.process_time() - begin)
         exact += solution.certificate.kind == "exact"
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    step, later = solution.step, float(np.median(times[1:]))
+    step = solution.step
+    later = float(np.median(times[1:]))
     sizes = step.contacts.n_c, step.n_v, len(groups(step))
     return Cost(*sizes, times[0], later, peak, exact)
 
 
 def copies(step: StepData, times: int) -> StepData:
     """A step of free bodies, several times next to itself, its contacts in blocks."""
-    c, n_v = step.contacts, step.n_v
-    of, first = np.repeat(np.arange(times), c.n_c), np.tile(np.arange(c.n_c), times)
+    c = step.contacts
+    n_v = step.n_v
+    of = np.repeat(np.arange(times), c.n_c)
+    first = np.tile(np.arange(c.n_c), times)
     moves = (c.J != 0).any(axis=1)
     width = int(moves.sum(axis=1).max())
     column = np.argsort(~moves, axis=1, kind="stable")[:, :width]
@@ -193,7 +200,8 @@ def copies(step: StepData, times: int) -> StepData:
         *(given[first] for given in (c.mu_v, c.mu_omega, c.rows)),
     )
     bodies = np.stack([step.M_u[i : i + 6, i : i + 6] for i in range(0, n_v, 6)])
-    M_u, none = np.tile(bodies, (times, 1, 1)), np.zeros(0)
+    M_u = np.tile(bodies, (times, 1, 1))
+    none = np.zeros(0)
     constant = constants(step.h, step.K_q, 0, M_u, contacts.rows, step.cone)
     return constant.kind(constant, none, np.tile(step.tau_u, times), none, contacts)
 
@@ -212,9 +220,11 @@ def table(scenes: list[Scene]) -> dict[str, Cost]:
     """Print what some scenes cost; by their names."""
     head = "scene, contacts, coordinates, groups, first [s], later [s], memory [MB], exact, "
     head += "later with residual [s], memory with residual [MB], ratio of times"
-    rows, found = [head.split(", ")], {}
+    rows = [head.split(", ")]
+    found = {}
     for scene in scenes:
-        full, said = alone(scene, "full"), alone(scene, "residual")
+        full = alone(scene, "full")
+        said = alone(scene, "residual")
         ratio = full.later / said.later
         found[scene.name] = replace(full, over_residual=ratio)
         sizes = [f"{n:,}" for n in (full.contacts, full.coordinates, full.groups)]
@@ -258,7 +268,8 @@ def unlike(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
 
 def compared(random: int, every: int) -> list[str]:
     """Print on how many steps whole and groups were compared; what differs, in words."""
-    found, wrong = Counter[str](), []
+    found = Counter[str]()
+    wrong = []
     for seed in range(random):
         step = random_case(seed)
         found[f"random steps of {len(groups(step))} groups"] += 1

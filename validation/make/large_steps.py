@@ -32,7 +32,8 @@ WAYS = {
 """Backends, and up to how many bodies each is tried: beyond, it takes a multiple of the others."""
 CHAINS = (10, 20, 40, 80, 160)
 """Bodies in a row."""
-STEPS, MANY = 12, 100
+STEPS = 12
+MANY = 100
 HEAP_LIMIT = 60.0
 """Of the largest heap, nothing certified [ms]."""
 EXPONENT_LIMIT = 1.15
@@ -86,7 +87,10 @@ def cost(shape: Shape, way: str, steps: int = STEPS, k: int = 4, certify: str = 
     system = simulator.system
     M_u = system.mass_blocks if form == "sparse" else system.M_u(some.q)
     simulator.constant = constants(simulator.h, simulator.K_q, 0, M_u, simulator.layout.rows)
-    q, times, bounds, unsolved = some.q, [], [], 0
+    q = some.q
+    times = []
+    bounds = []
+    unsolved = 0
     for _ in range(1 + steps):
         begin = time.process_time()
         try:
@@ -118,7 +122,8 @@ def by_way() -> None:
     print("\n## Dense and sparse, nothing certified [ms]\n")
     rows = [["boxes", "entries of J", *WAYS]]
     for shape in (*ROWS, *HEAPS):
-        found, entries = [], 0
+        found = []
+        entries = 0
         for way, most in WAYS.items():
             if np.prod(shape) > most:
                 found.append("-")
@@ -136,7 +141,9 @@ def large() -> tuple[dict[str, float], float]:
     print("\n## Sparse steps\n")
     head = "boxes, backend, contacts, coordinates, rows, first [ms], off [ms], off p99 [ms], "
     head += "residual [ms], residual p99 [ms], largest error bound, without bound, unsolved"
-    rows, times, heap = [head.split(", ")], dict[str, list[float]](), 0.0
+    rows = [head.split(", ")]
+    times = dict[str, list[float]]()
+    heap = 0.0
     for shape in (*((n, 1, 1) for n in CHAINS), LARGEST):
         for backend in ("piqp", "clarabel"):
             steps = MANY if shape == LARGEST else 2 * STEPS
@@ -155,7 +162,8 @@ def large() -> tuple[dict[str, float], float]:
 
 def in_contacts() -> dict[str, float]:
     """The exponents in contacts of a row of 16 boxes."""
-    counts, found = (2, 4, 8, 16, 32), {}
+    counts = (2, 4, 8, 16, 32)
+    found = {}
     for backend in ("piqp", "clarabel"):
         some = [cost((16, 1, 1), f"{backend} sparse", k=k) for k in counts]
         found[backend] = slope([s.size[1] for s in some], [s.median for s in some])

@@ -28,7 +28,8 @@ from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.step.data import Array
 
 PACKAGES = ("gymnasium==1.4.0", "dm_control==1.0.50")
-GYMNASIUM, SUITE = "gymnasium/envs/mujoco/assets", "dm_control/suite"
+GYMNASIUM = "gymnasium/envs/mujoco/assets"
+SUITE = "dm_control/suite"
 MODELS = (
     f"{GYMNASIUM}/ant.xml", f"{GYMNASIUM}/half_cheetah.xml", f"{GYMNASIUM}/hopper.xml",
     f"{GYMNASIUM}/humanoid.xml", f"{GYMNASIUM}/pusher.xml", f"{SUITE}/cartpole.xml",
@@ -78,12 +79,15 @@ def system_of(path: Path) -> tuple[System, Any]:
 
 def placed(system: System, model: Any, q: Array) -> tuple[Array, Array]:
     """MuJoCo's qpos of a configuration q, and T with its qvel = T delta_q."""
-    qpos, T = model.qpos0.copy(), np.zeros((model.nv, system.n_v))
+    qpos = model.qpos0.copy()
+    T = np.zeros((model.nv, system.n_v))
     names = [model.joint(i).name or f"joint{i}" for i in range(model.njnt)]
     for joint in system.joints:
         own = joint.name.partition("/")[2]
         i = 0 if own == "base" else names.index(own)
-        at, dof, x = model.jnt_qposadr[i], model.jnt_dofadr[i], q[joint.q]
+        at = model.jnt_qposadr[i]
+        dof = model.jnt_dofadr[i]
+        x = q[joint.q]
         if (
             own == "base"
         ):  # a twist in the body's frame; MuJoCo's velocity is along the world's axes
@@ -99,7 +103,8 @@ def placed(system: System, model: Any, q: Array) -> tuple[Array, Array]:
 def differences(path: Path, count: int, seed: int = 0) -> Differences:
     """What a file, read here, differs from MuJoCo in at random configurations."""
     system, model = system_of(path)
-    data, rng = mujoco.MjData(model), np.random.default_rng(seed)
+    data = mujoco.MjData(model)
+    rng = np.random.default_rng(seed)
     bodies = ["worldbody", *(model.body(i).name or f"body{i}" for i in range(1, model.nbody))]
     links = [system.links.index(f"r/{b}") if f"r/{b}" in system.links else 0 for b in bodies]
     numbers = {i: link for i, link in enumerate(links) if link}
@@ -112,10 +117,12 @@ def differences(path: Path, count: int, seed: int = 0) -> Differences:
         data.qpos[:] = qpos
         mujoco.mj_forward(model, data)
         kinematics = system.kinematics(q)
-        pose, jacobian = 0.0, 0.0
+        pose = 0.0
+        jacobian = 0.0
         M = np.zeros((system.n_v, system.n_v))
         for i, k in numbers.items():
-            R, J = kinematics.R[k], kinematics.J[k]
+            R = kinematics.R[k]
+            J = kinematics.J[k]
             pose = max(pose, np.abs(kinematics.t[k] - data.xpos[i]).max(),
                        np.abs(R - data.xmat[i].reshape(3, 3)).max())  # fmt: skip
             own = np.zeros((2, 3, model.nv))
@@ -128,7 +135,8 @@ def differences(path: Path, count: int, seed: int = 0) -> Differences:
         full = np.zeros((model.nv, model.nv))
         mujoco.mj_fullM(model, data, full)
         inertia = off(M, T.T @ (full - np.diag(model.dof_armature)) @ T)
-        near, curved = 0.0, 0.0
+        near = 0.0
+        curved = 0.0
         for pair, g, other in pairs:
             apart = mujoco.mj_geomDistance(model, data, g, other, FARTHEST, None)
             exact = {type(s.shape).__name__ for s in (pair.alpha, pair.beta)} <= set(EXACT)
@@ -184,7 +192,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 def compared(folder: Path, count: int, out: Path) -> int:
     """Compare the models in a folder and write the page; the exit status."""
-    rows, status = [], 0
+    rows = []
+    status = 0
     for name in MODELS:
         found = differences(folder / name, count)
         good = max(found[3:8]) <= SAME and found.curved <= CURVED

@@ -194,7 +194,8 @@ def ended_by(folder: Path, _: str) -> Iterator[Found]:
     words = f"{PROGRAM} run scene.toml --out out --quiet --save-every 0".split()
     long = LONG.split()
     for sent in (signal.SIGINT, signal.SIGKILL, signal.SIGTERM):
-        part, deadline = folder / "out/scene.npz.part", time.monotonic() + PATIENCE
+        part = folder / "out/scene.npz.part"
+        deadline = time.monotonic() + PATIENCE
         process = subprocess.Popen([*words, *long], cwd=folder, stderr=subprocess.DEVNULL)
         while not list(part.glob("*.npz")) and time.monotonic() < deadline:
             time.sleep(0.01)

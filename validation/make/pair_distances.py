@@ -57,7 +57,8 @@ def pair_errors(a: Shape, b: Shape, count: int, seed: int = 0) -> tuple[dict[str
         except ContactError:
             refused += 1
             continue
-        phi, n = found.phi, found.n
+        phi = found.phi
+        n = found.n
         inside += phi < 0
         reference = closest.signed_distance(a, b, R, t)
         errors = {
@@ -88,7 +89,8 @@ def main() -> int:
     print("| pair | " + " | ".join(COLUMNS) + " | in penetration | refused | us |")
     print("|---" * (len(COLUMNS) + 4) + "|")
     for first, second in closest.pairs():
-        a, b = solids[first], solids[second]
+        a = solids[first]
+        b = solids[second]
         worst, inside, refused = pair_errors(a, b, count)
         poses = list(closest.poses(50, 1))
         start = time.perf_counter()

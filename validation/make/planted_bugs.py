@@ -82,7 +82,8 @@ class Trial:
         head = (self.name, self.mistake or "-", self.verdict)
         if not self.findings:
             return (*head, "", "", "", "", "")
-        case, found = self.smallest.case, self.smallest
+        case = self.smallest.case
+        found = self.smallest
         numbers = digits(case)
         sizes = (contacts(case), bodies(case), f"{statistics.median(numbers):g}", max(numbers))
         return (*head, f"{found.layer} {found.field or found.kind}", *sizes)

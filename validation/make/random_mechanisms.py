@@ -35,7 +35,8 @@ def random_mechanism(rng: np.random.Generator) -> Json:
     """One tree of bodies or two; about half of the joints that can follow another one do."""
     bodies = []
     for name in ("arm", "hand")[: rng.integers(1, 3)]:
-        size, base = int(rng.integers(1, 11)), str(rng.choice(["fixed", "floating", "planar"]))
+        size = int(rng.integers(1, 11))
+        base = str(rng.choice(["fixed", "floating", "planar"]))
         tree = random_tree(rng, size, base if size > 1 else "floating", masses=True)["bodies"]
         for body in tree:
             body["name"] = f"{name} {body['name']}"
@@ -71,13 +72,15 @@ def depth_first(tree: list[Json], at: Json) -> Iterator[Json]:
 
 def by_angles(mechanism: Json, q: list[float]) -> tuple[Json, np.ndarray]:
     """The same with revolute in place of continuous joints, in which the program has no mimics."""
-    at, revolute = slices(mechanism)[0], []
+    at = slices(mechanism)[0]
+    revolute = []
     own = {}
     for body in mechanism["bodies"]:
         endless = body["joint"] == "continuous"
         revolute.append(body | {"joint": "revolute"} if endless else body)
         if body["name"] in at:
-            start, values = at[body["name"]][0].start, q[at[body["name"]][0]]
+            start = at[body["name"]][0].start
+            values = q[at[body["name"]][0]]
             own[start] = [np.arctan2(values[1], values[0])] if endless else values
     return {"bodies": revolute}, np.concatenate([own[start] for start in sorted(own)])
 
@@ -85,7 +88,8 @@ def by_angles(mechanism: Json, q: list[float]) -> tuple[Json, np.ndarray]:
 def expected(of: Json, q: list[float]) -> list[np.ndarray]:
     """Each of QUANTITIES, by the plain program."""
     mechanism, angles = by_angles(of, q)
-    bodies, at = mechanism["bodies"], kinematics(mechanism, angles)
+    bodies = mechanism["bodies"]
+    at = kinematics(mechanism, angles)
     none = np.zeros(3)
     weights = [{"body": b["name"], "force": b["mass"] * GRAVITY, "torque": none} for b in bodies]
     M, weight = loads({"mechanism": mechanism, "gravity": none, "wrenches": weights}, at)
@@ -158,7 +162,9 @@ def features(mechanism: Json) -> Counter[str]:
     for body in of.values():
         if "mimic" not in body:
             continue
-        leader, above, parent = of[body["mimic"]["of"]], [], body["parent"]
+        leader = of[body["mimic"]["of"]]
+        above = []
+        parent = body["parent"]
         while parent is not None:
             above.append(of[parent])
             parent = of[parent]["parent"]
@@ -173,7 +179,10 @@ def features(mechanism: Json) -> Counter[str]:
 
 def report(count: int) -> str:
     """The committed result."""
-    kinds, errors, same, with_mimic = Counter[str](), [], 0, 0
+    kinds = Counter[str]()
+    errors = []
+    same = 0
+    with_mimic = 0
     for seed in range(count):
         own, off, equal = compare(seed)
         kinds += own

@@ -77,7 +77,8 @@ def state(key: str) -> Record:
     _, name, number = key.split()
     found, simulator, run = scene(name)
     k = int(number)
-    q, target = run[k], found.targets((k + 1) * found.h)
+    q = run[k]
+    target = found.targets((k + 1) * found.h)
     here = derivatives(simulator, q, target, nearly=0.0)
     record = {"key": key, "reach": 0.0, "error": None}
     if any(why.kind != ZERO_FRICTION for why in here.reasons):
@@ -153,7 +154,8 @@ def touching(simulator: Simulator, q: Array, target: Array, force: Array) -> set
     """The rows that touch in a step."""
     result = simulator.step(q, target, force)
     far = np.abs(np.stack([result.points.alpha, result.points.beta])).max(axis=(0, 2))
-    found, step = touching_rows(result.solution, far), result.step
+    found = touching_rows(result.solution, far)
+    step = result.step
     names = cone(step.cone).row_names
     rows = np.concatenate([found.strict, found.idle])
     return {f"row {names[i]} of {step.contacts.name[j]}" for j, i in rows}
@@ -176,7 +178,9 @@ def page(records: list[Record]) -> tuple[str, bool]:
     groups: dict[str, list[Record]] = {}
     for record in records:
         groups.setdefault(record["key"].rpartition(" ")[0], []).append(record)
-    states, kinks, good = [], [], True
+    states = []
+    kinks = []
+    good = True
     for name, own in groups.items():
         what = name.partition(" ")[2]
         if name.startswith("kink"):

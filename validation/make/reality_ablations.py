@@ -83,7 +83,8 @@ def predictions(every: int, work: Path, jobs: int) -> Iterator[tuple[str, dict[s
     base = {}
     for name, changes in VARIANTS.items():
         own = dict(changes)
-        source, certify = own.pop("ratio", "ellipsoid"), own.pop("certify", "full")
+        source = own.pop("ratio", "ellipsoid")
+        certify = own.pop("certify", "full")
         ratios = {}
         for pair in pairs:
             cone = source if source not in ("published", "reverse") else "ellipsoid"

@@ -141,7 +141,8 @@ def result(name: str) -> Any:
 def main() -> None:
     """Draw all."""
     options = asked(__doc__, out=Path("reality_figures"))
-    identified, variants = result("reality_identified"), result("reality_ablations")
+    identified = result("reality_identified")
+    variants = result("reality_ablations")
     shown = [name for name in SHOWN if name in variants["variants"]]
     with figure_style():
         figures = {

@@ -238,7 +238,9 @@ def main() -> None:
     for name, changes in VARIANTS.items():
         entry: dict[str, Any] = {}
         for own in sets:
-            scene, kinds, ends = tripod(own, frozen, **changes), Counter[str](), []
+            scene = tripod(own, frozen, **changes)
+            kinds = Counter[str]()
+            ends = []
             certify = "off" if changes else "full"
             for before, path in zip(own.before, own.path, strict=True):
                 end, found = tripod_prediction(scene, frozen, before, path, certify)

@@ -102,7 +102,8 @@ def oldest_numpy(folder: str) -> str:
     (floor,) = (re.match(r"numpy>=([\d.]+)", r) for r in requires("quasistatic-ref") or []
                 if r.startswith("numpy"))  # fmt: skip
     assert floor is not None
-    made, target = f"{folder}/environment", f"{folder}/numpy"
+    made = f"{folder}/environment"
+    target = f"{folder}/numpy"
     venv.create(made, with_pip=True)
     wanted = f"numpy=={floor[1]}"
     pip = [f"{made}/bin/python", "-m", "pip", "install", "-q", "--no-deps", "--target", target]
@@ -131,7 +132,10 @@ def environments(python: str | None, folder: str) -> list[Environment]:
 
 def report(steps: int | None, python: str | None, path: Path | None) -> tuple[str, bool]:
     """The committed result, and whether all hashes are equal; a log at `path`."""
-    names, lines, first, equal = scenario_names(), [], list[str](), True
+    names = scenario_names()
+    lines = []
+    first = list[str]()
+    equal = True
     log = Log(path, itemgetter("number"), {"steps": steps, "python": python})
     with tempfile.TemporaryDirectory() as folder:
         places = environments(python, folder)

@@ -52,7 +52,8 @@ def sha256(*arrays: np.ndarray) -> str:
 def run_record(name: str, settings: list[str]) -> Record:
     """The hashes of one run, each step certified."""
     run = load_scenario(name, ["fast=true", "record=full", *settings]).run(progress=False)
-    nets, slacks = [], []
+    nets = []
+    slacks = []
     for k in range(run.steps):
         optimum = exact_step(run.step_data(k), np.flatnonzero(run["lam"][k] > 0).tolist())
         nets.append(optimum.net)
@@ -105,7 +106,8 @@ def differences(before: Record, now: Record, where: str = "") -> list[str]:
     """One line for each entry of two records that is not the same in both."""
     lines = []
     for key in {**before, **now}:
-        one, two = before.get(key, "absent"), now.get(key, "absent")
+        one = before.get(key, "absent")
+        two = now.get(key, "absent")
         if isinstance(one, dict) and isinstance(two, dict):
             lines += differences(one, two, f"{where}{key}: ")
         elif one != two:

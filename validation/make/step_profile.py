@@ -14,7 +14,8 @@ from quasistatic_ref.lab.study.measuring.environment import machine
 
 def main() -> int:
     """Measure, and print the page."""
-    found, m = measured(), machine()
+    found = measured()
+    m = machine()
     print("# The time of a step")
     print()
     print(

@@ -59,8 +59,11 @@ class Browser:
         )  # fmt: skip
         for end in (to_child, to_us, *ends):
             os.close(end)
-        self._write, self._read, self._left = from_us, from_child, b""
-        self._last, self._session = 0, ""
+        self._write = from_us
+        self._read = from_child
+        self._left = b""
+        self._last = 0
+        self._session = ""
         (target,) = (t for t in self.ask("Target.getTargets")["targetInfos"] if t["type"] == "page")
         attached = self.ask("Target.attachToTarget", targetId=target["targetId"], flatten=True)
         self._session = attached["sessionId"]

@@ -16,7 +16,8 @@ from quasistatic_ref.solve.solve import solve_step
 from validation.tools.browser import Browser
 
 PAGE = Path(__file__).parents[2] / "docs" / "draggable" / "draggable.html"
-GRAVITY, H = 9.81, 0.01
+GRAVITY = 9.81
+H = 0.01
 SAME = 1e-9
 """Largest difference, relative to the free motion: both are closed forms, or exact answers."""
 SETTLED = 200
@@ -65,7 +66,8 @@ def check_section(browser: Browser) -> None:
     )
     scale = box["width"] / 480
     for kind, f_1, tau in (("mousePressed", 0.6, 0.6), ("mouseMoved", -0.3, 0.2)):
-        x, y = box["left"] + scale * (240 + 130 * f_1), box["top"] + scale * (200 - 130 * tau)
+        x = box["left"] + scale * (240 + 130 * f_1)
+        y = box["top"] + scale * (200 - 130 * tau)
         browser.ask(
             "Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=1, clickCount=1
         )

@@ -90,7 +90,8 @@ def built(folder: Path) -> Path:
 
 def installed(wheel: Path, extra: str, python: str, lowest: bool, folder: Path) -> Environment:
     """A fresh environment with the wheel and an extra."""
-    home, empty = folder / "environment", folder / "empty"
+    home = folder / "environment"
+    empty = folder / "empty"
     empty.mkdir()
     subprocess.run([python, "-m", "venv", str(home)], check=True)
     what = str(wheel) if extra == "base" else f"{wheel}[{extra}]"
@@ -143,7 +144,8 @@ def faults(at: Environment, extra: str) -> list[str]:
         (at.folder / name).write_text(text, "utf-8")
     wrong = []
     for line in COMMANDS[extra]:
-        start, before = time.perf_counter(), os.times()
+        start = time.perf_counter()
+        before = os.times()
         done = at.run(line)
         fault = f"status {done.returncode}\n{done.stdout}{done.stderr}" if done.returncode else ""
         if not fault and line.startswith("quasistatic-ref demo"):
@@ -169,7 +171,8 @@ def faults(at: Environment, extra: str) -> list[str]:
 
 def demo_fault(report: dict[str, object], seconds: float, folder: Path) -> str:
     """What a demo did not keep of its promises."""
-    cases, figures = report["cases"], report["figures"]
+    cases = report["cases"]
+    figures = report["figures"]
     assert isinstance(cases, dict)
     assert isinstance(figures, list)
     kept = (
@@ -188,11 +191,9 @@ def row(wheel: Path, extra: str, python: str, lowest: bool) -> tuple[list[str], 
     try:
         start = time.perf_counter()
         at = installed(wheel, extra, python, lowest, folder)
-        took, size, parts = (
-            time.perf_counter() - start,
-            mebibytes(at.home.rglob("*")),
-            largest(at.home),
-        )
+        took = time.perf_counter() - start
+        size = mebibytes(at.home.rglob("*"))
+        parts = largest(at.home)
         version = at.run("python -V").stdout.removeprefix("Python ").strip()
         print(f"{extra}, Python {version}: {size:.0f} MB in {took:.0f} s", flush=True)
         start = time.perf_counter()

@@ -20,7 +20,8 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).parents[2]
-SCENARIO, STEPS = "bunny_grasp", 40
+SCENARIO = "bunny_grasp"
+STEPS = 40
 PARTS: dict[str, tuple[list[str], str]] = {
     "coulomb": (["--law", "coulomb"], 'law = "coulomb"'),
     "curved": ([], ""),

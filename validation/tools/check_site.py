@@ -105,7 +105,8 @@ def link_faults(path: Path, address: str, pages: dict[Path, Page], site: Path) -
     """Faults of one link of a page; links to other sites are not followed."""
     if urlsplit(address).scheme or address.startswith("//"):
         return
-    target, place = _target(path, address), unquote(urlsplit(address).fragment)
+    target = _target(path, address)
+    place = unquote(urlsplit(address).fragment)
     where = path.relative_to(site)
     if not target.exists():
         yield f"{where} links to {address}, which is not there"

@@ -96,7 +96,8 @@ def check_page(site: Path) -> None:
     (step,) = (step for (kind, name), step in scenes().items() if "own" in name)
     with TemporaryDirectory() as folder:
         cases = Cases(Path(folder))
-        good, text = good_file(step, "exact"), cases.text(step)
+        good = good_file(step, "exact")
+        text = cases.text(step)
         forged = good | {
             "delta_q": [float(np.nextafter(good["delta_q"][0], 1)), *good["delta_q"][1:]]
         }

@@ -129,7 +129,8 @@ def main() -> int:
     log = Log(options.log, itemgetter("mutant"))
     left = [mutant for mutant in chosen if mutant.key not in log.found]
     if left:
-        file, every = left[0].file, {test for mutant in left for test in TESTS[mutant.file]}
+        file = left[0].file
+        every = {test for mutant in left for test in TESTS[mutant.file]}
         if said_of(file, (PACKAGE / file).read_text(), sorted(every)) != "survived":
             raise RuntimeError("the tests do not pass without a mutant")
     for key, said in tqdm(outcomes(left), "mutants", len(left)):
@@ -138,7 +139,8 @@ def main() -> int:
             tqdm.write(key, file=sys.stderr)
     found = {key: one["said"] for key, one in log.found.items()}
     table_written(found)
-    known, counts = reasons(), Counter(found[mutant.key] for mutant in chosen)
+    known = reasons()
+    counts = Counter(found[mutant.key] for mutant in chosen)
     print(f"{len(chosen)} mutants: {', '.join(f'{n} {said}' for said, n in counts.items())}")
     survivors = [mutant for mutant in chosen if found[mutant.key] == "survived"]
     unexplained = [m.key for m in survivors if m.key not in known]

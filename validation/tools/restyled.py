@@ -99,7 +99,8 @@ def sheet(files: list[Path]) -> Image.Image:
 def main() -> int:
     """Draw, read, keep."""
     options = asked(__doc__, (*EXAMPLES, *FIGURES), out=Path)
-    wrong, kept = [], []
+    wrong = []
+    kept = []
     for name, style, page, found in every_figure(options.names):
         wrong += [f"{name}, {style}: {fault}" for fault in found]
         if options.out:

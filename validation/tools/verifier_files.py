@@ -55,7 +55,8 @@ class Cases:
     """Cases from steps and records, judged by `verify` in a folder of their own."""
 
     def __init__(self, folder: Path) -> None:
-        self.step, self.solution = folder / "step.json", folder / "solution.json"
+        self.step = folder / "step.json"
+        self.solution = folder / "solution.json"
 
     def case(
         self, family: str, step: str, solution: str, forged: frozenset[str] = frozenset()
@@ -83,7 +84,8 @@ class Cases:
     def forged(self, every: int, number: int) -> Iterator[Case]:
         """Each kind of solution as it is and forged, one field at a time and several at random."""
         for (kind, _), step in scenes(every=every == 1).items():
-            good, text = good_file(step, kind), self.text(step)
+            good = good_file(step, kind)
+            text = self.text(step)
             truth = truth_of(step, good)
             yield self.case(f"{kind}, as it is", text, json.dumps(good))
             for k, (_, record) in enumerate(forgeries(step, good)):
@@ -121,7 +123,8 @@ def vector_steps(path: Path) -> Iterator[StepData]:
         given = case.input
         if "second_order" in given:
             continue
-        size, rows = len(given["g"]), len(given["b"])
+        size = len(given["g"])
+        rows = len(given["b"])
         record = {
             "format": "quasistatic-ref/step", "version": 1, "h": 1.0, "n_a": size, "n_u": 0,
             "K_q": given["H"], "M_u": [], "tau_a": given["g"], "tau_u": [],

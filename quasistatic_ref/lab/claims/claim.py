@@ -197,7 +197,8 @@ def finding(claim: Claim) -> Finding:
     if claim.installed is None:
         return Finding(claim, None)
     start = time.perf_counter()
-    evidence, trouble = None, ""
+    evidence = None
+    trouble = ""
     try:
         evidence = claim.measure()
     except QuasistaticError as error:  # a wrong formula may well make a step unsolvable

@@ -63,7 +63,8 @@ def summary(finding: Finding) -> tuple[str, str, str, str]:
 
 
 def _share(record: Mapping[str, Any]) -> float:
-    error, tolerance = record["error"], record["tolerance"]
+    error = record["error"]
+    tolerance = record["tolerance"]
     return float("inf") if error is None else error / tolerance if tolerance else float(error > 0)
 
 

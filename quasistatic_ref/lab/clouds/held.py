@@ -96,9 +96,11 @@ def grasped(cloud: Array, settings: Mapping[str, Any]) -> Grasped:
     try:
         run = scenario.run(progress=False)
     except RunFailed as failure:
-        failed, run = True, failure.trajectory
+        failed = True
+        run = failure.trajectory
     motion = link_motion(scenario.system, run, "bunny")
-    first, last = motion.index(CLOSED), motion.index(TOP)
+    first = motion.index(CLOSED)
+    last = motion.index(TOP)
     turned = motion.rotation_since(CLOSED)[first : last + 1]
     return Grasped(
         rotation=float(np.degrees(turned.max())),
@@ -114,8 +116,11 @@ def _grip(scenario: Scenario, run: Trajectory, step: int) -> Grip | None:
     if run.steps < step:
         return None
     names = run.header["contacts"][step - 1]
-    loads, points = run["wrench"][step - 1, :, 2], run["beta"][step - 1]
-    middles, squeezes, spreads = [], [], []
+    loads = run["wrench"][step - 1, :, 2]
+    points = run["beta"][step - 1]
+    middles = []
+    squeezes = []
+    spreads = []
     loaded = 0
     for finger in FINGERS:
         own = np.array([f"{finger}_finger" in name for name in names])

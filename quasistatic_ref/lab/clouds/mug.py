@@ -74,7 +74,8 @@ def handle_parts(count: int) -> list[tuple[Array, Array, Shape]]:
     parts: list[tuple[Array, Array, Shape]] = []
     for i in range(count):
         angle = (2 * i + 1) * half - np.pi / 2
-        c, s = np.cos(angle), np.sin(angle)
+        c = np.cos(angle)
+        s = np.sin(angle)
         R = np.array([[c, 0.0, -s], [0.0, 1.0, 0.0], [s, 0.0, c]])  # its z axis along the arc
         middle = np.array([OFF + ARC * np.cos(half) * c, 0.0, ARC * np.cos(half) * s])
         parts.append((R, middle, Capsule(TUBE, ARC * np.sin(half))))
@@ -103,7 +104,8 @@ def hung(parts: list[tuple[Array, Array, Shape]]) -> Hung:
         mug={"base": "floating", "xyz": (0.0, 0.0, height + 1e-6), "rpy": turned},
     )
     simulator = Simulator(system, _pairs(system, parts), h=0.01, K_q=np.zeros((0, 0)), fast=True)
-    q, before = system.q_start, 0.0
+    q = system.q_start
+    before = 0.0
     for _ in range(STEPS):
         before = float(q[2])
         q = simulator.step(q, np.zeros(0)).q

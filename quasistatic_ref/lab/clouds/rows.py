@@ -42,7 +42,8 @@ def with_torsion(row: Record) -> bool:
 def held(row: Record) -> bool:
     """Whether the bunny was lifted and did not turn."""
     limits = grid()["held"]
-    rises, turns = row["lift"] >= limits["lift"], row["rotation"] <= limits["rotation"]
+    rises = row["lift"] >= limits["lift"]
+    turns = row["rotation"] <= limits["rotation"]
     return bool(not row["failed"] and rises and turns)
 
 

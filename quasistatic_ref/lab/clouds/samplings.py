@@ -35,7 +35,8 @@ class Mesh:
     """
 
     def __init__(self, vertices: Array, triangles: NDArray[np.int64]) -> None:
-        self.vertices, self.triangles = vertices, triangles
+        self.vertices = vertices
+        self.triangles = triangles
         a, b, c = np.moveaxis(vertices[triangles], 1, 0)
         normals = np.cross(b - a, c - a)
         twice_area = np.linalg.norm(normals, axis=1)

@@ -113,7 +113,8 @@ def cells() -> Iterator[Cell]:
 
 
 def _kinds() -> Iterator[tuple[str, int, str, float]]:
-    density, change = grid()["density"], grid()["change"]
+    density = grid()["density"]
+    change = grid()["change"]
     for sampling in density["samplings"]:
         for count in density["counts"]:
             yield sampling, count, NONE, 0.0

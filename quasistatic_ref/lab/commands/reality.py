@@ -96,7 +96,8 @@ def _measured(options: argparse.Namespace, name: str, step: int) -> int:
     if not known:
         raise InputError("has no loads of these pairs", file=data / "loads.csv")
     pushes = {key: own.every(step) for key, own in pushes_read(data, known).items()}
-    folder, settings = writable_folder(options.out), Settings(cone=name)
+    folder = writable_folder(options.out)
+    settings = Settings(cone=name)
     file = folder / f"reality_{name}{'' if step == 1 else f'_every_{step}'}.jsonl"
     rows = predicted_pushes(known, pushes, ratios, settings, file, jobs=options.jobs,
                             progress=not options.quiet)  # fmt: skip

@@ -43,7 +43,9 @@ def run_ask(options: argparse.Namespace) -> int:
 def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
     from quasistatic_ref.lab.study.report.words import milliseconds, options_words
 
-    form, facts, seconds = one.problem.form, one.problem.facts, row["seconds"]
+    form = one.problem.form
+    facts = one.problem.facts
+    seconds = row["seconds"]
     options = options_words(one.solver.settings_of(one.setting, one.limits.call))
     false = [
         words

@@ -43,9 +43,7 @@ def run_merge(options: argparse.Namespace) -> int:
 
     parts = [part_read(words) for words in options.parts]
     folder = merged(parts, options.out)
-    rows, machines = (
-        sum(len(part.found.rows) for part in parts),
-        {m for p in parts for m in p.machines},
-    )
+    rows = sum(len(part.found.rows) for part in parts)
+    machines = {m for p in parts for m in p.machines}
     print(f"wrote {folder}: {rows:,} rows of {len(machines)} machines")
     return 0

@@ -94,7 +94,8 @@ def _check(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.check.folder import check_answers
     from quasistatic_ref.lab.vectors.check.scope import scope_read
 
-    source, only = vectors_given(options), [options.case] if options.case else options.only
+    source = vectors_given(options)
+    only = [options.case] if options.case else options.only
     report = check_answers(options.answers, source, options.layers, only=only,
                            digits=options.digits, scope=scope_read(options.scope))  # fmt: skip
     if options.json:
@@ -120,7 +121,8 @@ def _show_case(options: argparse.Namespace, source: Path) -> None:
     answers = answers_read(options.answers, layer)
     for case in inputs_read(source, layer):
         if case.id == options.case and case.id in answers.outputs:
-            record, given = expected_read(source, layer)[case.id], answers.outputs[case.id]
+            record = expected_read(source, layer)[case.id]
+            given = answers.outputs[case.id]
             one = answer_judged(layer, case, record, given, answers, options.digits)
             print(f"{case.id}: {case.provenance}: {one.verdict.verdict} {one.verdict.reason}")
             shared.print_rows(side_by_side(record["output"], one.output))

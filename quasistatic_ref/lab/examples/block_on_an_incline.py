@@ -17,7 +17,9 @@ from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
-SLOPE, MU_V, G = np.radians(25), {"rough": 0.6, "smooth": 0.3}, 9.81
+SLOPE = np.radians(25)
+MU_V = {"rough": 0.6, "smooth": 0.3}
+G = 9.81
 H, TIME = 0.01, 0.4
 """Time step and length of the run [s]."""
 PARTS, SCALE = ("contacts", "cones", "forces"), 0.02

@@ -29,7 +29,12 @@ from quasistatic_ref.simulate.law import CONVEX, COULOMB, LAWS
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 
-M, INERTIA, RADIUS, MU_V, MU_OMEGA, H = 0.3, 2e-4, 0.04, 0.5, 0.02, 0.01
+M = 0.3
+INERTIA = 2e-4
+RADIUS = 0.04
+MU_V = 0.5
+MU_OMEGA = 0.02
+H = 0.01
 WEIGHT = M * GRAVITY
 LOADS = np.linspace(0.0, 3.0, 13)
 """Over what friction bears [-]."""

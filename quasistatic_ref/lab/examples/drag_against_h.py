@@ -42,7 +42,9 @@ def drag_and_layer(h: Sequence[float] = TIME_STEPS, mu_v: float = MU_V) -> tuple
     mu_v : float
         Of block and floor [-].
     """
-    friction, shares, layers = mu_v * M * G, [], []
+    friction = mu_v * M * G
+    shares = []
+    layers = []
     for each in h:
         _, run = ran("block_push", *SETTINGS, f"h={each}", f"contacts.floor.mu_v={mu_v}")
         force = K_Q * (run["q_bar_a"][-1, 0] - run["q"][-1, 0])

@@ -74,11 +74,13 @@ def figure(
         Those of :func:`finger_and_block` [N/m], [kg], [s], [m], [m].
     """
     page, (left, right) = panels(6.3, 3.2, columns=2, within=ax)
-    gap, free = 1e3 * phi, 1e3 * target
+    gap = 1e3 * phi
+    free = 1e3 * target
     answer = 1e3 * solve_step(finger_and_block(K_q, m, h, target, phi)).delta_q
     top = 1.6 * gap
     coil = np.linspace(0.0, 1.0, 80)
-    way, wave = free * coil, 2.2 * top + 0.25 * gap * np.sin(40 * coil)
+    way = free * coil
+    wave = 2.2 * top + 0.25 * gap * np.sin(40 * coil)
     left.plot(way, wave, "k-", linewidth=scaled(0.7), gid=DRAWING, label="spring to the target")
     left.fill_between([-2 * gap, 0], 0, top, facecolor="0.75", edgecolor="0.3", label="finger")
     left.fill_between(

@@ -69,7 +69,8 @@ def curve(sides: Array, ahead: float = AHEAD) -> Array:
 
 def main() -> Numbers:
     """The slope at one place, by the derivative and by a difference, and a flat finger's."""
-    side, little = 0.004, 1e-6
+    side = 0.004
+    little = 1e-6
     _, slope, flat = after(side)
     ends = curve(np.array([side - little, side + little]))
     return {
@@ -98,7 +99,8 @@ def figure(ax: Any = None, *, ahead: float = AHEAD) -> Figure:
     _circle(left, np.zeros(2), RADIUS, "-.", "ball, and where it is pushed")
     left.set_aspect("equal")
     labelled(left, "x [mm]", "y [mm]")
-    sides, reach = np.linspace(-0.016, 0.016, 33), np.array([-0.003, 0.003])
+    sides = np.linspace(-0.016, 0.016, 33)
+    reach = np.array([-0.003, 0.003])
     ends = curve(sides, ahead)
     right.plot(1e3 * sides, 1e3 * ends, "o", color="C0", markersize=scaled(3), label="step")
     for k, side in enumerate(SIDES):

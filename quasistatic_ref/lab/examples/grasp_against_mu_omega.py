@@ -95,7 +95,8 @@ def figure(ax: Any = None, *, mu_omega: Sequence[float] = VALUES) -> Figure:
     """
     scenario, run = grasp("with torsion")
     at, turned = rotations(tuple(mu_omega))
-    used, limit = run["mu_omega"].max(), physical_limit()
+    used = run["mu_omega"].max()
+    limit = physical_limit()
     page, (axes,) = panels(4.6, 2.8, within=ax)
     axes.plot(1e3 * at, turned, marker="o", markersize=scaled(4), clip_on=False)
     for x, line, label in (

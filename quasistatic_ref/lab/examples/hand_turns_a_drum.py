@@ -17,7 +17,9 @@ from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
-R, RHO, AXLE = 0.03, 0.012, np.array([0.055, 0.0, 0.0525])
+R = 0.03
+RHO = 0.012
+AXLE = np.array([0.055, 0.0, 0.0525])
 H, TIME = 0.02, 3.0
 """Time step and length of the run [s]."""
 MIDDLE = ("palm", "_4.0", "_5.0", "_6.0", "_7.0", "drum")
@@ -33,7 +35,8 @@ def turned(h: float = H, mu_v: float = 1.5) -> tuple[Scenario, Trajectory]:
 def angles(scenario: Scenario, run: Trajectory) -> tuple[Array, Array]:
     """Of the drum, and of a drum on which the tip rolls, shapes (N,), since they touched [rad]."""
     system = scenario.system
-    tip, axle = system.link("hand/link_7.0_tip"), system.joint("roller/axle")
+    tip = system.link("hand/link_7.0_tip")
+    axle = system.joint("roller/axle")
     poses = [system.kinematics(q) for q in run["q"]]
     x, _, z = np.transpose([pose.t[tip] - AXLE for pose in poses])
     R_tip = np.array([pose.R[tip] for pose in poses])

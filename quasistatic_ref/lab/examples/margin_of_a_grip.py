@@ -24,8 +24,10 @@ CLEAR = 1.25
 def main() -> Numbers:
     """Clear margins, and those of them whose grasp went otherwise; least of the held, and so on."""
     own = [row for row in rows() if with_torsion(row)]
-    margins, kept = np.array([margin(row) for row in own]), np.array([held(row) for row in own])
-    strong, weak = margins > CLEAR, margins < 1 / CLEAR
+    margins = np.array([margin(row) for row in own])
+    kept = np.array([held(row) for row in own])
+    strong = margins > CLEAR
+    weak = margins < 1 / CLEAR
     return {
         f"grips with a margin above {CLEAR:g} [-]": float(strong.sum()),
         "of these not held [-]": float((strong & ~kept).sum()),

@@ -39,7 +39,8 @@ def rod(length: float = LENGTH, tilt: float = TILT) -> tuple[System, Array, Arra
     tuple of System and ndarray, shapes (n_q,), (3,), (3, 3)
         The system and q; centre of mass in the rod's frame [m], inertia about it [kg m^2].
     """
-    inertia, c = M * length**2 / 12 * np.array([1e-3, 1, 1]), np.array([length / 2, 0, 0])
+    inertia = M * length**2 / 12 * np.array([1e-3, 1, 1])
+    c = np.array([length / 2, 0, 0])
     system = system_of({"rod": body_text(M, inertia, com=c)})
     q = system.integrate(system.q_start, np.radians(tilt) * np.eye(6)[4])
     return system, q, c, np.diag(inertia)
@@ -97,10 +98,12 @@ def falls(length: float, tilt: float, h: float, coupled: bool, steps: int = STEP
     M_u = mass_matrix(M, c, inertia)
     if not coupled:
         M_u[:3, 3:] = M_u[3:, :3] = 0.0
-    link, ends = system.link("rod"), []
+    link = system.link("rod")
+    ends = []
     for _ in range(steps + 1):
         at = system.kinematics(q)
-        R, t = at.R[link], at.t[link]
+        R = at.R[link]
+        t = at.t[link]
         ends.append(np.array([t, t + R @ (2 * c)]))
         free = np.linalg.solve(M_u, weight(M, c, R))
         q = system.integrate(q, np.asarray(h**2 * free, dtype=np.float64))
@@ -111,7 +114,8 @@ def main() -> Numbers:
     """M_u and tau_u less those by hand; the fall of a step, and its turn without the coupling."""
     system, q, c, inertia = rod()
     R = system.kinematics(q).R[system.link("rod")]
-    M_u, tau_u = system.M_u(q), system.gravity_force(q, [0, 0, -GRAVITY])
+    M_u = system.M_u(q)
+    tau_u = system.gravity_force(q, [0, 0, -GRAVITY])
     (start, _), (end, _) = falls(LENGTH, TILT, H, coupled=True, steps=1)
     wrong = np.diff(falls(LENGTH, TILT, H, coupled=False, steps=1), axis=1)[:, 0]
     turn = np.arctan2(*wrong[0, [2, 0]]) - np.arctan2(*wrong[1, [2, 0]])
@@ -145,7 +149,8 @@ def figure(ax: Any = None, *, length: float = LENGTH, tilt: float = TILT, h: flo
     system, q, c, _ = rod(length, tilt)
     R = system.kinematics(q).R[system.link("rod")]
     ends = 1e3 * np.array([np.zeros(3), R @ (2 * c)])
-    middle, scale = ends.mean(axis=0), 1e3 * length / 4
+    middle = ends.mean(axis=0)
+    scale = 1e3 * length / 4
     left.plot(ends[:, 0], ends[:, 2], color="0.8", linestyle="-", linewidth=scaled(7), gid=DRAWING)
     for axis, pattern in ((R[:, 0], "--"), (R[:, 2], ":")):
         left.plot([0, scale * axis[0]], [0, scale * axis[2]], pattern, color="black", gid=DRAWING,

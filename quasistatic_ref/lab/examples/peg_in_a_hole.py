@@ -16,7 +16,10 @@ from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
 K = np.array([500.0, 500.0, 2000.0])
-MISS, CLEARANCE, MU_V, V = np.array([0.003, 0.002]), 0.0005, 0.2, 0.01
+MISS = np.array([0.003, 0.002])
+CLEARANCE = 0.0005
+MU_V = 0.2
+V = 0.01
 H, TIME = 0.02, 4.0
 """Time step and length of the run [s]."""
 WALLS = ("east", "west", "north", "south")

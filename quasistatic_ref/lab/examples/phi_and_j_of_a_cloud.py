@@ -70,7 +70,8 @@ def errors(turns: Array = TURNS, tilt: float = TILT) -> Array:
     system, pair, q = lying(tilt, POINTS)  # every point, always in the same order
     _, found = geometry(system, pair, q)
     order = [int(name.rsplit("/", 1)[1]) for name in found.name]
-    points, worst = cloud()[order], []
+    points = cloud()[order]
+    worst = []
     for turn in turns:
         delta_q = turn * np.eye(6)[4]
         after = system.kinematics(system.integrate(q, delta_q))
@@ -85,7 +86,8 @@ def main() -> Numbers:
     """The least phi with its formula, and the exponent of the error of its prediction."""
     system, pair, q = lying()
     _, found = geometry(system, pair, q)
-    link, k = system.link("body"), system.kinematics(q)
+    link = system.link("body")
+    k = system.kinematics(q)
     lowest = (cloud() @ k.R[link].T + k.t[link])[:, 2].min()
     return {
         "least phi [mm]": 1e3 * found.phi.min(),
@@ -110,7 +112,8 @@ def figure(ax: Any = None, *, tilt: float = TILT, k: int = K) -> Figure:
     page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
     system, pair, q = lying(tilt, k)
     points, found = geometry(system, pair, q)
-    link, at = system.link("body"), system.kinematics(q)
+    link = system.link("body")
+    at = system.kinematics(q)
     x, _, z = 1e3 * (cloud() @ at.R[link].T + at.t[link]).T
     left.vlines(x, 0, z, color="0.8", linewidth=scaled(0.6), linestyle="-", label=r"$\phi$")
     marks: dict[str, Any] = {"linestyle": "", "markersize": scaled(3)}

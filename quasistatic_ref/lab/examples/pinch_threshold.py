@@ -19,7 +19,10 @@ from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array
 
-M, MU_V, MU_OMEGA, D = 0.2, 0.5, 0.02, 0.03
+M = 0.2
+MU_V = 0.5
+MU_OMEGA = 0.02
+D = 0.03
 PRECISION = 1e-6
 STILL = 1e-12
 """Motion below this [m, rad] is none: answers are exact, or enclosed to 1e-18 of a millimetre."""
@@ -42,7 +45,8 @@ def least_squeezes(
     d: Array, m: float = M, mu_v: float = MU_V, mu_omega: float = MU_OMEGA
 ) -> dict[str, Array]:
     """Cone -> the least squeeze that holds the bar [N], at levers [m]; shapes (N,)."""
-    slide, spin = m * GRAVITY / (2 * mu_v), m * GRAVITY * d / (2 * mu_omega)
+    slide = m * GRAVITY / (2 * mu_v)
+    spin = m * GRAVITY * d / (2 * mu_omega)
     return {
         "pyramid": slide + spin,  # (R21)
         "ellipsoid": np.hypot(slide, spin),  # (R22)
@@ -79,7 +83,8 @@ def figure(
     page, (axes,) = panels(4.8, 3.4, within=ax)
     numbers = m, mu_v, mu_omega
     longest = 1.5 * mu_omega / mu_v
-    dense, d = np.linspace(0.0, longest, 400), np.linspace(0.0, longest, levers)
+    dense = np.linspace(0.0, longest, 400)
+    d = np.linspace(0.0, longest, levers)
     tried = least_squeezes(d, *numbers)
     marks: dict[str, Any] = {"color": "black", "markersize": scaled(4), "linestyle": ""}
     for name, least in least_squeezes(dense, *numbers).items():

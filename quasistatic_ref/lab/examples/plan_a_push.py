@@ -45,8 +45,10 @@ class Push(NamedTuple):
 
 def aim(q: Any, row: Any) -> Any:
     """The finger's target, (2,) [m], for a row of the plan: into the block, and to the side."""
-    c, s = q[5], q[6]
-    along, aside = DEPTH * row[0] - SIDE / 2 - RADIUS, ASIDE * np_jax.tanh(row[1])
+    c = q[5]
+    s = q[6]
+    along = DEPTH * row[0] - SIDE / 2 - RADIUS
+    aside = ASIDE * np_jax.tanh(row[1])
     return q[2:4] + np_jax.array([c * along - s * aside, s * along + c * aside]) - OFFSET
 
 
@@ -59,7 +61,9 @@ def miss(q: Any) -> Any:
 def planned(start: tuple[float, float, float], mu_omega: float) -> Push:
     """A push from `start`, a pose of the block [m, rad], on a support of some mu_omega [m]."""
     scene = pushed_block(h=H, cone="pyramid", mu_omega=mu_omega)
-    run, step, certified = [scene.placed(*start, GAP)], smoothed_jax(scene.simulator), 0
+    run = [scene.placed(*start, GAP)]
+    step = smoothed_jax(scene.simulator)
+    certified = 0
 
     def loss(plan: Any, kappa: float) -> Any:
         start_q = np_jax.array(run[0])
@@ -67,7 +71,8 @@ def planned(start: tuple[float, float, float], mu_omega: float) -> Push:
         return (miss(q) ** 2).sum() / 2
 
     with jax.enable_x64(True):
-        gradient, misses = jax.jit(jax.value_and_grad(loss)), []
+        gradient = jax.jit(jax.value_and_grad(loss))
+        misses = []
         plan = np.tile([1.0, 0.0], (STEPS, 1))
         for kappa in KAPPAS:
             value, slope = map(np.asarray, gradient(plan, kappa))
@@ -111,6 +116,7 @@ def figure(ax: Any = None, *, start: tuple[float, float, float] = STARTS[0]) -> 
 
 
 def _block(axes: Any, q: Array, style: str, color: str, label: str | None) -> None:
-    (c, s), unit = q[5:7], np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])
+    c, s = q[5:7]
+    unit = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])
     corners = q[2:4] + SIDE / 2 * unit @ [[c, s], [-s, c]]
     axes.plot(*(1e3 * corners).T, style, color=color, label=label)

@@ -18,7 +18,10 @@ from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
-M, MU_V, K_Q, G = 0.4, 0.4, 7000.0, 9.81
+M = 0.4
+MU_V = 0.4
+K_Q = 7000.0
+G = 9.81
 H, TIME = 0.02, 1.2
 """Time step and length of the run [s]."""
 

@@ -18,7 +18,9 @@ from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.solve.solve import solve_step
 
-MU_V, MU_OMEGA, H = 0.5, 0.02, 0.01
+MU_V = 0.5
+MU_OMEGA = 0.02
+H = 0.01
 STILL = 1e-12
 """A motion below this [m, rad] is none: an enclosure of the ellipsoid leaves 1e-18."""
 PRECISION = 1e-6

@@ -21,7 +21,11 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
-M, RADIUS, MU_V, MU_OMEGA, H = 0.3, 0.05, 0.5, 0.01, 0.01
+M = 0.3
+RADIUS = 0.05
+MU_V = 0.5
+MU_OMEGA = 0.01
+H = 0.01
 ROWS = ("+d1", "+d2", "-d1", "-d2", "+spin", "-spin")
 CLOSED = 1e-12
 """Opening up to which a row is closed [m]: rounding of slips of 1e-6 m."""
@@ -41,7 +45,8 @@ def loaded(
     mu_v, mu_omega, h : float
         [-], [m], [s].
     """
-    force, torque = push * mu_v * M * GRAVITY, turn * mu_omega * M * GRAVITY
+    force = push * mu_v * M * GRAVITY
+    torque = turn * mu_omega * M * GRAVITY
     wrench = (force, 0, -M * GRAVITY, 0, -RADIUS * force, torque)
     inertia = 0.4 * M * RADIUS**2
     return sphere_step(M, inertia, RADIUS, wrench, mu_v=mu_v, mu_omega=mu_omega, phi=0.0, h=h)

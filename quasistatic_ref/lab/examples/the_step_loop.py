@@ -42,7 +42,8 @@ def followed(K_q: float, m: float, h: float, v: float) -> tuple[Array, Array, Ar
     """
     t = np.linspace(h, TIME, round(TIME / h))
     target = v * np.minimum(t, MOVES)
-    q, N = [np.array([0.0, GAP])], []
+    q = [np.array([0.0, GAP])]
+    N = []
     for q_bar in target:
         finger, block = q[-1]
         answer = solve_step(finger_and_block(K_q, m, h, q_bar - finger, block - finger))

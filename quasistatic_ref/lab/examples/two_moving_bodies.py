@@ -96,7 +96,8 @@ def as_one(at: Kinematics, v: Array, omega: Array) -> Array:
 def main() -> Numbers:
     """J less J by hand; a motion as one, along n and along the surface; each with its value."""
     at, points, found = pair_at()
-    J, hand = found.J[0], np.hstack([*by_hand(at, points)]) * np.repeat([-1, 1], 6)
+    J = found.J[0]
+    hand = np.hstack([*by_hand(at, points)]) * np.repeat([-1, 1], 6)
     omega = np.array([0.1, 0.2, -0.3])
     moved = J @ as_one(at, np.array([0.02, 0.01, -0.03]), omega)
     apart = points.phi[0] * np.cross(omega, points.n[0])
@@ -132,9 +133,11 @@ def figure(ax: Any = None, *, phi: float = PHI, turn: float = TURN) -> Figure:
     box = at.t[2] + corners @ at.R[2].T
     for outline, shade in ((ball, "0.85"), (box, "0.93")):
         left.fill(*1e3 * outline[:, [0, 2]].T, facecolor=shade, edgecolor="0.3", linestyle="-")
-    alpha, beta = 1e3 * points.alpha[0, [0, 2]], 1e3 * points.beta[0, [0, 2]]
+    alpha = 1e3 * points.alpha[0, [0, 2]]
+    beta = 1e3 * points.beta[0, [0, 2]]
     J_alpha, J_beta = by_hand(at, points)
-    of_alpha, of_beta = 1e3 * J_alpha @ DELTA_Q[:6], 1e3 * J_beta @ DELTA_Q[6:]
+    of_alpha = 1e3 * J_alpha @ DELTA_Q[:6]
+    of_beta = 1e3 * J_beta @ DELTA_Q[6:]
     for start, motion, name, colour, pattern in (
         (alpha, of_alpha, "of alpha", "#0072B2", "--"),
         (beta, of_beta, "of beta", "black", "-"),

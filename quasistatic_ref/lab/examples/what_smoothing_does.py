@@ -20,7 +20,9 @@ from quasistatic_ref.optional.show.figures.style import scaled
 from quasistatic_ref.shapes.placed_shape import Sphere
 from quasistatic_ref.step.data import Array
 
-G, NONE, UP = 9.81, np.zeros(0), np.eye(6)[2]
+G = 9.81
+NONE = np.zeros(0)
+UP = np.eye(6)[2]
 LEAST, MOST = 1e-12, 1e-5
 """Weights of the barriers of the right panel [N m s]."""
 DRAWN = (1e-6, 1e-7, 1e-8)

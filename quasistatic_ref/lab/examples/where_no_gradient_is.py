@@ -20,8 +20,11 @@ from quasistatic_ref.step.data import Array
 
 G = 9.81
 NONE = np.zeros(0)
-UP, ACROSS, TURN = np.eye(6)[2], np.eye(6)[0], np.eye(6)[4]
-POINT, TWO = points((0.0, 0.0, 0.0)), points((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0))
+UP = np.eye(6)[2]
+ACROSS = np.eye(6)[0]
+TURN = np.eye(6)[4]
+POINT = points((0.0, 0.0, 0.0))
+TWO = points((-0.05, 0.0, 0.0), (0.05, 0.0, 0.0))
 LIMIT = MU_V * MASS * G
 """What friction bears [N]."""
 
@@ -102,7 +105,8 @@ def figure(ax: Any = None, *, reach: float = 1.0) -> Figure:
         How far to either side, relative to what the example shows [-].
     """
     page, grid = panels(6.3, 2.6, columns=3, within=ax)
-    moves, forces = reach * np.linspace(-5e-4, 5e-4, 21), reach * np.linspace(-0.2, 0.2, 21)
+    moves = reach * np.linspace(-5e-4, 5e-4, 21)
+    forces = reach * np.linspace(-0.2, 0.2, 21)
     ends, slopes = falling(moves)
     _sides(grid[0], 1e3 * moves, 1e3 * (ends - RADIUS), slopes)
     labelled(grid[0], "start above the kink [mm]", "height after [mm]", "just touches")

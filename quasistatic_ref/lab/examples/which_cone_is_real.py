@@ -24,7 +24,8 @@ from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.step.data import Array
 
-PAIR, CONES = "abs/rect1", ("ellipsoid", "pyramid")
+PAIR = "abs/rect1"
+CONES = ("ellipsoid", "pyramid")
 EVERY, SHOWN, ADVANCE = 26, 6, 2e-3
 """Of the pushes of the pair; of these, how many are drawn; the finger's way in a step [m]."""
 
@@ -79,7 +80,8 @@ def figure(ax: Any = None, *, pair: str = PAIR, cones: Sequence[str] = CONES) ->
     moved = pose_errors(pushes.before, pushes.after)[:, 0]
     chosen = np.sort(np.argsort(-moved, kind="stable")[:SHOWN])
     for k, one in zip(chosen, axes, strict=False):
-        origin, drawn = pushes.before[k], own.outline.drawn
+        origin = pushes.before[k]
+        drawn = own.outline.drawn
         one.plot(*drawn(origin, origin), color="0.6", linewidth=0.8, linestyle=":", label="before")
         one.fill(*drawn(pushes.after[k], origin), color="0.85", label="after, measured")
         for cone, style in zip(cones, ("-", "--"), strict=False):

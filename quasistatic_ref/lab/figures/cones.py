@@ -36,7 +36,8 @@ def limit_surfaces(cones: Sequence[str] = SHOWN, within: Any = None) -> Figure:
             ball = np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)
             axes.plot_surface(*ball, color=colour, linewidth=scaled(0.15), **SURFACE)
         else:
-            sides, style = faces(cone_matrix(name)[:, 1:]), SURFACE | {"linewidth": scaled(0.6)}
+            sides = faces(cone_matrix(name)[:, 1:])
+            style = SURFACE | {"linewidth": scaled(0.6)}
             axes.add_collection3d(Poly3DCollection(sides, facecolor=colour, **style))
         for axis in "xyz":
             axes.set(**{f"{axis}lim": (-1.3, 1.3), f"{axis}ticks": (-1, 0, 1)})

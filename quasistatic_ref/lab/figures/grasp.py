@@ -49,7 +49,8 @@ def grasp_strip(
     within : Axes or SubFigure, optional
         Where to draw; a figure of its own by default.
     """
-    rows, columns = len(runs), len(instants) + 1
+    rows = len(runs)
+    columns = len(instants) + 1
     page, grid = panels(
         6.3, 1.7 * rows + 0.5, columns, rows=rows, within=within, narrow=0,
         gridspec_kw={"wspace": 0.0, "hspace": 0.0, "width_ratios": [1] * len(instants) + [0.8]},

@@ -37,7 +37,8 @@ def contact_geometry(picture: Picture, within: Any = None) -> Figure:
     figure, (axes,) = panels(4.6, 3.2, within=within)
     for body in ("capsule", "box"):
         axes.fill(1e3 * data[body][:, 0], 1e3 * data[body][:, 2], facecolor="0.88", edgecolor="0.3")
-    alpha, beta = 1e3 * data["alpha"][[0, 2]], 1e3 * data["beta"][[0, 2]]
+    alpha = 1e3 * data["alpha"][[0, 2]]
+    beta = 1e3 * data["beta"][[0, 2]]
     axes.plot(*np.stack([alpha, beta]).T, color="black", linestyle=":", linewidth=1)
     for name, point, mark, aside in ((r"$\alpha$", alpha, "o", -14), (r"$\beta$", beta, "s", 4)):
         axes.plot(*point, marker=mark, color="black", linestyle="", markersize=scaled(4))
@@ -200,7 +201,8 @@ def peg_wedging(picture: Picture, within: Any = None) -> Figure:
     axes.plot(line, line, label=r"$l = \mu d$, (R17)", **THIN)
     for width, mark in zip(np.unique(picture["width"]), MARKS, strict=False):
         at = picture["width"] == width
-        ratio, label = picture["found"][at] / width, f"d = {1e3 * width:g} mm"
+        ratio = picture["found"][at] / width
+        label = f"d = {1e3 * width:g} mm"
         axes.plot(picture["mu"][at], ratio, linestyle="", **_open(mark), label=label)
     axes.annotate("slides in", (0.3, 0.5))
     axes.annotate("wedged", (0.6, 0.15))

@@ -39,7 +39,8 @@ def edges(shape):
     if shape["kind"] != "box":
         return np.zeros((0, 2, 3)), np.zeros((0, 2, 3))
     ends = np.array(corners(shape))
-    found, sides = [], []
+    found = []
+    sides = []
     for axis in range(3):
         for i in range(8):
             if not i >> axis & 1:
@@ -55,7 +56,8 @@ def touching(shape, pose, x, n):
     if not len(ends):
         return []
     size = np.array(shape["size"])
-    x, n = (x - pose[1]) @ pose[0], n @ pose[0]
+    x = (x - pose[1]) @ pose[0]
+    n = n @ pose[0]
     on = sides @ x >= np.abs(sides) @ size / 2 - OVER * max(size)
     facing = on & (sides @ n >= np.cos(0.25))
     along = ends[:, 1] - ends[:, 0]
@@ -66,19 +68,24 @@ def touching(shape, pose, x, n):
 def crossings(alpha, pose_alpha, beta, pose_beta, nearest):
     """Edges of two boxes that cross along n, by numbers, with phi, alpha, beta and n there."""
     _, a, b, n = nearest
-    (ends_a, _), (ends_b, _) = edges(alpha), edges(beta)
+    ends_a, _ = edges(alpha)
+    ends_b, _ = edges(beta)
     found = []
     for i in touching(alpha, pose_alpha, a, n):
         for j in touching(beta, pose_beta, b, -n):
             tail, head = transformed(pose_alpha, ends_a[i])
             start, end = transformed(pose_beta, ends_b[j])
-            u, v, w = head - tail, end - start, start - tail
+            u = head - tail
+            v = end - start
+            w = start - tail
             steep = np.cross(u, v) @ n
             if abs(steep) <= SKEW * np.linalg.norm(u) * np.linalg.norm(v):
                 continue
-            s, t = np.cross(w, v) @ n / steep, np.cross(w, u) @ n / steep
+            s = np.cross(w, v) @ n / steep
+            t = np.cross(w, u) @ n / steep
             if 0 <= s <= 1 and 0 <= t <= 1:
-                one, other = tail + s * u, start + t * v
+                one = tail + s * u
+                other = start + t * v
                 found.append((i, j, (other - one) @ n, one, other, n))
     return found
 
@@ -97,7 +104,9 @@ def candidates(alpha, pose_alpha, beta, pose_beta, k):
     found = [closest_points(*part) for part in parts]
     phi = np.concatenate([np.atleast_1d(one[0]) for one in found])
     a, b, n = (np.concatenate([np.reshape(one[i], (-1, 3)) for one in found]) for i in (1, 2, 3))
-    late, index, last = np.zeros(len(phi), dtype=bool), np.arange(len(phi)), len(phi) - 1
+    late = np.zeros(len(phi), dtype=bool)
+    index = np.arange(len(phi))
+    last = len(phi) - 1
     if k > 1 and not clouds:
         crossed = crossings(
             alpha, pose_alpha, beta, pose_beta, (phi[last], a[last], b[last], n[last])
@@ -105,8 +114,10 @@ def candidates(alpha, pose_alpha, beta, pose_beta, k):
         if crossed:
             *edge, own, on_a, on_b, normal = zip(*crossed, strict=True)
             index = np.insert(index, last, crossing_index(last, k, *map(np.array, edge)))
-            phi, a = np.insert(phi, last, own), np.insert(a, last, on_a, axis=0)
-            b, n = np.insert(b, last, on_b, axis=0), np.insert(n, last, normal, axis=0)
+            phi = np.insert(phi, last, own)
+            a = np.insert(a, last, on_a, axis=0)
+            b = np.insert(b, last, on_b, axis=0)
+            n = np.insert(n, last, normal, axis=0)
         late, _ = lateness(phi, a, n, k, REPEATED, last)
     return phi, a, b, n, index, late
 

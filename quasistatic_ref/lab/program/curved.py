@@ -10,17 +10,21 @@ def point_on(shape, p):
     kind = shape["kind"]
     if kind == "ellipsoid":
         return point_on_ellipsoid(np.array(shape["half_axes"]), p)
-    r, z = np.hypot(p[0], p[1]), p[2]
+    r = np.hypot(p[0], p[1])
+    z = p[2]
     outward = np.array([p[0] / r, p[1] / r, 0]) if r > 0 else AXES[0]
-    R, half = shape["radius"], shape["length"] / 2
+    R = shape["radius"]
+    half = shape["length"] / 2
     if kind == "cylinder":
-        excess, up = np.array([r - R, abs(z) - half]), -1.0 if z < 0 else 1.0
+        excess = np.array([r - R, abs(z) - half])
+        up = -1.0 if z < 0 else 1.0
         if excess.max() > 0:
             beyond = np.maximum(excess, 0)
             phi = np.hypot(*beyond)
             n = beyond / phi
         else:
-            phi, n = excess.max(), AXES[int(excess[1] > excess[0]), :2]
+            phi = excess.max()
+            n = AXES[int(excess[1] > excess[0]), :2]
         return phi, n[0] * outward + n[1] * up * AXES[2]
     slant = np.array([2 * half, R]) / np.hypot(2 * half, R)  # normal of the side, in (r, z)
     side = slant @ [r, z - half]
@@ -28,7 +32,8 @@ def point_on(shape, p):
     if inside <= 0:
         n = slant if side >= -half - z else np.array([0, -1.0])
         return inside, n[0] * outward + n[1] * AXES[2]
-    at, rim = np.array([r, z]), np.array([R, -half])
+    at = np.array([r, z])
+    rim = np.array([R, -half])
     feet = []
     for end in (np.array([0, half]), np.array([0, -half])):
         edge = rim - end
@@ -41,8 +46,10 @@ def point_on(shape, p):
 
 def point_on_ellipsoid(a, p):
     """The root s of sum (a_i p_i / (a_i^2 - a_min^2 + s))^2 = 1, s >= 0, by bisection."""
-    above, least = a * a - a.min() ** 2, int(np.argmin(a))
-    low, high = 0.0, a.max() * np.linalg.norm(p) + a.min() ** 2
+    above = a * a - a.min() ** 2
+    least = int(np.argmin(a))
+    low = 0.0
+    high = a.max() * np.linalg.norm(p) + a.min() ** 2
     for _ in range(1100):  # float64 may have to be halved that often to reach 0
         s = (low + high) / 2
         if not low < s < high:

@@ -24,7 +24,8 @@ def held(case):
 def derivative(case):
     """Layer 9: the derivative of the next configuration by q alone."""
     case = held(case)
-    mechanism, q = case["mechanism"], np.array(case["q"])
+    mechanism = case["mechanism"]
+    q = np.array(case["q"])
     before = kinematics(mechanism, q)
     contacts = contacts_of(case, before)
     start = step_at(case, before, contacts)

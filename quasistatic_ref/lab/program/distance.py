@@ -40,16 +40,20 @@ def shortest(P):
     """Weights of the convex combination of points of least length (Wolfe 1976)."""
     S = [int(np.argmin(np.einsum("ij,ij->i", P, P)))]
     w = np.ones(1)
-    size, before, best = max(np.abs(P).max() ** 2, 1e-300), np.inf, (S, w)
+    size = max(np.abs(P).max() ** 2, 1e-300)
+    before = np.inf
+    best = (S, w)
     while True:
         x = w @ P[S]
         if x @ x >= before:  # it would shrink, were it not for rounding
             break
-        before, best = x @ x, (S, w)
+        before = x @ x
+        best = (S, w)
         j = int(np.argmin(P @ x))
         if x @ x - P[j] @ x <= 1e-16 * size or j in S:
             break
-        S, w = [*S, j], np.append(w, 0.0)
+        S = [*S, j]
+        w = np.append(w, 0.0)
         while True:
             v = affine(P[S])
             if np.all(v > 0):
@@ -60,7 +64,8 @@ def shortest(P):
             w = w + t * (v - w)
             keep = w > 1e-15
             keep[int(np.argmin(np.where(low, w, np.inf)))] = False
-            S, w = [s for s, k in zip(S, keep, strict=True) if k], w[keep] / w[keep].sum()
+            S = [s for s, k in zip(S, keep, strict=True) if k]
+            w = w[keep] / w[keep].sum()
     weights = np.zeros(len(P))
     weights[best[0]] = best[1]
     return weights
@@ -79,7 +84,8 @@ def core_pair(A, B):
     P = (B[None] - A[:, None]).reshape(-1, 3)
     size = np.abs(P).max()
     weights = shortest(P).reshape(len(A), len(B))
-    alpha, beta = weights.sum(axis=1) @ A, weights.sum(axis=0) @ B
+    alpha = weights.sum(axis=1) @ A
+    beta = weights.sum(axis=0) @ B
     d = np.linalg.norm(beta - alpha)
     if d > 0.1 * size and P.shape[0] > 4:
         return d, alpha, beta, (beta - alpha) / d
@@ -89,7 +95,8 @@ def core_pair(A, B):
     best = int(np.argmax(np.where(gap >= gap.max() - 4e-15 * size, sine, -1.0)))
     if d > 1e-13 * size and gap[best] < d - 1e-14 * size:
         return d, alpha, beta, (beta - alpha) / d
-    n, phi = N[best], gap[best]
+    n = N[best]
+    phi = gap[best]
     front = A[A @ n >= (A @ n).max() - 1e-12 * size]
     back = B[B @ n <= (B @ n).min() + 1e-12 * size]
     Q = (back[None] - front[:, None]).reshape(-1, 3) - phi * n
@@ -120,7 +127,8 @@ def normals(A, B):
     real = sine > 1e-9
     if not real.any():
         return AXES, np.ones(3)
-    N, sine = N[real] / length[real, None], sine[real]
+    N = N[real] / length[real, None]
+    sine = sine[real]
     return np.concatenate([N, -N]), np.concatenate([sine, sine])
 
 
@@ -207,10 +215,13 @@ def closest(alpha, pose_alpha, beta, pose_beta):
     b = core(beta, (np.eye(3), np.zeros(3)))
     if b is not None:
         phi, x, y, n = core_pair(a, b[0])
-        phi, y = phi - b[1], y - b[1] * n
+        phi = phi - b[1]
+        y = y - b[1] * n
     elif len(a) == 1:
         phi, n = point_on(beta, a[0])
-        x, y, n = a[0], a[0] - phi * n, -n
+        x = a[0]
+        y = a[0] - phi * n
+        n = -n
     else:
         return by_projections(alpha, pose_alpha, beta, pose_beta)
     return phi - r, R @ (x + r * n) + t, R @ y + t, R @ n
@@ -286,6 +297,7 @@ def closest_points(alpha, pose_alpha, beta, pose_beta):
 
 def distance(case):
     """Layer 1."""
-    pose_alpha, pose_beta = frame(case["pose_alpha"]), frame(case["pose_beta"])
+    pose_alpha = frame(case["pose_alpha"])
+    pose_beta = frame(case["pose_beta"])
     phi, alpha, beta, n = closest_points(case["alpha"], pose_alpha, case["beta"], pose_beta)
     return {"phi": phi, "alpha": alpha, "beta": beta, "n": n}

@@ -15,7 +15,8 @@ def compliant_program(H, g, A, b, tables, h):
     Its unknowns are delta_q and then s, which costs h |s|^2 / (2 c). The t of a contact's rows
     are in its table.
     """
-    n, lengths = len(g), 4 * len(tables)
+    n = len(g)
+    lengths = 4 * len(tables)
     C = np.zeros((len(b), lengths))
     row = 0
     for j, T in enumerate(tables):
@@ -35,7 +36,8 @@ def forces_of(s, c, contacts):
     """f_d1, f_d2, f_n, tau_n of each contact, of the lengths s and the compliance c."""
     wrenches = []
     for contact, (gap, slip_1, slip_2, spin) in zip(contacts, s.reshape(-1, 4), strict=True):
-        mu_v, mu_omega = contact["mu_v"], contact["mu_omega"]
+        mu_v = contact["mu_v"]
+        mu_omega = contact["mu_omega"]
         wrenches.append([mu_v * slip_1 / c, mu_v * slip_2 / c, gap / c, mu_omega * spin / c])
     return wrenches
 

@@ -46,7 +46,8 @@ def difference(body, target, q):
         V = AXES + b * W + c * W @ W
         return np.append(solved(V, rotation(q[3:]).T @ (target[:3] - q[:3])), w)
     if kind in ("planar", "continuous"):
-        (c, s), (c1, s1) = q[-2:], target[-2:]
+        c, s = q[-2:]
+        c1, s1 = target[-2:]
         w = angle_of(c * s1 - s * c1, c * c1 + s * s1)
         if kind == "continuous":
             return np.array([w])
@@ -66,13 +67,15 @@ def solved(V, x):
 
 def integrate(case):
     """Layer 7."""
-    q, delta_q = np.array(case["q"]), np.array(case["delta_q"])
+    q = np.array(case["q"])
+    delta_q = np.array(case["delta_q"])
     return {"q": joined(case["mechanism"], lambda body, i, k: moved(body, q[i], delta_q[k]))}
 
 
 def way(mechanism, q, target):
     """The delta_q with q (+) delta_q = target: of as many joints as the target has entries of."""
-    q, target = np.array(q), np.array(target)
+    q = np.array(q)
+    target = np.array(target)
     return joined(mechanism, lambda body, i, k: difference(body, target[i], q[i]), len(target))
 
 

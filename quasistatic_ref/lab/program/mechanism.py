@@ -34,13 +34,17 @@ def joint_pose(body, q):
 
 def slices(mechanism):
     """{body: (slice of q, slice of delta_q)}, n_a, n_v: actuated first; none of a mimic."""
-    found, i, k, n_a = {}, 0, 0, 0
+    found = {}
+    i = 0
+    k = 0
+    n_a = 0
     for actuated in (True, False):
         for body in mechanism["bodies"]:
             if bool(body.get("actuated")) == actuated and "mimic" not in body:
                 size_q, size_v = ENTRIES[body["joint"]]
                 found[body["name"]] = slice(i, i + size_q), slice(k, k + size_v)
-                i, k = i + size_q, k + size_v
+                i = i + size_q
+                k = k + size_v
         n_a = k if actuated else n_a
     return found, n_a, k
 
@@ -52,12 +56,15 @@ def kinematics(mechanism, q):
     for body in mechanism["bodies"]:
         R0, t0, J0 = found[body["parent"]]
         R_placed, t_placed = frame(body["placement"])
-        Rp, tp = R0 @ R_placed, R0 @ t_placed + t0
+        Rp = R0 @ R_placed
+        tp = R0 @ t_placed + t0
         mimic = body.get("mimic", {"of": body["name"], "multiplier": 1, "offset": 0})
         entries, columns = at[mimic["of"]]
-        pace, position = mimic["multiplier"], np.array(q[entries])
+        pace = mimic["multiplier"]
+        position = np.array(q[entries])
         R_q, t_q = joint_pose(body, pace * position + mimic["offset"])
-        R, t = Rp @ R_q, Rp @ t_q + tp
+        R = Rp @ R_q
+        t = Rp @ t_q + tp
         J = np.vstack([J0[:3] - skew(t - t0) @ J0[3:], J0[3:]])
         own = np.zeros((6, columns.stop - columns.start), dtype=R.dtype)
         if body["joint"] == "floating":

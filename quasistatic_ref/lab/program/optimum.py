@@ -18,13 +18,17 @@ def least_squares(E, f, limit=1e-15):
 
     Columns that depend on others get 0.
     """
-    R, r, order, rank = E.copy(), f.copy(), np.arange(E.shape[1]), 0
+    R = E.copy()
+    r = f.copy()
+    order = np.arange(E.shape[1])
+    rank = 0
     for k in range(min(E.shape)):
         size = np.linalg.norm(R[k:, k:], axis=0)
         best = k + int(np.argmax(size))
         if size.max() <= limit * abs(R[0, 0]) * (k > 0):
             break
-        R[:, [k, best]], order[[k, best]] = R[:, [best, k]], order[[best, k]]
+        R[:, [k, best]] = R[:, [best, k]]
+        order[[k, best]] = order[[best, k]]
         v = R[k:, k].copy()
         v[0] += np.copysign(np.linalg.norm(v), v[0])
         v *= np.sqrt(2 / (v @ v))
@@ -38,7 +42,9 @@ def least_squares(E, f, limit=1e-15):
 
 def nonnegative_least_squares(E, f):
     """The y >= 0 of least |E y - f|, and its passive set."""
-    y, passive, limit = np.zeros(E.shape[1]), [], 20 * E.shape[1] + 100
+    y = np.zeros(E.shape[1])
+    passive = []
+    limit = 20 * E.shape[1] + 100
     for _ in range(limit):
         gradient = E.T @ (f - E @ y)
         gradient[passive] = -np.inf
@@ -79,13 +85,15 @@ def equality_answer(H, g, A, b):
     x, lam = solved(g, b)
     for _ in range(2):
         dx, dlam = solved(g + A.T @ lam - H @ x, b - A @ x)
-        x, lam = x + dx, lam + dlam
+        x = x + dx
+        lam = lam + dlam
     return x, lam
 
 
 def optimum(H, g, A, b):
     """(x, lam), or (None, y) with the Farkas vector y of a problem without solution."""
-    m, L = len(b), np.linalg.cholesky(H)
+    m = len(b)
+    L = np.linalg.cholesky(H)
     if not m:
         return equality_answer(H, g, A, b)
     M = np.linalg.solve(L, A.T).T
@@ -121,7 +129,8 @@ def qp_answer(H, g, A, b):
 
 def conic_answer(H, g, blocks):
     """The output of a case with cones: tangent planes until they hold, then Newton's method."""
-    n, F = len(g), np.array([F for F, _ in blocks]).reshape(-1, 4, len(g))
+    n = len(g)
+    F = np.array([F for F, _ in blocks]).reshape(-1, 4, len(g))
     f = np.array([f for _, f in blocks]).reshape(-1, 4)
     start = np.array([[1, s * a, s * b, s * c] for s in (1, -1) for a, b, c in np.eye(3)])
     cuts = [(j, w) for j in range(len(f)) for w in start]
@@ -152,11 +161,13 @@ def newton(H, g, F, f, x, impulse):
     moves = np.abs(F @ np.linalg.solve(H, g) + f).max(initial=0.0)
     near = np.where(inner > 1e-6 * impulse[:, 0], 1e-6, 1e-9) * moves
     at_tip = np.abs(F @ x + f).max(axis=1, initial=0.0) <= near
-    tips, sides = np.flatnonzero(bears & at_tip), np.flatnonzero(bears & ~at_tip)
+    tips = np.flatnonzero(bears & at_tip)
+    sides = np.flatnonzero(bears & ~at_tip)
     mu = impulse[sides, 0].copy()
     for _ in range(12):
         z = F @ x + f
-        W, C = H.copy(), [np.zeros((0, len(g)))]
+        W = H.copy()
+        C = [np.zeros((0, len(g)))]
         for j, value in zip(sides, mu, strict=True):
             r = np.linalg.norm(z[j, 1:])
             e = z[j, 1:] / r
@@ -168,7 +179,8 @@ def newton(H, g, F, f, x, impulse):
         c = np.concatenate([z[sides, 0] - np.linalg.norm(z[sides, 1:], axis=1), z[tips].ravel()])
         K = np.block([[W, -C.T], [C, np.zeros((len(C), len(C)))]])
         answer = np.linalg.lstsq(K, np.concatenate([g - H @ x, -c]), rcond=1e-13)[0]
-        x, multipliers = x + answer[: len(g)], answer[len(g) :]
+        x = x + answer[: len(g)]
+        multipliers = answer[len(g) :]
         mu = multipliers[: len(sides)]
     new = np.zeros_like(impulse)
     z = F @ x + f
@@ -180,7 +192,10 @@ def newton(H, g, F, f, x, impulse):
 
 def is_optimum(case, x, lam):
     """Whether exact numbers satisfy H x - g = A'lam, A x >= b, lam >= 0 and lam (A x - b) = 0."""
-    H, g, x, lam = np.array(case["H"]), np.array(case["g"]), np.array(x), np.array(lam)
+    H = np.array(case["H"])
+    g = np.array(case["g"])
+    x = np.array(x)
+    lam = np.array(lam)
     A = np.array(case["A"]).reshape(-1, len(g))
     slack = A @ x - np.array(case["b"])
     balance = H @ x - g - (A.T @ lam if len(lam) else 0)
@@ -189,7 +204,8 @@ def is_optimum(case, x, lam):
 
 def qp(case):
     """Layer 5."""
-    H, g = np.array(case["H"]), np.array(case["g"])
+    H = np.array(case["H"])
+    g = np.array(case["g"])
     if "second_order" in case:
         blocks = [(np.array(c["F"]), np.array(c["f"])) for c in case["second_order"]]
         return conic_answer(H, g, blocks)

@@ -31,7 +31,8 @@ def contact_rows(c, cone):
 
 def rows(case):
     """Layer 4."""
-    A, b = [], []
+    A = []
+    b = []
     for c in case["contacts"]:
         found = contact_rows(c, case["cone"])
         A.extend(found)

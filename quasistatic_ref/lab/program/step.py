@@ -26,7 +26,8 @@ def contacts_of(case, at):
     """The contacts, pair by pair, without J."""
     found = []
     for pair in case["pairs"]:
-        alpha, beta = case["shapes"][pair["alpha"]], case["shapes"][pair["beta"]]
+        alpha = case["shapes"][pair["alpha"]]
+        beta = case["shapes"][pair["beta"]]
         k = pair["k"]
         phi, a, b, n, index, late = candidates(
             alpha["shape"], placed(alpha, at), beta["shape"], placed(beta, at), k
@@ -44,7 +45,8 @@ def contacts_of(case, at):
 def loads(case, at):
     """M, and tau of gravity (un-actuated only) and of the wrenches."""
     _, n_a, n_v = slices(case["mechanism"])
-    M, weight = np.zeros((n_v, n_v), dtype=int), np.zeros(n_v, dtype=int)
+    M = np.zeros((n_v, n_v), dtype=int)
+    weight = np.zeros(n_v, dtype=int)
     centre = {}
     for body in case["mechanism"]["bodies"]:
         R, t, _ = at[body["name"]]
@@ -64,7 +66,8 @@ def loads(case, at):
 
 def objective(case, M, tau):
     """H and g; a case may have a further generalised force, ``tau``."""
-    h, n_a = case["h"], len(case["K_q"])
+    h = case["h"]
+    n_a = len(case["K_q"])
     K_q = np.array(case["K_q"]).reshape(n_a, n_a)
     delta_q_bar_a = way(case["mechanism"], case["q"], case["q_bar_a"])
     tau_k = K_q @ delta_q_bar_a
@@ -86,19 +89,24 @@ def step(case):
 
 def step_at(case, at, contacts):
     """The step of these bodies with these contacts."""
-    mechanism, h, cone = case["mechanism"], case["h"], case["cone"]
+    mechanism = case["mechanism"]
+    h = case["h"]
+    cone = case["cone"]
     blocks = jacobian({"mechanism": mechanism, "q": case["q"], "contacts": contacts})["J"]
     for contact, J in zip(contacts, blocks, strict=True):
         contact["J"] = J
     H, g = objective(case, *loads(case, at))
     A_b = rows({"cone": cone, "contacts": contacts})
-    A, b = np.array(A_b["A"]).reshape(-1, len(g)), np.array(A_b["b"])
+    A = np.array(A_b["A"]).reshape(-1, len(g))
+    b = np.array(A_b["b"])
     shown = [{key: contact[key] for key in SHOWN} for contact in contacts]
     output = {"contacts": shown, "H": H, "g": g, "A": A, "b": b}
     found = qp_answer(H, g, A, b)
     if "farkas" in found:
         return {**output, **found}
-    delta_q, lam, A_lam = found["delta_q"], found["lam"], found["A_lam"]
+    delta_q = found["delta_q"]
+    lam = found["lam"]
+    A_lam = found["A_lam"]
     counts = [len(cone_table(cone, c["rows"], c["mu_v"])) for c in contacts]
     shares = np.split(lam, np.cumsum(counts)[:-1]) if counts else []
     loaded = [{**contact, "lam": part} for contact, part in zip(contacts, shares, strict=True)]

@@ -24,12 +24,14 @@ def support_points(outline: Outline, count: int) -> tuple[tuple[float, float], .
     count : int
         How many.
     """
-    low, high = outline.vertices.min(0), outline.vertices.max(0)
+    low = outline.vertices.min(0)
+    high = outline.vertices.max(0)
     ticks = (np.arange(FINE) + 0.5) / FINE
     raster = np.array([[x, y] for x in ticks for y in ticks]) * (high - low) + low
     raster = np.array([p for p in raster if outline.closest(p)[0] < 0]) - outline.centre
     k = np.arange(count)
-    radius, angle = np.sqrt((k + 0.5) / count), k * np.pi * (3 - np.sqrt(5))
+    radius = np.sqrt((k + 0.5) / count)
+    angle = k * np.pi * (3 - np.sqrt(5))
     spiral = np.column_stack([np.cos(angle), np.sin(angle)]) * radius[:, None]
     points: Array = spiral * raster.std(0) * 1.5
     for _ in range(ROUNDS):

@@ -132,14 +132,16 @@ def cosines(loads: Loads, c: float, rho: float) -> Array:
     c, rho : float
         mu_omega / mu_v, and the length by which turns are scaled [m].
     """
-    predicted, measured = loads.wrench * [1, 1, rho / c**2], loads.twist * [1, 1, rho]
+    predicted = loads.wrench * [1, 1, rho / c**2]
+    measured = loads.twist * [1, 1, rho]
     found: Array = np.einsum("ij,ij->i", units(predicted), units(measured))
     return found
 
 
 def reverse_cosines(loads: Loads, c: float, rho: float) -> Array:
     """The same of loads (f, tau / rho) with `rho` [m], predicted from twists, shape (n,)."""
-    predicted, measured = loads.twist * [1, 1, c**2 / rho], loads.wrench * [1, 1, 1 / rho]
+    predicted = loads.twist * [1, 1, c**2 / rho]
+    measured = loads.wrench * [1, 1, 1 / rho]
     found: Array = np.einsum("ij,ij->i", units(predicted), units(measured))
     return found
 
@@ -158,7 +160,8 @@ def fisher_information(loads: Loads, c: float, rho: float) -> float:
 
 def concentration(mean: float) -> float:
     """The kappa [-] of a von Mises-Fisher distribution of a `mean` cosine coth k - 1 / k [-]."""
-    low, high = 0.0, 1e9
+    low = 0.0
+    high = 1e9
     for _ in range(200):
         k = (low + high) / 2
         low, high = (k, high) if 1 / np.tanh(k) - 1 / k < mean else (low, k)
@@ -200,7 +203,8 @@ def lost_share(
     gauge, support : callable
         Of a limit surface.
     """
-    w, v = loads.wrench * [1, 1, 1 / c], loads.twist * [1, 1, c]
+    w = loads.wrench * [1, 1, 1 / c]
+    v = loads.twist * [1, 1, c]
     share: Array = 1 - np.einsum("ij,ij->i", w, v) / (gauge(w) * support(v))
     return share
 

@@ -38,7 +38,8 @@ class Loads:
 
     def about(self, centre: Array) -> "Loads":
         """The same about a `centre`, shape (2,) [m]."""
-        wrench, twist = self.wrench.copy(), self.twist.copy()
+        wrench = self.wrench.copy()
+        twist = self.twist.copy()
         x, y = centre
         wrench[:, 2] -= x * wrench[:, 1] - y * wrench[:, 0]
         twist[:, 0] -= y * twist[:, 2]

@@ -50,7 +50,8 @@ class Outline:
     @cached_property
     def centre(self) -> Array:
         """The centroid of its area, shape (2,) [m]."""
-        a, b = self.vertices, np.roll(self.vertices, -1, axis=0)
+        a = self.vertices
+        b = np.roll(self.vertices, -1, axis=0)
         centre: Array = (_crosses(a)[:, None] * (a + b)).sum(0) / (6 * self.area)
         return centre
 
@@ -69,7 +70,8 @@ class Outline:
         From the centre an edge is seen at a distance d between two angles from its normal; the
         integral of r over that triangle is d^3 / 6 (sec tan + log(sec + tan)) between them.
         """
-        a, b = self.vertices - self.centre, self.vertices + self.edges - self.centre
+        a = self.vertices - self.centre
+        b = self.vertices + self.edges - self.centre
         along = self.edges / np.sqrt(self._squares)[:, None]
         d = along[:, 1] * a[:, 0] - along[:, 0] * a[:, 1]
         d = np.where(np.abs(d) < TOUCHING, TOUCHING, d)  # an edge through the centre spans nothing
@@ -94,7 +96,8 @@ class Outline:
         normal : ndarray, shape (2,)
             Unit vector from the point into the body, along the shortest way.
         """
-        vertices, edges = self.vertices, self.edges
+        vertices = self.vertices
+        edges = self.edges
         along = np.einsum("ij,ij->i", point - vertices, edges) / self._squares
         feet = vertices + np.clip(along, 0.0, 1.0)[:, None] * edges
         gaps = point - feet
@@ -109,7 +112,8 @@ class Outline:
 
     def drawn(self, pose: Array, origin: Array) -> Array:
         """The closed line at a pose, (3,) [m, rad], from an origin, (2,) [m], shape (2, n) [mm]."""
-        cos, sin = np.cos(pose[2]), np.sin(pose[2])
+        cos = np.cos(pose[2])
+        sin = np.sin(pose[2])
         R = np.array([[cos, -sin], [sin, cos]])
         points = 1e3 * (self.vertices @ R.T + pose[:2] - origin[:2])
         closed: Array = np.vstack([points, points[:1]]).T
@@ -124,9 +128,11 @@ class Outline:
 
     def _inside(self, point: Array) -> bool:
         """Whether a ray along x crosses the outline an odd number of times."""
-        a, b = self.vertices - point, self.vertices + self.edges - point
+        a = self.vertices - point
+        b = self.vertices + self.edges - point
         spans = (a[:, 1] > 0) != (b[:, 1] > 0)
-        a, b = a[spans], b[spans]
+        a = a[spans]
+        b = b[spans]
         right = a[:, 0] - a[:, 1] * (b[:, 0] - a[:, 0]) / (b[:, 1] - a[:, 1]) > 0
         return bool(right.sum() % 2)
 

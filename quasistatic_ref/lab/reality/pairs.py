@@ -84,7 +84,8 @@ def pairs_read(folder: Path, only: Sequence[str] = ()) -> list[Pair]:
         for key, value in (("mu_pusher_used", row["mu_pusher_used"]), ("finger_radius", radius)):
             if value < 0:
                 raise InputError("must be >= 0", file=path, field=f"{name}, {key}", value=value)
-        fitted, published = row.get("mu_pusher_fitted"), published_ratio(row)
+        fitted = row.get("mu_pusher_fitted")
+        published = published_ratio(row)
         own = shapes[shape], row["mu_pusher_used"], fitted, radius, published
         found.append(Pair(name, *own))
     return found

@@ -60,7 +60,9 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
     body = np.zeros(of.n_u)
     body[:2], body[3] = pose[:2] + R @ of.outline.centre, pose[2]
     kinds: dict[str, int] = {}
-    error, sticks, slides = 0.0, 0, 0
+    error = 0.0
+    sticks = 0
+    slides = 0
     solver: Solver | None = None
     targets = touching(of, pose, path)
     finger = next(targets)
@@ -71,13 +73,15 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
             found: StepSolution = simulated_solution(step, solver, ACCURACY)
         else:
             found = solve_step(step, solver, certify=certify)
-        finger, body = finger + found.delta_q[:2], body + found.delta_q[2:]
+        finger = finger + found.delta_q[:2]
+        body = body + found.delta_q[2:]
         kind = found.certificate.kind
         kinds[kind] = kinds.get(kind, 0) + 1
         bound = found.certificate.error_bound
         error = max(error, np.inf if bound is None else bound)
         loaded, slips = grip(step, found)
-        sticks, slides = sticks + (loaded and not slips), slides + (loaded and slips)
+        sticks = sticks + (loaded and not slips)
+        slides = slides + (loaded and slips)
     R = rotation(body[3])
     end = np.append(body[:2] - R @ of.outline.centre, body[3])
     return Prediction(end, kinds, error, sticks, slides)
@@ -104,7 +108,8 @@ def grip(step: StepData, found: StepSolution) -> tuple[bool, bool]:
 
 def rotation(angle: float) -> Array:
     """The matrix, shape (2, 2), that turns by an angle [rad]."""
-    cos, sin = np.cos(angle), np.sin(angle)
+    cos = np.cos(angle)
+    sin = np.sin(angle)
     return np.array([[cos, -sin], [sin, cos]])
 
 
@@ -160,7 +165,8 @@ def from_contact(points: list[Array], gap: Callable[[Array], float]) -> list[Arr
         Of a point: how far it may go in any direction without touching [m].
     """
     for i, (start, end) in enumerate(pairwise(points)):
-        length, gone = float(np.linalg.norm(end - start)), 0.0
+        length = float(np.linalg.norm(end - start))
+        gone = 0.0
         while gone < length:
             here = start + (end - start) * (gone / length)
             if (free := gap(here)) <= CLOSE:

@@ -77,12 +77,15 @@ class Pushed:
         by = self.by
         centre = self.outline.centre
         angle = body[3]
-        cos, sin = np.cos(angle), np.sin(angle)
+        cos = np.cos(angle)
+        sin = np.sin(angle)
         R = np.array([[cos, -sin], [sin, cos]])
         distance, on, normal = self.outline.closest(R.T @ (finger - body[:2]) + centre)
-        arm, n = R @ (on - centre), R @ normal
+        arm = R @ (on - centre)
+        n = R @ normal
         feet = np.asarray(self.points) @ R.T
-        count, n_u = len(feet), self.n_u
+        count = len(feet)
+        n_u = self.n_u
 
         J = np.zeros((count + 1, 4, 2 + n_u))
         J[:count, :3, 2:5] = np.eye(3)
@@ -97,13 +100,15 @@ class Pushed:
         phi[count] = distance - self.radius
 
         axes = np.radians(by.axes)
-        c, s = np.cos(axes), np.sin(axes)
+        c = np.cos(axes)
+        s = np.sin(axes)
         frames = np.zeros((count + 1, 3, 3))
         frames[:count] = [[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]
         frames[count] = [[-n[1], n[0], 0.0], [0.0, 0.0, 1.0], [n[0], n[1], 0.0]]
         frames[count, 0] *= np.sign(np.linalg.det(frames[count]))
 
-        weight, inertia = by.m * GRAVITY, by.m * by.gyration**2
+        weight = by.m * GRAVITY
+        inertia = by.m * by.gyration**2
         friction = by.mu_v * weight * np.array([1.0, 1.0, by.gyration])
         extra = friction * by.nudge
         tau = np.zeros(n_u)

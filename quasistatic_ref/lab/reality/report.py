@@ -75,7 +75,9 @@ def error_rows(record: Mapping[str, Any]) -> list[tuple[str, ...]]:
     """The table of a record: one line a pair, the mean over pairs last."""
     table: list[tuple[str, ...]] = [HEAD]
     for name, entry in record["pairs"].items():
-        moved, error, other = entry["moved"], entry["error"], entry.get("published")
+        moved = entry["moved"]
+        error = entry["error"]
+        other = entry.get("published")
         cells = [name, f"{entry['pushes']:,}", f"{moved['mean'][0]:.1f}", f"{moved['mean'][1]:.1f}"]
         for k in (0, 1):
             span = f"{error['low'][k]:.2f} - {error['high'][k]:.2f}"

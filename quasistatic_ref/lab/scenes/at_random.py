@@ -18,9 +18,12 @@ def random_frames(rng: Rng, n_c: int) -> Array:
 
 def random_contacts(rng: Rng, n_c: int, n_v: int, **fixed: Any) -> Contacts:
     """Random contacts; a field given by name replaces the random one, for all contacts alike."""
-    frames, phi = random_frames(rng, n_c), 1e-3 * rng.standard_normal(n_c)
-    J, mu_v = rng.standard_normal((n_c, 4, n_v)), rng.uniform(0.1, 1.0, n_c)
-    mu_omega, rows = rng.uniform(0.001, 0.02, n_c), rng.choice([4, 6], n_c)
+    frames = random_frames(rng, n_c)
+    phi = 1e-3 * rng.standard_normal(n_c)
+    J = rng.standard_normal((n_c, 4, n_v))
+    mu_v = rng.uniform(0.1, 1.0, n_c)
+    mu_omega = rng.uniform(0.001, 0.02, n_c)
+    rows = rng.choice([4, 6], n_c)
     found = contacts_of(phi, frames, J, mu_v, mu_omega, rows)
     fields = {key: np.broadcast_to(v, getattr(found, key).shape) for key, v in fixed.items()}
     return repeated(found, range(n_c), **fields)
@@ -64,8 +67,10 @@ def divided(rng: Rng, step: StepData, classes: int) -> StepData:
     classes : int
         How many; the step then has at least as many groups as there are classes with a coordinate.
     """
-    of_a, of_u = rng.integers(classes, size=step.n_a), rng.integers(classes, size=step.n_u)
-    contacts, of_contact = step.contacts, rng.integers(classes, size=step.contacts.n_c)
+    of_a = rng.integers(classes, size=step.n_a)
+    of_u = rng.integers(classes, size=step.n_u)
+    contacts = step.contacts
+    of_contact = rng.integers(classes, size=step.contacts.n_c)
     own = of_contact[:, None, None] == np.concatenate([of_a, of_u])
     return step.replace(
         K_q=step.K_q * (of_a[:, None] == of_a),

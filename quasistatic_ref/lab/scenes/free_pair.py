@@ -31,7 +31,8 @@ def geometry(system: System, pair: ContactPair, q: Array) -> tuple[ClosestPoints
 def capsule_and_box() -> tuple[System, ContactPair, Array]:
     """A planar case: a capsule next to the corners of a box, and q, shape (n_q,)."""
     system = pair_system()
-    alpha, beta = on_link(system, "one", Capsule(0.03, 0.05)), cloud_on(system, "two", CORNERS)
+    alpha = on_link(system, "one", Capsule(0.03, 0.05))
+    beta = cloud_on(system, "two", CORNERS)
     q = system.integrate(system.q_start, np.r_[0, 0, 0, 0, 0.6, 0, 0.115, 0, 0.035, 0, 0, 0])
     q = system.integrate(q, np.r_[np.zeros(6), 0, 0, 0, 0, -0.35, 0])
     return system, ContactPair("draw", alpha, beta, 0.5, 0, 4, 1), q
@@ -47,7 +48,8 @@ def outline() -> dict[str, Array]:
         [0.03 * np.cos(t), 0 * t, 0.03 * np.sin(t) + 0.05 * np.sign(np.sin(t))], axis=1
     )
     box = CORNERS[[0, 1, 3, 2, 0]]
-    one, two = system.link("one"), system.link("two")
+    one = system.link("one")
+    two = system.link("two")
     return {
         "capsule": capsule @ at.R[one].T + at.t[one],
         "box": box @ at.R[two].T + at.t[two],

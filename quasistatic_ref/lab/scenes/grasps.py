@@ -37,7 +37,8 @@ def grasp_step(rng: Rng, grip: int = 10, floor: int = 5) -> StepData:
         SI units: a body of about 0.2 kg and 0.1 m, h = 0.01 s.
     """
     n_c = grip + floor
-    mass, R = 0.2 * (1 + rng.random()), np.linalg.qr(rng.standard_normal((3, 3)))[0]
+    mass = 0.2 * (1 + rng.random())
+    R = np.linalg.qr(rng.standard_normal((3, 3)))[0]
     inertia = R @ np.diag(mass * 1e-3 * (0.5 + rng.random(3))) @ R.T
     M_u = np.zeros((6, 6))
     M_u[:3, :3] = mass * np.eye(3)
@@ -45,7 +46,9 @@ def grasp_step(rng: Rng, grip: int = 10, floor: int = 5) -> StepData:
     lift = np.array([0, 0, rng.choice([0.0, 2e-4]), 0, 0, 0])
     squeeze = rng.uniform(0, 2e-3)
     target = np.append(lift + 1e-5 * rng.standard_normal(6), -squeeze)
-    side, n, at = _sides(grip, n_c), np.zeros((n_c, 3)), np.zeros((n_c, 3))
+    side = _sides(grip, n_c)
+    n = np.zeros((n_c, 3))
+    at = np.zeros((n_c, 3))
     for j in range(n_c):  # one contact after another, as their numbers are drawn
         if side[j]:
             n[j] = side[j] * X + 0.05 * rng.standard_normal(3)
@@ -71,7 +74,8 @@ def aligned_grasp_step(rng: Rng, grip: int = 10, floor: int = 5) -> StepData:
         Of the size of those of :func:`grasp_step`.
     """
     n_c = grip + floor
-    side, n = _sides(grip, n_c), np.tile(Z, (n_c, 1))
+    side = _sides(grip, n_c)
+    n = np.tile(Z, (n_c, 1))
     n[:grip] = np.column_stack([side[:grip], 0.05 * rng.standard_normal((grip, 2))])
     n /= np.linalg.norm(n, axis=1)[:, None]
     at = 0.01 * rng.standard_normal((n_c, 3))
@@ -92,7 +96,8 @@ def _sides(grip: int, n_c: int) -> Array:
 
 def _held(rng: Rng, side: Array, n: Array, at: Array) -> Contacts:
     """Contacts at points of the body, gaps and friction at random."""
-    n_c, gripped = len(n), side != 0
+    n_c = len(n)
+    gripped = side != 0
     J = np.zeros((n_c, 4, 13))
     J[:, :, 7:] = point_jacobian(at, n)
     J[gripped, :, :6] = -J[gripped, :, 7:]

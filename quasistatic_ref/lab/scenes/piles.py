@@ -89,7 +89,8 @@ def pile(
         for name, at, angle in zip(names, xyz.tolist(), turned.tolist(), strict=True)
     }
     system = system_of(dict.fromkeys(names, BOX), **starts)
-    cloud, floor = PointCloud(_surface()), world_plane()
+    cloud = PointCloud(_surface())
+    floor = world_plane()
     boxes = {shape.link: shape for shape in system.shapes}
     clouds = [on_link(system, name, cloud) for name in names]
     pairs = [_pair(floor, clouds[i], k) for i in index[:, :, 0].ravel()]

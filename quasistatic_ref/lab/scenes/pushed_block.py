@@ -78,7 +78,8 @@ class PushedBlock:
 
     def run(self, steps: int) -> list[StepResult]:
         """So many steps from the start."""
-        q, results = self.q, []
+        q = self.q
+        results = []
         for k in range(steps):
             results.append(self.simulator.step(q, self.goal(k)))
             q = results[-1].q

@@ -71,10 +71,12 @@ def tower_step(rng: Rng, bodies: int) -> StepData:
     rng : Generator
     bodies : int
     """
-    body, masses = np.repeat(np.arange(bodies), EACH), np.ones(bodies)
+    body = np.repeat(np.arange(bodies), EACH)
+    masses = np.ones(bodies)
     n, r = _places(rng, EACH * bodies)
     J = np.zeros((len(n), 4, bodies, 6))
-    every, above = np.arange(len(n)), np.flatnonzero(body)
+    every = np.arange(len(n))
+    above = np.flatnonzero(body)
     J[every, :, body] = point_jacobian(r - UP, n)
     J[above, :, body[above] - 1] = -point_jacobian(r + UP, n)[above]
     loads = _loads(rng, masses)
@@ -91,7 +93,8 @@ def _slab_contacts(rng: Rng, n_c: int) -> Contacts:
     J[high, :, 3:9] = -point_jacobian(r + UP, n)[high]
     J[high, :, 9:15] = point_jacobian(r - SIZE * Z, n)[high]
     if n_c > 1:  # the pusher's tip at the slab's side
-        n[0], J[0] = X, 0.0
+        n[0] = X
+        J[0] = 0.0
         J[0, :, 3:9] = point_jacobian([-SIZE, 0.2 * SIZE * rng.uniform(-1, 1), 0.0], X)
         J[0, :3, 0:3] = -np.eye(3)
     return _resting(rng, n, J, 0.5)

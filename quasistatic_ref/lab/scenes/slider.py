@@ -124,7 +124,8 @@ def push(
         motion = sticking_motion(point, direction, c2)
         normal = rotated(motion[:2] / np.linalg.norm(motion[:2]), TILT)
     else:
-        motion, normal = sliding_motion(point, direction, c2), direction
+        motion = sliding_motion(point, direction, c2)
+        normal = direction
     s = Pi * mu_v**2 * GRAVITY * H**2 / (1 - Pi * mu_v**2 * (1 - lifted))
     motion = motion * s / (mu_v * np.linalg.norm(motion * [1, 1, c]))
     rise = (1 - lifted) * s
@@ -163,7 +164,8 @@ def push_step(of: Push) -> StepData:
 
 def turns(c: float) -> list[float]:
     """Turn over that of Lynch's relation, c^2 omega = x_c v_y - y_c v_x, at each speed."""
-    point, direction = np.array([0.03, 0.02]), np.array([0.0, 1.0])
+    point = np.array([0.03, 0.02])
+    direction = np.array([0.0, 1.0])
     ratios = []
     for Pi in SPEEDS:
         of = push(point, direction, mu_v=0.4, c=c, Pi=Pi, lifted=1.0, sticks=True)

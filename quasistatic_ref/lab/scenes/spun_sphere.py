@@ -40,8 +40,10 @@ def spun(phi: float, lag: float, h: float) -> StepData:
 
 def layer_at_rate(h: float) -> float:
     """Gap where it no longer changes, at an imposed spin rate [m]."""
-    phi, lag = 0.0, 0.0
+    phi = 0.0
+    lag = 0.0
     for _ in range(SETTLED):
         turn, _, _, rise = exact(spun(phi, lag, h)).delta_q
-        lag, phi = lag + SPIN * h - float(turn), phi + float(rise)
+        lag = lag + SPIN * h - float(turn)
+        phi = phi + float(rise)
     return phi

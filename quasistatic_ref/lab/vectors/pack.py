@@ -33,7 +33,8 @@ def packed(vectors: Path, out: Path) -> tuple[Path, str]:
     InputError
         If a file is not as the manifest has it, or a layer not as the version froze it.
     """
-    release, found = release_of(vectors), edition(vectors)
+    release = release_of(vectors)
+    found = edition(vectors)
     if found.changed:
         problem = f"is not as version {release} has it; other cases are another version"
         raise InputError(problem, file=vectors, field=found.changed[0])

@@ -49,7 +49,8 @@ def exported_programs(folder: str | Path) -> list[Program]:
     expected = expected_read(folder, "qp")
     programs = []
     for case in inputs_read(folder, "qp"):
-        given, output = case.input, expected[case.id]["output"]
+        given = case.input
+        output = expected[case.id]["output"]
         if "second_order" in given or "farkas" in output:
             continue
         programs.append(Program(case.id, *matrices(given), np.array(output["delta_q"])))
@@ -65,7 +66,8 @@ def parquet_written(path: str | Path, programs: Sequence[Program]) -> Path:
         If pyarrow is not installed, or the file cannot be written.
     """
     try:
-        arrow, parquet = import_module("pyarrow"), import_module("pyarrow.parquet")
+        arrow = import_module("pyarrow")
+        parquet = import_module("pyarrow.parquet")
     except ImportError:
         raise InputError(
             "needs pyarrow: pip install 'quasistatic-ref[parquet]'", field="parquet"

@@ -105,7 +105,8 @@ def listed(folder: Path) -> dict[str, str]:
 
 
 def _manifest(folder: Path) -> tuple[int, dict[str, str]]:
-    path, files = folder / MANIFEST, {}
+    path = folder / MANIFEST
+    files = {}
     try:
         top = Fields(json_read(path))
         top.check_format(FORMAT, FORMAT_VERSION)

@@ -86,7 +86,8 @@ def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
             field=name,
             value={"phi": best.phi / scale, "n": best.n.tolist()},
         )
-    alpha, phi = best.alpha / scale + a.t, float(best.phi / scale)
+    alpha = best.alpha / scale + a.t
+    phi = float(best.phi / scale)
     return Witness(phi, alpha, alpha + phi * best.n, best.n)
 
 
@@ -101,7 +102,8 @@ def _resized(shape: Shape, scale: float) -> Shape:
         case Ellipsoid():
             return Ellipsoid(scale * shape.half_axes)
         case ConvexMesh():
-            vertices, offsets = scale * shape.vertices, scale * shape.offsets
+            vertices = scale * shape.vertices
+            offsets = scale * shape.offsets
             return replace(
                 shape, vertices=vertices, offsets=offsets, volume=scale**3 * shape.volume
             )
@@ -126,7 +128,8 @@ def _by_coal(a: ShapeInWorld, b: ShapeInWorld) -> Judged:
     """The best of coal's answers, with its defect."""
     best: Judged | None = None
     for accuracy in ACCURACIES:
-        request, result = coal.DistanceRequest(), coal.DistanceResult()
+        request = coal.DistanceRequest()
+        result = coal.DistanceResult()
         request.enable_signed_distance = True
         request.gjk_tolerance = request.epa_tolerance = accuracy
         request.gjk_max_iterations = request.epa_max_iterations = 1000
@@ -134,7 +137,8 @@ def _by_coal(a: ShapeInWorld, b: ShapeInWorld) -> Judged:
             a.shape.coal, coal.Transform3s(a.R, a.t), b.shape.coal, coal.Transform3s(b.R, b.t),
             request, result,
         )  # fmt: skip
-        alpha, beta = np.array(result.getNearestPoint1()), np.array(result.getNearestPoint2())
+        alpha = np.array(result.getNearestPoint1())
+        beta = np.array(result.getNearestPoint2())
         found = judged(a, b, phi, alpha, beta, np.array(result.normal))
         # NaN compares as false: it never becomes the best unless there is nothing else.
         if best is None or not np.isfinite(best.defect) or found.defect < best.defect:
@@ -200,7 +204,8 @@ def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
         parted = _by_coal(a, b._replace(t=b.t + shift))
         if not (np.isfinite(parted.defect) and parted.phi > 0):
             break
-        before, n = n, parted.n
+        before = n
+        n = parted.n
         phi = float(n @ (b.farthest(-n) - a.farthest(n)))
         found = _best(a, b, judged(a, b, phi, parted.alpha, parted.beta - shift, n))
         if found.defect < best.defect:

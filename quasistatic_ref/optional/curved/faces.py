@@ -64,7 +64,8 @@ def kinks(shape: Shape) -> Kinks:
     ContactError
         If its faces are not known.
     """
-    z, none = np.array([[0.0, 0.0, 1.0]]), np.zeros((0, 3))
+    z = np.array([[0.0, 0.0, 1.0]])
+    none = np.zeros((0, 3))
     match shape:
         case Ellipsoid():
             return Kinks(none, np.zeros(0), none)
@@ -109,7 +110,8 @@ def curvature(solid: ShapeInWorld, n: Array) -> Array:
     n : ndarray, shape (3,)
         Unit vector in the world frame [-].
     """
-    shape, own = solid.shape, solid.R.T @ n
+    shape = solid.shape
+    own = solid.R.T @ n
     match shape:
         case Ellipsoid():
             squares = shape.half_axes**2
@@ -181,8 +183,10 @@ def face(solid: ShapeInWorld, n: Array) -> Face:
     n : ndarray, shape (3,)
         Unit vector in the world frame [-].
     """
-    shape, own = solid.shape, solid.R.T @ n
-    corners, radius = solid.farthest(n)[None], 0.0
+    shape = solid.shape
+    own = solid.R.T @ n
+    corners = solid.farthest(n)[None]
+    radius = 0.0
     match shape:
         case Ellipsoid():
             pass

@@ -60,7 +60,8 @@ def curve_crossings(
     n : ndarray, shape (3,)
         The pair's normal [-].
     """
-    on_a, on_b = touching(a, alpha, n), touching(b, beta, -n)
+    on_a = touching(a, alpha, n)
+    on_b = touching(b, beta, -n)
     found = [
         edge_crossings(on_a.straight, on_b.straight, n),
         _edge_and_rim(on_a, on_b, n),
@@ -81,7 +82,8 @@ def touching(body: ShapeInWorld, x: Array, n: Array) -> Curves:
     n : ndarray, shape (3,)
         The pair's normal out of the body [-].
     """
-    shape, way = body.shape, product(body.R.T, n)
+    shape = body.shape
+    way = product(body.R.T, n)
     if isinstance(shape, Cylinder | Cone):
         above, up = (0.0, shape.radius) if isinstance(shape, Cone) else (shape.radius, 0.0)
         ends, number = line(shape, above, up, way)
@@ -112,16 +114,24 @@ def _rim_heights(shape: Shape) -> list[tuple[float, int]]:
 def _edge_and_rim(on_a: Curves, on_b: Curves, n: Array, swapped: bool = False) -> Crossings:
     """Crossings of straight curves with the other's rims; alpha's are straight, unless swapped."""
     i, j = every(len(on_a.straight.ends), len(on_b.centre))
-    tail, axis = on_a.straight.ends[i, 0], on_b.axis[j]
-    u, w, up = on_a.straight.ends[i, 1] - tail, tail - on_b.centre[j], dot(axis, n)
+    tail = on_a.straight.ends[i, 0]
+    axis = on_b.axis[j]
+    u = on_a.straight.ends[i, 1] - tail
+    w = tail - on_b.centre[j]
+    up = dot(axis, n)
     # |w + s u + phi n| = radius, in the rim's plane.
-    lift, lifts = -dot(axis, w) / up, -dot(axis, u) / up
-    w, u_in = w + lift[:, None] * n, u + lifts[:, None] * n
-    square, half = dot(u_in, u_in), dot(u_in, w)
+    lift = -dot(axis, w) / up
+    lifts = -dot(axis, u) / up
+    w = w + lift[:, None] * n
+    u_in = u + lifts[:, None] * n
+    square = dot(u_in, u_in)
+    half = dot(u_in, w)
     inside = half * half - square * (dot(w, w) - on_b.radius[j] ** 2)
     crossing = inside > SKEW**2 * square * on_b.radius[j] ** 2
-    root, square = np.sqrt(np.where(crossing, inside, 0.0)), np.where(crossing, square, 1.0)
-    edge, rim = on_a.straight.number[i], on_b.rims[j]
+    root = np.sqrt(np.where(crossing, inside, 0.0))
+    square = np.where(crossing, square, 1.0)
+    edge = on_a.straight.number[i]
+    rim = on_b.rims[j]
     number = crossing_number(edge, rim, on_b.straight.total)
     if swapped:
         number = crossing_number(rim, edge, on_a.straight.total)
@@ -142,7 +152,9 @@ def _rims(on_a: Curves, on_b: Curves, n: Array, least: float) -> Crossings:
     of points outside of the bodies.
     """
     i, j = every(len(on_a.centre), len(on_b.centre))
-    r, s, away = on_a.radius[i], on_b.radius[j], on_b.centre[j] - on_a.centre[i]
+    r = on_a.radius[i]
+    s = on_b.radius[j]
+    away = on_b.centre[j] - on_a.centre[i]
     away = away - dot(away, n)[:, None] * n
     square = dot(away, away)
     apart = square > (SKEW * np.minimum(r, s)) ** 2

@@ -47,14 +47,16 @@ def settled(a: ShapeInWorld, b: ShapeInWorld, start: Witness) -> Iterator[Witnes
         lie flat on each other.
     """
     for n in _normals(a, b, start.n):
-        on_a, on_b = face(a, n), face(b, -n)
+        on_a = face(a, n)
+        on_b = face(b, -n)
         alpha = _common(on_a, on_b, (start.alpha + start.beta) / 2)
         phi = float(n @ (on_b.corners[0] - alpha))
         yield Witness(phi, alpha, on_b.nearest(alpha), n)
 
 
 def _normals(a: ShapeInWorld, b: ShapeInWorld, n: Array) -> Iterator[Array]:
-    of_a, of_b = placed_kinks(a, n, NEAR), placed_kinks(b, -n, NEAR)
+    of_a = placed_kinks(a, n, NEAR)
+    of_b = placed_kinks(b, -n, NEAR)
     yield from of_a.normals
     yield from -of_b.normals
     axes = np.concatenate([of_a.axes, -of_b.axes])
@@ -105,7 +107,8 @@ def _on_circle(
 ) -> tuple[Array, float] | None:
     """Along n = c u + s m, with m a unit vector across u that turns."""
     m = _unit(n - (n @ u) * u)
-    s, t = np.sqrt(1 - c * c), np.cross(u, m)
+    s = np.sqrt(1 - c * c)
+    t = np.cross(u, m)
     n = c * u + s * m
     w = b.farthest(-n) - a.farthest(n)
     turn = _turn(float(t @ w), s * (t @ (curvature(a, n) + curvature(b, -n)) @ t) + m @ w)
@@ -125,7 +128,8 @@ def _common(on_a: Face, on_b: Face, x: Array) -> Array:
     """A point of a's face that b's face covers along n, near x; nearly so if there is none."""
     if len(on_a.corners) == len(on_b.corners) == 2:
         x = _crossing(on_a, on_b, x)
-    best, least = x, np.inf
+    best = x
+    least = np.inf
     # Faces that touch each other's rims only are met from their middles.
     for start in (x, on_a.corners.mean(axis=0), on_b.corners.mean(axis=0)):
         alpha = on_a.nearest(start)
@@ -134,8 +138,10 @@ def _common(on_a: Face, on_b: Face, x: Array) -> Array:
             away = beta - alpha
             miss = float(np.abs(away - (away @ on_a.n) * on_a.n).max())
             if miss < least:
-                best, least = alpha, miss
-            before, alpha = alpha, on_a.nearest(beta)
+                best = alpha
+                least = miss
+            before = alpha
+            alpha = on_a.nearest(beta)
             if miss < NOTHING or (alpha == before).all():
                 break
         if least < NOTHING:
@@ -145,7 +151,8 @@ def _common(on_a: Face, on_b: Face, x: Array) -> Array:
 
 def _crossing(on_a: Face, on_b: Face, x: Array) -> Array:
     """Where the lines of two segments cross along n; of parallel ones, near x."""
-    way_a, way_b = on_a.corners[1] - on_a.corners[0], on_b.corners[1] - on_b.corners[0]
+    way_a = on_a.corners[1] - on_a.corners[0]
+    way_b = on_b.corners[1] - on_b.corners[0]
     across = np.cross(way_a, way_b)
     steep = across @ on_a.n
     if steep * steep <= CROSSING**2 * (way_a @ way_a) * (way_b @ way_b):

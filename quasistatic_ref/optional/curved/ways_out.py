@@ -53,7 +53,8 @@ def rival_directions(
     """
     sharp = np.concatenate([sharp_directions(a), -sharp_directions(b)])
     sphere, neighbours = _sphere()
-    spread_gaps, sharp_gaps = gaps(a, b, sphere), gaps(a, b, sharp)
+    spread_gaps = gaps(a, b, sphere)
+    sharp_gaps = gaps(a, b, sharp)
     peaks = (spread_gaps[neighbours] <= spread_gaps[:, None]).all(axis=1)
     near = sharp @ sphere.T > NEAR
     sharp_peaks = (np.where(near, spread_gaps, -np.inf) <= sharp_gaps[:, None]).all(axis=1)
@@ -96,7 +97,8 @@ def known_gaps(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array,
 def _sphere() -> tuple[Array, Indices]:
     """Directions spread evenly over the sphere, on a Fibonacci spiral, and neighbours of each."""
     k = np.arange(SPREAD) + 0.5
-    z, turn = 1 - 2 * k / SPREAD, np.pi * (1 + np.sqrt(5)) * k
+    z = 1 - 2 * k / SPREAD
+    turn = np.pi * (1 + np.sqrt(5)) * k
     r = np.sqrt(1 - z * z)
     sphere = np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
     return sphere, np.argsort(-(sphere @ sphere.T), axis=1, kind="stable")[:, 1:9]

@@ -32,9 +32,13 @@ def data_rates(
     rows : RowRates
     masses : MassRates
     """
-    h, n_a, n_v, n_c = step.h, step.n_a, step.n_v, step.contacts.n_c
+    h = step.h
+    n_a = step.n_a
+    n_v = step.n_v
+    n_c = step.contacts.n_c
     by_q, by_target = difference_rates(simulator.system.joints, step.delta_q_bar_a)
-    gravity, acts = np.array(simulator.gravity), simulator.gravity_acts[:, None]
+    gravity = np.array(simulator.gravity)
+    acts = simulator.gravity_acts[:, None]
     un_actuated = np.concatenate([np.zeros(n_a), x[n_a:]])
 
     load_q = h * acts * masses.gravity_rates(gravity)
@@ -67,7 +71,8 @@ def parameter_units(simulator: Simulator, step: StepData) -> dict[str, Array]:
     Coordinates and forces have those of the step, coefficients of friction 1 and its length, and
     stiffness, time step and masses are measured by their own size.
     """
-    units, pairs = natural_units(step), len(simulator.pairs)
+    units = natural_units(step)
+    pairs = len(simulator.pairs)
     coordinate = units.size * units.coordinate
     return {
         "dq_dq": coordinate,
@@ -94,7 +99,8 @@ def _same(value: Array, y: Array) -> Array:
 
 def _coefficients(simulator: Simulator, step: StepData, x: Array) -> dict[str, DataRates]:
     """Parameters mu_v and mu_omega of each pair."""
-    contacts, pairs = step.contacts, simulator.pairs
+    contacts = step.contacts
+    pairs = simulator.pairs
     owner = np.repeat(np.arange(len(pairs)), [pair.n_c for pair in pairs])
     own = np.eye(len(pairs))[owner]  # (n_c, pairs)
     _, *parts = frame_jacobian(contacts, contacts.J)

@@ -162,7 +162,8 @@ class Derivatives(Shown, Plain):
     @property
     def reach(self) -> float:
         """The least of these distances, in natural units [-]; computed when it is read."""
-        least, units = np.inf, self._parts.units
+        least = np.inf
+        units = self._parts.units
         for p, (name, missing) in enumerate(self._columns()):
             if units[p] > 0:  # that of a link without mass is zero: no change of it matters
                 limit = least * units[p]
@@ -236,6 +237,7 @@ def directed(
 
 def combined(data: DataRates, direction: Array) -> DataRates:
     """The rates along one direction, shape (P,), as those of a single parameter."""
-    load, motion = (data.load @ direction)[:, None], (data.motion @ direction)[:, :, None]
+    load = (data.load @ direction)[:, None]
+    motion = (data.motion @ direction)[:, :, None]
     terms = np.array([data.terms @ np.abs(direction)])
     return DataRates(load, motion, terms, lambda y: (data.pull(y) @ direction)[:, None])

@@ -42,7 +42,8 @@ def geometry_reasons(
     safe : ndarray of bool, shape (n_c,)
         Contacts that it would not feel wherever they were.
     """
-    contacts, kept = result.step.contacts, rates.couples
+    contacts = result.step.contacts
+    kept = rates.couples
     frames = np.stack([contacts.d1, contacts.d2], axis=1)
     quarters = _quarters(simulator.cone)
     felt = range(contacts.n_c) if touching is None else touching.contacts
@@ -68,7 +69,8 @@ def _ties(
     simulator: Simulator, result: StepResult, rates: StepRates, safe: Mask
 ) -> Iterator[Reason]:
     """What other points a motion may bring in, pair by pair."""
-    kept, at = rates.couples, 0
+    kept = rates.couples
+    at = 0
     for pair in simulator.pairs:
         own = slice(at, at + pair.n_c)
         at += pair.n_c
@@ -100,10 +102,12 @@ def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
     -------
     ndarray of bool, shape (n_c,)
     """
-    twist, mu = J @ result.solution.delta_q, result.step.contacts.mu
+    twist = J @ result.solution.delta_q
+    mu = result.step.contacts.mu
     spin = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
     phi = np.array([couple.phi for couple in kept])
-    motion, turn = np.zeros(len(kept)), np.zeros(len(kept))
+    motion = np.zeros(len(kept))
+    turn = np.zeros(len(kept))
     for side in (0, 1):
         link = [(couple.of.pair.alpha, couple.of.pair.beta)[side].link for couple in kept]
         end = np.array([couple.points[side] for couple in kept]).reshape(-1, 3)

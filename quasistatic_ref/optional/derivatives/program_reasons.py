@@ -57,7 +57,8 @@ def row_reasons(
     near : set of (int, int)
         Contact and row of those that nearly touch, or nearly bear no load.
     """
-    names, row_names = result.step.contacts.name, cone(result.step.cone).row_names
+    names = result.step.contacts.name
+    row_names = cone(result.step.cone).row_names
     reasons = []
 
     def fields(bad: Mask) -> tuple[str, ...]:
@@ -72,10 +73,13 @@ def row_reasons(
         reasons.append(Reason(reason.CONTRADICTION, where, fields(bad), says))
     for (j, i), bad in zip(touching.idle.tolist(), found.opens, strict=True):
         if bad.any():
-            where, row = (names[j], row_names[i]), f"row {row_names[i]} of {names[j]}"
-            kind, says = reason.WEAK, f"{row} touches without load: it holds on one side only"
+            where = (names[j], row_names[i])
+            row = f"row {row_names[i]} of {names[j]}"
+            kind = reason.WEAK
+            says = f"{row} touches without load: it holds on one side only"
             if (j, i) in near:
-                kind, says = reason.NEARLY, f"settled: nearly a kink at {row}"
+                kind = reason.NEARLY
+                says = f"settled: nearly a kink at {row}"
             reasons.append(Reason(kind, where, fields(bad), says))
     touched = {names[j].rpartition("/")[0] for j in touching.contacts}
     for pair in simulator.pairs:

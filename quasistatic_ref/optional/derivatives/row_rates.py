@@ -43,13 +43,19 @@ class RowRates:
 
     def of_motion(self, x: Array) -> Array:
         """Derivatives by q of gap, slips and spin, (n_c, 4, n_v), x (n_v,) being fixed [m]."""
-        c, r = self.contacts, self.rates
-        twist, d_twist = self.motion.twists(x), self.motion.twist_rates(x)
-        u, d_u = np.zeros((c.n_c, 3)), np.zeros((c.n_c, 3, len(x)))
-        turn, d_turn = u.copy(), d_u.copy()
+        c = self.contacts
+        r = self.rates
+        twist = self.motion.twists(x)
+        d_twist = self.motion.twist_rates(x)
+        u = np.zeros((c.n_c, 3))
+        d_u = np.zeros((c.n_c, 3, len(x)))
+        turn = u.copy()
+        d_turn = d_u.copy()
         for link, r_point, d_point, sign in self._ends():
-            nu, omega = twist[link, :3], twist[link, 3:]
-            d_nu, d_omega = d_twist[link, :3], d_twist[link, 3:]
+            nu = twist[link, :3]
+            omega = twist[link, 3:]
+            d_nu = d_twist[link, :3]
+            d_omega = d_twist[link, 3:]
             u += sign * (nu + crossed(omega, r_point))
             d_u += sign * (
                 d_nu + crossed(d_omega, r_point[:, :, None]) + crossed(omega[:, :, None], d_point)
@@ -78,14 +84,18 @@ class RowRates:
 
     def pull(self, y: Array) -> Array:
         """Derivative by q of what multipliers y (n_c, 4) exert, (n_v, n_v) [N s]."""
-        c, r = self.contacts, self.rates
+        c = self.contacts
+        r = self.rates
         d_d1, d_d2 = self.tangents
-        y0, y1, y2 = y[:, 0, None], (c.mu[:, 0] * y[:, 1])[:, None], (c.mu[:, 1] * y[:, 2])[:, None]
+        y0 = y[:, 0, None]
+        y1 = (c.mu[:, 0] * y[:, 1])[:, None]
+        y2 = (c.mu[:, 1] * y[:, 2])[:, None]
         force = y0 * c.n + y1 * c.d1 + y2 * c.d2
         d_force = y0[:, None] * r.n + y1[:, None] * d_d1 + y2[:, None] * d_d2
         y3 = (c.mu[:, 2] * y[:, 3])[:, None]
         links = len(self.motion.moves)
-        wrench, d_wrench = np.zeros((links, 6)), np.zeros((links, 6, r.phi.shape[1]))
+        wrench = np.zeros((links, 6))
+        d_wrench = np.zeros((links, 6, r.phi.shape[1]))
         for link, r_point, d_point, sign in self._ends():
             moment = crossed(r_point, force) + y3 * c.n
             d_moment = crossed(d_point, force[:, :, None]) + crossed(r_point[:, :, None], d_force)
@@ -96,7 +106,9 @@ class RowRates:
 
     def _ends(self) -> tuple[tuple[Indices, Array, Array, float], ...]:
         """Links, points, their derivatives and the sign of both bodies."""
-        p, r, of = self.points, self.rates, self.layout
+        p = self.points
+        r = self.rates
+        of = self.layout
         return (of.link_beta, p.beta, r.beta, 1.0), (of.link_alpha, p.alpha, r.alpha, -1.0)
 
 

@@ -82,7 +82,8 @@ def smoothed(
     for why in reasons:
         for name in why.fields:
             bad[slice(*rates.places[name])] = True
-    x, along = barrier_rates(step, found, rates.data), partial(_displacement, step, found)
+    x = barrier_rates(step, found, rates.data)
+    along = partial(_displacement, step, found)
     return rates.derivatives(x, bad, reasons, along, None)
 
 

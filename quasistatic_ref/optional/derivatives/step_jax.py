@@ -166,7 +166,8 @@ def _differentiable(
     """A function of (q, q_bar_a, force, kappa) for JAX; at kinks its derivatives are others."""
     check_derivable(simulator)
     jax = jax_package()
-    system, shaped = simulator.system, jax.ShapeDtypeStruct
+    system = simulator.system
+    shaped = jax.ShapeDtypeStruct
     n_q = system.n_q
     ends = (shaped((n_q,), np.float64), shaped((len(KINDS),), bool))
     matrices = tuple(shaped((n_q, n), np.float64) for n in (n_q, system.n_q_a, system.n_v))
@@ -241,7 +242,8 @@ def _rates(
     goal = system.checked(normalised(system.joints, whole))[: system.n_q_a]
     of = found(at, goal, force, float(kappa))
     kinds = {why.kind for why in _lacking(of, BY)}
-    end, verdict = of.result.q, np.array([kind in kinds for kind in KINDS])
+    end = of.result.q
+    verdict = np.array([kind in kinds for kind in KINDS])
     if not names:
         return end, verdict
     if instead is not None and _lacking(of, names):

@@ -50,7 +50,9 @@ class StepRates:
 
     def __init__(self, simulator: Simulator, q: Array, result: StepResult) -> None:
         self.result = result
-        system, step, points = simulator.system, result.step, result.points
+        system = simulator.system
+        step = result.step
+        points = result.points
         x = result.solution.delta_q
         kinematics = system.kinematics(q)
         self.motion = MotionRates(kinematics, system.column_map)

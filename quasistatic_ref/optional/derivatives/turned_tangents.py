@@ -29,7 +29,8 @@ def stays(step: StepData, x: Array, touching: Touching, j: int) -> bool:
     """
     contacts = step.contacts
     table = touching.table[step.mask[j]]
-    motion, load = touching.generators[j] @ x, touching.multipliers[j]
+    motion = touching.generators[j] @ x
+    load = touching.multipliers[j]
     motion[0] += contacts.phi[j]
     strict, idle = (int(np.sum(rows[:, 0] == j)) for rows in (touching.strict, touching.idle))
     frames = [_turn(contacts.d1[j], contacts.d2[j], other) for other in _others(contacts.n[j])]

@@ -53,14 +53,17 @@ def drags(system: System, step: StepData, delta_q: Array, wrench: Array, g: floa
     g : float
         Length of gravity [m/s^2].
     """
-    momentum, found = step.momentum(delta_q), []
+    momentum = step.momentum(delta_q)
+    found = []
     presses = _carried(step, np.ones(len(wrench)), wrench[:, 2])
     friction = _carried(step, step.contacts.mu_v, wrench[:, 2])
     for base in free_bases(system):
-        x, body = base.v.start, base.name.removesuffix("/base")
+        x = base.v.start
+        body = base.name.removesuffix("/base")
         drag = _quotient(np.linalg.norm(momentum[x - step.n_a : x - step.n_a + 3]), step.h**2)
         if drag is not None:
-            touched, rubs = bool(presses[x] > BEARS * drag), bool(friction[x] > BEARS * drag)
+            touched = bool(presses[x] > BEARS * drag)
+            rubs = bool(friction[x] > BEARS * drag)
             bears = float(friction[x]) if rubs else system.mass(body) * g
             found.append(Drag(body, drag, bears, touched, rubs))
     return found
@@ -77,7 +80,8 @@ def _quotient(over: Any, under: Any) -> float | None:
     A friction coefficient may be as small as 5e-324: a product with it underflows to 0, a quotient
     by it overflows.
     """
-    over, under = float(over), float(under)
+    over = float(over)
+    under = float(under)
     within = over < (sys.float_info.max * under if under < 1 else math.inf)
     return over / under if under > 0 and within else None
 
@@ -135,7 +139,8 @@ def gap_after(phi: Array, solution: StepSolution, n_v: int) -> Array:
     Of delta_q count the first n_v coordinates: private rises are not in the gap. phi, shape (n_c,),
     is the distance [m], which Coulomb's law raises in the step.
     """
-    contacts, delta_q = solution.step.contacts, solution.delta_q.copy()
+    contacts = solution.step.contacts
+    delta_q = solution.delta_q.copy()
     delta_q[n_v:] = 0.0
     motion = contacts.motion(delta_q)[:, :3]
     return np.asarray(phi + np.sum(contacts.n * motion, axis=1))

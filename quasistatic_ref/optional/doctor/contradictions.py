@@ -37,7 +37,8 @@ def density(start: Start) -> Iterator[Said]:
 def inertia(start: Start) -> Iterator[Said]:
     """Free links with an inertia that nothing of their mass and size has."""
     for link, name, shapes in _free_links(start):
-        mass, moment = float(start.system.masses[link]), start.system.inertias[link]
+        mass = float(start.system.masses[link])
+        moment = start.system.inertias[link]
         points = np.concatenate([_points(placed) for placed in shapes])
         radius = float(np.linalg.norm(points - start.system.centres[link], axis=1).max())
         largest = float(np.linalg.eigvalsh(moment).max())
@@ -60,7 +61,8 @@ def sizes_apart(start: Start) -> Iterator[Said]:
     extents = {name: size for name, size in found.items() if size > 0}
     if not extents:
         return
-    small, large = min(extents, key=extents.__getitem__), max(extents, key=extents.__getitem__)
+    small = min(extents, key=extents.__getitem__)
+    large = max(extents, key=extents.__getitem__)
     if extents[large] > RATIO * extents[small]:
         yield Said(
             f"check the units of {large} and {small}",

@@ -29,7 +29,9 @@ def drag(run: Run) -> Iterator[Said]:
     share = float(shares[k]) if worst is None else worst.share or 0.0
     if share <= SLOW:
         return
-    on, of, numbers = "a free body", "what its contacts can bear", {"share": share, "step": k}
+    on = "a free body"
+    of = "what its contacts can bear"
+    numbers = {"share": share, "step": k}
     if worst is not None:
         on = f"{worst.body}, {worst.drag:.3g} N"
         friction = "friction that its contacts can bear" if worst.rubs else "its weight"

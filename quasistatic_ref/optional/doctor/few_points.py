@@ -39,7 +39,8 @@ def few_points(start: Start) -> Iterator[Said]:
         except ContactError:
             return  # the first step says it
         centre = _centre(start, name)
-        of_kept, of_all = np.concatenate(kept), np.concatenate(every)
+        of_kept = np.concatenate(kept)
+        of_all = np.concatenate(every)
         if _around(of_all - centre, start) and not _around(of_kept - centre, start):
             more = [len(some) - len(few) for few, some in zip(kept, every, strict=True)]
             lacks = int(np.argmax(more))
@@ -67,7 +68,8 @@ def _bearing(start: Start, pair: ContactPair, name: str, most: int) -> Array:
 
 def _centre(start: Start, name: str) -> Array:
     """Centre of mass of a body [m]."""
-    system, at = start.system, start.kinematics
+    system = start.system
+    at = start.kinematics
     mass = np.where([link.startswith(f"{name}/") for link in system.links], system.masses, 0.0)
     places = at.t + np.einsum("lij,lj->li", at.R, system.centres)
     return np.asarray(mass @ places / mass.sum())

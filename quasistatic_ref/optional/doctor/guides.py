@@ -57,14 +57,16 @@ def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
     clearance = np.where(contacts.phi > REPEATED, contacts.phi, 0.0)
     fixed = (np.abs(J_n) <= TINY * scale[:, None] + TINY).all(axis=1)
     fixed[start.raised] = False
-    mu_v, mu_omega = contacts.mu[:, 0], contacts.mu[:, 2]
+    mu_v = contacts.mu[:, 0]
+    mu_omega = contacts.mu[:, 2]
     for j in np.flatnonzero(fixed).tolist():
         if mu_v[j] > 0 and slides[j].any():
             yield Guide((j,), slides[j], float(clearance[j]), float(mu_v[j]), False)
         elif mu_omega[j] > 0 and turns[j].any():
             yield Guide((j,), turns[j], float(clearance[j]), float(mu_omega[j]), True)
     # Of what stands nothing moves: all of J is the other body's.
-    layout, moves = start.simulator.layout, np.any(start.system.column_map.moves, axis=(1, 2))
+    layout = start.simulator.layout
+    moves = np.any(start.system.column_map.moves, axis=(1, 2))
     links = np.column_stack([layout.link_alpha, layout.link_beta])
     standing = ~moves[links]
     near = (standing.sum(axis=1) == 1) & (mu_v > 0) & (clearance < CRAWL * start.h * 2 * mu_v)
@@ -154,12 +156,14 @@ def locked(run: Run) -> Iterator[Said]:
     if not run.searched or not rubbing.any():
         return
     k = int(rubbing.argmax())
-    contacts, wrench = run.contacts(k), run.forces(k)
+    contacts = run.contacts(k)
+    wrench = run.forces(k)
     bears = wrench[:, 2] > BEARS * wrench[:, 2].max()
     found = [x for x in guides(run, contacts) if bears[list(x.contacts)].any()]
     if not found:
         return
-    step, nothing = run.step_data(k), np.zeros(contacts.n_c)
+    step = run.step_data(k)
+    nothing = np.zeros(contacts.n_c)
     smooth = field_values(contacts) | {"mu_v": nothing, "mu_omega": nothing}
     without = wrenches(step.replace(contacts=Contacts(**smooth)))
     if without is None:
@@ -182,7 +186,8 @@ def locked(run: Run) -> Iterator[Said]:
         said.add(joint)
         i = int(held[beyond[held].argmax()])
         j = max(guide.contacts, key=lambda j: float(wrench[j, 2]))
-        name, coordinate = run.simulator.layout.names[j], run.system.coordinates[i]
+        name = run.simulator.layout.names[j]
+        coordinate = run.system.coordinates[i]
         unit = "N" if coordinate.unit == "m" else "N m"
         yield Said(
             _remedy(run, guide),

@@ -19,7 +19,8 @@ def leaps(run: Run) -> Iterator[Said]:
     found: list[tuple[int, float, Said]] = []
     for joint in run.system.joints:
         moved = [sides[i] for i in np.flatnonzero(moves[links, joint.v].any(axis=1))]
-        motion, lengths = run["delta_q"][:, joint.v], LENGTHS.get(joint.kind, 0)
+        motion = run["delta_q"][:, joint.v]
+        lengths = LENGTHS.get(joint.kind, 0)
         size = max(sizes(moved), default=np.inf)
         length = np.linalg.norm(motion[:, :lengths], axis=1)
         angle = np.linalg.norm(motion[:, lengths:], axis=1)

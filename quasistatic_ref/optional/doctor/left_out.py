@@ -19,7 +19,8 @@ EXCHANGES = 3
 
 def border(run: Run) -> Iterator[Said]:
     """Pairs whose next nearest point is in the other body after the last step."""
-    n_c, f_n = run["phi"].shape[1], run.forces(run.steps - 1)[:, 2]
+    n_c = run["phi"].shape[1]
+    f_n = run.forces(run.steps - 1)[:, 2]
     loaded = f_n > BEARS * f_n.max(initial=0.0)
     wider = {
         pair.name: replace(pair, k=pair.n_c + 1)

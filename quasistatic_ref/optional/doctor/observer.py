@@ -42,7 +42,9 @@ class Doctor(Observer):
         Gaps after the step, shape (n_c,) [m], Pi, share of drag, the same of bodies that something
         touches [-], and boundary layer [m].
         """
-        step, solution, system = result.step, result.solution, recorder.system
+        step = result.step
+        solution = result.solution
+        system = recorder.system
         g = float(np.linalg.norm(recorder.simulator.gravity))
         gap = gap_after(result.points.phi, solution, system.n_v)
         found = drags(system, step, solution.delta_q, solution.wrench, g)

@@ -12,7 +12,8 @@ def penetration(start: Start) -> Iterator[Said]:
     if start.points is None:
         return
     for pair, own in slices(start.pairs):
-        depth, name = -float(start.points.phi[own].min(initial=0.0)), table(pair)
+        depth = -float(start.points.phi[own].min(initial=0.0))
+        name = table(pair)
         deeper = name not in deepest or 1e3 * depth > deepest[name].numbers["depth_mm"]
         if depth > SUNK * least(pair) and deeper:
             deepest[name] = Said(

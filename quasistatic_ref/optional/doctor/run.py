@@ -35,7 +35,8 @@ class Run(Start):
             **{key: arrays[key][0] for key in keys}, tie=np.zeros(0, dtype=np.int64)
         )
         super().__init__(recorder.simulator, recorder.start, first)
-        self.recorder, self.arrays = recorder, arrays
+        self.recorder = recorder
+        self.arrays = arrays
         self.steps = len(arrays["t"])
 
     def __getitem__(self, name: str) -> NDArray[Any]:
@@ -59,8 +60,10 @@ class Run(Start):
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k, up to rounding, with the paper's cone for a curved one."""
-        simulator, q = self.simulator, self["q"][k]
-        n_a, tau = self.system.n_a, self.noted("tau")[k]
+        simulator = self.simulator
+        q = self["q"][k]
+        n_a = self.system.n_a
+        tau = self.noted("tau")[k]
         polyhedral = cone(simulator.cone).polyhedral
         return StepData(
             h=self.h,

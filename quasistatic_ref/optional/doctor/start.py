@@ -51,8 +51,12 @@ class Start:
     """
 
     def __init__(self, simulator: Simulator, q: Array, first: ClosestPoints | None = None) -> None:
-        self.simulator, self.q_start, self.first = simulator, q, first
-        self.system, self.pairs, self.h = simulator.system, simulator.pairs, simulator.h
+        self.simulator = simulator
+        self.q_start = q
+        self.first = first
+        self.system = simulator.system
+        self.pairs = simulator.pairs
+        self.h = simulator.h
         self.gravity = np.array(simulator.gravity)
 
     @cached_property
@@ -95,7 +99,8 @@ def slices(pairs: Iterable[ContactPair]) -> Iterator[tuple[ContactPair, slice]]:
     """Each pair, and where its contacts are among all."""
     end = 0
     for pair in pairs:
-        start, end = end, end + pair.n_c
+        start = end
+        end = end + pair.n_c
         yield pair, slice(start, end)
 
 

@@ -27,7 +27,8 @@ def sunk(run: Run) -> Iterator[Said]:
 def _surprise(pair: ContactPair, phi: Array, point: NDArray[np.generic], gap: Array) -> Said | None:
     deepest = SUNK * least(pair)
     k, j = np.nonzero(phi[1:] < -deepest)  # contacts are in ascending distance
-    before, number = point[k], point[k + 1, j]
+    before = point[k]
+    number = point[k + 1, j]
     same = before == number[:, None]
     # The closest pair of two solids has one number wherever it is: that names no point.
     considered = same.any(axis=1) | (pair.n_c == 1 and not pair.has_cloud)
@@ -36,8 +37,10 @@ def _surprise(pair: ContactPair, phi: Array, point: NDArray[np.generic], gap: Ar
     if not surprising.size:
         return None
     i = surprising[0]
-    step, depth = int(k[i]) + 1, -1e3 * float(phi[k[i] + 1, j[i]])
-    deep, numbers = f"{depth:.3g} mm deep at step {step}", {"depth_mm": depth, "step": step}
+    step = int(k[i]) + 1
+    depth = -1e3 * float(phi[k[i] + 1, j[i]])
+    deep = f"{depth:.3g} mm deep at step {step}"
+    numbers = {"depth_mm": depth, "step": step}
     what = "point" if pair.has_cloud or number[i] < pair.corners else "candidate"
     raised = f"raise k of {table(pair)}"
     if not considered[i]:

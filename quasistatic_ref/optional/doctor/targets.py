@@ -15,7 +15,8 @@ def beyond_limits(run: Run) -> Iterator[Said]:
     for joint in run.system.joints:
         if not joint.actuated or joint.limits is None:
             continue
-        target, unit = run["q_bar_a"][:, joint.q][:, 0], joint.coordinates[0].unit
+        target = run["q_bar_a"][:, joint.q][:, 0]
+        unit = joint.coordinates[0].unit
         lower, upper = joint.limits
         k = int(np.maximum(lower - target, target - upper).argmax())
         limit = lower if target[k] < lower else upper
@@ -50,10 +51,14 @@ def half_turns(run: Run) -> Iterator[Said]:
 def _lag(kind: str, q: Array, q_bar: Array) -> Array:
     """Axis of the shorter turn from q to q_bar times 2 sin of half its angle; (steps, 1 or 3)."""
     if kind == "floating":
-        v, w, v_bar, w_bar = q[:, 3:6], q[:, 6:], q_bar[:, 3:6], q_bar[:, 6:]
+        v = q[:, 3:6]
+        w = q[:, 6:]
+        v_bar = q_bar[:, 3:6]
+        w_bar = q_bar[:, 6:]
         both = w * v_bar - w_bar * v - np.cross(v, v_bar)
         cosine = w * w_bar + np.vecdot(v, v_bar)[:, None]
         return np.where(cosine < 0, -2.0, 2.0) * both
-    (c, s), (c_bar, s_bar) = q[:, -2:].T, q_bar[:, -2:].T
+    c, s = q[:, -2:].T
+    c_bar, s_bar = q_bar[:, -2:].T
     angle = np.arctan2(c * s_bar - s * c_bar, c * c_bar + s * s_bar)
     return np.asarray(2 * np.sin(angle / 2))[:, None]

@@ -43,7 +43,9 @@ def falling(run: Run) -> Iterator[Said]:
     g = float(np.linalg.norm(run.gravity))
     if not g:
         return
-    system, down, most = run.system, run.gravity / g, run.h**2 * g
+    system = run.system
+    down = run.gravity / g
+    most = run.h**2 * g
     each = zip(_joined(run), run.pairs, strict=True)
     sides = [names for names, pair in each for _ in range(pair.n_c)]
     said = alone(run)

@@ -212,8 +212,10 @@ def cone_violations(mu: Array, slack: Array, lam: Array) -> Violations:
         slacks and multipliers of the user's own rows.
     """
     k = 4 * len(mu)
-    s, f = slack[:k].reshape(-1, 4), lam[:k].reshape(-1, 4)
-    own, own_lam = slack[k:], lam[k:]
+    s = slack[:k].reshape(-1, 4)
+    f = lam[:k].reshape(-1, 4)
+    own = slack[k:]
+    own_lam = lam[k:]
     scaled = np.divide(f[:, 1:], mu, out=np.zeros_like(mu), where=mu > 0)
     without = np.abs(np.where(mu > 0, 0.0, f[:, 1:]))  # a force that has no coefficient
     short = np.linalg.norm(mu * s[:, 1:], axis=1) - s[:, 0]  # Eq. (10)
@@ -251,7 +253,8 @@ def _not_enclosed(
     if found is None:
         return [], "no displacement strictly inside of all cones was found"
     with ctx.workprec(BITS):
-        error, claimed = enclosed_error(form, found, delta_q), claims.error_bound
+        error = enclosed_error(form, found, delta_q)
+        claimed = claims.error_bound
     reason = wrong_claim("active", active, ())
     if claimed is None or not error <= claimed:
         reason = f"error_bound is claimed to be {claimed!r}; {error!r} is proved"

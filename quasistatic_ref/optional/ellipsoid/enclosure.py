@@ -168,7 +168,9 @@ def _enclosed(
         working, x, delta_q = exact
         error = 0.0
     else:
-        working, x, delta_q = None, point(found), _rounded(form, balls, found)
+        working = None
+        x = point(found)
+        delta_q = _rounded(form, balls, found)
         error = enclosed_error(form, replace(found, gap=found.gap + reserve), delta_q)
     gap = duality_gap(form, x, fractions(lam, form.lam_unit))
     gap += 0 if exact is not None else fraction(reserve.upper())
@@ -231,7 +233,8 @@ def _by_newton(frame: ScaledBlocks, x: arb_mat, y: list[Vector]) -> Iterator[Gue
     states = contact_states(frame.problem, x, y)
     pair = newton_pair(frame.problem, x, y, states)
     if pair is not None:
-        loaded, held = [state != OPEN for state in states], [state == STICKS for state in states]
+        loaded = [state != OPEN for state in states]
+        held = [state == STICKS for state in states]
         yield Guess(*frame.pair(pair), loaded, held, RESERVE)
 
 
@@ -239,7 +242,8 @@ def _of_interior(frame: ScaledBlocks, pair: Pair) -> Guess:
     """Return what the interior point found, in the units of the form."""
     x, y = frame.pair(pair)
     most = largest([v for y_j in y for v in y_j])
-    loaded, held = [y_j[0] > IDLE * most for y_j in y], [s_j[0] < IDLE for s_j in pair.s]
+    loaded = [y_j[0] > IDLE * most for y_j in y]
+    held = [s_j[0] < IDLE for s_j in pair.s]
     return Guess(x, y, loaded, held, arb(0))
 
 
@@ -247,14 +251,16 @@ def _checked(
     form: ExactForm, balls: BallForm, frame: ScaledBlocks, x: arb_mat, y: list[Vector]
 ) -> Checked | None:
     """Return x and lam with their gap, if both surely lie inside of all cones."""
-    motion, mu = (balls.A * x - balls.b).entries(), frame.mu
+    motion = (balls.A * x - balls.b).entries()
+    mu = frame.mu
     s = [[mu[i] * motion[i] for i in block] for block in frame.blocks]
     for one in (*s, *y):
         if not (one[0] > 0 and one[0] * one[0] > sum((v * v for v in one[1:]), arb(0))):
             return None
     lam = [mu_i * y_i for mu_i, y_i in zip(mu, [v for y_j in y for v in y_j], strict=True)]
     push = balls.A.transpose() * arb_mat(len(lam), 1, lam)
-    off, H = x - balls.x_free - balls.H_inv * push, arb_mat(form.H)
+    off = x - balls.x_free - balls.H_inv * push
+    H = arb_mat(form.H)
     work = sum((u * v for a, b in zip(s, y, strict=True) for u, v in zip(a, b, strict=True)),
                arb(0))  # fmt: skip
     gap = (off.transpose() * (H * off))[0, 0] / 2 + work

@@ -79,7 +79,8 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
         Scaled: rows, H and the answer of about one.
     gap : arb
     """
-    A, count = problem.A, len(problem.A)
+    A = problem.A
+    count = len(problem.A)
     x = problem.H.solve(problem.g).mid()
     s = [_inside(A_j * x - b_j) for A_j, b_j in zip(A, problem.b, strict=True)]
     y = [[arb(1), *([arb(0)] * (len(s_j) - 1))] for s_j in s]
@@ -124,7 +125,9 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
             way = (way * arb(0.75)).mid()
         else:
             return None
-        x, s, y = (x + dx * way).mid(), s_new, y_new
+        x = (x + dx * way).mid()
+        s = s_new
+        y = y_new
     return None
 
 
@@ -178,8 +181,10 @@ def _centred(s: Vector, y: Vector, target: arb) -> arb_mat:
 
 def _inverse_scaling(s: Vector, y: Vector) -> arb_mat:
     """Return W^-2 of Nesterov and Todd: symmetric positive definite, with W^-2 s = y."""
-    root_s, root_y = _det(s).sqrt().mid(), _det(y).sqrt().mid()
-    s_bar, y_bar = [v / root_s for v in s], [v / root_y for v in y]
+    root_s = _det(s).sqrt().mid()
+    root_y = _det(y).sqrt().mid()
+    s_bar = [v / root_s for v in s]
+    y_bar = [v / root_y for v in y]
     gamma = ((1 + _dot(s_bar, y_bar)) / 2).sqrt().mid()
     turned = [s_bar[0] + y_bar[0], *[b - a for a, b in zip(s_bar[1:], y_bar[1:], strict=True)]]
     w = [(v / (2 * gamma)).mid() for v in turned]  # J w
@@ -195,7 +200,8 @@ def _inverse_scaling(s: Vector, y: Vector) -> arb_mat:
 
 def _reach(v: Vector, d: Sequence[arb]) -> arb:
     """Return how far along d the point v stays in the cone; at most a large number."""
-    a, c = _det(d), _det(v)
+    a = _det(d)
+    c = _det(v)
     b = (v[0] * d[0] - _dot(v[1:], d[1:])).mid()
     square = (b * b - a * c).mid()
     far = arb(1 << 30)

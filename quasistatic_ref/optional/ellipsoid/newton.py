@@ -45,10 +45,8 @@ def contact_states(problem: Blocks, x: arb_mat, y: list[Vector]) -> list[int]:
     """Which blocks are open, stick and slide, as an answer shows it: the larger of two slacks."""
     states = []
     for A_j, b_j, y_j in zip(problem.A, problem.b, y, strict=True):
-        s, f = (
-            np.array([float(v) for v in (A_j * x - b_j).entries()]),
-            np.array(list(map(float, y_j))),
-        )
+        s = np.array([float(v) for v in (A_j * x - b_j).entries()])
+        f = np.array(list(map(float, y_j)))
         inside_s, inside_f = (v[0] - np.linalg.norm(v[1:]) for v in (s, f))
         if inside_s > f[0]:
             states.append(OPEN)
@@ -73,7 +71,8 @@ def newton_pair(problem: Blocks, x: arb_mat, y: list[Vector], states: list[int])
     for _ in range(ITERATIONS):
         K, C, c, f = _linearised(problem, x, y, states)
         if not c.nrows():
-            dx, df = K.solve(problem.g - problem.H * x).mid(), f
+            dx = K.solve(problem.g - problem.H * x).mid()
+            df = f
         else:
             load = problem.g - problem.H * x + C.transpose() * (f - c * (1 / EPSILON))
             try:
@@ -93,21 +92,26 @@ def _linearised(
     problem: Blocks, x: arb_mat, y: list[Vector], states: list[int]
 ) -> tuple[arb_mat, arb_mat, arb_mat, arb_mat]:
     """Return H with the curvature of what slides, C, c and the multipliers of c."""
-    n, K = problem.H.nrows(), problem.H
+    n = problem.H.nrows()
+    K = problem.H
     rows: list[arb] = []
     c: list[arb] = []
     f: list[arb] = []
     for A_j, b_j, y_j, state in zip(problem.A, problem.b, y, states, strict=True):
         s = (A_j * x - b_j).mid()
         if state == STICKS:
-            rows, c, f = rows + A_j.entries(), c + s.entries(), f + y_j
+            rows = rows + A_j.entries()
+            c = c + s.entries()
+            f = f + y_j
         elif state == SLIDES:
             u, slip = _direction(s.entries())
             normal = arb_mat(1, len(u) + 1, [arb(1), *(-v for v in u)]) * A_j
             across = arb_mat(len(u), n, A_j.entries()[n:])
             across = (across - arb_mat(len(u), 1, u) * (arb_mat(1, len(u), u) * across)).mid()
             K = K + across.transpose() * across * (y_j[0] / slip)
-            rows, c, f = rows + normal.entries(), [*c, s[0, 0] - slip], [*f, y_j[0]]
+            rows = rows + normal.entries()
+            c = [*c, s[0, 0] - slip]
+            f = [*f, y_j[0]]
     k = len(c)
     return K.mid(), arb_mat(k, n, rows).mid(), arb_mat(k, 1, c).mid(), arb_mat(k, 1, f)
 
@@ -122,7 +126,8 @@ def _with_multipliers(
     problem: Blocks, x: arb_mat, y: list[Vector], states: list[int], f: Vector
 ) -> list[Vector]:
     """Return y by block from the multipliers of c."""
-    found, rest = [], iter(f)
+    found = []
+    rest = iter(f)
     for A_j, b_j, y_j, state in zip(problem.A, problem.b, y, states, strict=True):
         if state == STICKS:
             found.append([next(rest) for _ in y_j])
@@ -151,7 +156,8 @@ def _opening(A: list[arb_mat], n: int) -> Array | None:
     """Return a displacement that moves every contact well inside of its cone, in float64."""
     ends = np.cumsum([A_j.nrows() for A_j in A])
     rows = np.array([float(v) for A_j in A for v in A_j.entries()]).reshape(-1, n)
-    inverse, d = np.linalg.pinv(rows), np.zeros(n)
+    inverse = np.linalg.pinv(rows)
+    d = np.zeros(n)
     inner = np.zeros(len(rows))
     inner[[0, *ends[:-1]] if len(ends) else []] = 1.0
     for _ in range(ROUNDS):  # alternating projections of rows d to inner + cone and to the range

@@ -68,7 +68,9 @@ def scaled_blocks(step: StepData, form: ExactForm, balls: BallForm) -> ScaledBlo
     balls : BallForm
         That of the form.
     """
-    n, A, b = form.n, balls.A, balls.b
+    n = form.n
+    A = balls.A
+    b = balls.b
     mu = [arb(v) for _, _, c in cone_blocks(step) for v in (ONE, *c)]
     blocks = [rows for _, rows, _ in cone_blocks(step)]
     root = [(1 / arb(form.H[v, v]).sqrt()).mid() for v in range(n)]

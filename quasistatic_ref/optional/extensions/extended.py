@@ -66,7 +66,8 @@ def extension_rows(step: StepData, extension: Extension) -> Extra | None:
     for x in unknowns:
         x.value = np.zeros(x.shape)
     names: list[str] = []
-    A, b = [np.zeros((0, step.n_v))], [np.zeros(0)]
+    A = [np.zeros((0, step.n_v))]
+    b = [np.zeros(0)]
     for k, constraint in enumerate(constraints(problem)):
         equation = isinstance(constraint, cp.constraints.Equality | cp.constraints.Zero)
         plain = equation or isinstance(constraint, cp.constraints.Inequality)
@@ -93,7 +94,8 @@ def posed(step: StepData, extension: Extension) -> tuple[StepData, bool]:
 
 def with_rows(step: StepData, own: Extra) -> StepData:
     """A step with further rows after those that it has."""
-    A, b = np.vstack([step.extra.A, own.A]), np.concatenate([step.extra.b, own.b])
+    A = np.vstack([step.extra.A, own.A])
+    b = np.concatenate([step.extra.b, own.b])
     return step.replace(extra=Extra(step.extra.names + own.names, A, b))
 
 
@@ -222,8 +224,10 @@ def _own_terms(extension: Extension, step: StepData, units: Units) -> tuple[Own,
 
 def _symbols(problem: CvxpyProblem, step: StepData, units: Units, private: int = 0) -> Symbols:
     """The symbols of a problem in SI units, of whose coordinates the last ones are private."""
-    public, own = step.n_v - private, step.n_u - private
-    coordinate, length = units.size * units.coordinate[:public], units.size * units.length
+    public = step.n_v - private
+    own = step.n_u - private
+    coordinate = units.size * units.coordinate[:public]
+    length = units.size * units.length
     kind = cone(step.cone)
     rows = kind.function if kind.polyhedral else frictionless  # the gap alone
     return Symbols(

@@ -23,10 +23,12 @@ WAYS = (1.0, -1.0)
 
 def with_rises(step: StepData, rises: Rises) -> StepData:
     """A step with private rises: its last coordinates, and rows after those that it has."""
-    p, c = len(rises), len(rises.coordinates)
+    p = len(rises)
+    c = len(rises.coordinates)
     if not p:
         return step
-    n_v, contacts = step.n_v, step.contacts
+    n_v = step.n_v
+    contacts = step.contacts
     own = np.arange(n_v, n_v + p)
     M_u = np.zeros((step.n_u + p, step.n_u + p))
     M_u[: step.n_u, : step.n_u] = whole(step.M_u)
@@ -36,7 +38,8 @@ def with_rises(step: StepData, rises: Rises) -> StepData:
     rows = np.zeros((2, c, n_v + p))
     rows[:, np.arange(c), own[:c]] = 1.0
     rows[:, np.arange(c), rises.coordinates] = np.array(WAYS)[:, None]
-    extra, lies = step.extra, rises.coordinates.tolist()
+    extra = step.extra
+    lies = rises.coordinates.tolist()
     names = tuple(f"rise {way} delta_q[{i}]" for way in "+-" for i in lies)
     A = np.concatenate([np.pad(extra.A, ((0, 0), (0, p))), *rows])
     return step.replace(
@@ -118,7 +121,8 @@ def _support(system: System, name: str, mu_v: float, mu_omega: float) -> Contact
     if bases[name] != "planar":
         problem = 'is for a body with base = "planar"'
         raise InputError(problem, field="support", value=name)
-    root, at = system.link(name), system.kinematics(system.q_start)
+    root = system.link(name)
+    at = system.kinematics(system.q_start)
     own = [i for i, link in enumerate(system.links) if link.startswith(f"{name}/")]
     centres = np.einsum("lij,lj->li", at.R[own], system.centres[own]) + at.t[own]
     centre = np.average(centres, axis=0, weights=system.masses[own]) - at.t[root]

@@ -80,7 +80,8 @@ def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:
     given.only(entry.short(joint) for joint in rubbed)
     found: dict[str, float] = {}
     for joint in rubbed:
-        name, coordinates = entry.short(joint), joint.coordinates
+        name = entry.short(joint)
+        coordinates = joint.coordinates
         if name not in given:
             continue
         one = len(coordinates) == 1

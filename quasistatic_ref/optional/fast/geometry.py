@@ -36,7 +36,8 @@ class PosedGeometry(ContactGeometry):
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> PosedContacts:
         """The contacts of one step, from the closest points of all pairs."""
-        layout, n = self.layout, points.n
+        layout = self.layout
+        n = points.n
         d1, d2 = tangents(n)
         J = self.jacobian(kinematics.columns, points.alpha, points.beta, n)
         names = self.names(points.point)

@@ -79,8 +79,10 @@ class NativeSolver(Solver):
 
     def empty(self) -> Program | SparseProgram:
         """A program of the right size."""
-        template, order = self.template, self.adapter.ORDER
-        n, m = template.n_v, template.m
+        template = self.template
+        order = self.adapter.ORDER
+        n = template.n_v
+        m = template.m
         return Program(
             np.zeros((n, n), order=order), np.zeros(n), np.zeros((m, n), order=order), np.zeros(m)
         )
@@ -103,8 +105,11 @@ class NativeSolver(Solver):
 
     def write_program(self, scaled: Any) -> None:
         """Write the program in natural units as it is; H only where it is another array."""
-        form, program = scaled.form, self.program
-        S, ell, rho = scaled.units.coordinate, scaled.units.length, scaled.units.size
+        form = scaled.form
+        program = self.program
+        S = scaled.units.coordinate
+        ell = scaled.units.length
+        rho = scaled.units.size
         if self.metric is None or self.metric.H is not scaled.metric.H:
             program.H[:] = scaled.metric.natural
             self.metric = scaled.metric
@@ -126,7 +131,8 @@ class NativeSolver(Solver):
         reply = held.adapter.reply(held.metric is self.metric, warm)
         if warm and not reply.solved:
             reply = held.adapter.reply(False, False)
-        held.metric, held.warm = self.metric, reply.solved
+        held.metric = self.metric
+        held.warm = reply.solved
         attempt.kept = held
         return reply
 

@@ -82,7 +82,8 @@ def constants(
         If h is not positive, or K_q or M_u not symmetric positive definite.
     """
     n_u = math.prod(M_u.shape[:-1])
-    h, K_q = seconds(h), definite("K_q", K_q, n_a)
+    h = seconds(h)
+    K_q = definite("K_q", K_q, n_a)
     try:
         positive_definite("M_u", frozen(M_u, "M_u", M_u.shape))  # all blocks in one call
     except StepDataError:

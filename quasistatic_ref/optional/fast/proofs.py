@@ -95,7 +95,8 @@ class Kept:
         list of int
             Where the exact method is then to start.
         """
-        step, hessian = scaled.step, self.hessian_of(scaled.step)
+        step = scaled.step
+        hessian = self.hessian_of(scaled.step)
         in_c = compiled("certificate")
         if in_c is not None:
             self.prover = in_c.prover(step, scaled.units.coordinate, self.prover)
@@ -147,8 +148,10 @@ class Part:
         return scaled
 
     def _step(self, step: StepData, constant: Constants) -> PosedStep:
-        group, given = self.group, step.contacts
-        (a, u), j = split(step, group), group.contacts
+        group = self.group
+        given = step.contacts
+        a, u = split(step, group)
+        j = group.contacts
         if len(group.extra_rows):
             constant = constant._replace(extra=extra_rows(step, group))
         contacts = PosedContacts(
@@ -193,15 +196,20 @@ class Proofs:
         ------
         StepInfeasible, StepIllPosed
         """
-        step, form = scaled.step, scaled.natural_form
+        step = scaled.step
+        form = scaled.natural_form
         lam, slack = np.zeros((2, step.m))
         if answer is not None:
-            lam, slack = answer.lam, form.A @ answer.delta_q - form.b
+            lam = answer.lam
+            slack = form.A @ answer.delta_q - form.b
         near = self._near(step, lam, slack)
         while True:
-            optima, points, long = list[ExactOptimum](), list[Solved](), False
+            optima = list[ExactOptimum]()
+            points = list[Solved]()
+            long = False
             for part in self.divided(step, near):
-                own, rows = part.scaled(scaled), part.group.rows
+                own = part.scaled(scaled)
+                rows = part.group.rows
                 found, start = part.kept.proved(own, lam[rows], slack[rows])
                 if found is None:
                     found = group_optimum(step, part.group, own.step, start)
@@ -284,7 +292,8 @@ def _parts(step: StepData, near: Mask, before: list[Part]) -> list[Part]:
     parts = []
     for group in found:
         a, u = split(step, group)
-        K_q, M_u = step.K_q[np.ix_(a, a)], step.inertia(u)
+        K_q = step.K_q[np.ix_(a, a)]
+        M_u = step.inertia(u)
         rows = step.contacts.rows[group.contacts]
         constant = constants(step.h, K_q, len(a), M_u, rows, step.cone)
         alike = known.setdefault(_key(constant), Part(group, constant, Kept()))

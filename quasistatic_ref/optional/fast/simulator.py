@@ -50,7 +50,8 @@ class FastSimulator(Simulator):
 
     def prepare(self) -> None:
         """Check and form what all steps have in common."""
-        system, entries = self.system, self.entries()
+        system = self.system
+        entries = self.entries()
         self.spare = Spare(
             default_backend(self.cone, self.certify, entries), self.accuracy, self.certify
         )
@@ -85,7 +86,8 @@ class FastSimulator(Simulator):
         kinematics: Kinematics,
     ) -> StepData:
         """The problem of one step, as in the base, not checked number by number."""
-        system, n_a = self.system, self.system.n_a
+        system = self.system
+        n_a = self.system.n_a
         contacts = self.geometry.contacts(points, kinematics)
         delta_q_bar_a = system.actuated_difference(q, q_bar_a)
         tau = self.generalised_force(q, force)

@@ -104,7 +104,8 @@ class FastSolver(NativeSolver):
     def error_bound(self, scaled: NaturalStep, delta_q: Array, lam: Array) -> float:
         """A bound of the relative error [-]: in float64, and in balls where that is open."""
         assert isinstance(scaled, DenseStep)
-        form, (S, ell, rho) = scaled.natural_form, scaled.units
+        form = scaled.natural_form
+        S, ell, rho = scaled.units
         hessian = self.whole.hessian_of(scaled.step)
         if self.bound is None or not self.bound.serves(hessian.inverse, S):
             bounds = needed_part("large.rounded_bound", RESIDUAL)

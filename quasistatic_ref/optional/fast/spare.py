@@ -24,7 +24,8 @@ class Spare:
 
     def __init__(self, default: str, accuracy: float, certify: str) -> None:
         self.default = default
-        self.accuracy, self.certify = accuracy, certify
+        self.accuracy = accuracy
+        self.certify = certify
         self.solver: Solver | None = None
 
     def answer(self, step: StepData, failure: StepNotSolved) -> StepSolution:

@@ -91,7 +91,8 @@ def _distance(
 ) -> tuple[arb, float]:
     """Bounds of ||x - x*||_H and of the relative error, from a feasible point and y >= 0."""
     H = arb_mat(form.H)
-    way, off = moved - x, moved - (balls.x_free + balls.H_inv * (balls.A.transpose() * y))
+    way = moved - x
+    off = moved - (balls.x_free + balls.H_inv * (balls.A.transpose() * y))
     gap = _product(off, H * off) / 2 + _product(y, balls.A * moved - balls.b)
     length = square_root(_product(way, H * way)) + square_root(2 * gap)
     free = square_root(_product(balls.x_free, H * balls.x_free))

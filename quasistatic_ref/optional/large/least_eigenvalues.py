@@ -41,7 +41,8 @@ def least_eigenvalues(H: csc_matrix) -> Array:
 def diagonal_blocks(H: csc_matrix) -> Iterator[tuple[Indices, Array]]:
     """Blocks of one size s after the other: their coordinates (k, s), and themselves (k, s, s)."""
     _, label = connected_components(H, directed=False)
-    order, size = np.argsort(label, kind="stable"), np.bincount(label)
+    order = np.argsort(label, kind="stable")
+    size = np.bincount(label)
     place = np.empty(len(label), dtype=np.int64)  # in the own block
     place[order] = np.arange(len(label)) - np.repeat(np.cumsum(size) - size, size)
     entries = H.tocoo()
@@ -51,7 +52,8 @@ def diagonal_blocks(H: csc_matrix) -> Iterator[tuple[Indices, Array]]:
         coordinates = order[own[label[order]]].reshape(-1, s)
         blocks = np.zeros((len(coordinates), s, s))
         here = own[label[entries.row]]
-        row, column = entries.row[here], entries.col[here]
+        row = entries.row[here]
+        column = entries.col[here]
         blocks[rank[label[row]], place[row], place[column]] = entries.data[here]
         yield coordinates, blocks
 

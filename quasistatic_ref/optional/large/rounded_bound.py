@@ -93,9 +93,11 @@ class FloatBound:
     """
 
     def __init__(self, inverse_in_balls: arb_mat, h: arb, H: Array, coordinate: Array) -> None:
-        self.inverse_in_balls, self.coordinate = inverse_in_balls, coordinate
+        self.inverse_in_balls = inverse_in_balls
+        self.coordinate = coordinate
         self.sizes = np.abs(H)
-        S, n = coordinate.tolist(), len(coordinate)
+        S = coordinate.tolist()
+        n = len(coordinate)
         with ctx.workprec(PRECISION):
             entries = (inverse_in_balls * h).entries()
             balls = [v / arb(S[i // n]) / S[i % n] for i, v in enumerate(entries)]
@@ -130,7 +132,8 @@ class FloatBound:
         if not usable or step.extra.names:
             return None
         at = self.rounded(step, form, units, x, np.maximum(lam, 0.0))
-        moved, free = self.moved(step, form, at), self.energy(form.g, at.load)
+        moved = self.moved(step, form, at)
+        free = self.energy(form.g, at.load)
         if moved is None or not free > 0:
             return None
         way, work = moved
@@ -154,15 +157,19 @@ class FloatBound:
         y : ndarray, shape (m,)
             Multipliers, none of them below zero [-].
         """
-        (n,), (ell, rho), contacts = x.shape, units, step.contacts
+        (n,) = x.shape
+        ell, rho = units
+        contacts = step.contacts
         reach = np.einsum("cij,ci->cj", np.abs(contacts.J), self.weight(contacts.mu))
         reach *= self.coordinate / ell
         target = np.abs(step.delta_q_bar_a) / (rho * self.coordinate[: step.n_a])
         load = np.abs(form.g) + 2 * self.sizes[:, : step.n_a].dot(target) + UNDERFLOW
-        size, lost = np.abs(x), U * UNDERFLOW
+        size = np.abs(x)
+        lost = U * UNDERFLOW
         balance = form.H.dot(x) - form.g - form.A.T.dot(y)
         sums = (n + EXTRA_BALANCE) * (self.sizes.dot(size) + load) + np.abs(balance)
-        slack, off_slack = form.A.dot(x) - form.b, 0.0
+        slack = form.A.dot(x) - form.b
+        off_slack = 0.0
         if y.size:
             lost *= 1 + float(size.sum() + y.sum())
             off_slack = U * (n + EXTRA_SLACK) * float(reach.dot(size).max()) + lost

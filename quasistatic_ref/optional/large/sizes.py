@@ -137,7 +137,8 @@ def sizes_of(step: StepData, coordinate: Array, length: float, size: float) -> S
     length, size : float
         Natural units ell [m per (N m s)^0.5] and rho [(N m s)^0.5].
     """
-    c, blocks = step.contacts, in_blocks(step)
+    c = step.contacts
+    blocks = in_blocks(step)
     of_load = coordinate / size
     spring = np.abs(step.K_q) @ np.abs(step.delta_q_bar_a)  # Eq. (1)
     load = np.concatenate([spring + np.abs(step.tau_a), np.abs(step.tau_u)]) * step.h

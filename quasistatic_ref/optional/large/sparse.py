@@ -47,7 +47,8 @@ class LargeSteps:
 
     def __init__(self, template: StepData) -> None:
         self.pattern = Pattern(template)
-        P, column = self.pattern.P, self.pattern.P_column
+        P = self.pattern.P
+        column = self.pattern.P_column
         S = self.coordinate = coordinate_units(P.diagonal())
         self.P = csc_matrix((P.data * S[P.indices] * S[column], P.indices, P.indptr), P.shape)
         whole = self.P + self.P.T
@@ -79,8 +80,10 @@ class SparseStep:
     """
 
     def __init__(self, step: StepData, kind: LargeSteps) -> None:
-        self.step, self.metric = step, kind.H
-        form, S = sparse_form(step, kind.pattern), kind.coordinate
+        self.step = step
+        self.metric = kind.H
+        form = sparse_form(step, kind.pattern)
+        S = kind.coordinate
         rows = form.A.data * S[kind.pattern.column]
         squares = np.bincount(form.A.indices, rows * rows, minlength=len(form.b))
         y = form.g * S
@@ -91,7 +94,8 @@ class SparseStep:
         self.units = units = units_from(S, np.sort(squares), length, form.b)
         check_units(units, step)
         self.A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
-        self.g, self.b = y / units.size, form.b / (units.size * units.length)
+        self.g = y / units.size
+        self.b = form.b / (units.size * units.length)
         self.form: Any = form
         self.natural_form: Any = StandardForm(kind.H.H, self.g, self.A, self.b)
 

@@ -104,23 +104,30 @@ def sparse_error_bound(form: LargeForm, x: Array, lam: Array) -> float:
         Its multipliers [-]; negative ones are taken as zero.
     """
     y = np.maximum(lam, 0.0)
-    sizes, metric, free = form.sizes, form.metric, free_length(form)
+    sizes = form.sizes
+    metric = form.metric
+    free = free_length(form)
     small = all(float(np.abs(v).max(initial=0.0)) <= LARGEST for v in (x, y, form.b))
     if not (small and sizes.usable and free > 0 and (metric.least > 0).all()):  # NaN is not small
         return math.inf
-    s, e = form.A @ x - form.b, rounding(sizes.row_terms, sizes.rows(x) + np.abs(form.b))
-    low, work, way = below(s - e), total_of_products(y, above(s + e)), 0.0
+    s = form.A @ x - form.b
+    e = rounding(sizes.row_terms, sizes.rows(x) + np.abs(form.b))
+    low = below(s - e)
+    work = total_of_products(y, above(s + e))
+    way = 0.0
     if low.min(initial=0.0) < 0:
         d = opening(form.A, s)  # v above
         if d is None or not float(np.abs(d).max()) <= LARGEST:
             return math.inf
-        opens, e = form.A @ d, rounding(sizes.row_terms, sizes.rows(d))
+        opens = form.A @ d
+        e = rounding(sizes.row_terms, sizes.rows(d))
         t = least_way(low, below(opens - e))
         if not t < math.inf:
             return math.inf
         way = up(t * up(math.sqrt(total_of_products(above(d * d), metric.most))))
         work = up(work + up(t * max(total_of_products(y, above(opens + e)), 0.0)))
-    r, e = metric.H @ x - form.g - form.A.T @ y, metric.sizes(x) + sizes.load + sizes.columns(y)
+    r = metric.H @ x - form.g - form.A.T @ y
+    e = metric.sizes(x) + sizes.load + sizes.columns(y)
     r = above(np.abs(r) + rounding(max(sizes.column_terms, metric.entries), e))
     unbalanced = up(math.sqrt(total(above(above(r * r) / metric.least))))
     moved = up(unbalanced + way)
@@ -130,11 +137,13 @@ def sparse_error_bound(form: LargeForm, x: Array, lam: Array) -> float:
 
 def free_length(form: LargeForm) -> float:
     """A lower bound of ||H^-1 g||_H [-], which is the largest g'z / ||z||_H of any z."""
-    metric, sizes = form.metric, form.sizes
+    metric = form.metric
+    sizes = form.sizes
     z = np.asarray(metric.factor.solve(form.g))
     if not float(np.abs(z).max(initial=0.0)) <= LARGEST:
         return 0.0
-    e_g, e_H = rounding(sizes.column_terms, sizes.load), rounding(metric.entries, metric.sizes(z))
+    e_g = rounding(sizes.column_terms, sizes.load)
+    e_H = rounding(metric.entries, metric.sizes(z))
     along = -up(total_of_products(-form.g, z) + total_of_products(e_g, np.abs(z)))
     square = up(total_of_products(metric.H @ z, z) + total_of_products(e_H, np.abs(z)))
     return down(along / up(math.sqrt(square))) if along > 0 else 0.0

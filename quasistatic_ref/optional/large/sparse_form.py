@@ -33,7 +33,8 @@ class Pattern:
 
     def __init__(self, step: StepData) -> None:
         blocks = in_blocks(step)
-        m, n_v = int(step.offsets[-1]), step.n_v
+        m = int(step.offsets[-1])
+        n_v = step.n_v
         column = np.repeat(blocks.column, step.counts, axis=0)  # of each row, (m, w)
         row = np.broadcast_to(np.arange(m)[:, None], column.shape)
         real = np.flatnonzero((column < n_v).ravel())
@@ -46,7 +47,8 @@ class Pattern:
         self.column = np.repeat(np.arange(n_v), np.diff(counted.indptr))
         self.P = upper_triangle(step)
         self.P_column = np.repeat(np.arange(n_v), np.diff(self.P.indptr))
-        self.template, self.blocks = step, blocks
+        self.template = step
+        self.blocks = blocks
 
     def fits(self, step: StepData) -> bool:
         """Whether a step has its entries where this pattern has them, and the same H."""

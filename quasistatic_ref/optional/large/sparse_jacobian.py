@@ -29,8 +29,10 @@ class BlockGeometry:
         # Joints' columns in the order of their coordinates; a mimic's is that of another.
         owner = column_map.owner
         by_coordinate = np.argsort(owner, kind="stable")
-        owner, moves = owner[by_coordinate], column_map.moves[:, 0, by_coordinate] > 0
-        a, b = moves[layout.link_alpha], moves[layout.link_beta]
+        owner = owner[by_coordinate]
+        moves = column_map.moves[:, 0, by_coordinate] > 0
+        a = moves[layout.link_alpha]
+        b = moves[layout.link_beta]
         contact, rank, joint_column = _ragged(a | b)
         shape = (len(a), 1 + int(rank.max(initial=-1)))
         self.joint_column, (self.alpha, self.beta) = np.zeros(shape, int), np.zeros((2, *shape))
@@ -52,9 +54,12 @@ class BlockGeometry:
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> SparseContacts:
         """The contacts of one step, from the closest points of all pairs."""
-        phi, n, layout = points.phi, points.n, self.layout
+        phi = points.phi
+        n = points.n
+        layout = self.layout
         d1, d2 = tangents(n)
-        blocks, names = self.jacobian(kinematics, points), layout.contact_names(points.point)
+        blocks = self.jacobian(kinematics, points)
+        names = layout.contact_names(points.point)
         return SparseContacts(
             names, phi, n, d1, d2, blocks, layout.mu_v, layout.mu_omega, layout.rows
         )
@@ -62,8 +67,10 @@ class BlockGeometry:
     def jacobian(self, kinematics: Kinematics, points: ClosestPoints) -> Blocks:
         """J of Eq. :eq:`eq-3`, those columns."""
         twist = kinematics.columns.T[self.joint_column].transpose(0, 2, 1)  # (n_c, 6, w)
-        nu, omega = twist[:, :3], twist[:, 3:]
-        a, b = self.alpha[:, None], self.beta[:, None]
+        nu = twist[:, :3]
+        omega = twist[:, 3:]
+        a = self.alpha[:, None]
+        b = self.beta[:, None]
         at_alpha = nu + crossed(omega, points.alpha[:, :, None])  # nu_origin + omega x r
         at_beta = nu + crossed(omega, points.beta[:, :, None])
         spin = product(points.n[:, None], omega * (b - a))

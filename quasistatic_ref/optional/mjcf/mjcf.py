@@ -157,9 +157,11 @@ def _link(spec: Any, model: Any, i: int, robot: Element) -> None:
 
 
 def _geom(spec: Any, model: Any, g: int, touches: bool, link: Element) -> None:
-    kind, size = GEOMS[model.geom_type[g]], model.geom_size[g]
+    kind = GEOMS[model.geom_type[g]]
+    size = model.geom_size[g]
     shape = Element(kind)
-    R, t = _rotation(model.geom_quat[g]), model.geom_pos[g]
+    R = _rotation(model.geom_quat[g])
+    t = model.geom_pos[g]
     if kind == "sphere":
         shape.set("radius", _text(size[0]))
     elif kind in ("capsule", "cylinder"):
@@ -204,7 +206,8 @@ def _placed(link: Element, tag: str, shape: Element, R: Array, t: Array) -> Elem
 
 def _rgba(model: Any, g: int) -> Array:
     """A geom's colour as MuJoCo draws it, shape (4,): its own, where it has no material or one."""
-    own, material = model.geom_rgba[g], model.geom_matid[g]
+    own = model.geom_rgba[g]
+    material = model.geom_matid[g]
     return np.asarray(own if material < 0 or np.any(own != GREY) else model.mat_rgba[material])
 
 
@@ -214,12 +217,14 @@ def _joints(model: Any, i: int, robot: Element) -> None:
     A joint with an anchor p turns about it: T p R(q) p^-1. Between joints are links without mass.
     """
     body, parent = (_name(model, "body", k) for k in (i, model.body_parentid[i]))
-    R, t = _rotation(model.body_quat[i]), model.body_pos[i]
+    R = _rotation(model.body_quat[i])
+    t = model.body_pos[i]
     at = np.zeros(3)  # the anchor of the joint before
     first = model.body_jntadr[i]
     joints = range(first, first + model.body_jntnum[i])
     for j in joints:
-        name, kind = _name(model, "joint", j), model.jnt_type[j]
+        name = _name(model, "joint", j)
+        kind = model.jnt_type[j]
         if kind not in (SLIDE, HINGE):
             _refuse(model, "joint", j, "type", "is not supported; use hinges and slides")
         anchor = model.jnt_pos[j] if kind == HINGE else at
@@ -236,7 +241,10 @@ def _joints(model: Any, i: int, robot: Element) -> None:
         _ignored_of_joint(model, j, joint)
         if not last:
             SubElement(robot, "link", name=child)
-        parent, R, t, at = child, np.eye(3), np.zeros(3), anchor
+        parent = child
+        R = np.eye(3)
+        t = np.zeros(3)
+        at = anchor
     if parent != body:
         joint = _joint(robot, f"{body}:fixed", "fixed", parent, body)
         _origin(joint, t - R @ at, R)
@@ -251,7 +259,8 @@ def _joint(robot: Element, name: str, kind: str, parent: str, child: str) -> Ele
 
 def _ignored_of_joint(model: Any, j: int, joint: Element) -> None:
     dof = model.jnt_dofadr[j]
-    friction, damping = model.dof_frictionloss[dof], model.dof_damping[dof]
+    friction = model.dof_frictionloss[dof]
+    damping = model.dof_damping[dof]
     if friction or damping:  # joint_friction = "urdf" reads the first
         SubElement(joint, "dynamics", friction=_text(friction), damping=_text(damping))
     for name, given in (

@@ -41,7 +41,10 @@ def ply_points(content: bytes) -> Array:
 
 def _table(content: bytes) -> PointTable:
     """The vertices as the header describes them; refuses what this reader cannot place."""
-    kind, count, columns, elements = "", 0, [], 0
+    kind = ""
+    count = 0
+    columns = []
+    elements = 0
     for number, words, start in header_lines(content, "end_header"):
         where = f"line {number}"
         match words:

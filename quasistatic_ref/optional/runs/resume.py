@@ -73,7 +73,8 @@ def saved_run(
         if callable(function) and needed_arguments(function, name) == 3:
             problem = "cannot be asked again: the results of saved steps are not kept"
             raise InputError(problem, field=name)
-    target, force = given["target"][1], given["force"][1]
+    target = given["target"][1]
+    force = given["force"][1]
     parts = list(saved.parts())
     taken = sum(len(part["t"]) for part, _ in parts)
     start_cold(simulator)
@@ -99,7 +100,8 @@ class _Again:
         for i, q in enumerate([recorder.q, *part["q"][:-1]]):
             k = recorder.steps + i
             t = (k + 1) * recorder.h
-            goal, pushed = self.target(t, q, None), self.force(t, q, None)
+            goal = self.target(t, q, None)
+            pushed = self.force(t, q, None)
             _check("target", k, part["q_bar_a"][i], goal)
             tau = self.simulator.generalised_force(q, pushed)
             _check("force", k, part["tau"][i], tau)
@@ -117,7 +119,8 @@ class _Again:
 
     def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, bool]:
         """The step from q, and whether that holds all there is of an extension."""
-        simulator, kinematics = self.simulator, self.simulator.system.kinematics(q)
+        simulator = self.simulator
+        kinematics = self.simulator.system.kinematics(q)
         points = simulator.closest_points(kinematics)
         step = simulator.step_data(q, goal, pushed, points, kinematics)
         if simulator.extension is None:
@@ -128,7 +131,8 @@ class _Again:
 
     def _ask(self, step: StepData, linear: bool) -> None:
         """Ask the solver as the step did, for what it keeps; nothing else is done with it."""
-        simulator, solver = self.simulator, self.simulator.solver
+        simulator = self.simulator
+        solver = self.simulator.solver
         if not linear or not (solver is None or solver.remembers) or simulator.backend == NONE:
             return
         if simulator.law == COULOMB:  # it was asked for each iterate

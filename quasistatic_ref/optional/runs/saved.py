@@ -36,7 +36,8 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.recorder import Part, Recorder
     from quasistatic_ref.simulate.simulator import Simulator
 
-FORMAT, VERSION = "quasistatic-ref/saved-steps", 1
+FORMAT = "quasistatic-ref/saved-steps"
+VERSION = 1
 WHAT = "a file of saved steps"
 EVERY = 60.0
 """Time between two saves [s]."""
@@ -167,7 +168,8 @@ class SavedRun(Observer):
         if not isinstance(then, dict):
             raise InputError("must be a table", field="settings")
         for name in {**then, **self.settings}:
-            was, now = then.get(name), self.settings.get(name)
+            was = then.get(name)
+            now = self.settings.get(name)
             if was != now:
                 shown = f": {was or 'nothing'} then, {now or 'nothing'} now"
                 values = "" if HASHED in f"{was}{now}" else shown
@@ -202,7 +204,8 @@ class SavedRun(Observer):
             path = self.folder / f"{recorder.steps - steps:09d}.npz"
             try:
                 written_whole(path, lambda file: np.savez(file, **arrays))
-                self._saved, self._failing = len(parts), False
+                self._saved = len(parts)
+                self._failing = False
             except InputError as error:
                 if not self._failing:
                     print(f"quasistatic-ref: {error}; the run goes on", file=sys.stderr)
@@ -249,7 +252,8 @@ def first_step(path: str | Path, steps: int, resume: bool) -> int:
         If the run would lose steps that are there: a longer trajectory, or saved steps that it does
         not go on from; or if the file holds something else.
     """
-    there, saved = steps_in(path), saved_steps(path)
+    there = steps_in(path)
+    saved = saved_steps(path)
     if there > steps:
         problem = (
             f"holds a run of {there} steps, which one of {steps} steps does not replace; choose "

@@ -308,7 +308,8 @@ def _check_same(simulator: Simulator, path: Path) -> None:
     other = load_scenario(path).simulator()
     for own, loaded in zip(simulator.pairs, other.pairs, strict=True):
         for side in ("alpha", "beta"):
-            shape, again = getattr(own, side), getattr(loaded, side)
+            shape = getattr(own, side)
+            again = getattr(loaded, side)
             if np.any(shape.R != again.R) or np.any(shape.t != again.t):
                 problem = "is rounded where a URDF is read; place the shape without a rotation"
                 raise InputError(problem, field=f"{shape.name}.R", value=shape.R.tolist())
@@ -321,7 +322,8 @@ def _check_same(simulator: Simulator, path: Path) -> None:
 
 def _first_step(simulator: Simulator) -> list[Array]:
     """All numbers of the step from where the system starts, with the targets there."""
-    system, q = simulator.system, simulator.system.q_start
+    system = simulator.system
+    q = simulator.system.q_start
     kinematics = system.kinematics(q)
     points = simulator.closest_points(kinematics)
     step = simulator.step_data(q, q[: system.n_q_a], 0.0, points, kinematics)

@@ -39,7 +39,8 @@ def pair_rows(pairs: Sequence[ContactPair]) -> list[Row]:
 
 def result_page(result: StepResult) -> Page:
     """One step that was taken: gap, normal, force and active rows of each contact."""
-    step, certificate = result.step, result.solution.certificate
+    step = result.step
+    certificate = result.solution.certificate
     title = (
         f"StepResult: {counted(step.n_v, 'coordinate')}, {counted(step.contacts.n_c, 'contact')}, "
         f"certificate: {certificate.kind}, {1e3 * sum(result.seconds.values()):.3g} ms"
@@ -100,7 +101,8 @@ def trajectory_page(trajectory: Trajectory) -> Page:
     """A run: how far it went, what of it is proved, and its contacts in the last step."""
     from quasistatic_ref.simulate.trajectory import certified  # which needs pinocchio
 
-    header, steps = trajectory.header, trajectory.steps
+    header = trajectory.header
+    steps = trajectory.steps
     ended = "complete" if trajectory.failed is None else "ended early"
     title = (
         f"Trajectory: {counted(steps, 'step')} of {header['h']:g} s, {ended}; "

@@ -62,7 +62,8 @@ def contact_rows(contacts: Contacts) -> list[Row]:
 
 def force_rows(solution: StepSolution) -> list[Row]:
     """Of each contact: its wrench and the names of its active rows, where they are known."""
-    names, active = cone(solution.cone).row_names, solution.certificate.active
+    names = cone(solution.cone).row_names
+    active = solution.certificate.active
     known = solution.certificate.kind == "exact"
     of_contact: dict[int, list[str]] = {}
     for j, i in active:

@@ -60,8 +60,10 @@ def coordinate_frame(trajectory: "Trajectory") -> "DataFrame":
         If pandas is not installed.
     """
     pandas = _pandas()
-    names, steps = _positions(trajectory), trajectory.steps
-    values, targets = trajectory["q"][1:], np.full((steps, len(names)), np.nan)
+    names = _positions(trajectory)
+    steps = trajectory.steps
+    values = trajectory["q"][1:]
+    targets = np.full((steps, len(names)), np.nan)
     if steps:
         given = trajectory["q_bar_a"]
         targets[:, : given.shape[1]] = given

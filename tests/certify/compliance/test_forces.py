@@ -18,7 +18,10 @@ from tests.oracles.random_steps import mixed_step
 from tests.step.test_groups import two_bodies
 from validation.make import forces as checks
 
-H, M, G, MU_V = 0.01, 1.0, 9.81, 0.5
+H = 0.01
+M = 1.0
+G = 9.81
+MU_V = 0.5
 CORNERS = [[x, y, -0.03] for x in (0.05, -0.05) for y in (0.05, -0.05)]
 CONES = ("pyramid", "product", "facets-6", "frictionless", "ellipsoid")
 
@@ -111,7 +114,8 @@ def test_rows_that_contradict_each_other_are_proved_to():
 def test_a_generic_slope_keeps_its_shares_for_40_steps():
     """The rough block of block_incline, which holds; gravity pulls across the slope, too."""
     scenario = load_scenario("block_incline", ["gravity=[0.3, 0.5, -9.79]"], fast=True)
-    simulator, q = scenario.simulator(), scenario.system.q_start
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
     shares = []
     for _ in range(40):
         result = simulator.step(q, np.zeros(0))

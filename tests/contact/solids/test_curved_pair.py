@@ -47,8 +47,10 @@ def along(x: float, y: float, z: float) -> np.ndarray:
     return np.array([x, y, z]) / np.linalg.norm([x, y, z])
 
 
-BOX, MESH = Box(np.array([0.03, 0.05, 0.08])), convex_hull(WEDGE)
-CAPSULE, CYLINDER = Capsule(0.03, 0.05), Cylinder(0.05, 0.08)
+BOX = Box(np.array([0.03, 0.05, 0.08]))
+MESH = convex_hull(WEDGE)
+CAPSULE = Capsule(0.03, 0.05)
+CYLINDER = Cylinder(0.05, 0.08)
 FEATURES = {
     "corner of a box": (BOX, (0.03, -0.05, 0.08), along(1, -2, 3)),
     "edge of a box": (BOX, (0.03, 0.01, -0.08), along(1, 0, -2)),
@@ -72,7 +74,8 @@ def put(feature: str, other: Shape, distance: float) -> tuple[ShapeInWorld, ...]
     """A solid and another next to one of its features."""
     solid, point, own = FEATURES[feature]
     R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix()
-    t, n = np.array([0.1, 0.2, 0.3]), R @ own
+    t = np.array([0.1, 0.2, 0.3])
+    n = R @ own
     alpha = R @ point + t
     beta = alpha + distance * n
     there = ShapeInWorld(other, S, beta - S @ other.support_point(S.T @ -n))
@@ -101,7 +104,8 @@ def test_an_enlarged_pair_has_the_same_normal_and_a_larger_distance(names) -> No
             continue
         answered += 1
         for k in SCALES:
-            A, B = enlarged(a, k), enlarged(b, k)
+            A = enlarged(a, k)
+            B = enlarged(b, k)
             other = solid_pair("p", ShapeInWorld(A, *HERE), ShapeInWorld(B, R, k * t))
             np.testing.assert_allclose(other.phi / k, one.phi, rtol=EXACT, atol=CURVED_PAIR)
             # Of several normals that are as good, which one is taken may be rounding.
@@ -112,7 +116,8 @@ def test_an_enlarged_pair_has_the_same_normal_and_a_larger_distance(names) -> No
 
 def test_a_hair_of_penetration_is_not_nothing() -> None:
     # Two ellipsoids tip to tip, 1.6e-10 m deep: along their common axis, whatever their widths.
-    a, b = Ellipsoid(np.array([0.1, 0.05, 0.04])), Ellipsoid(np.array([0.2, 0.03, 0.06]))
+    a = Ellipsoid(np.array([0.1, 0.05, 0.04]))
+    b = Ellipsoid(np.array([0.2, 0.03, 0.06]))
     phi = -1.6e-10
     found = solid_pair(
         "p", ShapeInWorld(a, *HERE), ShapeInWorld(b, np.eye(3), np.array([0.3 + phi, 0, 0]))

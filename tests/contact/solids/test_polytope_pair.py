@@ -30,7 +30,8 @@ def moved_pair(
 ) -> Witness:
     """The closest points after a motion of both, in the frame before it; a is at the origin."""
     rng = np.random.default_rng(seed)
-    S, s = Rotation.random(rng=rng).as_matrix(), np.abs(t_b).max() * rng.normal(size=3)
+    S = Rotation.random(rng=rng).as_matrix()
+    s = np.abs(t_b).max() * rng.normal(size=3)
     found = solid_pair("p", ShapeInWorld(a, S @ R_a, s), ShapeInWorld(b, S @ R_b, S @ t_b + s))
     return Witness(found.phi, S.T @ (found.alpha - s), S.T @ (found.beta - s), S.T @ found.n)
 
@@ -43,7 +44,9 @@ def test_edges_that_cross_are_closest_where_they_cross(angle, gap, scale) -> Non
     # the other is turned about z. In penetration the way out by a face, (|gap| + 0.1 sin(angle)) /
     # sqrt(2), is longer.
     gap *= angle
-    cube, on_edge, top = Box(np.full(3, 0.1 * scale)), turned(np.pi / 4, 0, 0), 0.1 * np.sqrt(2)
+    cube = Box(np.full(3, 0.1 * scale))
+    on_edge = turned(np.pi / 4, 0, 0)
+    top = 0.1 * np.sqrt(2)
     t = scale * np.array([0.02, 0, 2 * top + gap])
     for seed in range(2):
         found = moved_pair(cube, on_edge, cube, turned(0, 0, angle) @ on_edge, t, seed)
@@ -62,8 +65,10 @@ def test_edges_that_cross_are_closest_where_they_cross(angle, gap, scale) -> Non
 )
 def test_capsules_that_cross_have_the_common_normal_of_their_axes(angle, apart, scale) -> None:
     # Axes along z, and turned about the common normal x; they cross at z = 0.02.
-    one, other = Capsule(0.03 * scale, 0.1 * scale), Capsule(0.02 * scale, 0.1 * scale)
-    own, across = turned(0, 0, 0.5), turned(angle, 0, 0)
+    one = Capsule(0.03 * scale, 0.1 * scale)
+    other = Capsule(0.02 * scale, 0.1 * scale)
+    own = turned(0, 0, 0.5)
+    across = turned(angle, 0, 0)
     t = scale * (apart * X + 0.02 * Z + 0.03 * across[:, 2])
     for seed in range(2):
         found = moved_pair(one, own, other, across, t, seed)
@@ -76,7 +81,8 @@ def test_capsules_that_cross_have_the_common_normal_of_their_axes(angle, apart, 
 
 @pytest.mark.parametrize("scale", SCALES)
 def test_capsules_end_to_end_have_their_axis_as_normal(scale) -> None:
-    capsule, apart = Capsule(0.03 * scale, 0.1 * scale), 1e-8
+    capsule = Capsule(0.03 * scale, 0.1 * scale)
+    apart = 1e-8
     found = moved_pair(capsule, np.eye(3), capsule, np.eye(3), scale * (0.2 + apart) * Z, 1)
     np.testing.assert_allclose(found.phi / scale, apart - 0.06, rtol=EXACT, atol=CLOSED_FORM)
     np.testing.assert_allclose(found.n, Z, rtol=EXACT, atol=OF_DIFFERENCE / apart)
@@ -86,7 +92,8 @@ def test_capsules_end_to_end_have_their_axis_as_normal(scale) -> None:
 @pytest.mark.parametrize("off", [1e-9, 1e-4, 0.05])
 def test_a_tip_off_an_edge_has_the_way_from_the_edge_as_normal(off, scale) -> None:
     n = np.array([0.6, 0, 0.8])
-    roof, edge = convex_hull(scale * ROOF), np.array([HALF[0], 0.05, HALF[2]])
+    roof = convex_hull(scale * ROOF)
+    edge = np.array([HALF[0], 0.05, HALF[2]])
     t = scale * (edge + off * n)
     for box in (Box(scale * HALF), convex_hull(scale * CORNERS)):
         for seed in range(2):

@@ -35,7 +35,8 @@ def test_a_pair_is_as_far_apart_as_another_computation_says(names: tuple[str, st
     random = np.random.default_rng(5)
     directions = random.normal(size=(500, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    here, answered = ShapeInWorld(a, np.eye(3), np.zeros(3)), 0
+    here = ShapeInWorld(a, np.eye(3), np.zeros(3))
+    answered = 0
     for R, t in closest.poses(8, 11):
         try:
             phi, alpha, beta, n = solid_pair("p", here, ShapeInWorld(b, R, t))

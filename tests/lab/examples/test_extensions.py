@@ -65,7 +65,8 @@ def test_a_joint_stops_at_its_limit_exactly():
 @pytest.mark.parametrize("target", [0.001, 0.003, 0.05])
 def test_a_saturated_actuator_presses_with_tau_max_and_no_more(target):
     # On the wall the contact carries min(K target, tau_max).
-    K, tau_max = 1000.0, 4.0
+    K = 1000.0
+    tau_max = 4.0
     step = wall(target, K)
     saturation = actuator_saturation(step.h, np.array([K]), np.array([tau_max]))
     answer = solve_step(step, extension=saturation)
@@ -92,7 +93,8 @@ def test_welded_bodies_move_as_one_exactly(rng):
     J = [np.hstack([np.eye(6), np.zeros((6, 6))]), np.hstack([np.zeros((6, 6)), np.eye(6)])]
     answer = solve_step(step, extension=weld(*J))
     assert answer.certificate.kind == "exact"
-    one, two = answer.delta_q[:6], answer.delta_q[6:]
+    one = answer.delta_q[:6]
+    two = answer.delta_q[6:]
     np.testing.assert_allclose(two, one, rtol=EXACT, atol=EXACT)
     E = np.vstack([np.eye(6), np.eye(6)])
     expected = step.h**2 * np.linalg.solve(E.T @ step.M_u @ E, E.T @ step.tau_u)
@@ -177,7 +179,8 @@ def test_an_extension_stands_beside_the_ellipsoid():
 
 def test_a_simulator_takes_an_extension_and_its_trajectory_replays(tmp_path):
     scenario = load_scenario("bunny_grasp", ["steps=8"], fast=True)
-    h, n_a = scenario.h, scenario.system.n_a
+    h = scenario.h
+    n_a = scenario.system.n_a
     simulator = scenario.simulator(lambda q: velocity_limit(h, np.full(n_a, 1e-3)))
     trajectory = rollout(simulator, scenario.system.q_start, scenario.targets, 8, progress=False)
     assert set(trajectory["certificate"].tolist()) == {"exact"}

@@ -13,7 +13,8 @@ from tests.tolerances import ROUNDING
 def test_a_push_moves_the_load_to_the_corner_ahead():
     # Moments about a lower corner: m g / 2 -+ F c / (2 w), c the height of the centre of mass.
     for push, (friction, left, right) in zip(corner_loads.PUSHES, corner_loads.main(), strict=True):
-        half, shift = 9.81 / 2, push * 0.04 / (2 * 0.05)
+        half = 9.81 / 2
+        shift = push * 0.04 / (2 * 0.05)
         expected = [-push, half - shift, half + shift]
         np.testing.assert_allclose([friction, left, right], expected, rtol=ROUNDING, atol=ROUNDING)
 

@@ -15,7 +15,8 @@ from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.settings import Settings
 from tests.lab.reality.test_identify import planted
 
-RATIO, RADIUS = 0.03, 0.01
+RATIO = 0.03
+RADIUS = 0.01
 SIDES = 0.05 * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 
 

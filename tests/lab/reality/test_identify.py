@@ -17,13 +17,15 @@ from quasistatic_ref.lab.reality.identify import (
 from quasistatic_ref.lab.reality.loads import Loads, loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read
 
-RHO, RATIO = 0.04, 0.03
+RHO = 0.04
+RATIO = 0.03
 
 
 def planted(count, noise, seed, ratio=RATIO):
     """Loads of all directions, and twists along (f, tau / ratio^2) in a scatter of an angle."""
     rng = np.random.default_rng(seed)
-    angle, arm = rng.uniform(0, 2 * np.pi, count), rng.uniform(-0.06, 0.06, count)
+    angle = rng.uniform(0, 2 * np.pi, count)
+    arm = rng.uniform(-0.06, 0.06, count)
     wrench = (
         np.column_stack([np.cos(angle), np.sin(angle), arm]) * rng.uniform(1, 3, count)[:, None]
     )
@@ -62,7 +64,8 @@ def test_few_loads_identify_nothing():
 
 def test_the_information_is_the_curvature_of_the_likelihood():
     # In a scatter without bias, u = A(kappa) m on average: the curvature of kappa sum u . m.
-    loads, step = planted(100, 0.0, 5), 1e-3
+    loads = planted(100, 0.0, 5)
+    step = 1e-3
     wrench = loads.wrench
     law = wrench * [1, 1, RHO / RATIO**2]
     own = Loads(wrench, law / [1, 1, RHO])

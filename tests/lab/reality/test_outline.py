@@ -8,7 +8,8 @@ from quasistatic_ref.lab.reality.cloud import support_points
 from quasistatic_ref.lab.reality.outline import Outline
 from tests.tolerances import ROUNDING
 
-A, B = 0.06, 0.02
+A = 0.06
+B = 0.02
 RECTANGLE = np.array([[0, 0], [A, 0], [A, B], [0, B]]) + np.array([0.1, -0.3])
 TRIANGLE = np.array([[0.0, 0.0], [0.15, 0.0], [0.0, 0.15]])
 BENT = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.2], [0.0, 1.0]])

@@ -22,7 +22,8 @@ from quasistatic_ref.step.extension import Extension
 from tests.model.urdf.urdf_texts import collision, joint, link, robot, written
 from tests.tolerances import QUASI_STATIC
 
-RATIO, RADIUS = 0.03, 0.005
+RATIO = 0.03
+RADIUS = 0.005
 SQUARE = Outline(0.04 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]))
 PAIR = Pair("glass/square", SQUARE, 0.5, 0.4, RADIUS, None)
 START = np.array([0.2, 0.1, 0.0])
@@ -37,7 +38,9 @@ def test_a_slow_step_moves_a_slider_as_lynch_says(mu_finger):
     scene = pushed(Settings(finger=mu_finger, h=20.0, advance=1e-4), PAIR, RATIO)
     body = np.append(START[:2], [0.0, 0.0])
     found = solve_step(scene.step(BELOW, body, BELOW + 1e-4 * UP))
-    point, way, c2 = np.array([0.015, -0.04]), found.delta_q[:2], RATIO**2
+    point = np.array([0.015, -0.04])
+    way = found.delta_q[:2]
+    c2 = RATIO**2
     if mu_finger == "0.0":
         law = sliding_motion(point, UP, c2) * way[1]
     else:
@@ -52,7 +55,8 @@ CHANGES = [{"m": 20.0}, {"h": 5.0}, {"mu_v": 0.9}, {"stiffness": 1e7}, {"gyratio
 
 @pytest.mark.parametrize("change", CHANGES, ids=str)
 def test_mass_load_step_time_and_stiffness_do_not_matter(change):
-    base, other = Settings(advance=2e-3), Settings(**{"advance": 2e-3} | change)
+    base = Settings(advance=2e-3)
+    other = Settings(**{"advance": 2e-3} | change)
     ends = [predicted(pushed(s, PAIR, RATIO), START, PATH, "off").pose for s in (base, other)]
     Pi = base.quasi_dynamic_number
     turned = ends[0][2] - START[2]

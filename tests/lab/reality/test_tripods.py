@@ -14,14 +14,18 @@ from validation.make.reality_tripods import (
     tripods_read,
 )
 
-OFFSET, ANGLE, RADIUS = np.array([6e-4, -4e-4]), 0.004, 0.003
+OFFSET = np.array([6e-4, -4e-4])
+ANGLE = 0.004
+RADIUS = 0.003
 
 
 def planted():
     """Pushes that end where a finger of that radius touches the outline in the offset frame."""
     rng = np.random.default_rng(0)
     after = rng.uniform(-1, 1, size=(30, 3))
-    vertices, edges, path = TRIANGLE.vertices, TRIANGLE.edges, np.zeros((30, 40, 2))
+    vertices = TRIANGLE.vertices
+    edges = TRIANGLE.edges
+    path = np.zeros((30, 40, 2))
     for k, pose in enumerate(after):
         edge = edges[k % 3] / np.linalg.norm(edges[k % 3])
         outward = np.array([edge[1], -edge[0]])
@@ -42,7 +46,8 @@ def test_three_points_are_predicted_to_a_third_of_their_turn():
     sets = tripods_read(reality_folder())
     frozen = calibration(sets[0])
     assert [len(own.after) for own in sets] == [50] * 5
-    off, turned = [], []
+    off = []
+    turned = []
     for own in sets[1:]:
         scene = tripod(own, frozen)
         for k in range(0, 50, 10):

@@ -6,7 +6,10 @@ import re
 
 def parsed(markdown):
     """(title, filter, columns, rows) of every table of a page."""
-    found, title, where, lines = [], None, None, []
+    found = []
+    title = None
+    where = None
+    lines = []
     for line in [*markdown.splitlines(), ""]:
         if head := re.fullmatch(r"\*\*(.*?)\*\* \*Rows:\* (.*)\.", line):
             title, where = head.groups()
@@ -53,7 +56,8 @@ def quantile(values, share):
     """Linear between order statistics; 0.5 is the median."""
     ordered = sorted(values)
     at = share * (len(ordered) - 1)
-    low, high = ordered[math.floor(at)], ordered[math.ceil(at)]
+    low = ordered[math.floor(at)]
+    high = ordered[math.ceil(at)]
     return low + (at - math.floor(at)) * (high - low)
 
 

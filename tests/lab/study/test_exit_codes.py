@@ -54,7 +54,8 @@ def test_what_an_interface_hides_is_not_said():
 def test_a_promise_is_half_of_the_digits_of_the_largest_tolerance(interface):
     """-log10(2 eps) / 2, rounded down to a half: 1e-3 promises 1, 1e-9 promises 4."""
     for name in installed_here(interface):
-        solver, own = Solver(name, interface, name), option_file(name)
+        solver = Solver(name, interface, name)
+        own = option_file(name)
         assert "accuracy" not in own or own["source"].startswith("https://")
         if solver.takes(HIGH):
             assert solver.promises(HIGH) == 4.0

@@ -31,7 +31,8 @@ def test_a_dial_goes_from_its_easy_end_to_its_hard_one_in_equal_ratios(family):
 def test_short_numbers_make_rows_that_are_not_rounded(family):
     """A of the float64 program is a multiple of that of the exact step, entry for entry."""
     one = one_turned(family, DIALS[family].values(3)[1], 0, 5)
-    rounded, true = exact_form_of(*standard_form(one.step)), exact_form(one.step)
+    rounded = exact_form_of(*standard_form(one.step))
+    true = exact_form(one.step)
     factor = true.slack_unit / true.x_unit, rounded.slack_unit / rounded.x_unit
     for i in range(true.m):
         exact = [a * factor[0] for a in true.row(i)]

@@ -21,7 +21,8 @@ from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.step.standard_form import StandardForm
 
 # min x^2 - g x, x >= b: x* = max(g / 2, b), and its multiplier is 2 x* - g.
-G, B = 3.0, 2.0
+G = 3.0
+B = 2.0
 X = max(G / 2, B)
 LAM = 2 * X - G
 FORM = StandardForm(np.array([[2.0]]), np.array([G]), np.array([[1.0]]), np.array([B]))
@@ -80,7 +81,8 @@ def optimum(P, c, G, h):
 
     By arithmetic alone, which JAX can follow.
     """
-    free, bound = -c / P[0], h / G[0]
+    free = -c / P[0]
+    bound = h / G[0]
     x = free * (free > bound) + bound * (free <= bound)
     return x, abs((P[0] * x + c) / G[0])
 

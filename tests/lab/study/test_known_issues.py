@@ -59,7 +59,8 @@ def test_proxqp_through_cvxpy_raises_on_a_warm_start_of_another_gap():
 def test_cvxpy_still_fails_to_compile_a_large_step_in_its_own_way():
     some = pile((2, 1, 2))
     step = some.simulator.step(some.q, np.zeros(0), some.force).step
-    fails, works = StepProblem(step), StepProblem(step)
+    fails = StepProblem(step)
+    works = StepProblem(step)
     assert sum(parameter.size for parameter in fails.parameters.values()) >= 1000
     fails.fill(step)
     with pytest.raises(ValueError, match="truth value of an array"):

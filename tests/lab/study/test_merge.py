@@ -91,7 +91,8 @@ def test_machines_are_lines_of_tables_and_compared_on_the_same_problems(both):
 
 def test_rows_are_never_counted_twice_under_whatever_name(stores, both, tmp_path):
     folder, _ = stores
-    fast, slow = folder / "fast", folder / "slow"
+    fast = folder / "fast"
+    slow = folder / "slow"
     main(["study", "pack", str(fast), "--out", str(tmp_path / "short")])
     for one, other, words in (
         (fast, f"copy={fast}", "give each only once"),

@@ -34,7 +34,9 @@ def test_a_plain_program_through_cvxpy_has_its_closed_form(name):
 
 
 def test_a_cold_start_through_cvxpy_knows_nothing_of_the_reply_before():
-    programs, own, options = PlainPrograms("osqp"), form(), BACKENDS["osqp"].first(1e-10)
+    programs = PlainPrograms("osqp")
+    own = form()
+    options = BACKENDS["osqp"].first(1e-10)
     first, warm, cold = (programs.reply(own, options, warm=w) for w in (False, True, False))
     assert cold.iterations == first.iterations > warm.iterations
 
@@ -56,7 +58,8 @@ class Microseconds:
     """Times of ProxQP."""
 
     __module__ = "proxsuite.proxqp"
-    solve_time, setup_time = 5.0, 0.0
+    solve_time = 5.0
+    setup_time = 0.0
 
 
 @pytest.mark.parametrize(

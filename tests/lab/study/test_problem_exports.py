@@ -71,7 +71,9 @@ def by_highs(path):
     solver.setOptionValue("small_matrix_value", 1e-12)
     assert solver.readModel(str(path)) == highspy.HighsStatus.kOk
     model = solver.getModel()
-    lp, Q, n = model.lp_, model.hessian_, model.lp_.num_col_
+    lp = model.lp_
+    Q = model.hessian_
+    n = model.lp_.num_col_
     lower = csc_matrix((Q.value_, Q.index_, Q.start_), (n, n)).toarray()
     A = lp.a_matrix_
     rows = csc_matrix((A.value_, A.index_, A.start_), (lp.num_row_, n)).toarray()

@@ -37,7 +37,8 @@ def test_wrong_answers_and_wrong_proofs_are_refuted_in_fractions():
     """At the minimum of x^2 / 2 over x >= 1, x = lam = 1; with x <= -2 as well, b'y = 3."""
     A = np.array([[1.0], [-1.0]])
     b = np.array([1.0, 2.0])
-    one, none = np.ones(1), np.zeros(1)
+    one = np.ones(1)
+    none = np.zeros(1)
     row = np.eye(1), none, A[:1]
     off = np.nextafter(one, 2)
     said = {

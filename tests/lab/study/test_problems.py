@@ -27,7 +27,8 @@ def folder(tmp_path_factory):
 
 def test_ctrl_c_keeps_the_problems_that_were_made(folder, tmp_path, monkeypatch):
     """No answer is sought twice, but for those in which the keys were pressed; all bits agree."""
-    honest, calls = making.dense_answer, []
+    honest = making.dense_answer
+    calls = []
 
     def interrupted(form):
         calls.append(form)

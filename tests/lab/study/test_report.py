@@ -143,7 +143,8 @@ def test_times_are_ranked_on_a_quiet_machine_only(store, tmp_path):
 def test_bootstraps_hold_their_value_and_narrow_with_the_root_of_the_count():
     """Of a share of one half among n the 95 % are +-1.96 / sqrt(4 n)."""
     for n in (100, 10_000):
-        values, strata = np.arange(n) % 2, np.array(["a", "b"])[np.arange(n) * 2 // n]
+        values = np.arange(n) % 2
+        strata = np.array(["a", "b"])[np.arange(n) * 2 // n]
         low, high = interval(resampled(values, strata))
         expected = 1.96 / np.sqrt(4 * n)
         assert 0.5 - low == pytest.approx(expected, rel=0.3)

@@ -44,7 +44,8 @@ solvers = ["qpsolvers:daqp"]
 
 
 def test_the_making_of_problems_may_be_interrupted(tmp_path, monkeypatch, capsys):
-    path, store = tmp_path / "study.toml", tmp_path / "store"
+    path = tmp_path / "study.toml"
+    store = tmp_path / "store"
     path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + HARVESTED)
 
     def interrupted(form):
@@ -73,7 +74,8 @@ def lines(store):
 
 
 def test_a_study_killed_at_a_random_moment_gives_the_same_table(study, run, small, whole, tmp_path):
-    path, store = study(small).path, tmp_path / "killed"
+    path = study(small).path
+    store = tmp_path / "killed"
     root = str(Path(quasistatic_ref.__file__).parents[1])
     moment = random.Random().randrange(1, CALLS - 8)
     process = subprocess.Popen(

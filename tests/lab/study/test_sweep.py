@@ -57,8 +57,10 @@ def test_a_sliding_block_travels_as_its_closed_form_says(sweeps, mu, h):
     """
     (sweep,) = sweeps(SLIDE)
     row, _ = sweep_run(sweep, {"mu": mu, "h": h})
-    angle, steps = np.radians(25), round(0.02 / h)
-    d, r = h**2 * 9.81 * (np.sin(angle) - mu * np.cos(angle)), mu**2 / (1 + mu**2)
+    angle = np.radians(25)
+    steps = round(0.02 / h)
+    d = h**2 * 9.81 * (np.sin(angle) - mu * np.cos(angle))
+    r = mu**2 / (1 + mu**2)
     slips = d * (1 - r ** np.arange(1, steps + 1))
     travel = np.hypot(slips.sum(), mu * slips[-1])
     measures = row["measures"]

@@ -17,7 +17,8 @@ def planted(rng, n=6, m=20):
     """A program made around x and lam: H x - g = A' lam, slack and lam never both positive."""
     B = rng.normal(size=(n, n))
     H = B @ B.T + np.eye(n)
-    A, x = rng.normal(size=(m, n)), rng.normal(size=n)
+    A = rng.normal(size=(m, n))
+    x = rng.normal(size=n)
     lam = np.where(np.arange(m) < n // 2, rng.uniform(1, 2, m), 0.0)
     b = A @ x - np.where(lam > 0, 0.0, rng.uniform(0, 1, m))
     return StandardForm((H + H.T) / 2, H @ x - A.T @ lam, A, b), x, lam
@@ -51,7 +52,8 @@ def test_a_large_problem_has_the_bits_of_the_exact_method_from_no_rows():
 
 
 def test_natural_units_change_nothing_but_the_units(problem):
-    natural, units = problem.natural, problem.units
+    natural = problem.natural
+    units = problem.units
     scale = units.size * units.coordinate
     np.testing.assert_array_equal(dense_answer(natural.form).x * scale, problem.answer.x)
     measures = problem.facts["measures"]
@@ -72,7 +74,8 @@ def lam_of(form, x):
 def test_digits_are_those_that_were_spoilt(problem, units, exponent):
     """X = x* + 10^-e ||H^-1 g||_H v with ||v||_H = 1 has an error of 10^-e, whatever the units."""
     ready = prepared(problem)
-    H, g = problem.form.H, problem.form.g
+    H = problem.form.H
+    g = problem.form.g
     v = np.linalg.solve(H, g) / np.sqrt(g @ np.linalg.solve(H, g))
     free = np.sqrt(g @ np.linalg.solve(H, g))
     x = problem.answer.x + 10.0**-exponent * free * v
@@ -92,8 +95,12 @@ def test_residuals_are_those_of_qpbenchmark(problem):
     """Primal max(0, G x - h), dual |P x + q + G' z|, gap |x' P x + q' x + h' z|, by loops."""
     rng = np.random.default_rng(0)
     form = problem.form
-    x, z = 1e-4 * rng.normal(size=len(form.g)), 1e-4 * rng.uniform(size=len(form.b))
-    P, q, G, h = form.H, -form.g, -form.A, -form.b
+    x = 1e-4 * rng.normal(size=len(form.g))
+    z = 1e-4 * rng.uniform(size=len(form.b))
+    P = form.H
+    q = -form.g
+    G = -form.A
+    h = -form.b
     primal = max(max(0.0, sum(G[i] * x) - h[i]) for i in range(len(h)))
     dual = max(abs(sum(P[v] * x) + q[v] + sum(G[:, v] * z)) for v in range(len(q)))
     gap = abs(sum(x[v] * sum(P[v] * x) for v in range(len(q))) + sum(q * x) + sum(h * z))

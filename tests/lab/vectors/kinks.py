@@ -45,7 +45,8 @@ def squeezed(push, cone="frictionless"):
     takes it back by half of eps, whatever the force. h is 1/8 s, and nothing falls. The push is
     along x [N], on which the three centres are.
     """
-    held, radius = 0.25, 0.5
+    held = 0.25
+    radius = 0.5
     table = free({"kind": "sphere", "radius": held}, [0.0] * 3, cone=cone, gravity=[0.0] * 3)
     for name, side in (("below", -1.0), ("above", 1.0)):
         place = at(side * (held + radius), 0.0, 0.0)

@@ -96,7 +96,8 @@ def test_shrinking_ends_where_no_single_move_fails_any_more():
 
 
 def test_the_command_writes_counterexamples_that_can_be_sent_again(tmp_path, capsys):
-    out, program = tmp_path / "found", command("wrong", tmp_path)
+    out = tmp_path / "found"
+    program = command("wrong", tmp_path)
     given = ["vectors", "challenge", "--command", program, "--layer", "selection", "--cases", "6"]
     assert main([*given, "--out", str(out), "--quiet"]) == 1
     printed = capsys.readouterr()

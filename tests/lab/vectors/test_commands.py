@@ -20,7 +20,8 @@ def few(tmp_path):
         # The first quadratic programs have a solution.
         chosen = cases("qp")[:2] if layer == "qp" else shortest[:2]
         text_written(tmp_path / "source" / "inputs" / f"{layer}.json", inputs_text(layer, chosen))
-    source, out = str(tmp_path / "source"), str(tmp_path / "vectors")
+    source = str(tmp_path / "source")
+    out = str(tmp_path / "vectors")
     assert main(["vectors", "generate", "--vectors", source, "--out", out]) == 0
     return tmp_path / "vectors"
 

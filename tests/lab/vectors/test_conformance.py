@@ -226,7 +226,8 @@ def test_layers_that_name_two_programs_are_said_to_be_of_both(tmp_path):
 
 
 def test_the_command_prints_what_was_passed_and_ends_as_the_check(tmp_path, capsys):
-    answers, out = answered(tmp_path / "answers", ["selection"]), tmp_path / "out"
+    answers = answered(tmp_path / "answers", ["selection"])
+    out = tmp_path / "out"
     given = ["vectors", "report", str(answers), "--out", str(out)]
     assert main([*given, "--implementation", "other 2"]) == 0
     said, *wrote = capsys.readouterr().out.splitlines()

@@ -118,7 +118,8 @@ def test_rows_that_go_on_to_depend_on_each_other_leave_the_derivative(scene, con
     assert found.reasons == []
     # Along q and, for each coordinate, a force many times what takes the motion back.
     for c in (-64, 64):
-        ways, forces = vector(range(1, 7)) / 8, c * vector(range(3, -3, -1))
+        ways = vector(range(1, 7)) / 8
+        forces = c * vector(range(3, -3, -1))
         whole = along(one, ways, forces)
         total = ways @ np.array(found.columns["q"]) + forces @ np.array(found.columns["tau"])
         size = max(map(abs, total))

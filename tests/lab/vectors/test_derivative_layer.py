@@ -140,7 +140,8 @@ def test_a_planted_mistake_is_found_and_named(mistake, patch):
 def test_a_derivative_along_the_world_s_axes_is_found_and_named():
     answers = {}
     for case in map(case_of, CURVED):
-        mechanism, q = case.input["mechanism"], case.input["q"]
+        mechanism = case.input["mechanism"]
+        q = case.input["q"]
         B, after = (tangent_map(mechanism, at, "world") for at in (q, q_next(case.input)))
         turned = after.T @ np.array(derivative(case.input)["dq_dq"]) @ B
         answers[case.id] = {"differentiable": True, "dq_dq": turned.tolist()}

@@ -97,7 +97,8 @@ def test_on_the_medial_plane_of_an_ellipsoid_two_sides_are_as_near():
 def test_exchanging_the_sides_exchanges_the_answer(id_):
     given = CASES[id_]
     turned = case(given["beta"], given["pose_beta"], given["alpha"], given["pose_alpha"])
-    (one, _, unique), (other, _, _) = distance.answer(given), distance.answer(turned)
+    one, _, unique = distance.answer(given)
+    other, _, _ = distance.answer(turned)
     assert one["phi"] == other["phi"]
     if all(unique):
         assert one["alpha"] == other["beta"]

@@ -53,7 +53,8 @@ def test_every_file_is_as_its_schema_says(layer):
 
 
 def test_the_schemas_refuse_what_is_wrong():
-    case, record = cases("rows")[0], expected("rows")[cases("rows")[0].id]
+    case = cases("rows")[0]
+    record = expected("rows")[cases("rows")[0].id]
     for broken in (
         {"input": {**case.input, "cone": 3}, "output": record["output"]},
         {"input": case.input, "output": {"A": record["output"]["A"]}},
@@ -117,7 +118,8 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
             refused[case.id] = farkas_refutation(step, output["certificate"]["farkas"])
             continue
         claims = claimed(case.input, output, step)
-        lam, delta_q = np.array(output["lam"]), np.array(output["delta_q"])
+        lam = np.array(output["lam"])
+        delta_q = np.array(output["delta_q"])
         refused[case.id] = verify(step, delta_q, claims.active, lam, claims).reason
     assert {name: reason for name, reason in refused.items() if reason} == {}
 

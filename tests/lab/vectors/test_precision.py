@@ -16,7 +16,8 @@ NEXT = nextafter(1.0, 2.0)
 
 def test_midpoints_between_two_floats_go_to_the_even_one():
     # 1 + 2^-53 lies between 1 (even) and 1 + 2^-52 (odd); 1 + 3 2^-53 between that and 1 + 2^-51.
-    below, above = fmpq(1) + fmpq(1, 1 << 53), fmpq(1) + fmpq(3, 1 << 53)
+    below = fmpq(1) + fmpq(1, 1 << 53)
+    above = fmpq(1) + fmpq(3, 1 << 53)
     values, _ = rounded(lambda: [below, above])
     assert values == [1.0, nextafter(NEXT, 2.0)]
 

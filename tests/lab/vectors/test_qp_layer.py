@@ -48,7 +48,8 @@ def test_the_bound_of_a_spring_is_that_of_skeel():
 def test_the_bound_of_a_wall_moves_with_the_wall():
     # x = b on the working set: an error of b is one of x, and H times that one of lam.
     form = qp.form_of({"H": [[4.0]], "g": [0.0], "A": [[1.0]], "b": [1.0]})
-    still, moved = bounds(form, (0,)), bounds(form, (0,), Errors(b=Fraction(1, 8)))
+    still = bounds(form, (0,))
+    moved = bounds(form, (0,), Errors(b=Fraction(1, 8)))
     assert moved.x - still.x == Fraction(1, 8)
     assert moved.lam - still.lam == 4 * Fraction(1, 8)
 
@@ -66,7 +67,8 @@ def test_fields_of_more_than_200_numbers_have_no_digits():
 def test_the_plain_program_refuses_what_is_no_optimum():
     # A mass of 2 that is pushed by 1 against x >= 1: x = 1, lam = 2 - 1.
     case = entered({"H": [[2.0]], "g": [1.0], "A": [[1.0]], "b": [1.0]})
-    one, half = fmpq(1), fmpq(1, 2)
+    one = fmpq(1)
+    half = fmpq(1, 2)
     assert is_optimum(case, [one], [one])
     for x, lam in ((half, fmpq(0)), (one, half), (2 * one, 3 * one)):
         assert not is_optimum(case, [x], [lam])

@@ -12,7 +12,8 @@ from quasistatic_ref.lab.vectors.check.multipliers import multipliers_problem
 # min x^2/2 - g x with x + 1 >= 0, x* = g: at g = 1/64 the row is idle. The free step's energy is
 # g^2 = 2^-12; float64 leaves 2^-53 of it in the gap, so that lam * slack of 1e-20 is rounding.
 G = 1 / 64
-SMALL, LARGE = 1e-20, 1e-9
+SMALL = 1e-20
+LARGE = 1e-9
 EXPECTED = {
     "output": {"delta_q": [G], "A_lam": [0.0], "slack": [1 + G, 0.0, 0.0, 0.0]},
     "tolerance": {name: {"absolute": 2**-26 * G} for name in ("delta_q", "A_lam", "slack")},
@@ -28,7 +29,8 @@ def test_forces_of_rounding_size_where_nothing_presses_are_no_mistake(conic):
 
 
 def test_a_counterexample_is_json_without_nan_and_infinity(tmp_path):
-    given, bound = {"x": [float("nan"), 1.0]}, {"error_bound": float("inf")}
+    given = {"x": [float("nan"), 1.0]}
+    bound = {"error_bound": float("inf")}
     expected = {"x": [0.5, 1.0], "certificate": bound}
     finding = Finding("qp", "wrong", "x", (), (), "it is", {}, expected, given, "first", 1)
     folder = finding.written(tmp_path, "./sim")

@@ -49,7 +49,8 @@ def test_any_one_number_changed_beyond_its_tolerance_fails(layer, rng):
     answers = right_answers(layer)
     tried = 0
     for case in cases(layer):
-        wanted, answer = expected(layer)[case.id], answers[case.id]
+        wanted = expected(layer)[case.id]
+        answer = answers[case.id]
         found = numbers_in(answer)
         for i in rng.permutation(len(found))[:3]:
             keys, value = found[i]

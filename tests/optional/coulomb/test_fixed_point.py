@@ -22,7 +22,8 @@ from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.helpers import point_on_floor, random_step, sphere_on_floor
 
-M, H = 0.3, 0.01
+M = 0.3
+H = 0.01
 WEIGHT = M * GRAVITY
 
 
@@ -98,7 +99,8 @@ def test_a_solution_has_coulombs_law_and_nothing_that_bears_lifts_off(cone):
 @pytest.mark.parametrize("s", [0.0, 1e-5, 1e-4, 1.0])
 def test_a_guide_slides_as_far_as_the_start_says(s):
     """With s >= mu |x| at both walls x is min(s / mu, h^2 F / m), and is found from itself."""
-    F, mu = 6.0, 0.5
+    F = 6.0
+    mu = 0.5
     step = guide(F, mu)
     at_end = coulomb_step(step, fast=True, start=[s, s])
     x = min(s / mu, H**2 * F / M)

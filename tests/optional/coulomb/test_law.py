@@ -68,7 +68,9 @@ def test_a_recorded_step_is_the_one_that_was_certified(runs, tmp_path):
 
 def test_an_l_on_its_support_is_pushed_along_a_wall_without_leaving_it(tmp_path):
     """The force (F_x, -F_y), the wall with friction w: x = h^2 (F_x - mu m g - w F_y) / m."""
-    m, mu, w = 0.5, 0.4, 0.25
+    m = 0.5
+    mu = 0.4
+    w = 0.25
     x = H**2 * (4.0 - mu * m * G - w * 2.0) / m
     run = scene(tmp_path, PUSHED, law="coulomb").run(progress=False)
     expected = [x, 0.0, 0.0]

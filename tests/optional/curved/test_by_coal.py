@@ -39,7 +39,8 @@ def test_a_bad_answer_of_coal_is_mended_or_refused(monkeypatch, spoil, gap):
     monkeypatch.setattr(coal, "distance", spoilt)
     cone = Cone(0.15, 0.2)  # boxes have a closed form, and so have cylinders that are apart
     kinematics = standing((np.eye(3), np.array([0.0, 0.0, 0.4 + gap])))
-    found, refusal = None, ""
+    found = None
+    refusal = ""
     try:
         found = found_for(placed(cone), placed(cone, 1), kinematics)
     except ContactError as error:
@@ -60,14 +61,17 @@ SLANTING = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])
 
 def tips(gap, R=None, at=(0.0, 0.0, 0.0)):
     """Two ellipsoids whose longest axes are in line, along R's first column, tip to tip."""
-    R, at = np.eye(3) if R is None else R, np.array(at)
-    one, two = Ellipsoid(np.array([0.125, 0.05, 0.04])), Ellipsoid(np.array([0.25, 0.03, 0.06]))
+    R = np.eye(3) if R is None else R
+    at = np.array(at)
+    one = Ellipsoid(np.array([0.125, 0.05, 0.04]))
+    two = Ellipsoid(np.array([0.25, 0.03, 0.06]))
     return ShapeInWorld(one, R, at), ShapeInWorld(two, R, at + (0.375 + gap) * R[:, 0])
 
 
 def without_normals(monkeypatch, answers, phi=None):
     """So many answers of coal lack the normal, and have another distance, if one is given."""
-    honest, left = coal.distance, list(range(answers))
+    honest = coal.distance
+    left = list(range(answers))
 
     def spoilt(*arguments):
         found = honest(*arguments)

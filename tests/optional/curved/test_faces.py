@@ -22,7 +22,8 @@ def directions(count: int) -> np.ndarray:
 @pytest.mark.parametrize("name", ["capsule", "cylinder", "cone", "ellipsoid", "box"])
 def test_the_curvature_is_the_derivative_of_the_farthest_point(name) -> None:
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
-    solid, h = ShapeInWorld(SOLIDS[name], R, np.array([0.1, 0.2, 0.3])), DIFFERENCE_STEP
+    solid = ShapeInWorld(SOLIDS[name], R, np.array([0.1, 0.2, 0.3]))
+    h = DIFFERENCE_STEP
     for n in directions(20):
         T = np.linalg.svd(n[None])[2][1:]
         for way in T:

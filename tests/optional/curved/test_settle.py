@@ -18,9 +18,11 @@ from tests.tolerances import CURVED_PAIR
 @pytest.mark.parametrize("names", PAIRS, ids="-".join)
 def test_a_normal_that_is_off_by_a_thousandth_settles_where_it_was(names) -> None:
     a, b = (SOLIDS[name] for name in names)
-    random, settles = np.random.default_rng(4), 0
+    random = np.random.default_rng(4)
+    settles = 0
     for R, t in closest.poses(6, 29):
-        here, there = ShapeInWorld(a, *HERE), ShapeInWorld(b, R, t)
+        here = ShapeInWorld(a, *HERE)
+        there = ShapeInWorld(b, R, t)
         try:
             phi, alpha, beta, n = solid_pair("p", here, there)
         except ContactError:
@@ -66,10 +68,9 @@ def test_a_cap_above_an_ellipsoid_has_the_normal_of_the_cap() -> None:
 def test_where_two_caps_overlap_the_point_next_to_the_start_is_taken() -> None:
     # Discs of radius 1, 1.9 apart: what they share begins at 1.9 - 1 on the line of their centres.
     R = Rotation.from_euler("xyz", [0.3, -0.7, 1.1]).as_matrix()
-    solid, n = Cylinder(1.0, 0.1), R[:, 2]
-    a, b = (
-        ShapeInWorld(solid, R, np.zeros(3)),
-        ShapeInWorld(solid, R, R @ [1.9, 0, 0.1 + 0.02 + 0.1]),
-    )
+    solid = Cylinder(1.0, 0.1)
+    n = R[:, 2]
+    a = ShapeInWorld(solid, R, np.zeros(3))
+    b = ShapeInWorld(solid, R, R @ [1.9, 0, 0.1 + 0.02 + 0.1])
     start = Witness(0.02, R @ [0.2, 0, 0.1], R @ [0.2, 0, 0.12], n)
     assert settles_at(a, b, start, 0.02, R @ [1.9 - 1, 0, 0.1], n)

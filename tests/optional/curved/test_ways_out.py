@@ -26,10 +26,8 @@ POLYTOPES = {
 @pytest.mark.parametrize("name", POLYTOPES)
 def test_ways_out_of_a_polytope_are_its_normals_the_shortest_first(name, turned_round) -> None:
     shape, middle = POLYTOPES[name]
-    solid, inside = (
-        ShapeInWorld(shape, R, AT),
-        ShapeInWorld(Ellipsoid(HALF_AXES), S, R @ middle + AT),
-    )
+    solid = ShapeInWorld(shape, R, AT)
+    inside = ShapeInWorld(Ellipsoid(HALF_AXES), S, R @ middle + AT)
     flat = polytope(shape)
     assert flat is not None
     normals = flat.normals @ R.T
@@ -40,7 +38,8 @@ def test_ways_out_of_a_polytope_are_its_normals_the_shortest_first(name, turned_
     ways = -normals if turned_round else normals
     np.testing.assert_allclose(gaps(*sides, ways), expected, rtol=EXACT, atol=ROUNDING)
     order = np.argsort(-expected)
-    first, phi = ways[order[0]], float(expected[order[0]])
+    first = ways[order[0]]
+    phi = float(expected[order[0]])
     for left in (1, 2):
         # Gaps as wide as that of the first but for REACH * size are looked at.
         least = (expected[order[left]] + expected[order[left + 1]]) / 2
@@ -78,5 +77,6 @@ def test_no_more_ways_out_are_followed_than_starts() -> None:
     g = (1 + np.sqrt(5)) / 2
     plane = np.array([[0, s, u * g] for s in (-1, 1) for u in (-1, 1)])
     hull = convex_hull(np.concatenate([np.roll(plane, k, axis=1) for k in range(3)]))
-    a, b = ShapeInWorld(hull, R, AT), ShapeInWorld(Ellipsoid(HALF_AXES), S, AT)
+    a = ShapeInWorld(hull, R, AT)
+    b = ShapeInWorld(Ellipsoid(HALF_AXES), S, AT)
     assert len(rival_directions(a, b, R[:, 0], -10.0, 1.0)) == STARTS

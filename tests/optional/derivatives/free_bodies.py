@@ -18,7 +18,9 @@ from quasistatic_ref.shapes.placed_shape import (
 from quasistatic_ref.simulate.simulator import Simulator
 from tests.lab.vectors.material import cases
 
-H, G, NONE = 0.01, 9.81, np.zeros(0)
+H = 0.01
+G = 9.81
+NONE = np.zeros(0)
 FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
 BOX = Box(np.array([0.1, 0.1, 0.05]))
 

@@ -39,7 +39,8 @@ def test_derivatives_do_not_move_the_simulator():
 def test_an_uncertified_simulator_has_the_same_derivatives():
     exact, q, q_bar_a = vector_scene("floating/push")
     rough, _, _ = vector_scene("floating/push", certify="residual")
-    one, two = derivatives(exact, q, q_bar_a), derivatives(rough, q, q_bar_a)
+    one = derivatives(exact, q, q_bar_a)
+    two = derivatives(rough, q, q_bar_a)
     assert np.abs(one.dq_dq - two.dq_dq).max() <= DIFFERENCE_OF_STEPS
 
 

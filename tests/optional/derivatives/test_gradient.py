@@ -24,7 +24,8 @@ from tests.tolerances import DIFFERENCE_OF_STEPS
 def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
     simulator, q = reaching()
     found, _ = verdict(simulator, q)
-    e, move = np.array(way), simulator.system.integrate
+    e = np.array(way)
+    move = simulator.system.integrate
     there = sided(lambda t: after(simulator, found.result.q, move(q, t * e), np.zeros(0)))
     assert np.abs(found.along(q=e) - there).max() <= DIFFERENCE_OF_STEPS * np.abs(e).max()
     push = sided(lambda t: after(simulator, found.result.q, q, np.zeros(0), t * e), 1e-4)
@@ -34,7 +35,8 @@ def test_along_a_direction_a_weak_row_holds_or_lets_go(way):
 @pytest.mark.parametrize("way", [(0, 0, 1.0, 0, 0, 0), (1, 2, -3, 4, 5, 6)])
 def test_the_derivatives_on_one_side_are_those_of_states_just_beside(way):
     simulator, q = reaching()
-    e, down = np.array(way), np.array([0.0, 0, -1, 0, 0, 0])
+    e = np.array(way)
+    down = np.array([0.0, 0, -1, 0, 0, 0])
     found = derivatives(simulator, q, NONE, towards={"q": e})
     assert found.differentiable
     nearby = derivatives(simulator, simulator.system.integrate(q, 1e-7 * e), NONE)

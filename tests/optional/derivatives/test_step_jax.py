@@ -19,7 +19,9 @@ from quasistatic_ref.shapes.placed_shape import Sphere
 from tests.optional.derivatives.free_bodies import BOX, FLOOR, free, vector_scene
 from tests.tolerances import JAX_GRADIENT, JAX_STEP
 
-G, NONE, UP = 9.81, np.zeros(0), np.eye(6)[2]
+G = 9.81
+NONE = np.zeros(0)
+UP = np.eye(6)[2]
 
 
 @pytest.fixture(autouse=True)
@@ -59,7 +61,8 @@ SCENES = {"floating": floating, "turning": turning, "planar": planar}
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 def test_gradients_of_a_step_pass_the_check_of_jax(scene):
     simulator, q, goal = scene()
-    step, force = step_jax(simulator), np.linspace(0.1, 0.2, simulator.system.n_v)
+    step = step_jax(simulator)
+    force = np.linspace(0.1, 0.2, simulator.system.n_v)
     q_next, verdict = step(q, goal, force)
     assert (np.asarray(q_next) == simulator.step(q, goal, force).q).all()
     assert not verdict.any()

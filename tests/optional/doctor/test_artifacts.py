@@ -22,7 +22,8 @@ from tests.helpers import changed, point_on_floor, sphere_on_floor
 from tests.scenes import chain_scene
 from tests.tolerances import ROUNDING
 
-G, H = 9.81, 0.01
+G = 9.81
+H = 0.01
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +76,8 @@ def pulled_without_turning(share, m=0.3, mu_v=0.5, radius=0.04):
 @pytest.mark.parametrize("share", [1.02, 4.0])
 def test_the_share_of_drag_under_weight_is_the_quasi_dynamic_number(share):
     step, x = pulled_without_turning(share)
-    solution, body = solve_step(step), free_body(0.3)
+    solution = solve_step(step)
+    body = free_body(0.3)
     Pi = (x / H) / (0.5 * G * H)
     np.testing.assert_allclose(Pi, share - 1, rtol=ROUNDING, atol=0.0)
     found = [
@@ -93,7 +95,8 @@ def test_the_drag_of_a_falling_body_is_its_weight():
 
 def test_a_body_without_freedom_friction_or_weight_has_no_share_of_drag():
     step = sphere_on_floor(m=0.3, phi=1.0, wrench=(0, 0, -0.3 * G, 0, 0, 0), h=H)
-    solution, body = solve_step(step), free_body(0.3)
+    solution = solve_step(step)
+    body = free_body(0.3)
     assert drag_share(body, solution, 0.0) is None
     (base,) = body.joints
     for other in (replace(base, actuated=True), replace(base, kind="planar")):
@@ -102,7 +105,8 @@ def test_a_body_without_freedom_friction_or_weight_has_no_share_of_drag():
 
 
 def test_the_layer_of_a_spun_sphere_is_mu_omega_times_its_turn():
-    m, mu = 0.3, 0.02
+    m = 0.3
+    mu = 0.02
     step = sphere_on_floor(m=m, mu_omega=mu, wrench=(0, 0, -m * G, 0, 0, 3 * mu * m * G))
     solution = solve_step(step)
     expected = mu * solution.delta_q[5]

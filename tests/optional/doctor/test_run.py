@@ -29,7 +29,8 @@ class Made(Start):
 
     def __init__(self, simulator, steps=3, **changes):
         super().__init__(simulator, simulator.system.q_start)
-        system, n_c = self.system, sum(pair.n_c for pair in self.pairs)
+        system = self.system
+        n_c = sum(pair.n_c for pair in self.pairs)
         still = {
             "phi": np.zeros((steps, n_c)),
             "point": np.zeros((steps, n_c), dtype=int),
@@ -78,7 +79,8 @@ def test_a_pair_of_solids_that_could_keep_more_contacts_is_asked_for_k(scene):
     assert said.startswith("take a smaller h or move slower, or raise k of contacts.push: ")
     # Two are kept: a corner that was not one of them is a contact that k left out.
     scenario = load_scenario(scene, ["contacts.push.k=2"], fast=True)
-    phi, point = np.zeros((3, 3)), np.array([[0, 8, 3], [0, 8, 3], [0, 5, 8]])
+    phi = np.zeros((3, 3))
+    point = np.array([[0, 8, 3], [0, 8, 3], [0, 5, 8]])
     phi[2, 1] = -2 * SUNK * 0.1
     (said,) = sentences(sunk, scenario, phi=phi, point=point)
     assert said == (

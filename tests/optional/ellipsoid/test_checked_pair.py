@@ -80,10 +80,8 @@ def test_impulses_of_a_contact_without_load_are_zeros_without_a_sign():
 def test_an_answer_as_a_start_is_the_same_answer_again():
     step = sphere_on_floor(radius=0.04, phi=PHI, wrench=(1.0, 2.0, -3.0, 0.1, 0.2, 0.3))
     _, form, _, frame = posed(step)
-    delta_q, lam = (
-        np.array([1e-3, -2e-3, 3e-3, 0.01, 0.02, -0.03]),
-        np.array([0.02, -3e-3, 4e-3, 1e-4]),
-    )
+    delta_q = np.array([1e-3, -2e-3, 3e-3, 0.01, 0.02, -0.03])
+    lam = np.array([0.02, -3e-3, 4e-3, 1e-4])
     at, multipliers = frame.start(form, delta_q, lam)
     x, (y,) = frame.pair(Pair(at, [], multipliers))
     mu = [1.0, 0.5, 0.5, 0.02]

@@ -46,7 +46,11 @@ def test_a_sliding_point_has_the_closed_form_of_a_circular_cone(angle):
     # A mass m, pushed by F along the floor and by W = m g down, slides if F > mu W. KKT with lam_n:
     # m/h v = h F - mu lam_n along the push, m/h w = lam_n - h W upwards, w = mu v (lift-off):
     # m/h mu v = lam_n - h W  and  m/h v = h F - mu lam_n  give  v (1 + mu^2) = h^2 (F - mu W) / m.
-    m, mu, F, W, h = 0.3, 0.5, 4.0, 0.3 * 9.81, 0.01
+    m = 0.3
+    mu = 0.5
+    F = 4.0
+    W = 0.3 * 9.81
+    h = 0.01
     push = F * np.array([np.cos(angle), np.sin(angle)])
     step = round_step(point_on_floor(m, mu, force=(*push, -W), h=h))
     v = h**2 * (F - mu * W) / m / (1 + mu**2)

@@ -48,7 +48,9 @@ def test_the_contact_or_row_whose_impulse_is_outside_is_named(place, value, name
 
 
 def test_a_ball_s_boundary_is_inside_and_what_is_beyond_it_is_not():
-    three, four, five = fmpq(3), fmpq(-4), fmpq(5)
+    three = fmpq(3)
+    four = fmpq(-4)
+    five = fmpq(5)
     assert inside(five, [three, four])
     assert not inside(five - fmpq(1, 10**30), [three, four])
     assert not inside(-five, [three, four])

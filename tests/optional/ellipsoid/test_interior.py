@@ -49,7 +49,8 @@ def test_scaling_takes_the_slack_to_the_multiplier(k):
     """W^-2 s = y, symmetric and positive definite, and of one coordinate y / s."""
     rng = np.random.default_rng(k)
     for _ in range(5):
-        s, y = inside(rng, k), inside(rng, k)
+        s = inside(rng, k)
+        y = inside(rng, k)
         W = np.array([floats(row) for row in _inverse_scaling(balls(s), balls(y)).tolist()])
         np.testing.assert_allclose(W @ s, y, rtol=ROUNDING, atol=ROUNDING * np.abs(W).max())
         np.testing.assert_allclose(W, W.T, rtol=ROUNDING, atol=ROUNDING * np.abs(W).max())
@@ -58,7 +59,8 @@ def test_scaling_takes_the_slack_to_the_multiplier(k):
 
 def test_centrality_is_one_on_the_path_less_off_it_and_nothing_outside():
     """On the path s = mu y^-1. Of s = y = (2, 1) the eigenvalues are 1 and 3, in the mean 5."""
-    y, inverse = [2.0, 1.0, 0.0], [2.0, -1.0, 0.0]
+    y = [2.0, 1.0, 0.0]
+    inverse = [2.0, -1.0, 0.0]
     assert float(_centrality([balls(inverse)], [balls(y)])) == pytest.approx(1, rel=ROUNDING)
     path = [balls(inverse), balls([1.0])], [balls(y), balls([3.0])]
     assert float(_centrality(*path)) == pytest.approx(1, rel=ROUNDING)
@@ -144,7 +146,8 @@ def test_what_slides_is_linearised_with_its_curvature():
     That is (I - u u') / 5 along u = (0.6, 0.8), times the multiplier 10.
     """
     problem = floor_problem()
-    x, y = column([6.0, 3.0, 4.0]), [balls([10.0, 0.0, 0.0])]
+    x = column([6.0, 3.0, 4.0])
+    y = [balls([10.0, 0.0, 0.0])]
     K, C, c, f = _linearised(problem, x, y, [SLIDES])
     u = np.array([0.6, 0.8])
     expected = np.eye(3)
@@ -161,7 +164,8 @@ def test_what_slides_is_linearised_with_its_curvature():
 
 
 def test_no_direction_opens_walls_that_face_each_other():
-    east, west = arb_mat([[arb(1)]]), arb_mat([[arb(-1)]])
+    east = arb_mat([[arb(1)]])
+    west = arb_mat([[arb(-1)]])
     assert _opening([east], 1) is not None
     assert _opening([east, west], 1) is None
     assert _opening([], 2).tolist() == [0.0, 0.0]

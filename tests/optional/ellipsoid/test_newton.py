@@ -19,7 +19,8 @@ W = 0.3 * 9.81
 
 
 def planar_push():
-    arm, way = np.array([-0.03, 0.02]), np.array([1.0, 0.0])
+    arm = np.array([-0.03, 0.02])
+    way = np.array([1.0, 0.0])
     return push_step(push(arm, way, mu_v=0.4, c=0.03, Pi=0.05, lifted=1.0, sticks=True))
 
 
@@ -46,7 +47,8 @@ def test_what_a_push_claims_is_proved_by_the_interior_point():
     # The two pairs may be on opposite sides of the optimum: sqrt(2 RESERVE) is as long as the
     # interior point's own bound twice over, as long as its gap is below RESERVE / 4.
     for result in pushed_block().run(8):
-        step, answer = result.step, result.solution
+        step = result.step
+        answer = result.solution
         pair = checked_pair(step)
         assert pair.gap < RESERVE / 4 * pair.free * pair.free
         assert verify(step, answer.delta_q, answer.certificate.active, answer.lam,

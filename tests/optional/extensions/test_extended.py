@@ -30,13 +30,16 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
     """Row i of the contacts that have it: phi + [J'(n~ + d~_i)]' delta_q = A delta_q - b."""
     step = random_step(rng, rows=(6, 4))
     step = step.replace(contacts=changed(step.contacts, J=16 * step.contacts.J))
-    units, form = natural_units(step), standard_form(step)
+    units = natural_units(step)
+    form = standard_form(step)
     assert units.length > 2
     natural = to_natural(step, units)
-    problem, delta_q = CvxpyProblem(natural), rng.normal(size=7)
+    problem = CvxpyProblem(natural)
+    delta_q = rng.normal(size=7)
     problem.fill(natural)
     x = delta_q / (units.size * units.coordinate)
-    problem.delta_q_a.value, problem.delta_q_u.value = x[:3], x[3:]
+    problem.delta_q_a.value = x[:3]
+    problem.delta_q_u.value = x[3:]
     found = np.concatenate([slack.value for slack in _symbols(problem, step, units).slack])
     slack = form.A @ delta_q - form.b  # by contacts; an extension has them by rows
     order = [0, 6, 1, 7, 2, 8, 3, 9, 4, 5]
@@ -46,7 +49,8 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
 def test_a_cost_that_alone_drives_a_step_moves_it_as_far_as_in_closed_form():
     """m/2h |x|^2 + k/2 |x - p|^2 has its least at k p / (m/h + k)."""
     step = point_on_floor(m=0.3, h=0.01, phi=0.0)
-    k, p = 10.0, np.array([0.02, -0.01, 0.03])
+    k = 10.0
+    p = np.array([0.02, -0.01, 0.03])
     cost = Extension(lambda s: [k / 2 * cp.sum_squares(s.delta_q - p)])
     answer = extended_solution(step, cost, "clarabel", 1e-10, "residual")
     expected = k * p / (0.3 / 0.01 + k)
@@ -72,7 +76,8 @@ def test_a_curved_extension_is_judged_with_h_as_it_is(rng):
 
 
 def test_an_answer_whose_worst_residual_is_just_the_limit_is_believed(monkeypatch):
-    step, cost = point_on_floor(), Extension(lambda s: [cp.sum_squares(s.delta_q - 1e-3)])
+    step = point_on_floor()
+    cost = Extension(lambda s: [cp.sum_squares(s.delta_q - 1e-3)])
     found = extended_solution(step, cost, "clarabel", 1e-10, "residual")
     worst = max(found.certificate.residuals.values())
     assert worst > 0

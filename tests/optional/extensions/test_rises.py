@@ -15,7 +15,8 @@ from tests.helpers import random_step
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
 from tests.tolerances import ROUNDING
 
-H, G = 0.01, 9.81
+H = 0.01
+G = 9.81
 DRAWER = robot(
     link("cabinet", inertial=""),
     link("drawer"),
@@ -76,7 +77,8 @@ def step(scenario: Scenario, *force: float):
 @pytest.mark.parametrize("force", [0.0, 2.999, 3.0, -3.0, 3.5, -20.0])
 def test_a_drawer_sticks_up_to_its_friction_and_then_opens(tmp_path, force):
     """delta_q = h^2 (F - f) / (m + m_r) beyond f = 3 N, else exactly 0; m_r = 1e-6 m."""
-    m, f = 2.0, 3.0
+    m = 2.0
+    f = 3.0
     expected = np.sign(force) * H**2 * max(abs(force) - f, 0.0) / (m + 1e-6 * m)
     answers = [step(scene(tmp_path, DRAWN, fast=fast), force) for fast in (False, True)]
     assert [answer.certificate.kind for answer in answers] == ["exact", "exact"]
@@ -115,7 +117,9 @@ def test_an_l_is_pushed_along_a_wall_on_its_support(tmp_path):
     delta_x = h^2 (F_x - mu m g - w F_y) / (m (1 + w^2) + m_r mu^2).
     It goes straight: the wall bears w 40 mm = 10 mm ahead of the centre of mass, where the side is.
     """
-    m, mu, w = 0.5, 0.4, 0.25
+    m = 0.5
+    mu = 0.4
+    w = 0.25
     x = H**2 * (4.0 - mu * m * G - w * 2.0) / (m * (1 + w**2) + 1e-6 * m * mu**2)
     run = scene(tmp_path, PUSHED).run(progress=False)
     expected = [x, w * x, 0.0]
@@ -135,7 +139,9 @@ def test_an_l_is_pushed_along_a_wall_on_its_support(tmp_path):
 
 def test_a_support_holds_and_turns_as_a_sphere_does(tmp_path):
     """(R5): alone, a torque t turns it by h^2 (t - mu_omega m g) / (I + m_r mu_omega^2)."""
-    m, mu_omega, inertia = 0.5, 0.01, 1e-3
+    m = 0.5
+    mu_omega = 0.01
+    inertia = 1e-3
     free = scene(tmp_path, PUSHED.partition("[[")[0])
     # The twist of the base, from whose origin the centre of mass is (0.01, 0.02) off.
     turn = np.array([0.02, -0.01, 1.0])

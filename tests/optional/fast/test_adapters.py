@@ -37,7 +37,8 @@ def written(program, h, g, a, b):
 def held(name):
     """An adapter in its backend's own options, and the program that it holds."""
     order = adapter_class(name).ORDER
-    H, A = np.zeros((2, 2), order=order), np.zeros((2, 2), order=order)
+    H = np.zeros((2, 2), order=order)
+    A = np.zeros((2, 2), order=order)
     program = Program(H, np.zeros(2), A, np.zeros(2))
     written(program, h=3.0, g=4.0, a=2.0, b=2.0)
     return adapter_class(name)(program, BACKENDS[name].first(1e-12)), program
@@ -60,7 +61,8 @@ def test_a_program_that_is_rewritten_is_solved_as_it_stands(name, h):
 def test_rows_that_contradict_each_other_are_not_solved(name):
     """2 x_1 >= 2 and -2 x_1 >= 2."""
     adapter, program = held(name)
-    program.A[1], program.b[1] = [-2.0, 0.0], 2.0
+    program.A[1] = [-2.0, 0.0]
+    program.b[1] = 2.0
     assert not adapter.reply(same_H=True, warm=False).solved
 
 
@@ -77,7 +79,8 @@ def test_every_exit_flag_of_daqp_has_a_word():
     assert sorted(STATUS) == [-6, -5, -4, -3, -2, -1, 1, 2]
     adapter, program = held("daqp")
     assert adapter.reply(same_H=True, warm=False).status == "optimal"
-    program.A[1], program.b[1] = [-2.0, 0.0], 2.0
+    program.A[1] = [-2.0, 0.0]
+    program.b[1] = 2.0
     assert adapter.reply(same_H=True, warm=False).status == "infeasible"
 
 
@@ -86,7 +89,8 @@ def test_piqp_scales_dense_programs_only():
     from scipy.sparse import csc_matrix
 
     dense, program = held("piqp")
-    P, A = csc_matrix(np.triu(program.H)), csc_matrix(program.A)
+    P = csc_matrix(np.triu(program.H))
+    A = csc_matrix(program.A)
     sparse = adapter_class("piqp")(
         SparseProgram(csc_matrix(program.H), P, program.f, A, program.b), {}
     )

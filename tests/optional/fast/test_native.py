@@ -49,7 +49,9 @@ def test_a_step_without_rows_needs_no_backend(rng):
 
 
 def test_a_start_from_the_answer_before_that_fails_is_followed_by_a_cold_one(rng, monkeypatch):
-    step, calls, honest = planted_step(rng)[0], [], Daqp.reply
+    step = planted_step(rng)[0]
+    calls = []
+    honest = Daqp.reply
     solver = NativeSolver(step, "daqp")
     right = solve_step(step, solver, certify="off").delta_q
 

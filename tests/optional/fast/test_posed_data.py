@@ -50,9 +50,12 @@ def test_whatever_is_made_of_a_posed_step_is_checked(things, name, like):
 
 
 def test_the_mass_matrix_of_a_mechanism_is_that_of_its_configuration(tmp_path):
-    system, h = chain_scene(tmp_path), 0.01
-    n_a, K_q = system.n_a, 500.0 * np.eye(system.n_a)
-    simulator, q = Simulator(system, [], h=h, K_q=K_q, fast=True), system.q_start
+    system = chain_scene(tmp_path)
+    h = 0.01
+    n_a = system.n_a
+    K_q = 500.0 * np.eye(system.n_a)
+    simulator = Simulator(system, [], h=h, K_q=K_q, fast=True)
+    q = system.q_start
     matrices = []
     for _ in range(2):
         q = system.integrate(q, 0.1 * np.cos(np.arange(system.n_v)))
@@ -91,6 +94,7 @@ def test_posed_contacts_have_the_friction_that_they_are_given_or_make_it(rng):
     """(mu_v, mu_v, mu_omega) of each contact; the second has four rows, and no mu_omega."""
     c = random_step(rng, rows=(6, 4)).contacts
     assert posed(c, c.mu).mu is c.mu
-    (v, w), omega = c.mu_v, c.mu_omega[0]
+    v, w = c.mu_v
+    omega = c.mu_omega[0]
     expected = [[v, v, omega], [w, w, 0.0]]
     np.testing.assert_allclose(posed(c, None).mu, expected, rtol=EXACT, atol=EXACT)

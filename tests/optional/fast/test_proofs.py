@@ -25,7 +25,8 @@ from validation.make.grouped_proofs import unlike
 def optimum_of(step):
     """The optimum by the proofs of `fast`, and the greatest number of groups that they made."""
     solver = solver_for(step, "daqp", fast=True)
-    scaled, answer = solver.scaled(step), None
+    scaled = solver.scaled(step)
+    answer = None
     with suppress(StepNotSolved):  # of the backend: the exact method starts from cold
         answer = solver.answer(scaled, ACCURACY)
     return solver.optimum(scaled, answer), len(solver.proofs.parts)

@@ -21,10 +21,12 @@ def two_contacts(rng, phi):
 def test_rows_are_multiplied_by_their_coefficients_and_own_rows_are_not(rng):
     """1, mu_v, mu_v and mu_omega of each contact, 0 where mu_omega is not used; then 1."""
     step = two_contacts(rng, [1e-4, 2e-4])
-    (v, w), omega = step.contacts.mu_v, step.contacts.mu_omega[0]
+    v, w = step.contacts.mu_v
+    omega = step.contacts.mu_omega[0]
     mu = np.array([1, v, v, omega, 1, w, w, 0, 1])
     np.testing.assert_allclose(coefficients(step), mu, rtol=EXACT, atol=EXACT)
-    solver, scaled = ConeSolver(step, "clarabel"), DenseStep(step)
+    solver = ConeSolver(step, "clarabel")
+    scaled = DenseStep(step)
     assert solver.write(scaled) is None
     expected = mu[:, None] * scaled.natural_form.A
     np.testing.assert_allclose(solver.program.A, expected, rtol=EXACT, atol=EXACT)

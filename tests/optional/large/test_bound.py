@@ -51,9 +51,11 @@ def made_up(rng, step, exact, least=-9, balanced=0.5, factors=(1.0, 0.5, 2.0, -1
 
     It is wrong by 10^least and more; `balanced` is how often multipliers of any sign balance it.
     """
-    form, d = standard_form(step), opening_direction(step)
+    form = standard_form(step)
+    d = opening_direction(step)
     size = 10.0 ** rng.uniform(least, 1) * max(np.abs(exact.delta_q).max(), 1e-9)
-    delta_q, lam = exact.delta_q.copy(), exact.lam.copy()
+    delta_q = exact.delta_q.copy()
+    lam = exact.lam.copy()
     if d is not None and rng.random() < 0.5:
         delta_q += rng.choice([-1.0, 1.0]) * size * d / np.abs(d).max()
     else:

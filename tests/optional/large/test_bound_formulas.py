@@ -24,7 +24,9 @@ from tests.helpers import random_step, random_stiffness
 from tests.optional.large.test_rounded_bound import Judged
 from tests.tolerances import ROUNDING
 
-U, TINY, MORE = 2.0**-20, 2.0**-10, 1.25
+U = 2.0**-20
+TINY = 2.0**-10
+MORE = 1.25
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -34,11 +36,15 @@ def test_dense_bound_is_that_of_its_formula(monkeypatch, seed):
         monkeypatch.setattr(rounded_bound, name, value)
     rng = np.random.default_rng(seed)
     step = random_step(rng)
-    n, m = step.n_v, int(step.offsets[-1])
-    x, y = rng.standard_normal(n), rng.random(m) * (rng.random(m) < 0.5)
+    n = step.n_v
+    m = int(step.offsets[-1])
+    x = rng.standard_normal(n)
+    y = rng.random(m) * (rng.random(m) < 0.5)
     judged = Judged(step, x, y)
-    (S, ell, rho), (H, g, A, b) = judged.units, judged.form
-    inverse, c = np.linalg.inv(H), step.contacts
+    S, ell, rho = judged.units
+    H, g, A, b = judged.form
+    inverse = np.linalg.inv(H)
+    c = step.contacts
     most = MORE * np.abs(inverse)
     # Sizes of what is summed.
     weight = np.column_stack([1 + c.mu_v] * 3 + [c.mu_omega * (c.rows == 6)])
@@ -48,7 +54,8 @@ def test_dense_bound_is_that_of_its_formula(monkeypatch, seed):
     pressed = np.array([part.sum() for part in np.split(y, step.offsets[1:-1])])[: c.n_c] @ reach
     # What they may be off by.
     lost = U * TINY * (1 + np.abs(x).sum() + y.sum())
-    balance, slack = H @ x - g - A.T @ y, A @ x - b
+    balance = H @ x - g - A.T @ y
+    slack = A @ x - b
     off_slack = U * (n + 8) * (reach @ np.abs(x)).max() + lost
     off_balance = lost + U * (
         (n + 4) * (np.abs(H) @ np.abs(x) + load)
@@ -100,14 +107,20 @@ def large(H, g, A, b):
 @pytest.mark.parametrize("seed", range(2))
 def test_sparse_bound_is_that_of_its_formula(monkeypatch, seed):
     rng = np.random.default_rng(seed)
-    H, g, A = random_stiffness(rng, 4, 2.0), rng.standard_normal(4), rng.random((5, 4))
-    x, y = rng.standard_normal(4), rng.random(5)
+    H = random_stiffness(rng, 4, 2.0)
+    g = rng.standard_normal(4)
+    A = rng.random((5, 4))
+    x = rng.standard_normal(4)
+    y = rng.random(5)
     b = A @ x - [-0.3, *rng.standard_normal(4)]
-    form, least = large(H, g, A, b), SparseHessian(csc_matrix(H)).least
+    form = large(H, g, A, b)
+    least = SparseHessian(csc_matrix(H)).least
     monkeypatch.setattr(sparse_bound, "rounding", loose)
-    slack, off = A @ x - b, loose(3, np.abs(A) @ np.abs(x) + np.abs(b))
+    slack = A @ x - b
+    off = loose(3, np.abs(A) @ np.abs(x) + np.abs(b))
     d = opening(csc_matrix(A), slack)
-    opens, off_d = A @ d, loose(3, np.abs(A) @ np.abs(d))
+    opens = A @ d
+    off_d = loose(3, np.abs(A) @ np.abs(d))
     short = slack - off < 0
     t = ENOUGH * ((off - slack) / (opens - off_d))[short].max()
     sums = np.abs(H).sum(axis=1)
@@ -142,11 +155,13 @@ def test_a_row_of_bodies_is_opened_by_accelerated_least_squares():
     n = 160
     A = np.eye(n) - np.eye(n, k=-1)
     B = A / np.linalg.norm(A, axis=1)[:, None]
-    inverse, rounds = np.linalg.inv(B.T @ B + RIDGE * np.eye(n)), 0
+    inverse = np.linalg.inv(B.T @ B + RIDGE * np.eye(n))
+    rounds = 0
     d = last = np.zeros(n)
     while (1 - B @ d).max() >= 0.5:
         u = d + inverse @ B.T @ np.maximum(1 - B @ d, 0)
         rounds += 1
-        d, last = u + (rounds - 1) / (rounds + 2) * (u - last), u
+        d = u + (rounds - 1) / (rounds + 2) * (u - last)
+        last = u
     assert rounds > 5
     np.testing.assert_allclose(opening(csc_matrix(A), np.zeros(n)), d, rtol=ROUNDING)

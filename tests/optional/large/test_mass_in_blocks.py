@@ -40,7 +40,8 @@ def scene(name):
 def run(name, record="full"):
     """Some steps of a scene."""
     simulator, target, force = scene(name)
-    start, own = simulator.system.q_start, force + np.zeros(simulator.system.n_v)
+    start = simulator.system.q_start
+    own = force + np.zeros(simulator.system.n_v)
     return rollout(
         simulator, start, target, 4, force=lambda t, q: own, record=record, progress=False
     )
@@ -84,7 +85,8 @@ def test_a_light_record_of_a_sparse_run_never_forms_M_u_or_H(monkeypatch):
 
 def test_a_checked_copy_fits_the_solver_and_a_heavier_one_does_not():
     step = step_of("pile")[1]
-    solver, checked = solver_for(step, "piqp", fast=True), step.replace()
+    solver = solver_for(step, "piqp", fast=True)
+    checked = step.replace()
     assert type(checked) is StepData
     assert checked == step
     assert solver.fits(checked)
@@ -109,7 +111,8 @@ BAD = {
 
 @pytest.mark.parametrize(("words", "change"), BAD.items(), ids=BAD)
 def test_a_mass_in_the_last_block_is_refused_as_all_of_M_u_is(words, change):
-    rows, said = np.array([4]), []
+    rows = np.array([4])
+    said = []
     blocks = spoiled(change)
     for M_u in (blocks, whole(blocks)):
         with pytest.raises(StepDataError, match=words) as caught:

@@ -38,7 +38,8 @@ class Judged:
 
     def __init__(self, step, x, lam):
         self.step, scaled = step, DenseStep(step)
-        self.form, self.units = scaled.natural_form, scaled.units
+        self.form = scaled.natural_form
+        self.units = scaled.units
         S, ell, rho = self.units
         self.x, self.y = x, np.maximum(lam, 0.0)
         hessian = BallHessian(step)
@@ -57,7 +58,8 @@ class Judged:
         A = fmpq_mat(form.A)
         slack = A * x - fmpq_mat(form.b)
         balance = fmpq_mat(form.H) * x - fmpq_mat(form.g) - A.transpose() * y
-        length, size = fraction(rho) * fraction(ell), fraction(rho)
+        length = fraction(rho) * fraction(ell)
+        size = fraction(rho)
         energy = 2 * free_energy(form) * form.net_unit * form.x_unit / size**2
         return (
             [s * form.slack_unit / length for s in slack.entries()],
@@ -71,7 +73,8 @@ class Judged:
     def within(self):
         """Whether slacks, balance and energy are as near to their exact values as is claimed."""
         slack, balance, energy = self.exact()
-        at, u = self.at, fraction(rounded_bound.U)
+        at = self.at
+        u = fraction(rounded_bound.U)
         off_slack = fraction(at.off_slack)
         return (
             all(abs(fraction(v) - e) <= off_slack + u * abs(fraction(v))
@@ -85,8 +88,10 @@ class Judged:
 def some_answer(rng, step):
     """An answer that is nearly right, or anything."""
     scaled = DenseStep(step)
-    n, m = step.n_v, int(step.offsets[-1])
-    x, lam = rng.standard_normal(n), rng.standard_normal(m) * (rng.random(m) < 0.3)
+    n = step.n_v
+    m = int(step.offsets[-1])
+    x = rng.standard_normal(n)
+    lam = rng.standard_normal(m) * (rng.random(m) < 0.3)
     try:
         answer = solve_step(step, "none")
     except StepNotSolved:
@@ -105,7 +110,8 @@ def test_slacks_balance_and_energy_are_as_near_as_is_claimed():
 
 def test_no_answer_of_random_steps_has_a_false_bound():
     """What a file would say, of displacement and multipliers, is compared in fractions."""
-    rng, bounded = np.random.default_rng(2), 0
+    rng = np.random.default_rng(2)
+    bounded = 0
     for _ in range(FUZZED):
         step = small_step(rng)
         judged = Judged(step, *some_answer(rng, step))

@@ -75,7 +75,8 @@ def counting(cone, n_c=2):
 
 def entry(cone):
     """Roundings of an entry of A: products with three axes, mu, and the cone's own sum."""
-    part, mu = reduce(lambda a, b: a + b, [Counted() * Counted()] * 3), Counted()
+    part = reduce(lambda a, b: a + b, [Counted() * Counted()] * 3)
+    mu = Counted()
     corners = type("Corner", (Counted,), {})
     slip = [mu * part, mu * part, mu * Counted()]
     rows = cone_function(cone)
@@ -91,7 +92,8 @@ def entry(cone):
 def test_no_result_has_more_roundings_than_its_bound_allows(cone):
     for n_c in (1, 2, 5):
         sizes, x, lam = counting(cone, n_c)
-        rows, columns = sizes.row_terms + ROUNDINGS, sizes.column_terms + ROUNDINGS
+        rows = sizes.row_terms + ROUNDINGS
+        columns = sizes.column_terms + ROUNDINGS
         assert most(sizes.rows(x)) + 1 <= rows  # and |b| is added
         assert most(sizes.columns(lam)) + 2 <= columns  # and the sizes of H x and g are
         a = entry(cone)
@@ -121,8 +123,10 @@ def test_sizes_are_the_sums_of_the_sizes_of_all_terms():
         step = random_step(np.random.default_rng(2)).replace(cone=cone)
         sparse = in_blocks(step)
         sizes = sizes_of(sparse, np.full(step.n_v, 0.5), 0.25, 2.0)
-        c, rng = step.contacts, np.random.default_rng(3)
-        x, lam = rng.standard_normal(step.n_v), rng.random(step.mask.sum())
+        c = step.contacts
+        rng = np.random.default_rng(3)
+        x = rng.standard_normal(step.n_v)
+        lam = rng.random(step.mask.sum())
         parts = [np.abs(axis)[:, None] @ np.abs(c.J[:, :3]) for axis in (c.n, c.d1, c.d2)]
         own = [p[:, 0] for p in parts] + [np.abs(c.J[:, 3])]
         scaled = [own[0], *(c.mu[:, i, None] * own[i + 1] for i in range(3))]

@@ -43,10 +43,14 @@ def step_after(some, count):
 def test_blocks_are_the_columns_of_J_that_are_not_zero(scene):
     if scene == "pile":
         made = pile(BOXES).simulator
-        system, pairs, layout = made.system, made.pairs, made.layout
+        system = made.system
+        pairs = made.pairs
+        layout = made.layout
     else:  # a gripper with a base and a finger that mimics the other
         loaded = load_scenario("bunny_grasp", fast=True)
-        system, pairs, layout = loaded.system, loaded.pairs, loaded.simulator().layout
+        system = loaded.system
+        pairs = loaded.pairs
+        layout = loaded.simulator().layout
     q = system.integrate(system.q_start, 0.01 * np.cos(np.arange(system.n_v)))
     kinematics = system.kinematics(q)
     points = closest_points(pairs, kinematics)
@@ -63,7 +67,8 @@ def test_blocks_are_the_columns_of_J_that_are_not_zero(scene):
 
 def test_the_sparse_form_is_the_standard_form(always_sparse):
     step = step_after(pile(BOXES), 2).step
-    form, dense = sparse_form(step, Pattern(step)), standard_form(step)
+    form = sparse_form(step, Pattern(step))
+    dense = standard_form(step)
     np.testing.assert_allclose(form.P.toarray(), np.triu(dense.H), rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(form.g, dense.g, rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(form.A.toarray(), dense.A, rtol=EXACT, atol=ROUNDING)

@@ -61,9 +61,11 @@ def test_a_sparse_answer_has_a_bound_as_good_as_that_of_a_dense_one(monkeypatch)
     for _ in range(3):
         result = some.simulator.step(q, NO_TARGET, some.force)
         q = result.q
-    step, answer = result.step, result.solution
+    step = result.step
+    answer = result.solution
     assert type(step.contacts) is SparseContacts
-    bound, exact = answer.certificate.error_bound, exact_step(step)
+    bound = answer.certificate.error_bound
+    exact = exact_step(step)
     assert error(step, answer.delta_q, exact.delta_q) <= bound < 1e-4
     assert within(step, exact, answer.delta_q, bound, answer.lam)
     dense = error_bound(step, answer.delta_q, answer.lam).error
@@ -87,7 +89,8 @@ def test_what_is_wedged_broken_or_too_large_has_no_bound():
 def test_the_way_is_long_enough_for_its_own_rounding():
     rng = np.random.default_rng(3)
     for _ in range(300):
-        low, opens = -(10.0 ** rng.uniform(-16, -8, 5)), rng.random(5) + 0.5
+        low = -(10.0 ** rng.uniform(-16, -8, 5))
+        opens = rng.random(5) + 0.5
         t = least_way(low, opens)
         assert t < np.inf
         exactly = [Fraction(a) + Fraction(t) * Fraction(b) for a, b in zip(low, opens, strict=True)]
@@ -104,7 +107,8 @@ def test_eigenvalues_are_bounded_from_below_and_never_above_the_true_ones():
     X = rng.standard_normal((6, 6))
     blocks.append(X @ X.T)
     n = sum(map(len, blocks))
-    H, at = np.zeros((n, n)), 0
+    H = np.zeros((n, n))
+    at = 0
     order = rng.permutation(n)
     for block in blocks:
         own = order[at : at + len(block)]

@@ -30,7 +30,8 @@ def scene(changes=(), **settings):
     rail = qr.Body("rail", RAIL, actuated=["slide"], xyz=(-0.2, 0, 0.05))
     ball = qr.Body.of_shape("ball", qr.Sphere(0.05), mass=0.3, xyz=(0, 0, 0.05))
     system = qr.System([rail, ball])
-    finger, body = system.link("rail/finger"), system.link("ball/solid")
+    finger = system.link("rail/finger")
+    body = system.link("ball/solid")
     floor = placed("floor", 0, qr.HalfSpace((0, 0, 1), 0.0))
     pairs = [
         qr.ContactPair("rest", floor, system.shapes[0], 0.5, 0.01, 6, 1),

@@ -61,7 +61,8 @@ def test_the_wide_table_has_a_row_a_step_and_a_column_a_number_by_name_and_unit(
 
 
 def test_the_tidy_tables_have_a_row_a_step_and_coordinate_or_contact(run):
-    coordinates, contacts = run.coordinates_to_pandas(), run.contacts_to_pandas()
+    coordinates = run.coordinates_to_pandas()
+    contacts = run.contacts_to_pandas()
     slide = coordinates[coordinates.coordinate == "rail/slide"]
     np.testing.assert_array_equal(slide["value"], run.q[1:, 0])
     np.testing.assert_array_equal(slide["target"], run.q_bar_a[:, 0])

@@ -35,7 +35,8 @@ from tests.helpers import (
 )
 from tests.scenes import SWING, written_scenario
 
-LINES, WIDTH = 20, 100
+LINES = 20
+WIDTH = 100
 HOSTILE = '<script>alert("&")</script>\n\x1b[31m\u202e' + "long" * 50
 
 

@@ -87,7 +87,8 @@ def add_servo(plant: Any, body: Any, added: Any) -> None:
 
 def phenomena(case: Any) -> Any:
     """A scene, by the simulator."""
-    scene, setting = case["scene"], case["setting"]
+    scene = case["scene"]
+    setting = case["setting"]
     plant, diagram = plant_of(scene, setting)
     simulator = drake.Simulator(diagram)
     context = simulator.get_mutable_context()

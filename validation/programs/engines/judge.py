@@ -37,7 +37,8 @@ def python_of(name: str, folder: Path) -> str:
 
 def judged(name: str, folder: Path, results: Path, resume: bool) -> None:
     """What an engine answered, written setting by setting; `resume` keeps those that are there."""
-    engine, path = ENGINES[name], results / f"{name}.json"
+    engine = ENGINES[name]
+    path = results / f"{name}.json"
     before = json.loads(path.read_text("utf-8")) if resume and path.exists() else {}
     record: dict[str, Any] = {"requires": engine["requires"], "settings": {}}
     command = shlex.join([python_of(name, folder), str(HERE / engine["adapter"])])

@@ -88,7 +88,8 @@ mujoco.set_mju_user_warning(lambda _: None)  # else a file MUJOCO_LOG.TXT is wri
 
 def phenomena(case: Any) -> Any:
     """A scene by mj_step."""
-    scene, setting = case["scene"], case["setting"]
+    scene = case["scene"]
+    setting = case["setting"]
     model = mujoco.MjModel.from_xml_string(mjcf(scene, setting))
     data = mujoco.MjData(model)
 

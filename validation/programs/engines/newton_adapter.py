@@ -55,7 +55,8 @@ def model_of(scene: Any, setting: Any) -> tuple[Any, dict[str, int]]:
 
 def phenomena(case: Any) -> Any:
     """A scene by a solver, one step between detections of contacts."""
-    scene, setting = case["scene"], case["setting"]
+    scene = case["scene"]
+    setting = case["setting"]
     name = f"Solver{setting['solver']}"
     if not hasattr(newton.solvers, name):
         raise Unsupported(f"there is no {name}")
@@ -63,7 +64,8 @@ def phenomena(case: Any) -> Any:
     solver = getattr(newton.solvers, name)(model, **setting.get("options", {}))
     states = [model.state(), model.state()]
     newton.eval_fk(model, model.joint_q, model.joint_qd, states[0])
-    control, pipeline = model.control(), newton.CollisionPipeline(model)
+    control = model.control()
+    pipeline = newton.CollisionPipeline(model)
     contacts = pipeline.contacts()
 
     def step(loads: Any) -> None:

@@ -56,7 +56,8 @@ def solid(shape: Any) -> Any:
 
 def phenomena(case: Any) -> Any:
     """A scene, step by step."""
-    scene, setting = case["scene"], case["setting"]
+    scene = case["scene"]
+    setting = case["setting"]
     bodies = {body["name"]: body for body in scene["bodies"]}
     made = {name: robot(body) for name, body in bodies.items()}
 
@@ -103,7 +104,8 @@ def phenomena(case: Any) -> Any:
         state["q"] = simulator.step(state["q"], state["target"], force).q
 
     def pose(name: str) -> Any:
-        at, k = system.kinematics(state["q"]), system.link(link(name))
+        at = system.kinematics(state["q"])
+        k = system.link(link(name))
         return [*at.t[k], *quaternion(at.R[k])]
 
     return run(scene, setting["h"], step, pose, aim)

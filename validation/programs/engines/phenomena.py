@@ -62,7 +62,8 @@ def cells(simulate: Simulate, h: float, names: Collection[str] = ()) -> Iterator
     """Every phenomenon, or those named, of an engine that takes steps of h [s]."""
     for name in names or PHENOMENA:
         phenomenon = PHENOMENA[name]
-        xs, runs = [], []
+        xs = []
+        runs = []
         try:
             for x, scene in scenes(phenomenon):
                 body = scene["bodies"][0]["name"]
@@ -110,7 +111,8 @@ def motion(times: list[float], poses: list[list[float]]) -> Motion:
     if table.shape != (len(times), 7) or not np.isfinite(table).all():
         raise ValueError("poses are no numbers, or not seven at each time")
     q = table[:, 3:] / np.linalg.norm(table[:, 3:], axis=1, keepdims=True)
-    w, v = q[:, 3], q[:, :3]
+    w = q[:, 3]
+    v = q[:, :3]
     # Of conj(q_k) q_k+1: the vector part stays exact where the turn is small.
     vector = w[:-1, None] * v[1:] - w[1:, None] * v[:-1] - np.cross(v[:-1], v[1:])
     scalar = np.abs((q[:-1] * q[1:]).sum(1))
@@ -140,7 +142,8 @@ def limit(xs: np.ndarray, runs: list[Motion], _: Any) -> float:
 def angle(xs: np.ndarray, runs: list[Motion], _: Any) -> float:
     """Slope at which ways, which are as sin a - mu cos a, are zero: atan mu [deg]."""
     r = [np.linalg.norm(run.places[-1] - run.places[run.half]) for run in runs]
-    s, c = np.sin(np.arctan(xs)), np.cos(np.arctan(xs))
+    s = np.sin(np.arctan(xs))
+    c = np.cos(np.arctan(xs))
     return float(np.degrees(np.arctan2(r[1] * s[0] - r[0] * s[1], r[1] * c[0] - r[0] * c[1])))
 
 

@@ -16,42 +16,51 @@ from door import Unsupported, answer, run
 
 def phenomena(case: Any) -> Any:
     """A scene of one free body."""
-    scene, setting = case["scene"], case["setting"]
+    scene = case["scene"]
+    setting = case["setting"]
     if len(scene["bodies"]) > 1 or not scene["floor"]:
         raise Unsupported("the loop knows one body on a floor")
     (body,) = scene["bodies"]
-    h, feet = setting["h"], body["shapes"]
+    h = setting["h"]
+    feet = body["shapes"]
     model = pin.Model()
     model.gravity.linear = np.array(scene["gravity"])
     joint = model.addJoint(0, pin.JointModelFreeFlyer(), pin.SE3.Identity(), body["name"])
     inertia = pin.Inertia(body["mass"], np.zeros(3), np.diag(body["inertia"]))
     model.appendBodyToJoint(joint, inertia, pin.SE3.Identity())
     data = model.createData()
-    models, datas = pin.StdVec_ConstraintModel(), pin.StdVec_ConstraintData()
+    models = pin.StdVec_ConstraintModel()
+    datas = pin.StdVec_ConstraintData()
     for _ in feet:
         at = pin.SE3.Identity()
         contact = pin.PointContactConstraintModel(model, 0, at, joint, at)
         contact.setFriction(scene["mu_v"])
         models.append(pin.ConstraintModel(contact))
         datas.append(models[-1].createData())
-    solver, settings = pin.ADMMConstraintSolver(), pin.ADMMSolverSettings()
+    solver = pin.ADMMConstraintSolver()
+    settings = pin.ADMMSolverSettings()
     settings.absolute_feasibility_tol = settings.absolute_complementarity_tol = setting["tolerance"]
     settings.relative_feasibility_tol = settings.relative_complementarity_tol = setting["tolerance"]
-    settings.max_iterations, settings.solve_ncp = setting["iterations"], setting["ncp"]
+    settings.max_iterations = setting["iterations"]
+    settings.solve_ncp = setting["ncp"]
     result = pin.ADMMSolverResult()
     state = {"q": np.array([*body["xyz"], 0, 0, 0, 1.0]), "v": np.zeros(model.nv)}
 
     def step(loads: Any) -> None:
-        q, v = state["q"], state["v"]
+        q = state["q"]
+        v = state["v"]
         pin.computeJointJacobians(model, data, q)
-        R, centre = data.oMi[joint].rotation, data.oMi[joint].translation
+        R = data.oMi[joint].rotation
+        centre = data.oMi[joint].translation
         world = pin.getJointJacobian(model, data, joint, pin.LOCAL_WORLD_ALIGNED)
-        rows, gaps = [], []
+        rows = []
+        gaps = []
         for foot in feet:
             arm = R @ np.array(foot["xyz"]) - [0, 0, foot["radius"]]
             rows.append(world[:3] - pin.skew(arm) @ world[3:])
             gaps.append([0, 0, (centre + arm)[2]])
-        J, gap = np.vstack(rows), np.concatenate(gaps)
+        J = np.vstack(rows)
+        gap = np.concatenate(gaps)
         M = pin.crba(model, data, q)
         M = np.triu(M) + np.triu(M, 1).T
         force = loads[body["name"]]

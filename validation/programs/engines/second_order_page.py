@@ -84,7 +84,8 @@ def tables(found: list[Record]) -> str:
     for scene, title in SCENES.items():
         cells: dict[tuple[str, str], list[str]] = {}
         for engine, setting, _, own in series(found, scene):
-            held, right = span(own, "holds"), span(own, "right")
+            held = span(own, "holds")
+            right = span(own, "right")
             cells.setdefault((engine, setting), []).append(f"{held}; **{right}**")
         head = ("engine", "setting", *(f"{1e3 * speed:g} mm/s" for speed in STUDY["speeds"]))
         lines += [f"{title[0].upper()}{title[1:]}:", ""]
@@ -114,7 +115,8 @@ def figure(within: Any = None) -> Figure:
             axes.loglog(cost, error, mark, color=colour, markersize=scaled(3), linewidth=0.8,
                         label=f"{engine}: {setting}")  # fmt: skip
         axes.axhline(1e3 * STUDY["thresholds"]["pose"]["way"], color="black", linestyle=":")
-        below, left = speed == DRAWN_SPEEDS[-1], scene == next(iter(SCENES))
+        below = speed == DRAWN_SPEEDS[-1]
+        left = scene == next(iter(SCENES))
         labelled(
             axes,
             "cost [ms a simulated s]" if below else "",

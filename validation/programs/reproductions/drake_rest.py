@@ -8,7 +8,8 @@ d.Parser(plant).AddModelsFromString("""<mujoco model="m"><worldbody><geom type="
   <freejoint/><geom size=".05" friction=".5"/></body></worldbody></mujoco>""", "xml")
 plant.Finalize()
 simulator = d.Simulator(builder.Build())
-context, z = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context()), []
+context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
+z = []
 for time in 0.5, 1.0:
     simulator.AdvanceTo(time)
     z.append(plant.GetPositions(context)[6])

@@ -7,7 +7,8 @@ for kind in "sap", "similar":
     feet = "".join(f'<geom pos="{x} {y} -.01" size=".01" friction=".5"/>' for x in (-0.1, 0.1) for y in (-0.1, 0.1))
     d.Parser(plant).AddModelsFromString(f"""<mujoco model="m"><worldbody><geom type="plane" size="1 1 1" friction=".5"/><body name="sled"
       pos="0 0 .02"><freejoint/>{feet}<inertial mass=".3" pos="0 0 0" diaginertia="1e-3 1e-3 2e-3"/></body></worldbody></mujoco>""", "xml")
-    simulator, z = d.Simulator(plant.Finalize() or builder.Build()), []
+    simulator = d.Simulator(plant.Finalize() or builder.Build())
+    z = []
     context = plant.GetMyMutableContextFromRoot(simulator.get_mutable_context())
     simulator.AdvanceTo(0.5)
     plant.get_applied_generalized_force_input_port().FixValue(context, [0, 0, 0, 2.0810, 0, 0.86198])  # 0.3 9.81 (sin a, 0, 1 - cos a)

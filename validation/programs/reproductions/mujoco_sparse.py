@@ -3,7 +3,8 @@
 import mujoco
 import numpy as np
 
-rng, found = np.random.default_rng(0), []
+rng = np.random.default_rng(0)
+found = []
 for _ in range(30):
     trees = ["", "", ""]
     for x, y, z in rng.uniform(-0.15, 0.15, (5, 3)):

@@ -10,7 +10,10 @@ builder.add_mjcf(f"""<mujoco><default><geom friction=".5 .01 0" size=".01" condi
   <body pos="0 0 .02"><freejoint/>{feet}<inertial pos="0 0 0" mass=".3" diaginertia="1e-3 1e-3 2e-3"/></body></worldbody></mujoco>""")
 for a in math.atan(0.45), math.atan(1):
     solver = newton.solvers.SolverMuJoCo(model := builder.finalize(device="cpu"), cone="elliptic")
-    old, new, contacts, x = model.state(), model.state(), model.contacts(), []
+    old = model.state()
+    new = model.state()
+    contacts = model.contacts()
+    x = []
     for k in range(1000):
         old.body_f.assign([[0.3 * 9.81 * math.sin(a) * (k >= 500), 0, 0.3 * 9.81 * (1 - math.cos(a)) * (k >= 500), 0, 0, 0]])
         solver.step(old, new, model.control(), contacts, 0.001)

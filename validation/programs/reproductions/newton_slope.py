@@ -9,7 +9,10 @@ builder.add_mjcf(f"""<mujoco><default><geom friction=".5 .01 0" size=".01"/></de
 builder.color()
 for name, options in ("XPBD", {}), ("XPBD, iterations 20", {"iterations": 20}), ("VBD", {}):
     solver = getattr(newton.solvers, "Solver" + name.split(",")[0])(model := builder.finalize(device="cpu"), **options)
-    old, new, contacts, x = model.state(), model.state(), (pipeline := newton.CollisionPipeline(model)).contacts(), []
+    old = model.state()
+    new = model.state()
+    contacts = (pipeline := newton.CollisionPipeline(model)).contacts()
+    x = []
     for k in range(1000):
         old.body_f.assign([[1.2077 * (k >= 500), 0, 0.25922 * (k >= 500), 0, 0, 0]])  # 0.3 9.81 (sin a, 0, 1 - cos a)
         solver.step(old, new, model.control(), pipeline.collide(old, contacts) or contacts, 0.001)

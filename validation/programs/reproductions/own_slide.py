@@ -11,7 +11,8 @@ feet = [qr.PlacedShape(f"{x} {y}", system.link("sled"), np.eye(3), np.array([x, 
 pairs = [qr.ContactPair(foot.name, floor, foot, 0.5, 0.01, 6, 1) for foot in feet]
 for cone, way in [(cone, way) for cone in ("pyramid", "ellipsoid", "product") for way in ((1, 0), (0.5**0.5, 0.5**0.5))]:
     gravity = 9.81 * 0.5**0.5 * np.array([*way, -1])
-    simulator, q = qr.Simulator(system, pairs, h=0.01, K_q=np.zeros((0, 0)), cone=cone, gravity=gravity), [system.q_start]
+    simulator = qr.Simulator(system, pairs, h=0.01, K_q=np.zeros((0, 0)), cone=cone, gravity=gravity)
+    q = [system.q_start]
     for _ in range(50):
         q.append(simulator.step(q[-1], np.zeros(0), np.zeros(6)).q)
     slip = np.hypot(*(q[-1] - q[-2])[:2])  # of a step from rest: h^2 g (1 - mu) / sqrt 2

@@ -4,7 +4,9 @@ import numpy as np
 import pinocchio as pin
 
 J = np.vstack([np.hstack([np.eye(3), -pin.skew(np.array([x, y, -0.02]))]) for x in (-0.1, 0.1) for y in (-0.1, 0.1)])
-models, datas, M_inv = pin.StdVec_ConstraintModel(), pin.StdVec_ConstraintData(), np.diag([1 / 0.3] * 3 + [1e3, 1e3, 500])
+models = pin.StdVec_ConstraintModel()
+datas = pin.StdVec_ConstraintData()
+M_inv = np.diag([1 / 0.3] * 3 + [1e3, 1e3, 500])
 for _ in range(4):
     (contact := pin.PointContactConstraintModel(pin.Model(), 0, pin.SE3.Identity(), 0, pin.SE3.Identity())).setFriction(0.5)
     models.append(pin.ConstraintModel(contact)) or datas.append(models[-1].createData())

@@ -85,7 +85,8 @@ def mutants(file: str, source: str) -> Iterator[Mutant]:
 
 class _Replaced(ast.NodeTransformer):
     def __init__(self, old: ast.AST, new: ast.AST) -> None:
-        self.old, self.new = old, new
+        self.old = old
+        self.new = new
 
     def visit(self, node: ast.AST) -> ast.AST:
         return self.new if node is self.old else self.generic_visit(node)

@@ -252,7 +252,8 @@ def rows() -> Iterator[tuple[list[str], list[str]]]:
     for line in TABLE.strip().splitlines():
         if not line.startswith(" ") and tests:
             yield files, tests
-            files, tests = [], []
+            files = []
+            tests = []
         (tests if line.startswith(" ") else files).extend(line.split())
     yield files, tests
 

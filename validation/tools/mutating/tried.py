@@ -51,7 +51,8 @@ class Finder(MetaPathFinder):
     """Finds one file of the package, with another text."""
 
     def __init__(self, file: Path, text: str) -> None:
-        self.file, self.text = file, text
+        self.file = file
+        self.text = text
 
     def find_spec(
         self, name: str, path: Sequence[str] | None, target: ModuleType | None = None

@@ -9,7 +9,10 @@ from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, INERTIA, RADIUS, H = (0.3, 0.5), (2e-4, 4e-4), (0.03, 0.04), 0.01
+M = (0.3, 0.5)
+INERTIA = (2e-4, 4e-4)
+RADIUS = (0.03, 0.04)
+H = 0.01
 
 
 def pressed(phi: float, n: np.ndarray, d1: np.ndarray, force: np.ndarray) -> StepData:
@@ -26,7 +29,11 @@ def pressed(phi: float, n: np.ndarray, d1: np.ndarray, force: np.ndarray) -> Ste
 def evidence() -> Evidence:
     """Gaps of both signs, normals and loads at random."""
     rng = np.random.default_rng(4)
-    changes, forces, couples, sizes, balance = [], [], [], [], []
+    changes = []
+    forces = []
+    couples = []
+    sizes = []
+    balance = []
     for phi in (-1e-3, -1e-5, 0.0, 1e-5, 2e-4):
         for _ in range(6):
             n, d1 = np.linalg.qr(rng.normal(size=(3, 3)))[0].T[:2]
@@ -43,7 +50,8 @@ def evidence() -> Evidence:
             sizes.append(H * np.linalg.norm(f) * RADIUS[1])
             forces.append(np.linalg.norm(f) * H)
             balance.append(P1 + P2)
-    scale, size = np.array(sizes)[:, None], np.array(forces)[:, None]
+    scale = np.array(sizes)[:, None]
+    size = np.array(forces)[:, None]
     return Evidence.of(
         comparison(
             "spurious angular impulse of the pair [N m s]", changes, couples, CLOSED_FORM, scale

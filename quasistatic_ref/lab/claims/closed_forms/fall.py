@@ -15,10 +15,14 @@ STEPS = 10
 def fall_evidence() -> Evidence:
     """Bodies of several masses, centres of mass and orientations, ten steps each."""
     rng = np.random.default_rng(2)
-    heights, expected, sideways, turned = [], [], [], []
+    heights = []
+    expected = []
+    sideways = []
+    turned = []
     for h in (1e-3, 1e-2, 1e-1):
         for _ in range(4):
-            com, rpy = rng.uniform(-0.1, 0.1, 3), tuple(rng.uniform(-1.5, 1.5, 3))
+            com = rng.uniform(-0.1, 0.1, 3)
+            rpy = tuple(rng.uniform(-1.5, 1.5, 3))
             text = body_text(float(rng.uniform(0.1, 5)), (0.02, 0.03, 0.04), com=com)
             system = system_of({"body": text}, body={"rpy": rpy})
             results = steps_of(simulator_of(system, (), h), STEPS)
@@ -43,7 +47,8 @@ def approach_evidence() -> Evidence:
     m, phi, h = sweep.T
     rises = np.array([answer.delta_q[2] for answer in answers])
     forces = np.array([answer.wrench[0, 2] for answer in answers])
-    weight, push = m * GRAVITY, -m * phi / h**2
+    weight = m * GRAVITY
+    push = -m * phi / h**2
     bears = weight + push > 0
     return Evidence.of(
         comparison(

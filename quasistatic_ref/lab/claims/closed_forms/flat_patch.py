@@ -9,15 +9,22 @@ from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, INERTIA, MU, RADIUS, HEIGHT, H = 0.5, 2e-4, 0.5, 0.03, 0.02, 0.01
-RINGS, POINTS = 4, 6
+M = 0.5
+INERTIA = 2e-4
+MU = 0.5
+RADIUS = 0.03
+HEIGHT = 0.02
+H = 0.01
+RINGS = 4
+POINTS = 6
 
 
 def disk() -> tuple[Array, Array]:
     """Points of equal area on a disk (P, 3) [m], and frames (P, 3, 3): d1 where they would slip."""
     r = RADIUS * np.sqrt((np.arange(RINGS) + 1) / RINGS)
     at = grid(r, 2 * np.pi * (np.arange(POINTS) + 0.25) / POINTS)
-    x, y = at[:, 0] * np.cos(at[:, 1]), at[:, 0] * np.sin(at[:, 1])
+    x = at[:, 0] * np.cos(at[:, 1])
+    y = at[:, 0] * np.sin(at[:, 1])
     points = np.stack([x, y, np.full(len(x), -HEIGHT)], axis=1)
     along = np.stack([-np.sin(at[:, 1]), np.cos(at[:, 1]), np.zeros(len(x))], axis=1)
     frames = np.stack([along, np.cross(Z, along), np.broadcast_to(Z, along.shape)], axis=1)
@@ -39,7 +46,11 @@ def evidence() -> Evidence:
     found = threshold(
         lambda share: bool(abs(exact(turned(share * limit)).delta_q[5]) > 1e-14), 0.3, 2
     )
-    turns, forms, scales, inner, shares = [], [], [], [], []
+    turns = []
+    forms = []
+    scales = []
+    inner = []
+    shares = []
     for share in (1.01, 1.5, 4.0):
         answer = exact(turned(share * limit))
         mass = INERTIA + M * (MU * RADIUS) ** 2

@@ -12,12 +12,15 @@ from quasistatic_ref.tolerances import CLOSED_FORM
 def free_evidence() -> Evidence:
     """Random stiffnesses of 1 to 7 coordinates, condition at most 100 or so."""
     rng = np.random.default_rng(1)
-    moved, wanted, sagged = [], [], []
+    moved = []
+    wanted = []
+    sagged = []
     for n_a in range(1, 8):
         for _ in range(4):
             B = rng.normal(size=(n_a, n_a))
             K_q = 500 * (B @ B.T / n_a + np.eye(n_a))
-            tau_a, target = rng.normal(size=n_a), 1e-3 * rng.normal(size=n_a)
+            tau_a = rng.normal(size=n_a)
+            target = 1e-3 * rng.normal(size=n_a)
             h = float(rng.choice([1e-3, 1e-2, 1e-1]))
             step = actuated_step(K_q, tau_a, target, no_contacts(n_a), h)
             moved.append(exact(step).delta_q)
@@ -29,7 +32,11 @@ def free_evidence() -> Evidence:
 
 def pressed_evidence() -> Evidence:
     """A finger of stiffness K whose target lies `beyond` a wall at the gap phi."""
-    moved, pressed, gaps, forces, loads = [], [], [], [], []
+    moved = []
+    pressed = []
+    gaps = []
+    forces = []
+    loads = []
     for K, phi, beyond, tau in grid([10, 1e3, 1e5], [0, 1e-4, 2e-3], [-1e-3, 0, 1e-3], [0, 0.7]):
         J = np.zeros((1, 4, 1))
         J[0, 0, 0] = -1.0  # towards the wall, along -n

@@ -18,7 +18,8 @@ from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, H = 0.4, 0.01
+M = 0.4
+H = 0.01
 L, WIDTH = 0.06, 0.05
 """Half the base, along and across the slope [m]."""
 STEPS = 8
@@ -42,7 +43,11 @@ def moved(results: list[StepResult]) -> Array:
 
 def slide_evidence() -> Evidence:
     """Low blocks on slopes around the angle of friction."""
-    stuck, slips, fixed, left, sideways = [], [], [], [], []
+    stuck = []
+    slips = []
+    fixed = []
+    left = []
+    sideways = []
     k = np.arange(STEPS)
     for slope, mu, c in grid(np.radians([5, 15, 25, 35, 50]), [0.2, 0.5, 0.9], [0.01, 0.05]):
         if np.isclose(np.tan(slope), mu, rtol=1e-3):
@@ -65,7 +70,10 @@ def slide_evidence() -> Evidence:
 
 def tip_evidence() -> Evidence:
     """High blocks whose friction would hold them: they tip at tan a = L / c."""
-    turns, up, down, held = [], [], [], []
+    turns = []
+    up = []
+    down = []
+    held = []
     for c, share in grid([0.1, 0.2, 0.4], [0.9, 0.999, 1.001, 1.1, 1.4]):
         slope = np.arctan(share * L / c)
         delta_q = moved(block_steps(slope, 1.5, c, 1))[0]

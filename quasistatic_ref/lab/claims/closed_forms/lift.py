@@ -55,7 +55,9 @@ def lifting_step(speed: float, lever: float, h: float) -> StepData:
 
 def evidence() -> Evidence:
     """The rate 1 / h of steps from which on the bar turns."""
-    found, expected, risen = [], [], []
+    found = []
+    expected = []
+    risen = []
     for speed, lever in grid([0.001, 0.01, 0.1, 0.3], [0.02, 0.03, 0.04]):
         rate = (2 * MU_V * SQUEEZE * PAD / lever - M * GRAVITY) / (M * speed)
 

@@ -9,7 +9,11 @@ from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, INERTIA, MU_V, MU_OMEGA, H = 0.5, 2e-4, 0.5, 0.01, 0.01
+M = 0.5
+INERTIA = 2e-4
+MU_V = 0.5
+MU_OMEGA = 0.01
+H = 0.01
 WALLS = [[[1, 0, 0], [0, 0, -1], [0, 1, 0]], [[1, 0, 0], [0, 0, 1], [0, -1, 0]]]
 """Rows d1, d2, n of two walls that face each other along y."""
 ACROSS = [0.0, 1.0, 0.0]
@@ -40,23 +44,30 @@ def turned(torque: float, clearance: float) -> float:
 
 def evidence() -> Evidence:
     """Forces from a hundredth of what reaches the limit to a million times that."""
-    shares, clearances = [0.01, 0.5, 0.99, 1.01, 2.0, 1e3, 1e6], [0.0, 1e-5, 1e-3]
-    found, expected, pressed, balance = [], [], [], []
+    shares = [0.01, 0.5, 0.99, 1.01, 2.0, 1e3, 1e6]
+    clearances = [0.0, 1e-5, 1e-3]
+    found = []
+    expected = []
+    pressed = []
+    balance = []
     for share, angle, c in grid(shares, np.radians([0.0, 20.0, 45.0, 90.0]), clearances):
         force = share * M * max(c, 1e-5) / (MU_V * H**2)
-        free, most = H**2 * force / M * np.array([np.cos(angle), np.sin(angle)]), c / MU_V
+        free = H**2 * force / M * np.array([np.cos(angle), np.sin(angle)])
+        most = c / MU_V
         answer = slid(force, angle, c)
         found.append(answer.delta_q[[0, 2]])
         expected.append(np.minimum(free, most))
         # What does not move the body, the walls bear: mu_v N along each tangent.
         pressed.append(MU_V * answer.wrench[:, 2].sum() / force)
         balance.append((M / H**2 * (free - expected[-1])).sum() / force)
-    turns, limits = [], []
+    turns = []
+    limits = []
     for share, c in grid(shares, clearances):
         torque = share * INERTIA * max(c, 1e-5) / (MU_OMEGA * H**2)
         turns.append(turned(torque, c))
         limits.append(min(H**2 * torque / INERTIA, c / MU_OMEGA))
-    drawn, unit = np.linspace(0.0, 3.0, 13), M * 1e-3 / (MU_V * H**2)
+    drawn = np.linspace(0.0, 3.0, 13)
+    unit = M * 1e-3 / (MU_V * H**2)
     along = [slid(force, 0.0, 1e-3) for force in drawn * unit]
     around = [slid(1e6, angle, 1e-3) for angle in np.linspace(0, 2 * np.pi, 25)]
     picture = {

@@ -8,7 +8,10 @@ from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, INERTIA, MU_V, MU_OMEGA = 0.3, 3e-4, 0.4, 0.015
+M = 0.3
+INERTIA = 3e-4
+MU_V = 0.4
+MU_OMEGA = 0.015
 RADIUS = 1 / 16
 """A power of two: the torque of the force, were it rounded, would make the sphere roll [m]."""
 
@@ -17,7 +20,8 @@ def evidence() -> Evidence:
     """Random directions of (f_1, f_2, tau_n) at the contact point, scaled until something moves."""
     rng = np.random.default_rng(3)
     N = M * GRAVITY
-    found, expected = [], []
+    found = []
+    expected = []
     for direction in rng.normal(size=(24, 3)):
         f1, f2, tau = direction * [MU_V * N, MU_V * N, MU_OMEGA * N]
 

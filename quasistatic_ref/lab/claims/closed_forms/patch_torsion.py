@@ -10,7 +10,12 @@ from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import FITTED
 
-MU, RADIUS, LOAD, STIFFNESS, INERTIA, H = 0.6, 0.012, 8.0, 1e4, 1e-5, 0.01
+MU = 0.6
+RADIUS = 0.012
+LOAD = 8.0
+STIFFNESS = 1e4
+INERTIA = 1e-5
+H = 0.01
 RINGS = (4, 8, 16, 32)
 PRECISION = 1e-10
 """Where the bisection of a threshold ends, relative [-]."""

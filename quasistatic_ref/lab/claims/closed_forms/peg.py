@@ -9,7 +9,8 @@ from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, H = 0.3, 0.01
+M = 0.3
+H = 0.01
 INERTIA = 2e-3
 """Of a peg long enough that both contacts go on pressing while it slides in [kg m^2]."""
 
@@ -27,7 +28,9 @@ def pushed(depth: float, width: float, mu: float, force: float) -> StepData:
 
 def evidence() -> Evidence:
     """The depth at which the peg wedges, for weak and strong pushes; and how it slides deeper."""
-    found, expected, rest = [], [], []
+    found = []
+    expected = []
+    rest = []
     for width, mu, force in grid([0.01, 0.04], [0.1, 0.3, 0.8], [1e-3, 1.0, 1e6]):
         limit = mu * width
 
@@ -37,7 +40,8 @@ def evidence() -> Evidence:
         found.append(threshold(moves, 0.2 * limit, 5 * limit))
         expected.append(limit)
         rest.append(exact(pushed(0.99 * limit, width, mu, force)).delta_q)
-    solved, formula = [], []
+    solved = []
+    formula = []
     for width, mu, over, force in grid([0.01, 0.04], [0.1, 0.3, 0.8], [1.05, 2, 6], [0.1, 5.0]):
         depth = over * mu * width
         solved.append(exact(pushed(depth, width, mu, force)).delta_q)
@@ -45,7 +49,8 @@ def evidence() -> Evidence:
         descent = H**2 * force / (M * (1 + x**2) + INERTIA * theta**2)
         formula.append(descent * np.array([x, 0, -1, 0, theta, 0]))
     size = np.abs(formula).max(1, keepdims=True)
-    widths, mus = np.array([0.01, 0.04]), np.array([0.1, 0.3, 0.8])
+    widths = np.array([0.01, 0.04])
+    mus = np.array([0.1, 0.3, 0.8])
     picture = {"mu": np.repeat(np.tile(mus, len(widths)), 3), "width": np.repeat(widths, 9),
                "found": np.array(found), "h": H}  # fmt: skip
     return Evidence.of(

@@ -14,7 +14,10 @@ M = 0.2
 
 def evidence() -> Evidence:
     """The offset at which the bar begins to turn."""
-    found, expected, loads, grips = [], [], [], []
+    found = []
+    expected = []
+    loads = []
+    grips = []
     for grip, mu_v, mu_omega in grid([4.0, 10.0, 40.0], [0.4, 0.8], [0.005, 0.02]):
         limit = mu_omega * (2 * grip / (M * GRAVITY) - 1 / mu_v)
 

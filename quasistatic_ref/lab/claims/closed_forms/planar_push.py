@@ -49,7 +49,8 @@ def slow_pushes() -> tuple[Array, Array, Array]:
     limits, lynch : ndarray, shape (pushes, 3)
         What they tend to, and Lynch's [-].
     """
-    found, limits = [], []
+    found = []
+    limits = []
     for angle, aside, c, sticks in grid([0.3, 2.0], [-0.7, 0.4], [0.02, 0.05], [1.0, 0.0]):
         point = rotated(np.array([0.04, 0.0]), angle)
         direction = rotated(-point / 0.04, aside)
@@ -60,7 +61,8 @@ def slow_pushes() -> tuple[Array, Array, Array]:
         found.append([relative(exact(push_step(of)), of) for of in pushes])
         motion = (sticking_motion if sticks else sliding_motion)(point, direction, c**2)
         limits.append(motion[[2, 0, 1]] * [0.04, 1, 1])
-    measured, lynch = np.array(found), np.array(limits)
+    measured = np.array(found)
+    lynch = np.array(limits)
     cubic = np.polynomial.polynomial.polyfit(
         SLOW_PUSHES / SLOW_PUSHES[-1], np.moveaxis(measured, 1, 0).reshape(len(SLOW_PUSHES), -1), 3
     )
@@ -93,7 +95,8 @@ def evidence() -> Evidence:
     normal = np.array([of.friction for of in pushes])
     normal[:, 2] /= c
     load = np.array([of.load for of in pushes])
-    rise, gap = np.array([of.rise for of in pushes]), sweep[:, 3] * size
+    rise = np.array([of.rise for of in pushes])
+    gap = sweep[:, 3] * size
     bounds = np.array([a.certificate.error_bound for a in answers], dtype=np.float64)
     # The push is what the pusher's spring says.
     spring = np.array([

@@ -20,7 +20,10 @@ from quasistatic_ref.shapes.placed_shape import Box, Sphere
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, L, C, STIFFNESS = 0.2, 0.06, 0.03, 2e4
+M = 0.2
+L = 0.06
+C = 0.03
+STIFFNESS = 2e4
 STEPS = 40
 """After these the transient, at most 0.3 of what it was in each step, is below rounding."""
 
@@ -53,11 +56,14 @@ def evidence() -> Evidence:
     sweep = grid([0.005, 0.05, 0.2], [0.2, 0.5], [5e-3, 1e-2])
     v, mu, h = sweep.T
     found = np.array([pushed(*x) for x in sweep])
-    friction, drag = mu * M * GRAVITY, M * v / h
+    friction = mu * M * GRAVITY
+    drag = M * v / h
     force = STIFFNESS * found[:, 0]
     picture = {"v": v, "mu": mu, "h": h, "force": force, "m": M}
-    gap, ride = found[:, 1:3], np.repeat((mu * v * h)[:, None], 2, axis=1)
-    load, weight = found[:, 3], M * GRAVITY
+    gap = found[:, 1:3]
+    ride = np.repeat((mu * v * h)[:, None], 2, axis=1)
+    load = found[:, 3]
+    weight = M * GRAVITY
     return Evidence.of(
         sum_of_terms("K times the finger's lag [N]", force, [friction, drag], CLOSED_FORM),
         comparison("gap under the block [m]", gap, ride, CLOSED_FORM, C),

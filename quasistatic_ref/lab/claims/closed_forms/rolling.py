@@ -16,12 +16,22 @@ from quasistatic_ref.lab.scenes.systems import (
 from quasistatic_ref.shapes.placed_shape import Sphere
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, INERTIA, RADIUS, MU_V, STEPS = 0.3, 3e-4, 0.05, 0.9, 12
+M = 0.3
+INERTIA = 3e-4
+RADIUS = 0.05
+MU_V = 0.9
+STEPS = 12
 
 
 def evidence() -> Evidence:
     """Forces along several directions; every step against the one before it."""
-    turned, wanted, heights, dips, closed, ahead, along = [], [], [], [], [], [], []
+    turned = []
+    wanted = []
+    heights = []
+    dips = []
+    closed = []
+    ahead = []
+    along = []
     for force, azimuth, h in grid([0.05, 0.3, 1.0], [0.0, 0.7, 2.5], [0.01, 0.03]):
         text = body_text(M, (INERTIA,) * 3)
         system = system_of({"ball": text}, ball={"xyz": (0.1, -0.2, RADIUS)})

@@ -9,7 +9,9 @@ from quasistatic_ref.lab.scenes.rigid import point_step
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, H, STEPS = 0.3, 0.01, 15
+M = 0.3
+H = 0.01
+STEPS = 15
 
 
 def pulled(fx: float, fy: float, mu: float, phi: float, h: float = H) -> Array:
@@ -35,7 +37,9 @@ def slip(fx: float, fy: float, mu: float, phi: float, h: float = H) -> Array:
 def threshold_evidence() -> Evidence:
     """The least force that moves the point, by direction."""
     angles = np.radians(np.linspace(0.0, 90.0, 13))
-    found, expected, mus = [], [], (0.2, 1.0)
+    found = []
+    expected = []
+    mus = (0.2, 1.0)
     for mu in mus:
         for a in angles:
             fx, fy = mu * M * GRAVITY * np.array([np.cos(a), np.sin(a)])
@@ -52,7 +56,9 @@ def threshold_evidence() -> Evidence:
 
 def slip_evidence() -> Evidence:
     """One step in all regimes; then the sequence of steps along an axis."""
-    solved, formula, scale = [], [], []
+    solved = []
+    formula = []
+    scale = []
     sweep = grid(
         [0, 0.5, 0.9, 1.1, 2.0], [0, 0.1, 0.45], [0.2, 0.5, 1.0], [-1e-5, 0, 1e-4], [1e-3, H]
     )
@@ -61,9 +67,12 @@ def slip_evidence() -> Evidence:
         solved.append(pulled(fx, side * fx, mu, phi, h))
         formula.append(slip(fx, side * fx, mu, phi, h))
         scale.append(max(h**2 * GRAVITY * max(1.0, share) * mu, abs(phi)))
-    gaps, layers, rest = [], [], []
+    gaps = []
+    layers = []
+    rest = []
     for mu, share in grid([0.2, 0.5, 1.0], [1.2, 3.0]):
-        phi, k = 0.0, np.arange(STEPS)
+        phi = 0.0
+        k = np.arange(STEPS)
         layer = mu * H**2 * (share - 1) * mu * GRAVITY
         for _ in range(STEPS):
             gaps.append(phi)

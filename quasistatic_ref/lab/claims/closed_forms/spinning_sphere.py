@@ -9,7 +9,9 @@ from quasistatic_ref.lab.scenes.rigid import sphere_step
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, INERTIA, RADIUS = 0.3, 3e-4, 0.05
+M = 0.3
+INERTIA = 3e-4
+RADIUS = 0.05
 STEPS = 20
 STARTS = (-1e-6, 0.0, 1e-6, 2e-4)
 """Gaps to start from [m]: so little penetration that the sphere turns in the first step already."""
@@ -49,7 +51,8 @@ def step_evidence() -> Evidence:
 
 def sequence(tau: float, phi: float, h: float, mu: float) -> tuple[Array, Array]:
     """Gap before (k,) [m], and turn of (k,) [rad], each of some steps."""
-    gaps, turns = [], []
+    gaps = []
+    turns = []
     for _ in range(STEPS):
         rise, turn = one_step(tau, phi, h, mu)
         gaps.append(phi)
@@ -60,7 +63,11 @@ def sequence(tau: float, phi: float, h: float, mu: float) -> tuple[Array, Array]
 
 def recurrence_evidence() -> Evidence:
     """Gap and turn, step after step, from several gaps."""
-    gaps, fixed, left, rates, ratios = [], [], [], [], []
+    gaps = []
+    fixed = []
+    left = []
+    rates = []
+    ratios = []
     for start, share, h, mu in grid(STARTS, [1.2, 3.0], [1e-3, 1e-2], [0.01, 0.05]):
         if start > h**2 * GRAVITY:  # it would fall first
             continue

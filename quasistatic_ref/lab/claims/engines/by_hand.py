@@ -22,7 +22,13 @@ from quasistatic_ref.lab.scenes.systems import (
 from quasistatic_ref.shapes.placed_shape import Box, Sphere
 from quasistatic_ref.step.data import Array
 
-M, INERTIA, RADIUS, H, STIFFNESS, SPEED, STEPS = 0.3, 3e-4, 0.05, 0.01, 500.0, 0.03, 60
+M = 0.3
+INERTIA = 3e-4
+RADIUS = 0.05
+H = 0.01
+STIFFNESS = 500.0
+SPEED = 0.03
+STEPS = 60
 FLOOR, FINGER = (0.3, 0.004), (0.6, 0.01)
 """(mu_v, mu_omega) of the two contacts."""
 
@@ -74,7 +80,8 @@ SCENE = {
 
 def by_the_program() -> Array:
     """Finger, centre and rotation matrix after each step, shape (STEPS, 13)."""
-    q, states = np.array([0.0, *START, 0.0, 0.0, 0.0, 1.0]), []
+    q = np.array([0.0, *START, 0.0, 0.0, 0.0, 1.0])
+    states = []
     for k in range(STEPS):
         q = step(SCENE | {"q": q, "q_bar_a": [SPEED * H * (k + 1)]})["q_next"]
         states.append(np.concatenate([q[:4], rotation(q[4:]).ravel()]))
@@ -95,7 +102,9 @@ def by_us() -> Array:
         ContactPair("finger", tip, sphere, *FINGER, 6, 1),
     )
     simulator = simulator_of(system, pairs, H, [[STIFFNESS]])
-    q, states, link = system.q_start, [], system.link("ball")
+    q = system.q_start
+    states = []
+    link = system.link("ball")
     for k in range(STEPS):
         torque = system.centre_of_mass_force(q, "ball", np.zeros(3), TORQUE)
         q = simulator.step(q, np.array([SPEED * H * (k + 1)]), torque).q
@@ -106,7 +115,8 @@ def by_us() -> Array:
 
 def evidence() -> Evidence:
     """Sixty steps from touching nothing to rolling, sliding and spinning."""
-    hand, ours = by_the_program(), by_us()
+    hand = by_the_program()
+    ours = by_us()
     way = np.linalg.norm(ours[-1, 1:4] - START)
     return Evidence.of(
         comparison("finger and centre of the sphere [m]", ours[:, :4], hand[:, :4], DRIFT, way),

@@ -60,7 +60,8 @@ def posed(plant: Any, context: Any, body: Any, R: Array, t: Array) -> None:
 def distances() -> tuple[Array, Array]:
     """(phi, alpha, beta) of every pair at every pose (k, 7) [m]: ours, Drake's."""
     rng = np.random.default_rng(6)
-    ours, theirs = [], []
+    ours = []
+    theirs = []
     for shape in SHAPES.values():
         texts = {
             "one": robot_text(link_text("one", 1.0, (1e-3,) * 3, shape)),
@@ -113,7 +114,8 @@ def dynamics() -> dict[str, tuple[Array, Array]]:
     plant, diagram, _ = drake_plant({"arm": ARM})
     context = plant.GetMyContextFromRoot(diagram.CreateDefaultContext())
     world = plant.world_frame()
-    masses, jacobians = [], []
+    masses = []
+    jacobians = []
     for _ in range(POSES):
         q = system.integrate(system.q_start, rng.uniform(-1, 1, system.n_v))
         at = system.kinematics(q)
@@ -143,7 +145,8 @@ def evidence() -> Evidence:
     """Both parts."""
     ours, theirs = distances()
     matrices = dynamics()
-    M, J = matrices["M"], matrices["J"]
+    M = matrices["M"]
+    J = matrices["J"]
     return Evidence.of(
         comparison("signed distance [m]", ours[:, 0], theirs[:, 0], DISTANCE_TOLERANCE),
         comparison("nearest points [m]", ours[:, 1:], theirs[:, 1:], DISTANCE_TOLERANCE),

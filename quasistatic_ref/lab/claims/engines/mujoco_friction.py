@@ -11,7 +11,12 @@ from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.step.data import Array
 
-M, INERTIA, RADIUS, MU_V, MU_OMEGA, H = 0.3, 3e-4, 0.05, 0.5, 0.01, 1e-3
+M = 0.3
+INERTIA = 3e-4
+RADIUS = 0.05
+MU_V = 0.5
+MU_OMEGA = 0.01
+H = 1e-3
 SHARES = np.array([0.1, 0.3, 0.5, 0.7, 0.9, 0.95, 1.05, 1.2, 1.5, 2.0])
 """Loads, over what friction can hold."""
 
@@ -37,7 +42,8 @@ def mujoco_rates(joints: str, cone: str, limit: float) -> tuple[Array, Array]:
         h=H, cone=cone, g=GRAVITY, mu_v=MU_V, mu_w=MU_OMEGA, r=RADIUS, m=M, i=INERTIA, joints=joints
     )
     model = mujoco.MjModel.from_xml_string(text)
-    finals, gains = [], []
+    finals = []
+    gains = []
     for share in SHARES:
         data = mujoco.MjData(model)
         half = 0.0

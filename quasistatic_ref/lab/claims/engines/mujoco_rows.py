@@ -57,16 +57,20 @@ def mujoco_contacts(scene: Heap, cone: str) -> dict[str, Array]:
     model = mujoco.MjModel.from_xml_string(scene.mjcf.replace("pyramidal", cone))
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    T, size = tangent_map(scene.system, scene.bodies), 6 if cone == "pyramidal" else 4
-    J, M = data.efc_J.reshape(data.nefc, -1) @ T, np.zeros((model.nv, model.nv))
+    T = tangent_map(scene.system, scene.bodies)
+    size = 6 if cone == "pyramidal" else 4
+    J = data.efc_J.reshape(data.nefc, -1) @ T
+    M = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, M)
     found: dict[str, list[Any]] = {}
     for contact in data.contact:
         if contact.efc_address < 0 or contact.dim != 4:
             continue
-        links, omega = [], np.zeros((3, model.nv))
+        links = []
+        omega = np.zeros((3, model.nv))
         for geom in (contact.geom1, contact.geom2):
-            name, jacr = model.geom(geom).name, np.zeros((3, model.nv))
+            name = model.geom(geom).name
+            jacr = np.zeros((3, model.nv))
             links.append(0 if name == "floor" else scene.system.link(f"{name}/{name}"))
             mujoco.mj_jacBody(model, data, None, jacr, model.geom_bodyid[geom])
             omega += jacr
@@ -86,13 +90,15 @@ def mujoco_contacts(scene: Heap, cone: str) -> dict[str, Array]:
 
 def rows_of(scene: Heap) -> dict[str, Array]:
     """Both engines' rows (n_c, 6, n_v), and what the place of the contact point accounts for."""
-    theirs, system = mujoco_contacts(scene, "pyramidal"), scene.system
+    theirs = mujoco_contacts(scene, "pyramidal")
+    system = scene.system
     n, d1, d2 = theirs["frame"].transpose(1, 0, 2)
     phi, point, mu = (theirs[key] for key in ("phi", "point", "friction"))
     link = theirs["link"].astype(np.int64)
     half = phi[:, None] / 2 * n
     kinematics = system.kinematics(system.q_start)
-    alpha, beta = point - half, point + half
+    alpha = point - half
+    beta = point + half
     J = contact_jacobian(kinematics, link[:, 0], link[:, 1], alpha, beta, n)
     ours = contacts_of(phi, np.stack([d1, d2, n], axis=1), J, mu[:, 0], mu[:, 2], rows=6)
     # (R20), one contact point instead of two: (phi/2) (n x t_k).(omega_1 + omega_2), times +- mu_k.
@@ -122,11 +128,14 @@ def evidence() -> Evidence:
     def all_of(key: str, part: slice = slice(None)) -> Array:
         return np.concatenate([scene[key][:, part].ravel() for scene in scenes])
 
-    tangential, spin = slice(0, 4), slice(4, 6)
-    ours, shift = all_of("ours", tangential), all_of("shift", tangential)
+    tangential = slice(0, 4)
+    spin = slice(4, 6)
+    ours = all_of("ours", tangential)
+    shift = all_of("shift", tangential)
     moved = all_of("theirs", tangential) + shift
     spins = all_of("ours", spin), all_of("theirs", spin)
-    axes, their_axes = all_of("ours elliptic"), all_of("theirs elliptic") + all_of("shift elliptic")
+    axes = all_of("ours elliptic")
+    their_axes = all_of("theirs elliptic") + all_of("shift elliptic")
     M, theirs_M = (np.concatenate([s[k].ravel() for s in scenes]) for k in ("ours M", "theirs M"))
     largest = float(np.abs(theirs_M).max())
     return Evidence.of(

@@ -50,8 +50,10 @@ def heap(seed: int) -> Heap:
     bodies: list[str] = []
     for name in (*free, "arm"):
         spread = 0.12 * np.sqrt(len(free))
-        xyz, rpy = rng.uniform(-0.5, 0.5, 3) * spread + [0, 0, 0.1], rng.uniform(-1.5, 1.5, 3)
-        mass, inertia = float(rng.uniform(0.2, 2.0)), rng.uniform(2e-3, 3e-3, 3).tolist()
+        xyz = rng.uniform(-0.5, 0.5, 3) * spread + [0, 0, 0.1]
+        rpy = rng.uniform(-1.5, 1.5, 3)
+        mass = float(rng.uniform(0.2, 2.0))
+        inertia = rng.uniform(2e-3, 3e-3, 3).tolist()
         com = rng.uniform(-0.02, 0.02, 3).tolist()
         friction = (float(rng.uniform(0.2, 1.0)), float(rng.uniform(0.005, 0.05)))
         link = link_text(name, mass, inertia, com=com)
@@ -63,7 +65,8 @@ def heap(seed: int) -> Heap:
             settings[name] = {"base": "fixed", "actuated": "all", **placed}
             joint = f'<joint type="hinge" axis="{words(axis)}"/>'
         else:
-            texts[name], settings[name] = robot_text(link), placed
+            texts[name] = robot_text(link)
+            settings[name] = placed
             joint = "<freejoint/>"
         kind, size = GEOMS[name]
         bodies.append(

@@ -41,8 +41,11 @@ def errors(cone: str) -> tuple[Array, Array, int]:
     """
     folder = reality_folder()
     pairs = pairs_read(folder)
-    loads, pushes = loads_read(folder, pairs), pushes_read(folder, pairs)
-    own, other, unproved = [], [], 0
+    loads = loads_read(folder, pairs)
+    pushes = pushes_read(folder, pairs)
+    own = []
+    other = []
+    unproved = 0
     for pair in pairs:
         found = identified(loads[pair.name], pair.outline.gyration)
         some = pushes[pair.name].every(EVERY)

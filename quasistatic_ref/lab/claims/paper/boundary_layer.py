@@ -25,8 +25,10 @@ def evidence() -> Evidence:
     (wrenches,) = scenario.wrenches
     torque = np.interp(run["t"], wrenches.times, wrenches.values[:, 5])
     share = torque / LIMIT
-    stuck, turning = share < 1 - NEAR, share > 1 + NEAR
-    lift, spin = run["q"][1:, 2] - RADIUS, run["delta_q"][:, 5] / scenario.h
+    stuck = share < 1 - NEAR
+    turning = share > 1 + NEAR
+    lift = run["q"][1:, 2] - RADIUS
+    spin = run["delta_q"][:, 5] / scenario.h
     at_torque = np.array([layer_at_torque(h, 2 * LIMIT) for h in STEP_SIZES])
     at_rate = np.array([layer_at_rate(h) for h in STEP_SIZES])
     picture: dict[str, Array | float] = {

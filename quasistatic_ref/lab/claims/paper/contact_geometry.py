@@ -38,7 +38,11 @@ def evidence() -> Evidence:
     rng = np.random.default_rng(5)
     system = pair_system()
     cloud = cloud_on(system, "two", rng.uniform(-0.05, 0.05, (40, 3)))
-    defects, lengths, frames, slopes, rows = [], [], [], [], []
+    defects = []
+    lengths = []
+    frames = []
+    slopes = []
+    rows = []
     for name, shape in SHAPES.items():
         pair = ContactPair(name, on_link(system, "one", shape), cloud, 0.5, 0.01, 6, 3)
         for _ in range(POSES):
@@ -56,7 +60,8 @@ def evidence() -> Evidence:
     ordinary = [np.isfinite(s).all(axis=1) for s in slopes]
     measured = np.concatenate([s[o] for s, o in zip(slopes, ordinary, strict=True)])
     expected = np.concatenate([r[o] for r, o in zip(rows, ordinary, strict=True)])
-    defect, excess = np.concatenate(defects), np.concatenate(lengths)
+    defect = np.concatenate(defects)
+    excess = np.concatenate(lengths)
     frame = np.concatenate([f.ravel() for f in frames])
     return Evidence.of(
         comparison("beta - alpha - phi n [m]", defect, 0.0, IDENTITY_TOLERANCE),

@@ -14,7 +14,11 @@ has slipped comes to rest by a factor of about three a step, (R6), and passes th
 
 def evidence() -> Evidence:
     """Every loaded contact of both grasps."""
-    gaps, layers, terms, stuck, use = [], [], [], [], []
+    gaps = []
+    layers = []
+    terms = []
+    stuck = []
+    use = []
     for case in CASES:
         _, run = grasp(case)
         motion = np.einsum("kcrv,kv->kcr", run["J"], run["delta_q"])

@@ -28,7 +28,8 @@ COMPILED = (
 )
 """What, its name in the table, and the limit."""
 
-AT_MOST, AT_LEAST = "at most", "at least"
+AT_MOST = "at most"
+AT_LEAST = "at least"
 STRETCH = {
     "step over the bare solver": 8.0,
     "compiled step over the bare solver": 2.5,

@@ -52,8 +52,10 @@ class Places:
 def places(steps: int, backend: str = "daqp") -> Places:
     """Configurations of a bunny_grasp run, from the closing of the grip on."""
     scenario = load_scenario("bunny_grasp", [*SETTINGS, f"solver.backend={backend}"], fast=True)
-    simulator, q = scenario.simulator(), scenario.system.q_start
-    visited, goals = [], []
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
+    visited = []
+    goals = []
     start = min(300 - steps, 50)
     for k in range(start + steps):
         goal = scenario.targets(scenario.h * (k + 1))
@@ -67,7 +69,8 @@ def places(steps: int, backend: str = "daqp") -> Places:
 def interfaces(at: Places, repeat: int) -> dict[str, Any]:
     """The step with DAQP natively, next to other interfaces and DAQP alone on the same program."""
     run = _Run(by_numpy(at.scenario), at)
-    native, through = run.simulator, replace(at.scenario, fast=False).simulator()
+    native = run.simulator
+    through = replace(at.scenario, fast=False).simulator()
     run.step(0)  # builds the program that both solve
     solver = native.solver
     assert isinstance(solver, NativeSolver)
@@ -157,12 +160,16 @@ class _Run:
     """A native run along the same targets: each step starts where the one before ended."""
 
     def __init__(self, simulator: Simulator, at: Places) -> None:
-        self.at, self.simulator, self.q, self.k = at, simulator, at.q[0], 0
+        self.at = at
+        self.simulator = simulator
+        self.q = at.q[0]
+        self.k = 0
 
     def step(self, k: int) -> None:
         """Step k; from the place recorded there, if the last one was not the one before."""
         q = self.q if k == self.k else self.at.q[k]
-        self.q, self.k = self.simulator.step(q, self.at.goals[k]).q, k + 1
+        self.q = self.simulator.step(q, self.at.goals[k]).q
+        self.k = k + 1
 
 
 def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
@@ -260,6 +267,7 @@ def bare_daqp(program: Program) -> Callable[[], Any]:
     from daqp import solve  # here, where the grasp's scenario has been loaded, which asks for it
 
     m = len(program.b)
-    unbounded, sense = np.full(m, np.inf), np.zeros(m, dtype=np.int32)
+    unbounded = np.full(m, np.inf)
+    sense = np.zeros(m, dtype=np.int32)
     given = (program.H, program.f, program.A, unbounded, program.b, sense)
     return partial(solve, *given, primal_tol=ACCURACY, dual_tol=ACCURACY)

@@ -37,7 +37,8 @@ J, M_u, tau and delta_q_bar_a; ``integrate`` is the new configuration and its ki
 TRACKER, BRUTE_FORCE = "tracker", "brute force"
 """Where the distances come from: the simulator's default, or all of them in every step."""
 
-CERTIFIED, UNCERTIFIED = "full", "off"
+CERTIFIED = "full"
+UNCERTIFIED = "off"
 
 TURN = 10
 """Steps that one backend takes before the next one's turn: most of them find the processor's caches
@@ -123,7 +124,8 @@ def profiles(steps: int) -> Profiles:
     """
     names = [name for name in BACKENDS if name in installed("native")]
     runs = [_Run(name, UNCERTIFIED) for name in names] + [_Run(DEFAULT, CERTIFIED)]
-    brute, gaps = [], []
+    brute = []
+    gaps = []
     for first in range(0, steps, TURN):
         turn = range(first, min(first + TURN, steps))
         for run in runs:
@@ -141,9 +143,11 @@ class _Run:
     """A run of the grasp with one backend, and what the parts of its steps took."""
 
     def __init__(self, backend: str, certify: str) -> None:
-        self.backend, self.certify = backend, certify
+        self.backend = backend
+        self.certify = certify
         self.scenario = grasp_scenario(backend, certify)
-        self.simulator, self.q = by_numpy(self.scenario), self.scenario.system.q_start
+        self.simulator = by_numpy(self.scenario)
+        self.q = self.scenario.system.q_start
         self.kinematics = self.scenario.system.kinematics
         self.calls: list[float] = []
         self.laps: list[list[float]] = []
@@ -204,11 +208,14 @@ def tracked_distances(scenario: Scenario, steps: int) -> Array:
     starts from out of all points too. (Clouds of more points than ``ball_tree.SMALL`` have a tree,
     and lists that are made from fewer.)
     """
-    simulator, q = by_numpy(scenario), scenario.system.q_start
-    tracker, counts = simulator.tracker, np.zeros(steps)
+    simulator = by_numpy(scenario)
+    q = scenario.system.q_start
+    tracker = simulator.tracker
+    counts = np.zeros(steps)
     a_pair = all_distances(scenario) // len(scenario.pairs)
     for k in range(steps):
-        before, listed = tracker.lists_made, _listed(tracker)
+        before = tracker.lists_made
+        listed = _listed(tracker)
         q = simulator.step(q, scenario.targets(scenario.h * (k + 1))).q
         made = tracker.lists_made - before
         counts[k] = listed if k else all_distances(scenario)

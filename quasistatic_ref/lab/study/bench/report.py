@@ -30,7 +30,8 @@ def promise_rows(promises: Sequence[Mapping[str, Any]]) -> Rows:
 
 def paper_sentence(tables: Mapping[str, Any]) -> str:
     """How far the step is from the paper's time: like for like, and with all that makes it fast."""
-    m, compiled = tables["machine"], tables["compiled"]
+    m = tables["machine"]
+    compiled = tables["compiled"]
     alike = " and ".join(
         f"{us:.0f} us with {name} ({us / PAPER:.1f} times)"
         for name, us in like_for_like(tables).items()
@@ -70,7 +71,8 @@ def plain_words(tables: Mapping[str, Any]) -> str:
 
 def page(tables: Mapping[str, Any]) -> str:
     """The tables in Markdown."""
-    m, times = tables["machine"], tables["certification"].items()
+    m = tables["machine"]
+    times = tables["certification"].items()
     promises = promise_rows(tables["promises"])
     parts = _formatted(BY_PART, tables["parts"])
     certified: Rows = [("certify", "step [us]"), *((kind, f"{us:.0f}") for kind, us in times)]

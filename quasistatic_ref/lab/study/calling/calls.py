@@ -184,7 +184,10 @@ def takes_start(function: Callable[..., Any]) -> bool:
 
 def function_reply(function: Callable[..., Any], form: StandardForm, options: Options) -> Reply:
     """What a function ``(P, q, G, h, **options) -> (x, z)`` returns."""
-    P, q, G, h = form.H.copy(), -form.g, -form.A, -form.b
+    P = form.H.copy()
+    q = -form.g
+    G = -form.A
+    h = -form.b
     begin = perf_counter()
     returned = function(P, q, G, h, **options)
     seconds = perf_counter() - begin
@@ -219,7 +222,8 @@ class Executable:
     """
 
     def __init__(self, command: tuple[str, ...], folder: str) -> None:
-        self.command, self.folder = command, folder
+        self.command = command
+        self.folder = folder
         self._process: subprocess.Popen[bytes] | None = None
 
     def __call__(self, form: StandardForm, options: Options, before: Reply | None) -> Reply:
@@ -239,7 +243,8 @@ class Executable:
         seconds = perf_counter() - begin
         if line:
             return _written(line, seconds)
-        code, words = self._status(), self._last_words()
+        code = self._status()
+        words = self._last_words()
         if code < 0:
             raise Crashed(f"killed by signal {-code}", seconds)
         return _failed(f"exit status {code}: {words}"[:180] if code else NO_LINE, seconds)

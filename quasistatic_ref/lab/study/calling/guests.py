@@ -69,7 +69,8 @@ def _qoco() -> Native:
         m, n = form.A.shape
         begin = perf_counter()
         solver = qoco.QOCO()
-        P, G = csc_matrix(form.H), csc_matrix(-form.A)
+        P = csc_matrix(form.H)
+        G = csc_matrix(-form.A)
         # P, c; no equations; G x <= h, all rows of it linear; no second-order cones.
         solver.setup(n, m, 0, P, -form.g, None, None, G, -form.b, m, 0, None, **options)
         ready = perf_counter()
@@ -94,7 +95,8 @@ def _jax() -> Any:
 
 
 def _qpax() -> Native:
-    jax, qpax = _jax(), import_module("qpax")
+    jax = _jax()
+    qpax = import_module("qpax")
     default = {"solver_tol": qpax.SolverParams().tol}  # given, it is the same compiled code
     solve = jax.jit(qpax.solve_qp, static_argnames="backend")
 
@@ -112,7 +114,8 @@ def _qpax() -> Native:
 
 
 def _mpax() -> Native:
-    jax, mpax = _jax(), import_module("mpax")
+    jax = _jax()
+    mpax = import_module("mpax")
     names = ("eps_abs", "eps_rel", "iteration_limit")
     default = {name: getattr(mpax.raPDHG, name) for name in names}
     # Options are arguments of what is compiled, which serves every accuracy.
@@ -149,7 +152,8 @@ def _proxqp() -> Native:
         ready = perf_counter()
         solver.solve()
         end = perf_counter()
-        said, found = solver.results.info, solver.results
+        said = solver.results.info
+        found = solver.results
         status = said.status.name
         return Reply(np.array(found.x), np.array(found.z), status == "PROXQP_SOLVED", status,
                      said.iter, call_seconds=end - begin, setup=ready - begin)  # fmt: skip
@@ -172,7 +176,8 @@ def _highs() -> Native:
         ready = perf_counter()
         solver.run()
         end = perf_counter()
-        status, said = solver.getModelStatus().name, solver.getInfo()
+        status = solver.getModelStatus().name
+        said = solver.getInfo()
         found = solver.getSolution()
         return Reply(np.array(found.col_value), np.array(found.row_dual), status == "kOptimal",
                      status, said.qp_iteration_count, call_seconds=end - begin,
@@ -185,16 +190,23 @@ def _highs_model(highspy: Any, form: StandardForm, m: int, n: int) -> Any:
     """The program as HiGHS takes it: the lower triangle of H, and A, by columns."""
     from scipy.sparse import csc_matrix
 
-    model, A, H = highspy.HighsModel(), csc_matrix(form.A), csc_matrix(np.tril(form.H))
+    model = highspy.HighsModel()
+    A = csc_matrix(form.A)
+    H = csc_matrix(np.tril(form.H))
     lp = model.lp_
-    lp.num_col_, lp.num_row_ = n, m
+    lp.num_col_ = n
+    lp.num_row_ = m
     lp.col_cost_ = -form.g
     lp.col_lower_, lp.col_upper_ = np.full(n, -np.inf), np.full(n, np.inf)
     lp.row_lower_, lp.row_upper_ = form.b, np.full(m, np.inf)
     lp.a_matrix_.format_ = highspy.MatrixFormat.kColwise
-    lp.a_matrix_.start_, lp.a_matrix_.index_, lp.a_matrix_.value_ = A.indptr, A.indices, A.data
-    model.hessian_.dim_, model.hessian_.format_ = n, highspy.HessianFormat.kTriangular
-    model.hessian_.start_, model.hessian_.index_ = H.indptr, H.indices
+    lp.a_matrix_.start_ = A.indptr
+    lp.a_matrix_.index_ = A.indices
+    lp.a_matrix_.value_ = A.data
+    model.hessian_.dim_ = n
+    model.hessian_.format_ = highspy.HessianFormat.kTriangular
+    model.hessian_.start_ = H.indptr
+    model.hessian_.index_ = H.indices
     model.hessian_.value_ = H.data
     return model
 

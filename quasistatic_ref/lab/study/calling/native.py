@@ -45,7 +45,10 @@ class Native:
             return self._set_up(form, options)
         p = self.program
         same_H = np.array_equal(p.H, form.H)
-        p.H[:], p.f[:], p.A[:], p.b[:] = form.H, -form.g, form.A, form.b
+        p.H[:] = form.H
+        p.f[:] = -form.g
+        p.A[:] = form.A
+        p.b[:] = form.b
         return self.adapter.reply(same_H=same_H, warm=before.x is not None)
 
     def _set_up(self, form: StandardForm, options: Options) -> Reply:
@@ -57,5 +60,7 @@ class Native:
         ready = perf_counter()
         said = self.adapter.reply(same_H=True, warm=False)
         end = perf_counter()
-        said.call_seconds, said.own, said.setup = end - begin, said.seconds, ready - begin
+        said.call_seconds = end - begin
+        said.own = said.seconds
+        said.setup = ready - begin
         return said

@@ -108,7 +108,9 @@ class Solver:
             return dict(self.options[setting.name])
         if not self.known:
             return {}
-        name, entry, accuracy = str(self.target), self.entry, setting.accuracy
+        name = str(self.target)
+        entry = self.entry
+        accuracy = setting.accuracy
         limit: dict[str, Any] = {entry.time_limit: seconds} if entry.time_limit else {}
         if accuracy is None or not has_accuracy(name):
             return limit

@@ -16,20 +16,23 @@ from quasistatic_ref.lab.study.problems.families.dials import DIALS, OTHERS, end
 from quasistatic_ref.lab.study.problems.problem import UNITS
 from quasistatic_ref.tolerances import LARGE
 
-FORMAT, VERSION = "quasistatic-ref/study", 1
+FORMAT = "quasistatic-ref/study"
+VERSION = 1
 MOST_PROBLEMS = 100_000
 LONGEST_LIMIT = 1e6
 """Of one problem [s]: an operating system waits for 2^31 ms, of which a warm call takes half."""
 MODULE = r"^[A-Za-z_][A-Za-z_0-9.]*:[A-Za-z_][A-Za-z_0-9]*$"
-STUDY, SOLVERS, SWEEPS = "a study", "a study of solvers", "a study of sweeps"
-PROBLEMS, COUNTS, COUNT, SETTING, SOLVER = (
-    "[problems]",
-    "[problems.families]",
-    "[problems.families.NAME]",
-    "[settings.NAME]",
-    "[solvers.NAME]",
-)
-RUN, SWEEP, AXIS = "[[runs]]", "[[sweeps]]", "[sweeps.axes.NAME]"
+STUDY = "a study"
+SOLVERS = "a study of solvers"
+SWEEPS = "a study of sweeps"
+PROBLEMS = "[problems]"
+COUNTS = "[problems.families]"
+COUNT = "[problems.families.NAME]"
+SETTING = "[settings.NAME]"
+SOLVER = "[solvers.NAME]"
+RUN = "[[runs]]"
+SWEEP = "[[sweeps]]"
+AXIS = "[sweeps.axes.NAME]"
 TEXT = {"type": "string"}
 
 
@@ -176,7 +179,8 @@ def study_schema() -> dict[str, Any]:
     the whole file.
     """
     inner = {kind: fields for kind, fields in TABLES.items() if kind not in (SOLVERS, SWEEPS)}
-    solvers, sweeps = TABLES[SOLVERS], TABLES[SWEEPS]
+    solvers = TABLES[SOLVERS]
+    sweeps = TABLES[SWEEPS]
     kind = replace(solvers["kind"], choices=(*_kinds(SOLVERS), *_kinds(SWEEPS)))
     both = {**solvers, "sweeps": replace(sweeps["sweeps"], default=None), "kind": kind}
     rules = {

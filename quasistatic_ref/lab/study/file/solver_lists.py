@@ -33,10 +33,8 @@ def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, So
             words = "must say one of cvxpy, qpsolvers, native, package, callable and executable"
             raise tables.fail(name, words, interfaces or None)
         (interface,) = interfaces
-        target, options = (
-            _target(table, interface, given[interface]),
-            _options(given["options"], settings),
-        )
+        target = _target(table, interface, given[interface])
+        options = _options(given["options"], settings)
         solvers[name] = Solver(name, interface, target, options)
     return solvers
 

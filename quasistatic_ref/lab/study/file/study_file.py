@@ -165,7 +165,8 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
 
 
 def _problems(table: Fields, quick: bool) -> TestSet:
-    given, known = TABLES.all_values(table, PROBLEMS), scenario_names()
+    given = TABLES.all_values(table, PROBLEMS)
+    known = scenario_names()
     scenarios = known if given["scenarios"] is None else given["scenarios"]
     _check_known(table, "scenarios", scenarios, known)
     source = given["set"] or ""
@@ -179,7 +180,8 @@ def _problems(table: Fields, quick: bool) -> TestSet:
 
 def _counts(table: Fields, of_a_set: bool) -> tuple[dict[str, int], dict[str, float]]:
     """How many problems of each family, and where their dials end."""
-    counts, most = {}, {}
+    counts = {}
+    most = {}
     for name, own in TABLES.all_values(table, COUNTS).items():
         inner = Fields({"count": own} if isinstance(own, int) else own, table.name(name))
         count = TABLES.all_values(inner, COUNT)
@@ -209,7 +211,8 @@ def _settings(tables: Fields) -> dict[str, Setting]:
 
 def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solver]) -> Part:
     given = TABLES.all_values(table, RUN)
-    solvers, names = chosen_solvers(table, given["solvers"], own), given["settings"]
+    solvers = chosen_solvers(table, given["solvers"], own)
+    names = given["settings"]
     _check_known(table, "settings", names, settings)
     _check_known(table, "units", given["units"], UNITS)
     _check_known(table, "modes", given["modes"], MODES)

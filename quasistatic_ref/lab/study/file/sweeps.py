@@ -121,7 +121,8 @@ def sweep_study(path: Path, tables: dict[str, Any], quick: bool = False) -> tupl
 
 def _sweep(table: Fields, folder: Path, quick: bool) -> Sweep:
     given = TABLES.all_values(table, SWEEP)
-    named, link = given["scenario"], given["link"]
+    named = given["scenario"]
+    link = given["link"]
     scenario = str(folder / named) if named.endswith(".toml") else named
     name = Path(named).stem if given["name"] is None else given["name"]
     axes = _axes(given["axes"], quick)

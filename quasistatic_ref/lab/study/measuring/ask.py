@@ -79,13 +79,16 @@ def question(
     """
     found = _problem(problem, store)
     if store is None:
-        own, settings = solver_named(solver), list(SETTINGS)
-        limits, memory = LIMITS, MEMORY
+        own = solver_named(solver)
+        settings = list(SETTINGS)
+        limits = LIMITS
+        memory = MEMORY
     else:
         study = contents(store).study
         if study["kind"] != "solvers":
             raise InputError("holds a sweep, and no solvers", file=store)
-        own, settings = _of_store(solver, study), [Setting(**s) for s in study["settings"]]
+        own = _of_store(solver, study)
+        settings = [Setting(**s) for s in study["settings"]]
         limits = Limits(study["time_limit"], study["warm_up"], study["repetitions"])
         memory = study["memory"]
     known = {one.name: one for one in settings if own.takes(one)}

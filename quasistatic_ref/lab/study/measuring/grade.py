@@ -22,8 +22,14 @@ from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
 
-SOLVED, FAILED, NAN, WRONG_SHAPE = "solved", "failed", "nan", "wrong_shape"
-CRASHED, TIMEOUT, MEMORY, NOT_RUN = "crashed", "timeout", "memory", "not_run_budget"
+SOLVED = "solved"
+FAILED = "failed"
+NAN = "nan"
+WRONG_SHAPE = "wrong_shape"
+CRASHED = "crashed"
+TIMEOUT = "timeout"
+MEMORY = "memory"
+NOT_RUN = "not_run_budget"
 REPLIED = (SOLVED, FAILED, NAN, WRONG_SHAPE)
 OUTCOMES = (SOLVED, FAILED, CRASHED, TIMEOUT, MEMORY, NAN, WRONG_SHAPE, NOT_RUN)
 SLACK = 1e-13
@@ -109,7 +115,8 @@ def judged(row: Row, claim: str, promised: float) -> Row:
     promised : float
         Digits [-] of delta_q, and of multipliers, below which "optimal" is a false claim.
     """
-    solved, digits = row["said_optimal"], row["digits"]
+    solved = row["said_optimal"]
+    digits = row["digits"]
     infeasible = not solved and row["outcome"] in REPLIED and claim == INFEASIBLE
     short = {name: solved and (digits[name] or 0.0) < promised for name in digits}
     return row | {
@@ -164,8 +171,10 @@ def _digits(of: Prepared, answer: Answer, x: Array, lam: Array | None) -> dict[s
     }
     if lam is not None:
         form = of.forms[NATURAL]
-        A, bound = form.A, answer.error
-        net, negative = A.T @ lam - answer.net, A.T @ np.minimum(lam, 0.0)
+        A = form.A
+        bound = answer.error
+        net = A.T @ lam - answer.net
+        negative = A.T @ np.minimum(lam, 0.0)
         off, below = of.norm.impulses(np.array([net, negative]))
         digits["net_wrench"] = _digits_of(float(off), of, bound)
         # Slacks of the exact answer that rounding alone may have made are none. What multipliers

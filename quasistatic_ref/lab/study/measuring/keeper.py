@@ -49,7 +49,9 @@ class Ended(Exception):
     """The process was ended, or ended itself: `outcome`, `words`, and `seconds` until then [s]."""
 
     def __init__(self, outcome: str, words: str, seconds: float) -> None:
-        self.outcome, self.words, self.seconds = outcome, words, seconds
+        self.outcome = outcome
+        self.words = words
+        self.seconds = seconds
         super().__init__(words)
 
 
@@ -104,7 +106,8 @@ class Keeper:
         settings: Sequence[Setting] = (),
     ) -> None:
         self.solver, self.settings = solver, tuple(settings)
-        self.folder, self.memory = str(Path(folder).resolve()), memory
+        self.folder = str(Path(folder).resolve())
+        self.memory = memory
         self._process: Supervised | None = None
         self._sent: deque[StandardForm] = deque(maxlen=KEPT)
         self.starts = 0

@@ -102,7 +102,8 @@ def measured(
     start = other if warm else None
     assert keeper.pid is not None  # it was started
     processes.reset_peak(keeper.pid)
-    begin, memory = perf_counter(), None
+    begin = perf_counter()
+    memory = None
     shape = (*form.A.shape, units, setting.name, warm)
     try:
         exchange(keeper, form, setting)
@@ -182,7 +183,8 @@ def sequence_measured(
 
 def _repeats(one: Prepared, before: Prepared, x: Array | None, last: Array | None) -> bool | None:
     """Whether x is the last answer again, or answers the step before; None: cannot be known."""
-    exact, old = one.answer.x, before.answer.x
+    exact = one.answer.x
+    old = before.answer.x
     if x is None or not x.shape == exact.shape == old.shape or np.array_equal(exact, old):
         return None
     off, off_before = (one.norm.displacement(x - answer) for answer in (exact, old))
@@ -229,7 +231,8 @@ def _worst(repeated: Sequence[Row]) -> Row:
 
 def _graded(keeper: Keeper, ready: Prepared, request: Request, units: str, limits: Limits) -> Row:
     """The worse of the first and the last graded reply, with quartiles of the repeated calls."""
-    form, solver = ready.forms[units], keeper.solver
+    form = ready.forms[units]
+    solver = keeper.solver
     response, outside = keeper.answer(form, request)
     row = grades(ready, units, response.reply, solver, request.setting)
     row["seconds"]["first"] = response.times[0]

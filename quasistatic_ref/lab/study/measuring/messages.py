@@ -43,7 +43,9 @@ class Response:
 
 def to_bytes(response: Response, sizes: tuple[int, int]) -> bytes:
     """A message; arrays of other shapes than (n,) and (m,) are sent as their shapes alone."""
-    reply, arrays, shapes = response.reply, [], []
+    reply = response.reply
+    arrays = []
+    shapes = []
     for array, size in zip((reply.x, reply.lam), sizes, strict=True):
         shapes.append(None if array is None else list(array.shape)[:8])
         if array is not None and array.shape == (size,):

@@ -59,7 +59,8 @@ def block_rows(keeper: Keeper, block: Block, limits: Limits, left: Left) -> list
 
 def _measured_together(keeper: Keeper, block: Block, limits: Limits, left: Left) -> list[Row]:
     """The measurements of one problem, or of one sequence."""
-    first, problems = block[0][0], [problem for _, problem in block]
+    first = block[0][0]
+    problems = [problem for _, problem in block]
     if first.mode and min(left) > 0:
         found = sequence_measured(keeper, problems, first.setting, first.units, first.mode, limits,
                                   left[0])  # fmt: skip

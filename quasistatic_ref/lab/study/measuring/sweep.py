@@ -29,7 +29,8 @@ from quasistatic_ref.simulate.trajectory import Trajectory
 
 RUNS = "runs"
 """Folder of trajectories in that of a store."""
-DONE, ENDED_EARLY = "done", "ended_early"
+DONE = "done"
+ENDED_EARLY = "ended_early"
 
 
 def run_sweep(
@@ -127,13 +128,16 @@ def sweep_run(sweep: Sweep, point: dict[str, Any]) -> tuple[Row, Trajectory]:
     """
     begin = time.perf_counter()
     scenario = sweep_scenario(sweep, point)
-    outcome, reason = DONE, None
+    outcome = DONE
+    reason = None
     try:
         trajectory = scenario.run(progress=False)
     except RunFailed as failure:
         if isinstance(failure.__cause__, KeyboardInterrupt):
             raise KeyboardInterrupt from None
-        outcome, reason, trajectory = ENDED_EARLY, failure.reason, failure.trajectory
+        outcome = ENDED_EARLY
+        reason = failure.reason
+        trajectory = failure.trajectory
     measures = outcomes(scenario, trajectory, sweep.link, sweep.since)
     row = _naming(sweep, point) | {"outcome": outcome, "reason": reason, "measures": measures}
     return row | {"seconds": {"call": time.perf_counter() - begin}}, trajectory

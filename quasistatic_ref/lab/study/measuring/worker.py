@@ -40,7 +40,8 @@ GRACE = 2
 def serve(read: int, write: int) -> None:
     """Serve requests through two pipes, until the keeper goes away."""
     adopt_orphans()
-    inbox, outbox = Connection(read, writable=False), Connection(write, readable=False)
+    inbox = Connection(read, writable=False)
+    outbox = Connection(write, readable=False)
     try:
         solver, folder, settings = inbox.recv()
         on_path(folder)
@@ -126,7 +127,9 @@ class Called:
         # The matrices stay the same arrays: what is compiled of them is kept, and a start is taken.
         if request["g"] is not None:
             form = form._replace(g=request["g"])
-        before, reply, times = None, NOTHING, []
+        before = None
+        reply = NOTHING
+        times = []
         for _ in range(request["count"]):
             if request["start"] is not None:
                 start = form._replace(g=request["start"])

@@ -75,8 +75,10 @@ def reply_of(natural: StandardForm, solver: str) -> Reply | None:
 
 def step_of(form: StandardForm) -> StepData:
     """The step whose standard form is a given quadratic program: h = 1, K_q = H, rows as extra."""
-    n, m = len(form.g), len(form.b)
-    nothing, frames = np.zeros(0), np.zeros((0, 3))
+    n = len(form.g)
+    m = len(form.b)
+    nothing = np.zeros(0)
+    frames = np.zeros((0, 3))
     return StepData(
         h=1.0,
         K_q=form.H,

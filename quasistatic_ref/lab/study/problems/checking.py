@@ -65,7 +65,8 @@ def _not_enclosed(one: Problem) -> str | None:
 
 def _not_bounded(one: Problem) -> str | None:
     natural = one.natural
-    H, A = csc_matrix(natural.H), csc_matrix(natural.A)
+    H = csc_matrix(natural.H)
+    A = csc_matrix(natural.A)
     form = LargeForm(SparseHessian(H), natural.g, A, natural.b, PlainSizes(natural.A, natural.g))
     error = sparse_error_bound(form, natural.answer.x, natural.answer.lam)
     worse = error > 1.01 * one.answer.error

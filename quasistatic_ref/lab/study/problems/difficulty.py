@@ -44,12 +44,17 @@ def measures(one: Problem) -> dict[str, Any]:
     }
     if one.answer.farkas:
         return _rounded(found)
-    slack, lam = natural.answer.slack, natural.answer.lam
+    slack = natural.answer.slack
+    lam = natural.answer.lam
     reach = TOUCHING if one.answer.error == 0 else one.answer.error
     active = np.flatnonzero(slack <= reach)
-    idle, bearing = np.delete(slack, active), lam[lam > 0]
-    rank, sharp = _rank(natural, active), one.answer.error == 0
-    x, g, free = natural.answer.x, natural.g, _free(natural)
+    idle = np.delete(slack, active)
+    bearing = lam[lam > 0]
+    rank = _rank(natural, active)
+    sharp = one.answer.error == 0
+    x = natural.answer.x
+    g = natural.g
+    free = _free(natural)
     found |= {
         "active": len(active),
         "rank": rank,

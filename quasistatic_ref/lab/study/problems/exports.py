@@ -18,7 +18,8 @@ from quasistatic_ref.lab.folders import CONTACT_QP_2, EDITIONS, problem_set_fold
 from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Problem
 from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
 
-PARQUET, QPS = "parquet", "qps"
+PARQUET = "parquet"
+QPS = "qps"
 FORMATS = ("npz", PARQUET, "mat", "json", QPS)
 CARRIED = ("LICENSE*", "CITATION.cff")
 """Files of a set that come with every export of it; of contact-qp-2, where a set has none."""
@@ -92,7 +93,8 @@ def _carried(name: str, count: int, to: str, folder: Path) -> list[Path]:
 
 def _qps(folder: Path, one: Problem) -> Path:
     """A file of one problem: free MPS, with the lower triangle of H."""
-    H, A = tril(one.H).tocoo(), csc_matrix(one.A)
+    H = tril(one.H).tocoo()
+    A = csc_matrix(one.A)
     name = one.id.replace("/", "_").replace(" ", "_")
     lines = [f"NAME {name}", "ROWS", " N objective", *(f" G r{i}" for i in range(len(one.b)))]
     lines.append("COLUMNS")

@@ -32,8 +32,11 @@ from quasistatic_ref.lab.study.problems.families.dials import ends
 from quasistatic_ref.lab.study.problems.problem import Answer, Problem
 from quasistatic_ref.solve.units import Units
 
-FORMAT, VERSION = "quasistatic-ref/problem-set", 1
-MANIFEST, FACTS, NUMBERS = "manifest.json", "problems.jsonl", "numbers"
+FORMAT = "quasistatic-ref/problem-set"
+VERSION = 1
+MANIFEST = "manifest.json"
+FACTS = "problems.jsonl"
+NUMBERS = "numbers"
 MATRICES: Final = ("H", "A")
 ANSWERS: Final = ("x", "net", "slack", "lam")
 UNREADABLE: Final = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
@@ -164,7 +167,8 @@ def manifest(folder: Path) -> dict[str, Any]:
         top.table("families")
         for i, entry in enumerate(top.sequence("files")):
             one = Fields(entry, f"files[{i}]")
-            name, wanted = one.text("path"), one.text("sha256")
+            name = one.text("path")
+            wanted = one.text("sha256")
             if name not in (FACTS, *(f"{NUMBERS}/{family}.npz" for family in head["families"])):
                 raise one.fail("path", "is no file of a set", name)
             if _hash(bytes_read(folder / name)) != wanted:
@@ -232,7 +236,8 @@ def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> 
     at = dict.fromkeys(arrays, 0)
 
     def taken(name: str, size: int) -> NDArray[Any]:
-        first, last = at[name], at[name] + size
+        first = at[name]
+        last = at[name] + size
         if last > len(arrays[name]):
             raise InputError(f"has too few numbers of {name}", file=path)
         at[name] = last
@@ -241,13 +246,18 @@ def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> 
     def matrix(name: str, rows: int, columns: int) -> csr_matrix:
         starts = np.concatenate([[0], np.cumsum(taken(f"{name}_entries", rows), dtype=np.int64)])
         count = int(starts[-1])
-        values, places = taken(f"{name}_values", count), taken(f"{name}_columns", count)
+        values = taken(f"{name}_values", count)
+        places = taken(f"{name}_columns", count)
         return csr_matrix((values, places.astype(np.int32), starts), shape=(rows, columns))
 
     def one(line: Mapping[str, Any]) -> Problem:
-        n, m, solved = line["n"], line["m"], line["farkas"] is None
-        H, A = matrix("H", n, n), matrix("A", m, n)
-        g, b = taken("g", n), taken("b", m)
+        n = line["n"]
+        m = line["m"]
+        solved = line["farkas"] is None
+        H = matrix("H", n, n)
+        A = matrix("A", m, n)
+        g = taken("g", n)
+        b = taken("b", m)
         S = np.exp2(taken("coordinate", n).astype(np.float64))
         own = line["log2_units"]
         units = Units(S, 2.0 ** own["length"], 2.0 ** own["size"])

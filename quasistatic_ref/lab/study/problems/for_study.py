@@ -100,7 +100,8 @@ def study_problems(test_set: TestSet, study: str | Path, progress: bool = True) 
 
 
 def _family(test_set: TestSet, family: str, count: int) -> Family:
-    seed, most = test_set.seed, test_set.most.get(family)
+    seed = test_set.seed
+    most = test_set.most.get(family)
 
     def problems(kept: Kept, count_steps: Count) -> Iterator[Problem]:
         if family in DIALS:
@@ -142,7 +143,8 @@ def problems_record(problems: Sequence[Problem]) -> dict[str, Any]:
 
 def fact_of(problem: Problem) -> dict[str, Any]:
     """What a store keeps of a problem."""
-    facts, answer = problem.facts, problem.answer
+    facts = problem.facts
+    answer = problem.answer
     names = ("id", "family", "contacts", "mass_ratio", "h", "k", "n", "m")
     sequence = facts["sequence"] or {}
     return {

@@ -13,7 +13,8 @@ from quasistatic_ref.step.standard_form import StandardForm
 
 QP, SOCP = "qp", "socp"
 """Rows A x >= b; or blocks of four, (A x - b)_0 >= |(A x - b)_1:3|."""
-OPTIMAL, INFEASIBLE = "optimal", "infeasible"
+OPTIMAL = "optimal"
+INFEASIBLE = "infeasible"
 EXACT, ENCLOSED, BOUNDED = "exact", "enclosed", "bounded"
 """How an answer is known: rounded correctly; off by rounding at most; off by a proved bound."""
 RAW, NATURAL = UNITS = ("raw", "natural")
@@ -103,18 +104,23 @@ class Problem:
     @property
     def natural(self) -> "Problem":
         """The same in natural units, without rounding; Farkas vectors are those of SI units."""
-        S, ell, rho = self.units.coordinate, self.units.length, self.units.size
-        a, one = self.answer, Units(np.ones(len(S)), 1.0, 1.0)
+        S = self.units.coordinate
+        ell = self.units.length
+        rho = self.units.size
+        a = self.answer
+        one = Units(np.ones(len(S)), 1.0, 1.0)
         lam_unit = ell / rho
         if a.farkas:
             answer = a
         else:
-            slack, lam = a.slack / (rho * ell), a.lam * lam_unit
+            slack = a.slack / (rho * ell)
+            lam = a.lam * lam_unit
             answer = Answer(a.kind, a.error, a.x / (rho * S), a.net * S / rho, slack, lam, {},
                             a.walks, a.unique, a.differentiable)  # fmt: skip
         H = csr_matrix(self.H.multiply(S).multiply(S[:, None]))
         A = csr_matrix(self.A.multiply(S / ell))
-        g, b = self.g * (S / rho), self.b / (rho * ell)
+        g = self.g * (S / rho)
+        b = self.b / (rho * ell)
         return Problem(self.facts, H, g, A, b, one, answer)
 
     @property

@@ -185,7 +185,8 @@ class Comparison:
         machine = self.study["machine"]
         machines = [machine[name] for name in self.study.get("machines", [])] or [machine]
         for one in machines:
-            load, cores = str(one.get("load", "0")).split()[0], one.get("cores") or 1
+            load = str(one.get("load", "0")).split()[0]
+            cores = one.get("cores") or 1
             if float(load) > QUIET * cores:
                 return (
                     f"Times are not ranked: when the study began the load was {load} on {cores} "

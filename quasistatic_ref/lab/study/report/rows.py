@@ -112,7 +112,9 @@ def rows_of(rows: Sequence[Row], limit: float) -> Rows:
 
 
 def _more(row: Row, limit: float) -> Row:
-    machine, seconds, solved = row.get("machine", ""), row["seconds"], row["outcome"] == SOLVED
+    machine = row.get("machine", "")
+    seconds = row["seconds"]
+    solved = row["outcome"] == SOLVED
     who = f"{row['solver']}@{machine}" if machine else row["solver"]
     return {
         "machine": machine,

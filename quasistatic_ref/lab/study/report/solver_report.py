@@ -30,9 +30,11 @@ def solver_report(found: Contents) -> Report:
     -------
     Report
     """
-    study, facts = found.study, found.problems
+    study = found.study
+    facts = found.problems
     every = rows_of(found.rows, study["time_limit"])
-    first, alone = every.at(repetition=0), every.at(mode="")
+    first = every.at(repetition=0)
+    alone = every.at(mode="")
     sections: dict[str, Sequence[Block]] = {}
     if alone:
         comparison = comparison_of(study, alone)
@@ -147,8 +149,10 @@ def _against_time(comparison: Comparison, best: Sequence[str]) -> Block:
 
 
 def _contrasts(comparison: Comparison) -> list[Block]:
-    units, cold = {"units": comparison.base["units"]}, {"warm": False}
-    ways, raw = ("label", "setting"), ("raw", "natural")
+    units = {"units": comparison.base["units"]}
+    cold = {"warm": False}
+    ways = ("label", "setting")
+    raw = ("raw", "natural")
     found = [
         tables.contrast(comparison, "Raw units and natural units.", "units", raw, cold, ways),
         tables.contrast(comparison, "Cold and warm starts.", "warm", (False, True), units, ways,

@@ -72,7 +72,8 @@ def resampled(values: np.ndarray, strata: np.ndarray) -> np.ndarray:
     ndarray, shape (SAMPLES,)
         In the same unit; the same for the same arguments.
     """
-    rng, total = np.random.default_rng(0), np.zeros(SAMPLES)
+    rng = np.random.default_rng(0)
+    total = np.zeros(SAMPLES)
     for stratum in np.unique(strata):
         own = values[strata == stratum]
         total += own[rng.integers(len(own), size=(SAMPLES, len(own)))].sum(axis=1)

@@ -108,7 +108,8 @@ def headline(found: Sequence[Soonest], comparison: Comparison) -> Table:
     heads = solver_headings(comparison.rows)
     lines = []
     for one in found:
-        own, solved = one.rows, one.rows.at(solved=True)
+        own = one.rows
+        solved = one.rows.at(solved=True)
         lines.append((
             *solver_cells(own),
             f"{_share(WANTED)(own)} ({_shares(own)})",
@@ -132,7 +133,8 @@ def interface_table(comparison: Comparison) -> Table:
     names = (*solver_headings(comparison.rows), "setting", "its own options", "looks as if it")
     lines = []
     for one in found:
-        own, families = one.rows, one.rows["family"]
+        own = one.rows
+        families = one.rows["family"]
         span = interval(np.exp(resampled(np.log(one.times + SHIFT), families)) - SHIFT)
         given = options_words(comparison.options[own.first("way")][one.setting], LIMITS)
         solved = own.at(solved=True)
@@ -212,7 +214,8 @@ def false_claims(rows: Rows, settings: Sequence[str], where: Where) -> Table:
             words = " + ".join([*wrong, str(int(own["wrong_multipliers"].sum()))])
             cells.append(f"{words} / {int(own['said_optimal'].sum())}" if own else "-")
         lines.append((label, *cells))
-    units, way = where["units"], "warm" if where["warm"] else "cold"
+    units = where["units"]
+    way = "warm" if where["warm"] else "cold"
     title = (
         "False claims of success + false claims of infeasibility + wrong multipliers / all claims "
         f"of success: {units} units, {way}."
@@ -224,7 +227,8 @@ def detection(rows: Rows) -> Block:
     """What solvers say of problems that have no solution."""
     lines = []
     for key, part in rows.at(feasible=False, called=True).groups("label", "setting").items():
-        right, wrong = int(part["said_infeasible"].sum()), int(part["said_optimal"].sum())
+        right = int(part["said_infeasible"].sum())
+        wrong = int(part["said_optimal"].sum())
         hidden = sum(claim(*(row[n] for n in WAY)) == HIDDEN for row in part)
         neither = len(part) - right - wrong - hidden
         lines.append((*key, *map(str, (len(part), right, wrong, neither, hidden))))
@@ -359,7 +363,8 @@ def sequence_tables(rows: Rows, facts: Sequence[Mapping[str, Any]]) -> list[Bloc
     """
     later = {fact["id"] for fact in facts if fact["place"]}
     steps = rows.kept(lambda row: bool(row["mode"]) and row["problem"] in later)
-    named, lines = [], []
+    named = []
+    lines = []
     for key, modes in steps.groups("label", "setting", "units").items():
         cold = modes.at(mode=COLD)["call"]
         for (mode,), own in modes.groups("mode").items():

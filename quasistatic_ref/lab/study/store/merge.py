@@ -58,7 +58,8 @@ def part_read(words: str) -> Part:
     name, _, path = words.rpartition("=")
     folder = Path(path)
     found = contents(folder, every=True)
-    study, rows = found.study, found.rows
+    study = found.study
+    rows = found.rows
     if study["kind"] != "solvers":
         words = "holds a sweep; results on solvers are merged, and nothing else"
         raise InputError(words, file=folder)
@@ -99,7 +100,8 @@ def merged(parts: Sequence[Part], out: str | Path) -> Path:
         the folder is there or cannot be written.
     """
     out = Path(out)
-    study, rows = _study(parts), _rows(parts)
+    study = _study(parts)
+    rows = _rows(parts)
     if out.exists():
         raise InputError("is there already; choose another folder with --out", file=out)
     unreached = {

@@ -20,7 +20,8 @@ from quasistatic_ref.formats.files import bytes_read, json_text
 from quasistatic_ref.lab.study.store.continued import continued, label
 from quasistatic_ref.lab.study.store.rows import Row, flat, key_of, label_of, nested
 
-STORE, PACKED = "study.sqlite", "study.json.xz"
+STORE = "study.sqlite"
+PACKED = "study.json.xz"
 FORMAT, VERSION = "quasistatic-ref/study-store", 4
 """Versions 1 and 2 were lines of JSON; version 3 had one promise for all solvers at a setting."""
 SCHEMA: Final = (Path(__file__).parent / "schema.sql").read_text("utf-8")

@@ -62,8 +62,11 @@ class Diagnosis:
         scope: Scope = WHOLE,
         until: float = math.inf,
     ) -> None:
-        self._scope, self._until = scope, until
-        self.program, self._digits, self._made = program, digits, made
+        self._scope = scope
+        self._until = until
+        self.program = program
+        self._digits = digits
+        self._made = made
         self.outcome = Outcome()
         self._failed: dict[str, list[Failed]] = {name: [] for name in LAYERS}
         self._right: dict[str, list[Failed]] = {name: [] for name in LAYERS}
@@ -162,7 +165,8 @@ class Diagnosis:
 
     def _judged(self, id: str, layer: str, case: Json, record: Json, reply: Reply) -> Failed:
         with np.errstate(all="ignore"):  # answers may be any numbers
-            whole, said = Case(id, "", case), self.program.said
+            whole = Case(id, "", case)
+            said = self.program.said
             return answer_judged(layer, whole, record, reply.output, said, self._digits)
 
     def _trouble(self, kind: str, layer: str, id: str, said: str, case: Json) -> None:

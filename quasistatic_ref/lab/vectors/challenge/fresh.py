@@ -110,7 +110,8 @@ def record_of(name: str, case: Json) -> Json | None:
     record = found.json()
     for tolerance in record["tolerance"].values():
         tolerance["absolute"] *= MARGIN
-    output, flags = record["output"], record["flags"]
+    output = record["output"]
+    flags = record["flags"]
     if name == "step" and (flags["tie"] or not _definite(output["H"])):
         return None
     smooth = name == "derivative" and output["differentiable"]
@@ -216,7 +217,8 @@ def _tree(rng: Rng, level: int) -> Json:
 
 
 def _jacobian(rng: Rng, level: int) -> Json:
-    tree, count = _tree(rng, level), 1 if level == EASY else int(rng.integers(1, 4))
+    tree = _tree(rng, level)
+    count = 1 if level == EASY else int(rng.integers(1, 4))
     names = [body["name"] for body in tree["bodies"]]
     contacts = []
     for frame in random_frames(rng, count):
@@ -230,12 +232,14 @@ def _jacobian(rng: Rng, level: int) -> Json:
 def _integrate(rng: Rng, level: int) -> Json:
     size = (0.5, 0.5, 10.0 ** -int(rng.integers(9)))[level]
     tree = _tree(rng, level)
-    q, delta_q = random_q(rng, tree), random_step(rng, tree, size)
+    q = random_q(rng, tree)
+    delta_q = random_step(rng, tree, size)
     return {"mechanism": tree, "q": q, "delta_q": delta_q}
 
 
 def _selection(rng: Rng, level: int) -> Json:
-    size, k = int(rng.integers(2, (6, 20, 60)[level])), int(rng.integers(1, 6))
+    size = int(rng.integers(2, (6, 20, 60)[level]))
+    k = int(rng.integers(1, 6))
     unit = (0.25, 1e-3, 2.0**-10)[level]
     draw = rng.standard_normal if level == PLAIN else lambda n: rng.integers(-3, 4, n)
     return {"phi": [(unit * draw(size)).tolist()], "k": k}

@@ -22,7 +22,8 @@ class Function:
 
     said = Answers()
     layers: tuple[str, ...] = LAYERS
-    flood, starts = 0, 1
+    flood = 0
+    starts = 1
 
     def __init__(self, simulator: Simulator) -> None:
         self._simulator = simulator

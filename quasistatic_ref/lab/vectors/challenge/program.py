@@ -79,7 +79,8 @@ class Program:
             raise InputError(f"cannot be read: {error}", field="command", value=command) from None
         if not self._words:
             raise InputError("is empty", field="command", value=command)
-        self._timeout, self._warming = timeout, (START - 1) * timeout
+        self._timeout = timeout
+        self._warming = (START - 1) * timeout
         self._process: Supervised | None = None
         self._heard = False
         self.until = math.inf
@@ -124,7 +125,8 @@ class Program:
                 return Reply("hang", said=why, strays=tuple(strays))
             if got is None:
                 return self._crash(strays)
-            warming, took = not self._heard, time.monotonic() - began
+            warming = not self._heard
+            took = time.monotonic() - began
             reply = self._reply(id, got, strays)
             if reply is not None:
                 if warming:  # started again, it may take twice that
@@ -180,7 +182,8 @@ class Program:
         self.layers = tuple(name for name in LAYERS if name in supported)
 
     def _crash(self, strays: list[str]) -> Reply:
-        process, heard = self._process, self._heard
+        process = self._process
+        heard = self._heard
         assert process is not None
         status = process.status()
         self._stop()
@@ -225,7 +228,8 @@ class Program:
 
     def _stop(self) -> None:
         """End the program and all that it started, and what reads and feeds it."""
-        process, self._process = self._process, None
+        process = self._process
+        self._process = None
         if process is None:
             return
         self._inbox.put(None)

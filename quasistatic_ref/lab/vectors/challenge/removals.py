@@ -83,10 +83,12 @@ def fewer_bodies(case: Json) -> Iterator[Json]:
 
 def _without(case: Json, name: str) -> Json:
     """The case without a body, its entries of q and delta_q, its contacts, shapes and wrenches."""
-    q, v = slice(0, 0), slice(0, 0)
+    q = slice(0, 0)
+    v = slice(0, 0)
     for body, own_q, own_v in places(case["mechanism"]):
         if body["name"] == name:
-            q, v = own_q, own_v
+            q = own_q
+            v = own_v
     bodies = [body for body in case["mechanism"]["bodies"] if body["name"] != name]
     changed = {**case, "mechanism": {"bodies": bodies}, "q": _cut(case["q"], q)}
     if "delta_q" in case:

@@ -136,7 +136,8 @@ def sent_again(program: Program, finding: Json, digits: float | None = None) -> 
     InputError
         If its case has no answer, or several.
     """
-    layer, case = finding["layer"], finding["case"]
+    layer = finding["layer"]
+    case = finding["case"]
     found = Diagnosis(program, digits, _made_here)
     record = record_of(check_layer(layer), case)
     if record is None:

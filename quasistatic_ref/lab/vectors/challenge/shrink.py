@@ -38,6 +38,8 @@ def shrunk(case: Json, fails: Callable[[Json], bool], budget: int = BUDGET) -> J
                         return case
                     tried.add(key)
                     if fails(other):
-                        case, found, again = other, True, True
+                        case = other
+                        found = True
+                        again = True
                         break
     return case

@@ -22,17 +22,21 @@ def terms(case: Json) -> tuple[float, float]:
     """
     _, n_a, n_v = slices(case["mechanism"])
     at = kinematics(case["mechanism"], np.array(case["q"], dtype=np.float64))
-    size, inertia, free = np.zeros(n_v), np.zeros(n_v), np.arange(n_v) >= n_a
+    size = np.zeros(n_v)
+    inertia = np.zeros(n_v)
+    free = np.arange(n_v) >= n_a
     for body in case["mechanism"]["bodies"]:
         R, t, J = at[body["name"]]
         centre = R @ np.array(body.get("com", np.zeros(3))) + t
-        mass, arm = body.get("mass", 0.0), float(np.linalg.norm(centre - t))
+        mass = body.get("mass", 0.0)
+        arm = float(np.linalg.norm(centre - t))
         loads = [w for w in case.get("wrenches", []) if w["body"] == body["name"]]
         force, torque = (
             sum(float(np.linalg.norm(w[name])) for w in loads) for name in ("force", "torque")
         )
         weight = mass * float(np.linalg.norm(case["gravity"]))
-        velocity, turn = np.linalg.norm(J[:3], axis=0), np.linalg.norm(J[3:], axis=0)
+        velocity = np.linalg.norm(J[:3], axis=0)
+        turn = np.linalg.norm(J[3:], axis=0)
         reach = velocity + turn * (np.abs(centre).max() + np.abs(t).max())
         inertia += mass * (velocity + turn * arm) * reach * free
         size += (force + weight * free) * reach + torque * turn

@@ -57,7 +57,8 @@ def answers_read(folder: str | Path, layer: str) -> Answers:
     for i, entry in enumerate(entries):
         try:
             one = Fields(entry, f"answers[{i}]")
-            name, output = one.text("id"), one.take("output")
+            name = one.text("id")
+            output = one.take("output")
             one.close()
             if name in outputs:
                 raise one.fail("id", "is answered twice", name)

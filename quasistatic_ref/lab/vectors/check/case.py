@@ -149,7 +149,8 @@ def _unseen(case: Json, record: Json, answer: Json) -> Verdict:
     rows = case if "A" in case else record["output"]
     try:
         A, b, x = (np.array(v, dtype=np.float64) for v in (rows["A"], rows["b"], answer["delta_q"]))
-        slack, size = A @ x - b, np.abs(A) @ np.abs(x) + np.abs(b)
+        slack = A @ x - b
+        size = np.abs(A) @ np.abs(x) + np.abs(b)
     except (KeyError, TypeError, ValueError):
         return missing
     if not (slack >= -CONTRADICTION * size).all():  # not: NaN

@@ -149,15 +149,19 @@ def difference(
     exact : float, optional
         How far rounding in float64 may take it; by default the same [its unit].
     """
-    worst, place, size = 0.0, "", 0.0
+    worst = 0.0
+    place = ""
+    size = 0.0
     for (path, one), (_, other) in zip(leaves(expected), leaves(answer), strict=True):
         if isinstance(one, bool | str) or one is None:
             if one != other:
                 return Difference(field, path, math.inf, tolerance, 0.0)
             continue
-        size, error = max(size, abs(one)), abs(float(other) - float(one))
+        size = max(size, abs(one))
+        error = abs(float(other) - float(one))
         if error > worst:
-            worst, place = error, path
+            worst = error
+            place = path
     if field in ("wrench", "forces") and place:
         contact, component = place[1:-1].split("][")
         place += f", {WRENCH[int(component)]} of contact {contact},"
@@ -174,7 +178,8 @@ def differences(
     expected: Json, answer: Json, tolerance: Mapping[str, Json]
 ) -> dict[str, Difference]:
     """Of every field that is answered, in the order of the layer's output."""
-    ours, theirs = parts(expected), parts(answer)
+    ours = parts(expected)
+    theirs = parts(answer)
     return {
         name: difference(
             name,

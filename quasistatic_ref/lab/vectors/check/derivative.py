@@ -22,7 +22,8 @@ def existence_verdict(record: Json, answer: Json) -> Verdict | None:
         return failure("", f"the output must be an object with the fields {names}")
     if not isinstance(answer.get("differentiable"), bool):
         return failure("differentiable", "differentiable must be true or false")
-    expected, claimed = record["output"], answer["differentiable"]
+    expected = record["output"]
+    claimed = answer["differentiable"]
     if not expected["differentiable"]:
         return _kink(expected["reasons"], answer)
     if claimed:

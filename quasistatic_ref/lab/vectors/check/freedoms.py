@@ -92,7 +92,8 @@ def other_multipliers(case: Json, record: Json, answer: Json, failing: Failing) 
     rest = {name: d for name, d in failing.items() if name != "lam"}
     if rest or record["flags"].get("unique_multipliers", True):
         return plain_failure(failing)
-    rows, conic = program_rows(case, record["output"]), "second_order" in case
+    rows = program_rows(case, record["output"])
+    conic = "second_order" in case
     problem = multipliers_problem(rows, record, answer["lam"], conic=conic)
     if problem:
         return failure("lam", f"lam is another one, and {problem}")

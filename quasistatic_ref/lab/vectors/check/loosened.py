@@ -20,7 +20,8 @@ def loosened(record: Json, digits: float) -> Json:
         What is expected: ``output``, ``flags``, ``tolerance``.
     digits : float
     """
-    unit, wide = 10.0**-digits, {}
+    unit = 10.0**-digits
+    wide = {}
     flags = dict(record["flags"])
     rounding = SHARE if "differentiable" in record["output"] else 1e-16
     for field, value in parts(record["output"]).items():

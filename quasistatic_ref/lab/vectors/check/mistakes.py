@@ -58,7 +58,8 @@ def mistakes_of(layer: str, failed: Sequence[Failed], right: Sequence[Failed]) -
     """What explains the failures of a layer, the best explanation first; often nothing."""
     if not failed:
         return ()
-    tried, checked = _spread(failed), _spread(right)
+    tried = _spread(failed)
+    checked = _spread(right)
     found: list[tuple[int, int, Mistake]] = []
     for mistake in MISTAKES:
         if layer not in mistake.predictions:
@@ -143,9 +144,11 @@ def _would_spoil(layer: str, mistake: Mistake, one: Failed) -> bool:
 
 def _same(one: Failed, field: str, prediction: Json, output: Json) -> bool:
     try:
-        ours, theirs = prediction, parts(output)[field]
+        ours = prediction
+        theirs = parts(output)[field]
         if field == "lam" and not one.record["flags"].get("unique_multipliers", True):
-            ours, theirs = _images(one, ours), _images(one, theirs)
+            ours = _images(one, ours)
+            theirs = _images(one, theirs)
         if [path for path, _ in leaves(ours)] != [path for path, _ in leaves(theirs)]:
             return False
         found = difference(field, ours, theirs, 0.0)

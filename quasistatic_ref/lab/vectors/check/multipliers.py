@@ -45,8 +45,10 @@ def multipliers_problem(rows: Json, record: Json, lam: Json, *, conic: bool = Fa
     conic : bool
         Whether each four of them are in a second-order cone.
     """
-    output, tolerance = record["output"], record["tolerance"]
-    A_lam, multipliers = np.array(output["A_lam"]), np.array(lam, dtype=np.float64)
+    output = record["output"]
+    tolerance = record["tolerance"]
+    A_lam = np.array(output["A_lam"])
+    multipliers = np.array(lam, dtype=np.float64)
     A = np.array(rows, dtype=np.float64).reshape(len(multipliers), len(A_lam))
     largest = float(np.abs(multipliers).max(initial=0.0))
     sums = EPS * (len(A) + 2) * float((np.abs(A).T @ np.abs(multipliers)).max(initial=0.0))
@@ -54,7 +56,8 @@ def multipliers_problem(rows: Json, record: Json, lam: Json, *, conic: bool = Fa
     if not off <= tolerance_of(tolerance, "A_lam") + 2 * sums < np.inf:
         return f"A'lam is off by {off:.2g}"
     share = record.get("negligible", NEGLIGIBLE)
-    small, slack = share * largest, _slack(A, output)
+    small = share * largest
+    slack = _slack(A, output)
     # An energy that rounding leaves: a program on which nothing presses has no largest multiplier.
     work = tolerance_of(tolerance, "A_lam") * tolerance_of(tolerance, "delta_q")
     if conic:
@@ -141,7 +144,8 @@ def _proof_problem(case: Json, y: list[Fraction], room: float) -> str | None:
         return "b'y is not positive"
     for v in range(len(case["g"])):
         terms = [y[i] * Fraction(case["A"][i][v]) for i in support]
-        off, size = abs(sum(terms, Fraction(0))), sum(map(abs, terms), Fraction(0))
+        off = abs(sum(terms, Fraction(0)))
+        size = sum(map(abs, terms), Fraction(0))
         if off > Fraction(room) * size:
             return f"A'y is not zero: entry {v} is {float(off):.2g}"
     return None

@@ -47,7 +47,8 @@ def patched_texts(patch: str, text_of: Callable[[str], str] = _text) -> dict[str
     """
     found: dict[str, list[str]] = {}
     lines: list[str] = []
-    at, margin = 0, ""
+    at = 0
+    margin = ""
     for line in patch.splitlines():
         sign, _, text = line.partition(" ")
         if sign == "-":

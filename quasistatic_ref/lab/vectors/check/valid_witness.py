@@ -41,7 +41,9 @@ def witness_problem(
     if np.abs(beta - alpha - phi * n).max() > tolerance:
         return "beta - alpha is not phi n"
     for name, point, sign in (("alpha", alpha, 1.0), ("beta", beta, -1.0)):
-        shape, pose, direction = case[name], case[f"pose_{name}"], sign * n
+        shape = case[name]
+        pose = case[f"pose_{name}"]
+        direction = sign * n
         ball = {"kind": "sphere", "radius": 0.0}
         if _phi(ball, at(*point), shape, pose) > tolerance:
             return f"{name} is outside its shape"

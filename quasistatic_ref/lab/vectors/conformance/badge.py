@@ -11,7 +11,8 @@ from quasistatic_ref.lab.vectors.conformance.conformance import Conformance
 
 LABEL, GREEN, AMBER, RED, GREY = "#444444", "#1a7f37", "#8f5a00", "#b42318", "#57606a"
 """White on each has a contrast of more than 4.5."""
-NARROW, WIDE = "iIjltf.,:;/ ()|'", "mwMW%@"
+NARROW = "iIjltf.,:;/ ()|'"
+WIDE = "mwMW%@"
 WIDTHS: Final = {"narrow": 3.9, "wide": 9.6, "digit": 7.0, "other": 6.7}
 """Of letters at 11 px [px]."""
 MARGIN: Final = 7.0
@@ -43,7 +44,8 @@ def badge(conformance: Conformance) -> str:
     ----------
     conformance : Conformance
     """
-    label, message = conformance.label, conformance.message
+    label = conformance.label
+    message = conformance.message
     parts = (width(label), width(message))
     left, right = (round(part + 2 * MARGIN, 1) for part in parts)
     whole = escape(f"{conformance.implementation}: {label}: {message}")

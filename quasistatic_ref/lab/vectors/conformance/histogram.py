@@ -44,7 +44,8 @@ def histogram(layers: Sequence[LayerReport]) -> str:
     layers : sequence of LayerReport
         Those that are answered.
     """
-    width, height = LEFT + BINS * STEP + 20, TOP + len(layers) * (HEIGHT + GAP) + FOOT
+    width = LEFT + BINS * STEP + 20
+    height = TOP + len(layers) * (HEIGHT + GAP) + FOOT
     parts = [*_legend(), *_axis(len(layers))]
     for number, layer in enumerate(layers):
         parts += _row(layer.layer, counts(layer.verdicts), TOP + number * (HEIGHT + GAP))
@@ -74,7 +75,8 @@ def _text(x: float, y: float, words: str, anchor: str = "middle") -> str:
 
 
 def _legend() -> list[str]:
-    parts, x = [], LEFT
+    parts = []
+    x = LEFT
     for kind, (words, _) in enumerate(KINDS):
         parts.append(f'<rect x="{x}" y="3" width="12" height="12" fill="{_fill(kind)}"/>')
         parts.append(_text(x + 17, 13, words, "start"))

@@ -75,7 +75,8 @@ def chosen(alpha: Json, beta: Json, pose_alpha: Json, pose_beta: Json, k: int) -
     """
     case = {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
     candidates = [one for part in parts(case, k) for one in _candidates(part)]
-    index, last = list(range(len(candidates))), len(candidates) - 1
+    index = list(range(len(candidates)))
+    last = len(candidates) - 1
     if k > 1 and alpha["kind"] == beta["kind"] == "box":
         crossed = _crossings(case, candidates[last])
         candidates[last:last] = [one for _, one in crossed]
@@ -130,8 +131,11 @@ def _crossings(case: Json, nearest: _Candidate) -> list[tuple[tuple[int, int], _
 
         def place(i: int = i, j: int = j) -> Json:
             n = witnesses(case)[0].n
-            (tail, head), (start, end) = _edge(case, "alpha", i), _edge(case, "beta", j)
-            u, v, w = head - tail, end - start, start - tail
+            tail, head = _edge(case, "alpha", i)
+            start, end = _edge(case, "beta", j)
+            u = head - tail
+            v = end - start
+            w = start - tail
             steep = np.cross(u, v) @ n
             alpha = tail + np.cross(w, v) @ n / steep * u
             beta = start + np.cross(w, u) @ n / steep * v
@@ -153,11 +157,13 @@ def _kept(
     phi, alpha, n = (
         np.array([one.numbers[key] for one in candidates]) for key in ("phi", "alpha", "n")
     )
-    late, spare = [False] * len(candidates), False
+    late = [False] * len(candidates)
+    spare = False
     if corners is not None:
         late, spare = lateness(phi, alpha, n, k, REPEATED, corners)
     order = sorted(range(len(candidates)), key=lambda i: (late[i], phi[i], i))
-    kept, rest = sorted(order[:k], key=lambda i: index[i]), order[k:]
+    kept = sorted(order[:k], key=lambda i: index[i])
+    rest = order[k:]
     last = order[len(kept) - 1]
     clear = not rest or late[rest[0]] != late[last] or phi[rest[0]] - phi[last] > TIED
     if corners is not None and len(candidates) > k and not candidates[-1].unique:

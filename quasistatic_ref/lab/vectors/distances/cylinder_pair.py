@@ -96,7 +96,8 @@ def _on_rim(cylinder: Placed, centre: Vector, other: Placed) -> Iterator[Witness
 
 def _is_normal(cylinder: Placed, found: Witness) -> bool:
     """Whether alpha is a point of the cylinder, and n a normal of it there."""
-    at, n = cylinder.local(found.alpha), cylinder.local_direction(found.n)
+    at = cylinder.local(found.alpha)
+    n = cylinder.local_direction(found.n)
     radius, half = cylinder.sizes
     if sign(length(at[:2]) - radius) > 0 or sign(abs(at[2]) - half) > 0:
         return False

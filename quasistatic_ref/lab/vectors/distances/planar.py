@@ -24,7 +24,8 @@ def common_points(a: Sequence[Vector], b: Sequence[Vector], normal: Vector) -> l
     list of vector
         Of a in b's hull, then of b in a's, then where edges cross; the order of what is given.
     """
-    edges_a, edges_b = list(_edges(a, normal)), list(_edges(b, normal))
+    edges_a = list(_edges(a, normal))
+    edges_b = list(_edges(b, normal))
     found: list[Vector] = []
     for points, others, edges in ((a, b, edges_b), (b, a, edges_a)):
         found += [x for x in points if _inside(x, others, edges, normal)]
@@ -59,8 +60,10 @@ def _inside(x: Vector, points: Sequence[Vector], edges: Sequence[Edge], normal: 
 
 def _crossing(one: Edge, other: Edge, normal: Vector) -> list[Vector]:
     """Where two segments that are not parallel meet."""
-    (p, q), (r, s) = one, other
-    way, across = q - p, s - r
+    p, q = one
+    r, s = other
+    way = q - p
+    across = s - r
     turn = normal @ np.cross(way, across)
     if turn == 0:
         return []

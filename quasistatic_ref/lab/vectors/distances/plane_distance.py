@@ -37,7 +37,8 @@ def cylinder_support(sizes: Vector, d: Vector) -> tuple[Vector, bool]:
 def cone_support(sizes: Vector, d: Vector) -> tuple[Vector, bool]:
     """Farthest point of a cone: the tip, or a point of the rim."""
     across, rim = _rim(sizes[0], d)
-    tip, base = sizes[1] * IDENTITY[2], np.append(rim, -sizes[1])
+    tip = sizes[1] * IDENTITY[2]
+    base = np.append(rim, -sizes[1])
     higher = sign(d @ tip - d @ base)
     return (tip, True) if higher > 0 else (base, across and higher < 0)
 

@@ -22,7 +22,8 @@ def polytope_pair(a: Core, b: Core) -> Witness:
     """Closest points of two polytopes with margins."""
     between = shortest_difference(a.vertices, b.vertices)
     if any(between):
-        normal, unique = between, True
+        normal = between
+        unique = True
     else:
         normal, unique = widest_gap(a, b)
         between = gap(a, b, normal) / (normal @ normal) * normal
@@ -32,7 +33,8 @@ def polytope_pair(a: Core, b: Core) -> Witness:
     face_b = [x - between for x in _extreme(b.vertices, -normal)]
     shared = common_points(face_a, face_b, normal)
     phi = gap(a, b, normal) / length(normal)
-    alpha, beta = shared[0], shared[0] + between
+    alpha = shared[0]
+    beta = shared[0] + between
     return Witness(phi, alpha, beta, n, unique and len(shared) == 1).inflated(a.margin, b.margin)
 
 
@@ -59,7 +61,9 @@ def widest_gap(a: Core, b: Core) -> tuple[Vector, bool]:
     for normal in normals[1:]:
         other = _signed_square(gap(a, b, normal), normal)
         if other > value:
-            best, value, ties = normal, other, [normal]
+            best = normal
+            value = other
+            ties = [normal]
         elif other == value:
             ties.append(normal)
     return best, solid and all(_parallel(best, normal) for normal in ties)
@@ -68,7 +72,8 @@ def widest_gap(a: Core, b: Core) -> tuple[Vector, bool]:
 def shortest_difference(a: Sequence[Vector], b: Sequence[Vector]) -> Vector:
     """Vector of least length from the hull of some points to that of others."""
     x = b[0] - a[0]
-    corral, weights = [x], [fmpq(1)]
+    corral = [x]
+    weights = [fmpq(1)]
     while True:
         low = min(b, key=lambda y: x @ y)
         high = max(a, key=lambda y: x @ y)
@@ -86,7 +91,8 @@ def shortest_difference(a: Sequence[Vector], b: Sequence[Vector]) -> Vector:
             share = min(w / (w - g) for w, g in zip(weights, goal, strict=True) if g <= 0)
             moved = [w + share * (g - w) for w, g in zip(weights, goal, strict=True)]
             kept = [k for k, w in enumerate(moved) if w > 0]
-            corral, weights = [corral[k] for k in kept], [moved[k] for k in kept]
+            corral = [corral[k] for k in kept]
+            weights = [moved[k] for k in kept]
         x = np.array(weights) @ np.array(corral)
 
 

@@ -94,7 +94,8 @@ def placed(shape: dict[str, Any], pose: dict[str, Any]) -> Placed:
     if set(shape) != {"kind", *SHAPES[kind]}:
         problem = f"a {kind} has the fields {', '.join(SHAPES[kind])}"
         raise InputError(problem, field="shape", value=sorted(shape))
-    R, t = rotation(vector(pose["quaternion"])), vector(pose["xyz"])
+    R = rotation(vector(pose["quaternion"]))
+    t = vector(pose["xyz"])
     sizes: list[Real] = []
     points: list[Vector] = []
     match kind:

@@ -54,7 +54,8 @@ def pair_witness(a: Placed, b: Placed) -> Witness:
         return solid_on_plane(a, b)
     if b.kind == "halfspace":
         return solid_on_plane(b, a).swapped()
-    flat_a, flat_b = core(a), core(b)
+    flat_a = core(a)
+    flat_b = core(b)
     if flat_a is not None and flat_b is not None:
         return polytope_pair(flat_a, flat_b)
     if flat_a is not None:

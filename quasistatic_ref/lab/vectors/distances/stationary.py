@@ -50,7 +50,8 @@ def increasing_root(function: Callable[[Real], Real], low: fmpq, high: fmpq) -> 
     fmpq or arb or None
         Exact where a zero was hit: a function that is zero on an interval has one in it.
     """
-    f_low, f_high = function(low), function(high)
+    f_low = function(low)
+    f_high = function(high)
     if sign(f_low) >= 0 or sign(f_high) <= 0:
         return None
     least = (high - low) / (1 << (ctx.prec - SPARED))
@@ -70,10 +71,12 @@ def increasing_root(function: Callable[[Real], Real], low: fmpq, high: fmpq) -> 
             break
         if side < 0:
             f_high = f_high / 2 if last == low else f_high
-            low, f_low = at, value
+            low = at
+            f_low = value
         else:
             f_low = f_low / 2 if last == high else f_low
-            high, f_high = at, value
+            high = at
+            f_high = value
         last = at
     return arb((low + high) / 2) + arb(0, 1) * arb(high - low)
 

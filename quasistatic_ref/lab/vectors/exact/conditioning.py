@@ -73,9 +73,11 @@ def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) 
     errors : Errors
         Of a program that was formed from other numbers; none by default.
     """
-    n, size = form.n, form.n + len(working)
+    n = form.n
+    size = form.n + len(working)
     H, A, g, b = (rationals(M) for M in (form.H, form.A, form.g.entries(), form.b.entries()))
-    solution, rows = rational_solution(form, tuple(working)), list(working)
+    solution = rational_solution(form, tuple(working))
+    rows = list(working)
     x, lam = (np.abs(rationals(v)) / solution.denominator for v in (solution.x, solution.lam))
     K = np.block([[H, -A[rows].T], [A[rows], np.zeros((len(rows),) * 2, dtype=int)]])
     share = fmpq(ROUNDINGS * size, UNIT.denominator)

@@ -41,7 +41,8 @@ def enclosed(step: StepData) -> Expected:
     if found is None:
         raise InputError("has no displacement strictly inside of all cones", field="second_order")
     with ctx.workprec(BITS):
-        H, A = arb_mat(form.H), arb_mat(form.A)
+        H = arb_mat(form.H)
+        A = arb_mat(form.A)
         inverse = H.inv()
         # Where no cone bears load, the gap is a ball about zero.
         radius = [square_root(2 * found.gap * inverse[v, v]).upper() for v in range(form.n)]

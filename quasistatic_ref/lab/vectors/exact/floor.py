@@ -48,5 +48,6 @@ def floors(form: ExactForm) -> tuple[Fraction, Fraction, Fraction]:
 
 def _root(value: Fraction) -> Fraction:
     """A square root, rounded up; 0 of 0."""
-    p, q = value.numerator, value.denominator
+    p = value.numerator
+    q = value.denominator
     return Fraction(isqrt((p * q << 2 * BITS) - 1) + 1, q << BITS) if p else Fraction(0)

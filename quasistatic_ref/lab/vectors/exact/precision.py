@@ -54,7 +54,8 @@ def ball(x: Real) -> arb:
 def root(x: Real) -> Real:
     """Square root; rational where it is, and 0 for a ball that counts as 0."""
     if isinstance(x, fmpq):
-        p, q = int(x.p), int(x.q)
+        p = int(x.p)
+        q = int(x.q)
         if p >= 0 and isqrt(p) ** 2 == p and isqrt(q) ** 2 == q:
             return fmpq(isqrt(p), isqrt(q))
         return arb(x).sqrt()
@@ -95,7 +96,8 @@ def _angle_of(sine: Real, cosine: Real) -> Real:
 def _coefficients(t: Real) -> tuple[Real, Real, Real]:
     if t == 0:
         return fmpq(1), fmpq(1, 2), fmpq(1, 6)
-    sinc, half = ball(t).sinc(), ball(t / 2).sinc()
+    sinc = ball(t).sinc()
+    half = ball(t / 2).sinc()
     return sinc, half * half / 2, (1 - sinc) / (t * t)
 
 

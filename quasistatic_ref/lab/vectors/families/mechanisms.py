@@ -45,8 +45,10 @@ def link(name: str, parent: str | None, joint: str, **more: Any) -> Json:
 
 def mass(rng: Rng) -> Json:
     """Mass, centre and inertia that a body can have: that of two masses and a ball."""
-    a, b = few_digits(rng.uniform(0.01, 0.05, 2)), few_digits(rng.uniform(-0.1, 0.1, 3), 2)
-    (x, y, z), ball = b, a[0]
+    a = few_digits(rng.uniform(0.01, 0.05, 2))
+    b = few_digits(rng.uniform(-0.1, 0.1, 3), 2)
+    x, y, z = b
+    ball = a[0]
     inertia = [
         [ball + y * y + z * z, -x * y, -x * z],
         [-x * y, ball + x * x + z * z, -y * z],

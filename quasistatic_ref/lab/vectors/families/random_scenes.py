@@ -37,7 +37,8 @@ def random_scene(rng: Rng, hard: bool) -> Json:
             tree = [{**free_body("body0"), **mass(rng)}]
         case 1:
             stand = link("stand", None, "fixed")
-            joint, actuated = str(rng.choice(["prismatic", "revolute"])), bool(rng.integers(2))
+            joint = str(rng.choice(["prismatic", "revolute"]))
+            actuated = bool(rng.integers(2))
             tree = [stand, *(b | mass(rng) for b in follower(joint, "stand", actuated=actuated))]
         case 2:
             return _many_points(rng)
@@ -49,7 +50,8 @@ def random_scene(rng: Rng, hard: bool) -> Json:
     if kind != 0 and hard and rng.integers(2):
         tree.append({**free_body("other"), **mass(rng)})
     bodies = {"bodies": tree}
-    q, (places, n_a, _) = random_q(rng, bodies), slices(bodies)
+    q = random_q(rng, bodies)
+    places, n_a, _ = slices(bodies)
     stiff = few_digits(rng.uniform(5, 500, n_a), 0)
     n_q_a = max((i.stop for i, k in places.values() if k.stop <= n_a), default=0)
     case = scene(

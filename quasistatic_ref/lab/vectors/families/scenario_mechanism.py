@@ -130,7 +130,9 @@ def _moves(body: Body, joint: FileJoint, carried: dict[str, str]) -> dict[str, A
     axis = {"axis": joint.axis.tolist()}
     if joint.mimic is None:
         return {**axis, "actuated": _actuated(body, joint.name)}
-    of, multiplier, offset = carried[joint.mimic.of], joint.mimic.multiplier, joint.mimic.offset
+    of = carried[joint.mimic.of]
+    multiplier = joint.mimic.multiplier
+    offset = joint.mimic.offset
     actuated = _actuated(body, joint.mimic.of)
     follow = {"of": of, "multiplier": multiplier, "offset": offset}
     return {**axis, "actuated": actuated, "mimic": follow}

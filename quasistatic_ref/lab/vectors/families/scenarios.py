@@ -53,8 +53,10 @@ def scenario_cases(say: Say) -> Found:
 
 
 def _cases(name: str, scenario: Scenario, say: Say) -> Found:
-    system, simulator = scenario.system, scenario.simulator()
-    mechanism, (shapes, pairs) = mechanism_of(scenario), pairs_of(scenario)
+    system = scenario.system
+    simulator = scenario.simulator()
+    mechanism = mechanism_of(scenario)
+    shapes, pairs = pairs_of(scenario)
     fixed = {"mechanism": mechanism, "shapes": shapes, "pairs": pairs, "h": scenario.h}
     fixed |= {"K_q": scenario.K_q.tolist(), "gravity": scenario.gravity.tolist()}
     fixed |= {"cone": scenario.cone}
@@ -101,7 +103,9 @@ def _parts(
     kinematics: Kinematics,
 ) -> Found:
     """The same step, layer by layer."""
-    at, points, links = result.step.contacts, result.points, scenario.system.links
+    at = result.step.contacts
+    points = result.points
+    links = scenario.system.links
     layout = scenario.simulator().layout
     bodies = [
         tuple(None if link == 0 else links[link] for link in pair)
@@ -148,7 +152,8 @@ def _distances(
 
 def _cloud_distances(pair: ContactPair, kinematics: Kinematics) -> Json | None:
     """Signed distances of a cloud to the pair's solid; None of two solids."""
-    cloud, solid = pair.beta, pair.alpha
+    cloud = pair.beta
+    solid = pair.alpha
     if not isinstance(cloud.shape, PointCloud):
         return None
     (R, t), (R_s, t_s) = (_frame(placed, kinematics) for placed in (cloud, solid))
@@ -157,7 +162,8 @@ def _cloud_distances(pair: ContactPair, kinematics: Kinematics) -> Json | None:
 
 
 def _frame(placed: PlacedShape, kinematics: Kinematics) -> tuple[Array, Array]:
-    R, t = kinematics.R[placed.link], kinematics.t[placed.link]
+    R = kinematics.R[placed.link]
+    t = kinematics.t[placed.link]
     return R @ placed.R, R @ placed.t + t
 
 

@@ -20,7 +20,8 @@ def contact_entries(at: Contacts, keys: tuple[str, ...]) -> Json:
 def program(given: StepData) -> Json:
     """H, g, A, b of a step, in float64, as a case holds them; second-order cones likewise."""
     form = standard_form(given)
-    H, g = form.H.tolist(), form.g.tolist()
+    H = form.H.tolist()
+    g = form.g.tolist()
     if given.cone != "ellipsoid":
         return {"H": H, "g": g, "A": form.A.tolist(), "b": form.b.tolist()}
     at = given.contacts

@@ -72,7 +72,8 @@ def _numbers(one: Base, found: Derivatives) -> Expected:
     for name, columns in found.columns.items():
         if not columns:
             continue
-        field, largest = FIELDS[name], max(abs(x) for column in columns for x in column)
+        field = FIELDS[name]
+        largest = max(abs(x) for column in columns for x in column)
         rows = [[_float(x, largest) for x in row] for row in zip(*columns, strict=True)]
         output[field] = [row[0] for row in rows] if name == "h" else rows
         size = max(float(largest), QUIET * free[name]) or STILL
@@ -93,7 +94,8 @@ def _why(largest: float, free: float) -> str:
 
 def free_sizes(one: Base) -> dict[str, float]:
     """The largest entry, roughly, of each derivative of the step without contacts, as FIELDS."""
-    form, case = one.step.form, one.at.case
+    form = one.step.form
+    case = one.at.case
     inverse = fmpq_mat(form.H).inv()
     step = inverse * fmpq_mat(form.g)
     x = float(max((abs(v) for v in step.entries()), default=fmpq(0)) * form.x_unit)

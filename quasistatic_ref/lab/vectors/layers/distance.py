@@ -67,7 +67,8 @@ def _tolerance(case: dict[str, Any]) -> tuple[dict[str, Tolerance], bool]:
     lengths = [value for shape in shapes for key, value in shape.items() if key != "kind"]
     places = [case["pose_alpha"]["xyz"], case["pose_beta"]["xyz"], output["alpha"], output["beta"]]
     size = max(abs(x) for x in _leaves([*lengths, *places]))
-    moves, settled = dict.fromkeys(FIELDS, 0.0), True
+    moves = dict.fromkeys(FIELDS, 0.0)
+    settled = True
     for seed in range(CHANGES):
         other, _, still = answer(_changed(case, _signs(seed), size))
         for k in range(len(unique)):
@@ -79,7 +80,8 @@ def _tolerance(case: dict[str, Any]) -> tuple[dict[str, Tolerance], bool]:
     # Where neither solid's own normal is at hand, n is (beta - alpha) / phi, of the axes if
     # there is a capsule; its error carries over to a point of the capsule.
     thickness = sum(shape["radius"] for shape in shapes if shape["kind"] == "capsule")
-    normal, kinds = 0.0, {shape["kind"] for shape in shapes}
+    normal = 0.0
+    kinds = {shape["kind"] for shape in shapes}
     if kinds.isdisjoint(SIMPLE) and not kinds.isdisjoint(CURVED):
         normal = SHIFT * EPS * size / (output["phi"][0] + thickness)
     tolerance = {}

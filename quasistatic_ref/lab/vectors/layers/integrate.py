@@ -15,7 +15,8 @@ quaternions; the package's own answers stay below 4."""
 
 def expected(case_input: Json) -> Expected:
     """The next configuration; quaternions and (cos, sin) have length one."""
-    case, delta_q = entered(case_input), case_input["delta_q"]
+    case = entered(case_input)
+    delta_q = case_input["delta_q"]
     output, digits = rounded(lambda: program.integrate(case))
     # The angle of a turn is rounded to its own last bit before its sine is taken.
     size = max([1.0, *(abs(x) for x in [*output["q"], *delta_q])])

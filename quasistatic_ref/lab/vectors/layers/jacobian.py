@@ -24,7 +24,8 @@ def expected(case_input: Json) -> Expected:
 
 def _tolerance(case: Json, contacts: Json) -> Tolerance:
     """Levers are differences of world coordinates: each keeps the rounding of the largest."""
-    bodies, depth = case["mechanism"]["bodies"], {None: 0}
+    bodies = case["mechanism"]["bodies"]
+    depth = {None: 0}
     for body in bodies:
         depth[body["name"]] = depth[body["parent"]] + 1
     joints = max(depth.values())

@@ -80,10 +80,13 @@ def own(case_input: Json) -> Json:
         return {"farkas": failure.farkas.y.tolist()}
     x = solution.delta_q
     if conic:
-        form, lam = standard_form(step), solution.lam
+        form = standard_form(step)
+        lam = solution.lam
         A, b = form.A, form.b  # of each block F x + f
     else:
-        A, b, lam = step.extra.A, step.extra.b, solution.lam_extra
+        A = step.extra.A
+        b = step.extra.b
+        lam = solution.lam_extra
     return {
         "delta_q": x.tolist(),
         "lam": lam.tolist(),

@@ -50,9 +50,11 @@ def own(case_input: Json) -> Json:
     """The package's answer, from :mod:`quasistatic_ref.step.friction`."""
     if not case_input["contacts"]:
         return {"A": [], "b": []}
-    contacts, name = contacts_of(case_input["contacts"]), case_input["cone"]
+    contacts = contacts_of(case_input["contacts"])
+    name = case_input["cone"]
     mask = np.arange(len(cone(name).row_names)) < cone(name).counts(contacts.rows)[:, None]
-    A, b = friction_rows(contacts, name)[mask], -row_gaps(contacts, name)[mask]
+    A = friction_rows(contacts, name)[mask]
+    b = -row_gaps(contacts, name)[mask]
     return {"A": A.tolist(), "b": b.tolist()}
 
 

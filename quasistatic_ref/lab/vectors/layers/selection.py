@@ -38,7 +38,8 @@ def own(case_input: Json) -> Json:
     from quasistatic_ref.contact.distance import closest
     from quasistatic_ref.contact.patch import TURNED
 
-    k, found = case_input["k"], []
+    k = case_input["k"]
+    found = []
     for g, phi in enumerate(case_input["phi"]):
         left = np.arange(len(phi))
         if "normals" in case_input:

@@ -154,7 +154,8 @@ def shape_pose(case: Json, entry: Json) -> Json:
 
 def contacts_of(case: Json) -> tuple[list[Json], list[Chosen]]:
     """Contacts of all pairs without J, and whence they are."""
-    found, contacts = _chosen(case), []
+    found = _chosen(case)
+    contacts = []
     for pair, one in zip(case["pairs"], found, strict=True):
         given = of_pair(case, pair)
         contacts += [{**given, **c, **_tangents(c["n"])} for c in one.contacts]
@@ -180,7 +181,9 @@ def objective(case_input: Json) -> tuple[Json, Json, float]:
     case = entered({key: value for key, value in case_input.items() if key != "shapes"})
 
     def terms() -> Any:
-        h, q, n_a = case["h"], np.array(case["q"]), len(case["K_q"])
+        h = case["h"]
+        q = np.array(case["q"])
+        n_a = len(case["K_q"])
         M, tau = program.loads(case, kinematics(case["mechanism"], q))
         H, g = program.objective(case, M, tau)
         sizes = np.abs(h * tau)
@@ -202,7 +205,8 @@ def _errors(
 ) -> tuple[Errors, dict[str, Tolerance]]:
     """What rounding in the layers before leaves in the program, and in the contacts."""
     points = [abs(x) for one in found for c in one.contacts for x in (*c["alpha"], *c["beta"])]
-    pose, size_of = ROUNDINGS * EPS, {"n": 1.0}
+    pose = ROUNDINGS * EPS
+    size_of = {"n": 1.0}
     worst = {
         name: max([one.tolerance[name] for one in found], default=0.0)
         + pose * size_of.get(name, max(points, default=0.0))

@@ -19,7 +19,8 @@ ROUNDINGS = 16
 
 def expected(case_input: Json) -> Expected:
     """The wrench of each contact (f_d1, f_d2, f_n, tau_n), and the net wrench of each body."""
-    case, contacts = entered(case_input), case_input["contacts"]
+    case = entered(case_input)
+    contacts = case_input["contacts"]
     output, digits = rounded(lambda: program.wrench(case))
     size = program.wrench(sizes(case))
     rows = max([len(contact["lam"]) for contact in contacts], default=0)

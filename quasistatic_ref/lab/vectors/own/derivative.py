@@ -15,12 +15,14 @@ def own_derivative(case_input: Json) -> Json:
         posed = posed_case(case_input)
     except ContactError:  # a step is refused whose normal is one of several
         return {"differentiable": False}
-    mine, n_a = posed.mine, posed.step.n_a
+    mine = posed.mine
+    n_a = posed.step.n_a
     found = derivatives(posed.simulator, posed.q, posed.q_bar_a, posed.force)
     # With mu = 0 the layer leaves that derivative out: mu cannot be smaller.
     if any(reason.kind != ZERO_FRICTION for reason in found.reasons):
         return {"differentiable": False}
-    v, a = mine.v, mine.v[:n_a]
+    v = mine.v
+    a = mine.v[:n_a]
     bodies = case_input["mechanism"]["bodies"]
     massive = np.array([mine.links[body["name"]] for body in bodies if "mass" in body], dtype=int)
     rubs, turns = (

@@ -44,7 +44,8 @@ class PosedCase(NamedTuple):
 def posed_case(case_input: Json) -> PosedCase:
     """The step of a case of the layer `step`."""
     mine = own_system(case_input["mechanism"])
-    system, n_a = mine.system, mine.system.n_a
+    system = mine.system
+    n_a = mine.system.n_a
     pairs = [_pair(pair, case_input["shapes"], mine) for pair in case_input["pairs"]]
     K_q = np.zeros((n_a, n_a))
     K_q[np.ix_(mine.v[:n_a], mine.v[:n_a])] = np.reshape(case_input["K_q"], (n_a, n_a))
@@ -116,7 +117,8 @@ def _pair(pair: Json, shapes: Json, mine: OwnSystem) -> ContactPair:
 def _force(case: Json, mine: OwnSystem, q: Array) -> Array:
     """Generalised force of the wrenches, each at its body's own centre of mass."""
     bodies = {body["name"]: body for body in case["mechanism"]["bodies"]}
-    kinematics, force = mine.system.kinematics(q), np.zeros(mine.system.n_v)
+    kinematics = mine.system.kinematics(q)
+    force = np.zeros(mine.system.n_v)
     for wrench in case.get("wrenches", []):
         link = mine.links[wrench["body"]]
         arm = kinematics.R[link] @ np.array(bodies[wrench["body"]]["com"])
@@ -126,8 +128,10 @@ def _force(case: Json, mine: OwnSystem, q: Array) -> Array:
 
 
 def _program(step: StepData, mine: OwnSystem) -> Json:
-    form, v = standard_form(step), mine.v
-    H, A = form.H[np.ix_(v, v)], form.A[:, v]
+    form = standard_form(step)
+    v = mine.v
+    H = form.H[np.ix_(v, v)]
+    A = form.A[:, v]
     return {"H": H.tolist(), "g": form.g[v].tolist(), "A": A.tolist(), "b": form.b.tolist()}
 
 

@@ -67,7 +67,8 @@ def own_system(mechanism: dict[str, Any]) -> OwnSystem:
     tree: dict[str, int] = {}
     for k, body in enumerate(bodies):
         tree[body["name"]] = k if body["parent"] is None else tree[body["parent"]]
-    texts, settings = {}, {}
+    texts = {}
+    settings = {}
     for root in dict.fromkeys(tree.values()):
         members = [k for k, body in enumerate(bodies) if tree[body["name"]] == root]
         texts[f"t{root}"], settings[f"t{root}"] = _tree(bodies, root, members)
@@ -106,7 +107,8 @@ def _tree(
     """URDF and settings of a tree."""
     first = bodies[root]
     base = first["joint"] if first["joint"] in _BASES else "fixed"
-    xyz, rpy = first["placement"]["xyz"], _rpy(first["placement"]["quaternion"])
+    xyz = first["placement"]["xyz"]
+    rpy = _rpy(first["placement"]["quaternion"])
     if (base == "floating" and (any(xyz) or any(rpy))) or (
         base == "planar" and (any(xyz[:2]) or any(rpy))
     ):
@@ -139,7 +141,8 @@ def _link(k: int, body: dict[str, Any]) -> str:
 
 
 def _urdf_joint(k: int, body: dict[str, Any], parent: str, names: list[str]) -> str:
-    mimic, place = "", body["placement"]
+    mimic = ""
+    place = body["placement"]
     if "mimic" in body:
         follow = body["mimic"]
         mimic = (
@@ -161,7 +164,8 @@ def _rpy(quaternion: Sequence[float]) -> list[float]:
     R = rotation(quaternion)
     roll = np.arctan2(R[2, 1], R[2, 2])
     pitch = np.arctan2(-R[2, 0], np.hypot(R[0, 0], R[1, 0]))
-    c, s = np.cos(roll), np.sin(roll)
+    c = np.cos(roll)
+    s = np.sin(roll)
     yaw = np.arctan2(s * R[0, 2] - c * R[0, 1], c * R[1, 1] - s * R[1, 2])
     return [float(roll) + 0.0, float(pitch) + 0.0, float(yaw) + 0.0]
 

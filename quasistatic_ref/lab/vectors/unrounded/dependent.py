@@ -102,7 +102,8 @@ def turned(contact: Contact, other: Contact) -> Contact:
     other : Contact
         The same candidate in a step nearby.
     """
-    c, s = contact.d1 @ other.d1, contact.d1 @ other.d2
+    c = contact.d1 @ other.d1
+    s = contact.d1 @ other.d2
     n, first, second, spin = other.motion
     motion = [n, c * first + s * second, c * second - s * first, spin]
     return Contact(other.near, contact.d1, contact.d2, np.array(motion))

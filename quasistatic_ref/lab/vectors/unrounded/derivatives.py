@@ -62,7 +62,8 @@ def moves(one: Base) -> dict[str, list[Move]]:
 
     A coefficient of friction that is 0 cannot fall: where a pair has one, its name is missing.
     """
-    case, pairs = one.at.case, range(len(one.at.case["pairs"]))
+    case = one.at.case
+    pairs = range(len(one.at.case["pairs"]))
     _, n_a, n = slices(case["mechanism"])
     masses = [k for k, body in enumerate(case["mechanism"]["bodies"]) if "mass" in body]
     found: dict[str, list[Move]] = {
@@ -89,7 +90,8 @@ def derivatives(one: Base) -> Derivatives:
     InputError
         If a step nearby has no solution, or the digits cannot be proved.
     """
-    case, listed = one.at.case, moves(one)
+    case = one.at.case
+    listed = moves(one)
     found: dict[str, list[Quotient]] = {
         name: [quotient(one, partial(move, case)) for move in listed[name]] for name in listed
     }

@@ -78,9 +78,11 @@ def base(case: Json) -> Base:
         Input of the layer ``step``.
     """
     at = world(case)
-    pools, contacts = [], []
+    pools = []
+    contacts = []
     for pair, written in enumerate(case["pairs"]):
-        found, solids = candidates(at, pair), are_solids(case, pair)
+        found = candidates(at, pair)
+        solids = are_solids(case, pair)
         pools.append(pool(found, written["k"], solids=solids))
         near = kept(found, written["k"], solids=solids)
         contacts += [contact(at, one) for one in near]

@@ -29,7 +29,8 @@ OTHER_STEP: Final = fmpq(3, 1 << 98)
 
 def _on_grid(x: Real) -> fmpq:
     exact = rational_near(number(x))
-    p, q = int(exact.p), int(exact.q)
+    p = int(exact.p)
+    q = int(exact.q)
     return fmpq(((p << (BITS + 1)) + q) // (2 * q), 1 << BITS)
 
 

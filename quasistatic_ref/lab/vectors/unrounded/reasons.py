@@ -74,7 +74,8 @@ def _touching(one: Base) -> list[int]:
 
 def _rows(one: Base) -> list[Json]:
     """Weakly active rows, contact by contact."""
-    weak, found = weak_rows(one), []
+    weak = weak_rows(one)
+    found = []
     for contact, block in zip(one.contacts, blocks(one.at.case, one.contacts), strict=True):
         own = [i - block.start for i in weak if i in block]
         if own:
@@ -84,7 +85,8 @@ def _rows(one: Base) -> list[Json]:
 
 def weak_rows(one: Base) -> list[int]:
     """Rows without slack whose multiplier is 0 in every optimal lam."""
-    point, signs = one.step.optimum.point, one.step.optimum.slack_signs
+    point = one.step.optimum.point
+    signs = one.step.optimum.slack_signs
     idle = [i for i, sign in enumerate(signs) if sign == 0 and i not in point.working]
     spanned = point.spanned(idle)
     unspanned = [i for i in idle if i not in spanned]

@@ -154,7 +154,8 @@ def integer_rows(n: int, A: Sequence[Vector], b: Sequence[Real]) -> Rows:
 
 def form_of(H: Matrix, g: Vector, rows: Rows) -> ExactForm:
     """The program min 1/2 x'Hx - g'x s.t. A x >= b in integers."""
-    dH, dA = _denominator(H), rows.denominator
+    dH = _denominator(H)
+    dA = rows.denominator
     D = _denominator(np.append(g * dH, rows.b * dA))
     return ExactForm(
         H=_integers(H, dH),

@@ -30,7 +30,8 @@ def touching_pairs(case: Json) -> list[str]:
     case : dict
         Input of the layer ``step``.
     """
-    at, found = world(case), []
+    at = world(case)
+    found = []
     for k, pair in enumerate(case["pairs"]):
         try:
             candidates(at, k)

@@ -89,7 +89,8 @@ def nearly_level(couple: Couple) -> bool:
     for body, end in zip(couple.of.bodies, couple.points, strict=True):
         radius = body.shape.rim_radius
         if radius is not None:
-            x, n = body.R.T @ (end - body.t), body.R.T @ couple.n
+            x = body.R.T @ (end - body.t)
+            n = body.R.T @ couple.n
             on_rim = np.hypot(*x[:2]) >= (1 - ON_RIM) * radius
             if on_rim and SPLIT < np.hypot(*n[:2]) <= LEVEL:
                 return True
@@ -135,16 +136,19 @@ def couple_rates(
         Others than those of the couples.
     """
     features = [c.features for c in couples] if features is None else features
-    sides, far = [], np.zeros(len(couples))
+    sides = []
+    far = np.zeros(len(couples))
     for side in (0, 1):
         links = [(c.of.pair.alpha, c.of.pair.beta)[side].link for c in couples]
-        nu, omega = J[links][:, :3], J[links][:, 3:]
+        nu = J[links][:, :3]
+        omega = J[links][:, 3:]
         at = np.array([c.points[side] for c in couples]).reshape(-1, 3, 1)
         far = np.maximum(far, np.abs(at).max(axis=(1, 2), initial=0.0))
         v = nu + crossed(omega, at)
         v = v if slides is None else v + slides[side]
         sides.append(Sides([own[side] for own in features], v, omega))
-    phi, size = np.array([c.phi for c in couples]), np.array([c.of.size for c in couples])
+    phi = np.array([c.phi for c in couples])
+    size = np.array([c.of.size for c in couples])
     size = np.maximum(size, far)
     n = np.array([c.n for c in couples]).reshape(-1, 3)
     return witness_rates(phi, n, frames, sides[0], sides[1], size)
@@ -157,9 +161,11 @@ def _rim_side(couple: Couple) -> int:
 
 def _rim_slide(couple: Couple, J: Array) -> Array | None:
     """How a corner moves along its rim, shape (3, n_v), as the normal of the closest pair turns."""
-    rim, of = couple.rim, couple.of
+    rim = couple.rim
+    of = couple.of
     assert rim is not None
-    nearest, n = of.closest, of.closest.n
+    nearest = of.closest
+    n = of.closest.n
     rates = couple_rates([nearest], across(n)[None], J)
     if not rates.unique[0] or any(len(f.ends) for f in nearest.features):
         return None

@@ -128,7 +128,8 @@ def couples(
     pairs: Sequence[ContactPair], points: ClosestPoints, R: Array, t: Array
 ) -> list[Couple]:
     """The contacts of all pairs at their closest points; R (L, 3, 3), t (L, 3) are the links'."""
-    found, at = list[Couple](), 0
+    found = list[Couple]()
+    at = 0
     for pair in pairs:
         of = PairInWorld(pair, (in_world(pair.alpha, R, t), in_world(pair.beta, R, t)))
         found += [_couple(of, points, j) for j in range(at, at + pair.n_c)]
@@ -137,15 +138,21 @@ def couples(
 
 
 def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
-    phi, n, index = float(points.phi[j]), points.n[j], int(points.point[j])
-    ends, pair = (points.alpha[j], points.beta[j]), of.pair
+    phi = float(points.phi[j])
+    n = points.n[j]
+    index = int(points.point[j])
+    ends = (points.alpha[j], points.beta[j])
+    pair = of.pair
     corner = _corner(of, index)
-    features, centre, rim = [], None, None
+    features = []
+    centre = None
+    rim = None
     for side, (body, end, outward) in enumerate(zip(of.bodies, ends, (n, -n), strict=True)):
         own = corner if corner is not None and corner[0] == side else None
         if own is not None:
             features.append(ball(own[1], outward))
-            centre, rim = (1 - side, end - own[1] * outward, own[1]), own[2]
+            centre = (1 - side, end - own[1] * outward, own[1])
+            rim = own[2]
             continue
         local = feature(body.shape, body.R.T @ (end - body.t), body.R.T @ outward)
         features.append(local.turned(body.R))
@@ -189,7 +196,8 @@ def rim_velocity(rim: Rim, body: ShapeInWorld, towards: Array, turning: Array) -
         None where the rim is level but does not stay so: no point of it is the nearest, or float64
         does not know which.
     """
-    own, d_own = (body.R.T @ towards)[:2], (body.R.T @ turning)[:2]
+    own = (body.R.T @ towards)[:2]
+    d_own = (body.R.T @ turning)[:2]
     length = np.hypot(*own)
     first = Cylinder(1.0, 1.0).corners(np.array([*own, 0.0]))[0][0, :2]
     if length <= LEVEL:

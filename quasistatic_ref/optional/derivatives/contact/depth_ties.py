@@ -36,7 +36,8 @@ def depth_tie(couple: Couple) -> bool:
     a, b = couple.of.bodies
     if couple.centre is not None:
         other, centre, _ = couple.centre
-        solid, body = couple.of.bodies[other], couple.of.bodies[1 - other].shape
+        solid = couple.of.bodies[other]
+        body = couple.of.bodies[1 - other].shape
         corner = not isinstance(body, PointCloud | Sphere)
         way = solid.R.T @ (couple.n if other == 0 else -couple.n) if corner else None
         return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.of.size, way)
@@ -46,7 +47,8 @@ def depth_tie(couple: Couple) -> bool:
         return False
     if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
         return _axes_cross(couple)
-    P, Q = polytope(a.shape), polytope(b.shape)
+    P = polytope(a.shape)
+    Q = polytope(b.shape)
     if P is None or Q is None:
         return _rival(a, b, couple)
     every, normals = gaps_between(P, Q.moved(a.R.T @ b.R, a.R.T @ (b.t - a.t)))
@@ -95,7 +97,8 @@ def _inside_tie(shape: Shape, p: Array, size: float, way: Array | None = None) -
 
 def _on_medial_plane(shape: Ellipsoid, p: Array, near: float) -> bool:
     """Whether p is on the disc from which the surface is as far above as below."""
-    e, least = shape.half_axes, int(shape.half_axes.argmin())
+    e = shape.half_axes
+    least = int(shape.half_axes.argmin())
     if abs(p[least]) > near or np.sum((p / e) ** 2) >= 1:
         return False
     rest = [i for i in range(3) if i != least]

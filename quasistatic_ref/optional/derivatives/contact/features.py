@@ -126,7 +126,8 @@ def _of_capsule(shape: Capsule, x: Array, n: Array) -> Feature:
 
 
 def _of_cylinder(shape: Cylinder, x: Array, n: Array) -> Feature:
-    near, axis = ON_RIM * (shape.radius + shape.half_length), np.array([0.0, 0.0, 1.0])
+    near = ON_RIM * (shape.radius + shape.half_length)
+    axis = np.array([0.0, 0.0, 1.0])
     side = np.hypot(x[0], x[1]) >= shape.radius - near
     cap = abs(x[2]) >= shape.half_length - near
     if cap and not side:
@@ -137,9 +138,11 @@ def _of_cylinder(shape: Cylinder, x: Array, n: Array) -> Feature:
 
 
 def _of_cone(shape: Cone, x: Array, n: Array) -> Feature:
-    near, r = ON_RIM * (shape.radius + shape.half_length), float(np.hypot(x[0], x[1]))
+    near = ON_RIM * (shape.radius + shape.half_length)
+    r = float(np.hypot(x[0], x[1]))
     slant = np.hypot(shape.radius, 2 * shape.half_length)
-    radial, level = np.hypot(n[0], n[1]), shape.radius / slant
+    radial = np.hypot(n[0], n[1])
+    level = shape.radius / slant
     base = x[2] <= -shape.half_length + near
     if base and r < shape.radius - near:
         return Feature(np.zeros((3, 3)), across(n))
@@ -173,7 +176,8 @@ def _of_polytope(flat: Polytope, x: Array, n: Array, near: float) -> Feature:
         along = along / np.sqrt(along @ along)
         side = np.cross(along, n)[None]
         return Feature(nothing, along[None], side if shares.min() <= ON_RIM else NONE)
-    tail, head = flat.vertices[flat.edges[:, 0]], flat.vertices[flat.edges[:, 1]]
+    tail = flat.vertices[flat.edges[:, 0]]
+    head = flat.vertices[flat.edges[:, 1]]
     here = [np.abs(end - x).max(axis=1) <= 10 * near for end in (tail, head)]
     ways = np.concatenate([(head - tail)[here[0]], (tail - head)[here[1]]])
     ways = ways / np.sqrt(np.sum(ways * ways, axis=1))[:, None]
@@ -193,7 +197,8 @@ def _of_rim(x: Array, n: Array, side: Array) -> Feature:
 
 def _around(x: Array, n: Array) -> Array:
     """D of the circle about the z axis through x, where its normal is n."""
-    around, radial = _way_around(x), np.hypot(n[0], n[1]) or np.inf
+    around = _way_around(x)
+    radial = np.hypot(n[0], n[1]) or np.inf
     return np.asarray(np.hypot(x[0], x[1]) / radial * np.outer(around, around))
 
 

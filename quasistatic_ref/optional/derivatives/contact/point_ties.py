@@ -29,7 +29,8 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
         Both empty if nothing is tied.
     """
     of = kept[0].of
-    pair, (a, b) = of.pair, of.bodies
+    pair = of.pair
+    a, b = of.bodies
     if pair.n_c >= pair.candidates or (pair.n_c == 1 and not pair.has_cloud):
         return [], []  # all of them, or the closest pair of two solids
     number = np.arange(pair.candidates)
@@ -39,7 +40,8 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
         phi = _cloud_distances(b, a, a.shape.points)
     else:
         every = of.candidates
-        phi, number = np.where(late(every, pair.k), np.inf, every.phi), every.point
+        phi = np.where(late(every, pair.k), np.inf, every.phi)
+        number = every.point
     worst = points.phi.max()
     as_near = number[np.abs(phi - worst) <= TIED * of.size]
     left_out = np.setdiff1d(as_near, points.point).tolist()

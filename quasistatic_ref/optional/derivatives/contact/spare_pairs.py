@@ -35,10 +35,12 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
         Twist of each link at the world's origin, per unit of delta_q [m, rad].
     """
     of = kept[0].of
-    pair, (a, b) = of.pair, of.bodies
+    pair = of.pair
+    a, b = of.bodies
     if pair.has_cloud or not 1 < pair.n_c < pair.candidates or pair.corners in points.point:
         return None
-    nearest, frame = of.closest, across(of.closest.n)[None]
+    nearest = of.closest
+    frame = across(of.closest.n)[None]
     unique = couple_rates([nearest], frame, J).unique[0]
     ends = any(len(f.ends) for f in nearest.features)
     if unique and not ends:
@@ -48,7 +50,8 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
         return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
     every = of.candidates
     level = every.phi <= nearest.phi + REPEATED
-    of_alpha, of_beta = every.point < a.shape.corner_count, every.point < pair.corners
+    of_alpha = every.point < a.shape.corner_count
+    of_beta = every.point < pair.corners
     counts = int((level & of_alpha).sum()), int((level & of_beta & ~of_alpha).sum())
     for body, way, count in ((a, nearest.n, counts[0]), (b, -nearest.n, counts[1])):
         whole = not isinstance(body.shape, HalfSpace | Sphere)

@@ -99,7 +99,8 @@ def witness_rates(
     solved = np.linalg.solve(matrix, right)
     for j, solution in solutions.items():
         if solution is not None:
-            solved[j], good[j] = solution, True
+            solved[j] = solution
+            good[j] = True
     dn = frames.transpose(0, 2, 1) @ solved[:, :2]
     moved = []
     for side, D, F, w, z, sign in zip(
@@ -116,7 +117,8 @@ def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | 
     """A solution of singular equations, (6, n_v), where it does not matter which; else None."""
     U, s, V = np.linalg.svd(matrix)
     rank = int(np.count_nonzero(s > UNIQUE))
-    slides, across = V[rank:], U[:, rank:].T
+    slides = V[rank:]
+    across = U[:, rank:].T
     if np.abs(slides[:, :2]).max() > CONSISTENT:
         return None  # the normal itself is not determined
     if np.abs(across @ right).max(initial=0.0) > CONSISTENT * max(1.0, float(np.abs(right).max())):
@@ -138,13 +140,16 @@ def _system(
     size: Array,
 ) -> tuple[Array, Array]:
     """The matrices (N, 6, 6) [-] and right sides (N, 6, n_v), lengths in units of `size`."""
-    s, across = size[:, None, None], frames.transpose(0, 2, 1)
-    matrix, right = np.zeros((len(phi), 6, 6)), np.zeros((len(phi), 6, apart.shape[2]))
+    s = size[:, None, None]
+    across = frames.transpose(0, 2, 1)
+    matrix = np.zeros((len(phi), 6, 6))
+    right = np.zeros((len(phi), 6, apart.shape[2]))
     matrix[:, :2, :2] = frames @ ((bends[0] + bends[1]) / s) @ across
     matrix[:, :2, :2] += (phi / size)[:, None, None] * np.eye(2)
     right[:, :2] = frames @ (apart + bends[0] @ turn[0] + bends[1] @ turn[1]) / s
     for F, k, w, first, sign in zip(free, curved, turn, (2, 4), (1, -1), strict=True):
-        own, at = F @ across, slice(first, first + 2)
+        own = F @ across
+        at = slice(first, first + 2)
         matrix[:, :2, at], matrix[:, at, :2] = sign * own.transpose(0, 2, 1), own
         matrix[:, at, at] = np.eye(2) * (np.abs(F).max(axis=2) == 0)[:, :, None]
         matrix[:, first, first] -= sign * k * size

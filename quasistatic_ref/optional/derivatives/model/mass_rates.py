@@ -21,19 +21,26 @@ class MassRates:
     """
 
     def __init__(self, system: System, kinematics: Kinematics, motion: MotionRates) -> None:
-        self.motion, self.masses = motion, system.masses
+        self.motion = motion
+        self.masses = system.masses
         R = kinematics.R
         self.centre = np.einsum("lab,lb->la", R, system.centres) + kinematics.t
         self.inertia = R @ system.inertias @ R.transpose(0, 2, 1)
-        nu, omega = motion.J[:, :3], motion.J[:, 3:]
+        nu = motion.J[:, :3]
+        omega = motion.J[:, 3:]
         self.omega = omega
         self.moved = nu + crossed(omega, self.centre[:, :, None])  # of the centres
 
     def inertial_force_rates(self, x: Array) -> Array:
         """Derivative by q of M x, shape (n_v, n_v), for a fixed x of shape (n_v,) [m, rad]."""
-        c, m = self.centre, self.masses[:, None]
-        twist, rates = self.motion.twists(x), self.motion.twist_rates(x)
-        nu, omega, d_nu, d_omega = twist[:, :3], twist[:, 3:], rates[:, :3], rates[:, 3:]
+        c = self.centre
+        m = self.masses[:, None]
+        twist = self.motion.twists(x)
+        rates = self.motion.twist_rates(x)
+        nu = twist[:, :3]
+        omega = twist[:, 3:]
+        d_nu = rates[:, :3]
+        d_omega = rates[:, 3:]
         p = m * (nu + crossed(omega, c))
         spin = np.einsum("lab,lb->la", self.inertia, omega)
         wrench = np.concatenate([p, crossed(c, p) + spin], axis=1)

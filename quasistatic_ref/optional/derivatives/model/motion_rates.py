@@ -37,13 +37,15 @@ class MotionRates:
     """
 
     def __init__(self, kinematics: Kinematics, column_map: ColumnMap) -> None:
-        self.columns, self.moves = kinematics.columns, column_map.moves[:, 0]
+        self.columns = kinematics.columns
+        self.moves = column_map.moves[:, 0]
         self.coordinates = column_map.coordinates
         self.J: Array = (self.columns * column_map.moves) @ self.coordinates
         # Column k carries column j along if it moves every link that j moves.
         others = self.moves.T @ (1 - self.moves)
         carried = others == 0
-        nu, omega = self.columns[:3].T, self.columns[3:].T
+        nu = self.columns[:3].T
+        omega = self.columns[3:].T
         turned = np.empty((6, *carried.shape))  # S_k x S_j at [:, j, k]
         turned[:3] = _each(omega, nu) + _each(nu, omega)
         turned[3:] = _each(omega, omega)

@@ -54,7 +54,8 @@ def sum_rates(joints: Sequence[Joint], delta_q: Array) -> tuple[Array, Array]:
         All joints.
     delta_q : ndarray, shape (n_v,)
     """
-    by_q, by_change = np.eye(len(delta_q)), np.eye(len(delta_q))
+    by_q = np.eye(len(delta_q))
+    by_change = np.eye(len(delta_q))
     for joint, x in _bases(joints, delta_q):
         J = right_jacobian(x)
         own = np.ix_(range(joint.v.start, joint.v.stop), range(joint.v.start, joint.v.stop))
@@ -72,7 +73,8 @@ def difference_rates(joints: Sequence[Joint], change: Array) -> tuple[Array, Arr
     change : ndarray, shape (n,)
         q_next (-) q [m, rad] of all coordinates, or of the actuated ones, which come first.
     """
-    by_q, by_next = -np.eye(len(change)), np.eye(len(change))
+    by_q = -np.eye(len(change))
+    by_next = np.eye(len(change))
     for joint, y in _bases(joints, change):
         own = np.ix_(range(joint.v.start, joint.v.stop), range(joint.v.start, joint.v.stop))
         by_q[own] = -np.linalg.inv(_of(joint, right_jacobian(-y)))
@@ -94,9 +96,11 @@ def entry_rates(joints: Sequence[Joint], q: Array) -> Array:
     """
     E = np.zeros((joints[-1].q.stop, joints[-1].v.stop)) if joints else np.zeros((0, 0))
     for joint in joints:
-        own, e = q[joint.q], E[joint.q, joint.v]
+        own = q[joint.q]
+        e = E[joint.q, joint.v]
         if joint.kind == "floating":
-            x, w = own[3:6], own[6]
+            x = own[3:6]
+            w = own[6]
             turned = cross_matrix(x)
             e[:3, :3] = np.eye(3) + 2 * (w * turned + turned @ turned) / (x @ x + w * w)
             e[3:6, 3:], e[6, 3:] = (w * np.eye(3) + turned) / 2, -x / 2

@@ -81,10 +81,13 @@ def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | N
     slack = np.maximum(A @ x - b, np.abs(A @ x - b).max(initial=0.0) + kappa**0.5)
     mu = float(max(kappa, np.abs(slack).max(initial=0.0) * np.abs(L.T @ x).max(initial=0.0)))
     lam = mu / slack
-    least, size, nearest = np.inf, 0.0, None
+    least = np.inf
+    size = 0.0
+    nearest = None
     for _ in range(STEPS):
         mu = max(kappa, 0.1 * float(lam @ slack) / max(len(lam), 1))
-        off, short = g + A.T @ lam - H @ x, b + slack - A @ x
+        off = g + A.T @ lam - H @ x
+        short = b + slack - A @ x
         weight = lam / slack
         push = mu / slack - lam
         K = H + A.T @ (weight[:, None] * A)
@@ -94,8 +97,11 @@ def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | N
         d_slack = A @ dx - short
         d_lam = push - weight * d_slack
         share = min(_share(slack, d_slack), _share(lam, d_lam))
-        x, slack, lam = x + share * dx, slack + share * d_slack, lam + share * d_lam
-        length, size = float(np.linalg.norm(L.T @ dx)), float(np.linalg.norm(L.T @ x))
+        x = x + share * dx
+        slack = slack + share * d_slack
+        lam = lam + share * d_lam
+        length = float(np.linalg.norm(L.T @ dx))
+        size = float(np.linalg.norm(L.T @ x))
         if mu == kappa and share == 1 and length <= SETTLED * size + NOTHING:
             return Barrier(x, lam, slack)
         least, nearest = (length, Barrier(x, lam, slack)) if length < least else (least, nearest)
@@ -121,7 +127,8 @@ def barrier_rates(step: StepData, found: Barrier, data: DataRates) -> Array:
     data : DataRates
         At the minimiser.
     """
-    form, table = standard_form(step), cone_matrix(step.cone)
+    form = standard_form(step)
+    table = cone_matrix(step.cone)
     every = np.argwhere(step.mask)
     multipliers = np.zeros((step.contacts.n_c, 4))
     np.add.at(multipliers, every[:, 0], found.lam[:, None] * table[every[:, 1]])

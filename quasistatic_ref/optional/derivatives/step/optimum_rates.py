@@ -83,7 +83,8 @@ class Equations:
     """
 
     def __init__(self, touching: Touching) -> None:
-        self.of, L = touching, touching.L
+        self.of = touching
+        L = touching.L
         self.blocks = [
             (j, _combinations(touching, j)) for j in sorted({*touching.strict[:, 0].tolist()})
         ]
@@ -95,7 +96,10 @@ class Equations:
         self.rows = rows / self.length[:, None]
         U, s, V = np.linalg.svd(self.rows)
         rank = int(np.count_nonzero(s > INDEPENDENT))
-        self.U, self.s, self.V, self.free = U[:, :rank], s[:rank], V[:rank], V[rank:]
+        self.U = U[:, :rank]
+        self.s = s[:rank]
+        self.V = V[:rank]
+        self.free = V[rank:]
         self.null = U[:, rank:].T  # combinations that vanish, but for what is left of each
         self.left = np.zeros(len(self.null))
         self.left[: len(s) - rank] = s[rank:]
@@ -148,7 +152,8 @@ class Equations:
         for nu, left in zip(self.null, self.left, strict=True):
             bad = (np.abs(nu @ right) > CONSISTENT * size) | (left > SPLIT)
             multipliers = np.zeros((len(data.motion), 4))
-            weights, at = nu / self.length, 0
+            weights = nu / self.length
+            at = 0
             for j, E in self.blocks:
                 multipliers[j] = weights[at : at + len(E)] @ E
                 at += len(E)
@@ -176,7 +181,8 @@ class Equations:
             Of parameters, the column of which no equation contradicts.
         column : int
         """
-        t, x = self.of, rates.x[:, column]
+        t = self.of
+        x = rates.x[:, column]
         if not len(t.idle):
             return x
         rows, pushes = self._pushes(rates, column)
@@ -199,7 +205,8 @@ class Equations:
         data : DataRates
             Of one parameter.
         """
-        t, rates = self.of, self.rates(data)
+        t = self.of
+        rates = self.rates(data)
         if not len(t.idle):
             return t
         rows, pushes = self._pushes(rates, 0)

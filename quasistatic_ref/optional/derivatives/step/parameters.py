@@ -53,7 +53,9 @@ def parameter_changes(step: StepData) -> list[Change]:
 
 
 def _loads(step: StepData) -> list[Change]:
-    n_a, n_v, h = step.n_a, step.n_v, fraction(step.h)
+    n_a = step.n_a
+    n_v = step.n_v
+    h = fraction(step.h)
     K = [[fraction(v) for v in row] for row in step.K_q.tolist()]
     rest = [fmpq(0)] * step.n_u
     targets = [
@@ -84,8 +86,11 @@ def _gaps(step: StepData) -> list[Change]:
 def _coefficients(step: StepData) -> list[Change]:
     """A is linear in mu_v and mu_omega: the cone of what one of them multiplies is its change."""
     J_n, J_1, J_2, J_w = (contact_motion(step.contacts)[:, i] for i in range(4))
-    none, rows, coefficients = J_n - J_n, cone_function(step.cone), cone_matrix(step.cone)
-    slides, spins = coefficients[:, 1:3].any(axis=1), coefficients[:, 3] != 0
+    none = J_n - J_n
+    rows = cone_function(step.cone)
+    coefficients = cone_matrix(step.cone)
+    slides = coefficients[:, 1:3].any(axis=1)
+    spins = coefficients[:, 3] != 0
     mu_v, _, mu_omega = step.contacts.mu.T
     torsional = step.contacts.rows == 6
     changes = []
@@ -101,7 +106,8 @@ def _coefficients(step: StepData) -> list[Change]:
 
 
 def _time_step(step: StepData) -> Change:
-    n_a, h = step.n_a, fraction(step.h)
+    n_a = step.n_a
+    h = fraction(step.h)
     K = [[fraction(v) for v in row] for row in step.K_q.tolist()]
     M = [[fraction(v) for v in row] for row in step.M_u.tolist()]
     target = [fraction(v) for v in step.delta_q_bar_a.tolist()]

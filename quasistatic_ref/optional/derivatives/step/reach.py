@@ -101,7 +101,8 @@ class Reach:
 
         One that is farther than a `limit` may be left out.
         """
-        slack, rate = self.touching.slack, sign * self.closing[:, column]
+        slack = self.touching.slack
+        rate = sign * self.closing[:, column]
         left = np.full(len(slack), np.inf)
         np.divide(slack, -rate, out=left, where=rate < 0)
         t = float(left.min(initial=np.inf))
@@ -126,7 +127,8 @@ class Reach:
         distance : ndarray, shape (P,)
             One for each parameter [each in its parameter's unit].
         """
-        slack, rates = self.touching.slack[:, None], np.abs(self.closing)
+        slack = self.touching.slack[:, None]
+        rates = np.abs(self.closing)
         found = [self.touching.open[(slack < distance * rates).any(axis=1)]]
         for column in np.flatnonzero(self.loaded < distance):
             for sign in (1, -1):
@@ -149,12 +151,15 @@ class Reach:
     def _unloaded(self, column: int, sign: int) -> Distance:
         """Where rows bear no more load."""
         change = sign * self.rates.exerted[:, column]
-        size, speed = np.linalg.norm(self.force), np.linalg.norm(change)
+        size = np.linalg.norm(self.force)
+        speed = np.linalg.norm(change)
         if not size or not speed:
             return NEVER
         _, s, V = np.linalg.svd(self.cone, full_matrices=False)
         V = V[s > DEPENDENT * s[0]]
-        rows, v, dv = self.cone @ V.T, V @ self.force / size, V @ change / speed
+        rows = self.cone @ V.T
+        v = V @ self.force / size
+        dv = V @ change / speed
         nearest = max(self.loaded[column] * speed / size, FACET)  # so that the cost is about one
         u = _least(v / nearest, -rows, dv, -1.0, [(None, None)] * len(v))
         if u is None:

@@ -147,7 +147,8 @@ def _active(form: ExactForm, working: tuple[int, ...]) -> Active:
 
 def _derivatives(form: ExactForm, active: Active, changes: Sequence[Change]) -> fmpq_mat:
     """Return dx for every change, in the form's units per SI unit of the parameter."""
-    n, basis = form.n, active.basis
+    n = form.n
+    basis = active.basis
     k = len(basis)
     solution = rational_solution(form, basis)
     x = [fmpq(v) / solution.denominator for v in solution.x]
@@ -160,8 +161,10 @@ def _derivatives(form: ExactForm, active: Active, changes: Sequence[Change]) -> 
         for j in range(n):
             K[r, j], K[j, r] = fmpq(form.A[i, j]), fmpq(-form.A[i, j])
     right = fmpq_mat(n + k, len(changes))
-    per_H, per_g = form.x_unit / form.net_unit, 1 / form.net_unit
-    per_A, per_b = form.x_unit / form.slack_unit, 1 / form.slack_unit
+    per_H = form.x_unit / form.net_unit
+    per_g = 1 / form.net_unit
+    per_A = form.x_unit / form.slack_unit
+    per_b = 1 / form.slack_unit
     for p, change in enumerate(changes):
         top = [dg * per_g for dg in change.g] or [fmpq(0)] * n
         for (i, j), dH in change.H.items():
@@ -198,7 +201,8 @@ def _obstacle(
     if active.idle:
         solution = rational_solution(form, active.basis)
         x = [fmpq(v) / solution.denominator for v in solution.x]
-        per_A, per_b = form.x_unit / form.slack_unit, 1 / form.slack_unit
+        per_A = form.x_unit / form.slack_unit
+        per_b = 1 / form.slack_unit
         opening = [
             i
             for i in active.idle
@@ -215,7 +219,8 @@ def _inconsistent(form: ExactForm, rows: Sequence[int], change: Change) -> list[
     moving = [i for i in rows if i in change.A or i in change.b]
     still = independent_rows(form, [i for i in rows if i not in moving])
     basis = independent_rows(form, (*still, *moving))
-    per_A, per_b = form.x_unit / form.slack_unit, 1 / form.slack_unit
+    per_A = form.x_unit / form.slack_unit
+    per_b = 1 / form.slack_unit
     held = [[fmpq(v) for v in (*form.row(i), form.b[i, 0])] for i in still]
     changed = []
     for i in moving:  # by one unit of the parameter

@@ -91,11 +91,13 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     Touching
     """
     step = solution.step
-    contacts, table = step.contacts, cone_matrix(step.cone)
+    contacts = step.contacts
+    table = cone_matrix(step.cone)
     mu_v, _, mu_omega = contacts.mu.T[:, :, None]
     J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
     generators = np.stack([J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w], axis=1)
-    x, n_c = solution.delta_q, contacts.n_c
+    x = solution.delta_q
+    n_c = contacts.n_c
     moved = generators @ x
     moved[:, 0] += contacts.phi
     slack = (moved @ table.T)[step.mask]
@@ -104,10 +106,8 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     rows = np.einsum("ki,kiv->kv", table[every[:, 1]], generators[every[:, 0]])
     length = np.linalg.norm(np.linalg.solve(L, rows.T), axis=0) if len(every) else np.zeros(0)
     length = np.where(length > 0, length, 1.0)
-    load_size, step_size = (
-        np.linalg.norm(np.linalg.solve(L, linear_term(step))),
-        np.linalg.norm(L.T @ x),
-    )
+    load_size = np.linalg.norm(np.linalg.solve(L, linear_term(step)))
+    step_size = np.linalg.norm(L.T @ x)
     size = float(max(load_size, step_size))
     if not size and len(every):  # nothing moves: what the nearest contact is away
         size = float((np.abs(contacts.phi[every[:, 0]]) / length).min())
@@ -115,7 +115,8 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     terms[:, 0] += np.abs(contacts.phi) + places
     touches = slack <= TOUCHING * (terms @ np.abs(table).T)[step.mask]
     touches |= solution.lam > 0
-    Z, lam = every[touches], solution.lam[touches]
+    Z = every[touches]
+    lam = solution.lam[touches]
     scaled = rows[touches] / length[touches, None]
     bears = bearing(np.linalg.solve(L, scaled.T).T, lam * length[touches], size)
     multipliers = np.zeros((n_c, 4))

@@ -35,5 +35,7 @@ class Clarabel(Adapter):
         self.solver.update(q=p.f, A=-p.A_data, b=-p.b)  # -A x + s = -b, s in the cones
         solution = self.solver.solve()
         status = str(solution.status)
-        x, lam, cost = np.array(solution.x), np.array(solution.z), solution.solve_time
+        x = np.array(solution.x)
+        lam = np.array(solution.z)
+        cost = solution.solve_time
         return Reply(x, lam, status == "Solved", status, solution.iterations, cost)

@@ -30,9 +30,11 @@ class Daqp(Adapter):
     def reply(self, same_H: bool, warm: bool) -> Reply:
         """Solve the program as it stands."""
         p = self.program
-        H, sense = None if same_H else p.H, None if warm else self.cold
+        H = None if same_H else p.H
+        sense = None if warm else self.cold
         self.model.update(H=H, f=p.f, A=p.A, blower=p.b, sense=sense)
         x, _, flag, info = self.model.solve()
         lam = 0.0 - info["lam"]  # those of lower bounds are negative
-        status, seconds = STATUS.get(flag) or str(flag), info["solve_time"]
+        status = STATUS.get(flag) or str(flag)
+        seconds = info["solve_time"]
         return Reply(x, lam, flag == 1, status, info["iterations"], seconds)

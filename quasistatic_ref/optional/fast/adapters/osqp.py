@@ -25,7 +25,8 @@ class Osqp(Adapter):
 
     def reply(self, same_H: bool, warm: bool) -> Reply:
         """Solve the program as it stands."""
-        p, solver = self.program, self.solver
+        p = self.program
+        solver = self.solver
         matrices = {"Ax": p.A_data}
         if not same_H:
             matrices["Px"] = p.P_data
@@ -34,5 +35,7 @@ class Osqp(Adapter):
             solver.warm_start(*self.cold)
         result = solver.solve(raise_error=False)
         info = result.info
-        x, lam, solved = np.array(result.x), 0.0 - result.y, info.status == "solved"
+        x = np.array(result.x)
+        lam = 0.0 - result.y
+        solved = info.status == "solved"
         return Reply(x, lam, solved, info.status, info.iter, info.run_time)

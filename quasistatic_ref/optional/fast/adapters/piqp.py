@@ -25,10 +25,12 @@ class Piqp(Adapter):
     def reply(self, same_H: bool, warm: bool) -> Reply:
         """Solve the program as it stands."""
         del warm  # there is no such start
-        p, solver = self.program, self.solver
+        p = self.program
+        solver = self.solver
         solver.update(P=None if same_H else p.H, c=p.f, G=p.A, h_l=p.b)
         status = solver.solve()
         result = solver.result
         solved = status == piqp.PIQP_SOLVED
-        x, lam = np.array(result.x), np.array(result.z_l)
+        x = np.array(result.x)
+        lam = np.array(result.z_l)
         return Reply(x, lam, solved, status.name, result.info.iter, None)

@@ -61,7 +61,8 @@ class Program:
         rows, _ = self.upper
         starts = np.concatenate([[0], np.cumsum(np.arange(1, n + 1))])
         P = csc_matrix((self.P_data, rows, starts), shape=(n, n))
-        every, full = np.tile(np.arange(m), n), np.arange(n + 1) * m
+        every = np.tile(np.arange(m), n)
+        full = np.arange(n + 1) * m
         return P, csc_matrix((self.A_data, every, full), shape=(m, n))
 
 

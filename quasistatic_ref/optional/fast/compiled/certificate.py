@@ -47,7 +47,8 @@ class Prover:
         found = library()
         self.of = step.h, step.K_q, step.M_u, step.layout, coordinate
         self._proof = found.proof
-        n, m = step.n_v, int(step.offsets[-1])
+        n = step.n_v
+        m = int(step.offsets[-1])
         self.s = s = Structure(NUMBERS, ARRAYS, found.proof_size)
         s.put(
             {
@@ -91,7 +92,8 @@ class Prover:
         ExactOptimum, Refuted or None
             None where something stays open: nothing is known then.
         """
-        working, s = guess.tolist(), self.s
+        working = guess.tolist()
+        s = self.s
         if not self.usable or len(working) > step.n_v:
             return None
         s.put({"working": len(working)})
@@ -100,7 +102,8 @@ class Prover:
         s["J"][:] = step.contacts.J
         for name, values in vectors(step).items():
             s[name][:] = values
-        code, (rows, coordinates) = self._proof(s.address), s["counts"].tolist()
+        code = self._proof(s.address)
+        rows, coordinates = s["counts"].tolist()
         if code == REFUTED:
             return Refuted(guess, s["lam"][guess], s["slack"].copy())
         least_slack, least_multiplier = s["least"].tolist()

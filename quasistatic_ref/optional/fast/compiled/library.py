@@ -86,7 +86,8 @@ def _found() -> ctypes.CDLL | str:
         found = ctypes.CDLL(str(_made(compiler())))
         for name, result in FUNCTIONS.items():
             function = getattr(found, name)
-            function.argtypes, function.restype = [ctypes.c_void_p], result
+            function.argtypes = [ctypes.c_void_p]
+            function.restype = result
     except CompileError as reason:
         return str(reason)
     except (OSError, AttributeError) as failure:  # a symbol that is missing is the second

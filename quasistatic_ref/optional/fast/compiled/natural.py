@@ -39,7 +39,9 @@ class NaturalProgram:
         self, scene: Scene, solver: FastSolver, program: Program, metric: NaturalHessian
     ) -> None:
         found = library()
-        self._write, self._solver, self._metric = found.natural_program, solver, metric
+        self._write = found.natural_program
+        self._solver = solver
+        self._metric = metric
         self._structure = s = Structure(NUMBERS, ARRAYS, found.natural_size)
         m, n = program.A.shape
         row, column = (stride // program.A.itemsize for stride in program.A.strides)
@@ -60,7 +62,8 @@ class NaturalProgram:
 
     def fits(self, solver: FastSolver, step: StepData) -> bool:
         """Whether a step can be written into a solver's arrays: both have the H of this program."""
-        own, metric = self._solver, self._metric
+        own = self._solver
+        metric = self._metric
         return solver is own and own.metric is metric and metric.H is step.H
 
     def written(self) -> Units | None:

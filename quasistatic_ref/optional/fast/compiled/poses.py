@@ -26,10 +26,12 @@ class Poses:
     """
 
     def __init__(self, system: System) -> None:
-        self.workspace, self.order = system.workspace(), system.column_map.order
+        self.workspace = system.workspace()
+        self.order = system.column_map.order
         self.q = system.q_start.copy()
         self._world = np.eye(3), np.zeros(3)
-        R, t = [self._world[0]], [self._world[1]]
+        R = [self._world[0]]
+        t = [self._world[1]]
         columns: list[int] = []
         gravity: list[int] = []
         for part in self.workspace.parts:

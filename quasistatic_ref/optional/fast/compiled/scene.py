@@ -65,8 +65,11 @@ class Scene(Structure):
     ) -> None:
         column_map = geometry.column_map
         layout = constant.layout
-        n_c, m, n_a = len(layout.counts), int(layout.offsets[-1]), len(constant.K_q)
-        n_x, n_v = len(column_map.owner), column_map.n_v
+        n_c = len(layout.counts)
+        m = int(layout.offsets[-1])
+        n_a = len(constant.K_q)
+        n_x = len(column_map.owner)
+        n_v = column_map.n_v
         super().__init__(NUMBERS, ARRAYS, library().scene_size)
         self.given = given = np.dtype(
             [
@@ -78,7 +81,8 @@ class Scene(Structure):
         )  # fmt: skip
         self._bytes = np.zeros(given.itemsize, np.uint8)
         written = np.ndarray((), given, self._bytes)
-        self.tracker, self.lists_made = tracker, 0
+        self.tracker = tracker
+        self.lists_made = 0
         alpha, beta = geometry.moves[:, :, 0]
         self.put(
             {
@@ -126,7 +130,8 @@ class Scene(Structure):
 
     def _put_pairs(self, clouds: CloudPairs) -> None:
         """What does not change of the pairs, in their order."""
-        P, count = clouds.P, clouds.last - clouds.first + 1
+        P = clouds.P
+        count = clouds.last - clouds.first + 1
         kinds, sizes = zip(*(solid_numbers(solid.shape) for solid in clouds.solids), strict=True)
         self.put(
             {

@@ -33,10 +33,14 @@ class Screws:
 
     def __init__(self, system: System, poses: Poses) -> None:
         found = library()
-        self.system, self.q = system, poses.q
-        self._half_turns, self._turns = found.half_turns, found.turns
-        self._add, self._subtract = found.sums, found.changes
-        joints, n_a = system.joints, system.n_a
+        self.system = system
+        self.q = poses.q
+        self._half_turns = found.half_turns
+        self._turns = found.turns
+        self._add = found.sums
+        self._subtract = found.changes
+        joints = system.joints
+        n_a = system.n_a
         self._sums = _structure(found, poses.q, joints, system.n_v)
         self._differences = _structure(found, poses.q, [j for j in joints if j.actuated], n_a)
         self._of_sums, self._of_differences = (

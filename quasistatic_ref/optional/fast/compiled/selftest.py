@@ -34,7 +34,10 @@ def operands() -> list[tuple[float, float, float]]:
 def by_python() -> list[str]:
     """The results in words, which are different for any two float64 numbers."""
     of = operands()
-    by, total, products, each = of[0][1], 0.0, 0.0, list[float]()
+    by = of[0][1]
+    total = 0.0
+    products = 0.0
+    each = list[float]()
     for x, y, z in of:
         each += [x * y + z, x + y - x, x / by, x / 3.0]
         each += [x * 0.1, 0.0 - x, math.sqrt(y), float(x == x)]

@@ -110,17 +110,23 @@ class CompiledStep:
 
     def __init__(self, simulator: FastSimulator) -> None:
         assert isinstance(simulator.geometry, PosedGeometry)
-        self.poses, self.geometry = Poses(simulator.system), simulator.geometry
+        self.poses = Poses(simulator.system)
+        self.geometry = simulator.geometry
         tracker = None if measured_by_numpy(simulator) else simulator.tracker
-        constant, weighs = simulator.constant, simulator.gravity_acts
+        constant = simulator.constant
+        weighs = simulator.gravity_acts
         self.scene = Scene(self.poses, self.geometry, constant, weighs, tracker)
-        self.force, self.target = self.scene["force"], self.scene["delta_q_bar_a"]
+        self.force = self.scene["force"]
+        self.target = self.scene["delta_q_bar_a"]
         found = library()
-        self.find, self.form, self.reach = found.closest_points, found.step_data, found.reach
+        self.find = found.closest_points
+        self.form = found.step_data
+        self.reach = found.reach
         self.screws = Screws(simulator.system, self.poses)
         self.program: NaturalProgram | None = None
         self.equal: bool | None = None
-        layout, mu = self.geometry.layout, self.geometry.mu
+        layout = self.geometry.layout
+        mu = self.geometry.mu
         self.of_contacts = {
             "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
         }  # fmt: skip
@@ -143,7 +149,8 @@ class CompiledStep:
         shape = () if isinstance(force, float) else np.shape(force)
         if simulator.extension is not None or (shape and shape != self.force.shape):
             return None
-        lap, system = Stopwatch(), simulator.system
+        lap = Stopwatch()
+        system = simulator.system
         q = np.asarray(q, dtype=np.float64)
         self.poses.move(q)
         self.find_points(simulator, q)
@@ -191,7 +198,8 @@ class CompiledStep:
 
         The arrays A and b of the matrices are overwritten by the next step.
         """
-        scene, constant = self.scene, simulator.constant.at(simulator.system.M_u(q))
+        scene = self.scene
+        constant = simulator.constant.at(simulator.system.M_u(q))
         delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
         delta_q_bar_a.setflags(write=False)
         self.target[:] = delta_q_bar_a
@@ -213,7 +221,9 @@ class CompiledStep:
         self, simulator: FastSimulator, step: StepData, form: StandardForm
     ) -> StepSolution:
         """The solution of the step whose matrices are there; StepNotSolved if there is none."""
-        solver, accuracy, certify = self.solver, simulator.accuracy, simulator.certify
+        solver = self.solver
+        accuracy = simulator.accuracy
+        certify = simulator.certify
         if solver is None or solver is not simulator.solver:  # what fits one fits all of them
             found = simulator.fitting(step)
             assert isinstance(found, FastSolver)

@@ -63,7 +63,8 @@ def ball_tree(points: Array) -> BallTree:
     Nodes are halved along their longest side, all nodes of a depth at once, until none has more
     than LEAF points.
     """
-    N, depth = len(points), 0
+    N = len(points)
+    depth = 0
     while N > SMALL and LEAF << depth < N:
         depth += 1
     leaf = -(-N // (1 << depth))
@@ -84,14 +85,16 @@ def ball_tree(points: Array) -> BallTree:
     while len(levels[0].centre) > SMALL:
         levels.insert(0, _balls(arranged.reshape(count, -1, 3), real.reshape(count, -1)))
         count //= LEAF
-    low, high = points.min(axis=0), points.max(axis=0)
+    low = points.min(axis=0)
+    high = points.max(axis=0)
     box = np.where((np.arange(8)[:, None] >> np.arange(3)) & 1, high, low)
     return BallTree(tuple(levels), np.where(real, order, -1), box)
 
 
 def _balls(nodes: Array, real: Mask) -> Level:
     """A ball about each node's points, shape (B, n, 3), of which some are real."""
-    low, high = nodes.min(axis=1), nodes.max(axis=1)
+    low = nodes.min(axis=1)
+    high = nodes.max(axis=1)
     centre = (low + high) / 2
     away = nodes - centre[:, None]
     radius = np.sqrt(np.sum(away * away, axis=2).max(axis=1))

@@ -73,7 +73,8 @@ class Shortlist:
         ways = _SQRT_3 * np.concatenate([np.eye(3), -np.eye(3)])
         here = np.column_stack([self.box, np.ones(CORNERS)])
         by_height = self.n + UNSEEN * ways, self.by_height
-        slopes, offsets = [], []
+        slopes = []
+        offsets = []
         for directions, bound in (by_height, ((1 + UNSEEN) * ways, self.by_distance)):
             slopes.append(np.einsum("ai,cj->acij", directions, here).reshape(-1, 12))
             offsets.append(bound - (directions @ self.corners.T).ravel())
@@ -150,14 +151,16 @@ def shortlist(
         depth_below = extent[:, 0] + extent[:, 1] + extent[:, 2]
         height = x[:, 0] * n[0] + x[:, 1] * n[1] + x[:, 2] * n[2] - touching - depth_below
         phi = np.maximum(phi - radius, height)
-        far, high = phi - phi_k, RATIO * (height - phi_k)
+        far = phi - phi_k
+        high = RATIO * (height - phi_k)
         score = np.maximum(far, high)
         last = depth + 1 == len(tree.levels)
         matter = int(np.count_nonzero(score <= 2 * RATIO * slack))
         keep = max(width if last else max(BEAM, width // 4), matter)
         if len(nodes) > keep:
             split = np.argpartition(score, keep)
-            out, nodes = split[keep:], nodes[split[:keep]]
+            out = split[keep:]
+            nodes = nodes[split[:keep]]
             is_high = high[out] > far[out]
             by_height = min(by_height, float(height[out[is_high]].min(initial=np.inf)))
             by_distance = min(by_distance, float(phi[out[~is_high]].min(initial=np.inf)))

@@ -68,7 +68,8 @@ def draw_scene(
     box = extent(of)
     if around is not None:
         box = around[0] + around[1] * SIGNS
-    centre, half = box.mean(axis=0), MARGIN * float(np.ptp(box, axis=0).max()) / 2
+    centre = box.mean(axis=0)
+    half = MARGIN * float(np.ptp(box, axis=0).max()) / 2
     if metres_per_newton is None:
         metres_per_newton = force_scale([of], view, half)
     pen = Pen(axes, camera_of(view))

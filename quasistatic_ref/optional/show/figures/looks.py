@@ -43,7 +43,8 @@ LIGHT: Final = np.array([-0.35, 0.6, 0.72])
 def body_colours(system: System) -> dict[str, str]:
     """A colour for each body, by its name."""
     moved = {joint.name.partition("/")[0] for joint in system.joints if joint.actuated}
-    robots, objects = cycle(ROBOTS), cycle(OBJECTS)
+    robots = cycle(ROBOTS)
+    objects = cycle(OBJECTS)
     return {body.name: next(robots if body.name in moved else objects) for body in system.bodies}
 
 

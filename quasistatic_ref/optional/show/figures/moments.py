@@ -88,7 +88,8 @@ class Moment:
 
     def world(self, placed: PlacedShape, points: Array) -> Array:
         """Points of a shape's own frame, (N, 3), in the world [m]."""
-        R, t = self.R[placed.link], self.t_links[placed.link]
+        R = self.R[placed.link]
+        t = self.t_links[placed.link]
         return np.asarray((points @ placed.R.T + placed.t) @ R.T + t)
 
     @property

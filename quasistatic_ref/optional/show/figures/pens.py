@@ -45,7 +45,8 @@ class Pen:
     """
 
     def __init__(self, axes: Any, camera: Camera) -> None:
-        self.axes, self.camera = axes, camera
+        self.axes = axes
+        self.camera = camera
 
     def seen(self, points: Array) -> Array:
         """To the right and upwards [mm], shape (N, 2)."""
@@ -94,7 +95,8 @@ class Pen:
             normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
             normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), TINY)
             front = normals[:, 2] > 0
-            shades, opacity = lit(colour, normals[front]), OPACITY.get(colour, 1.0)
+            shades = lit(colour, normals[front])
+            opacity = OPACITY.get(colour, 1.0)
             self.axes.add_collection(PolyCollection(
                 list(MILLI * corners[front, :, :2]), facecolors=shades, edgecolors=shades,
                 linewidths=0.4 if opacity == 1 else 0, alpha=opacity, zorder=zorder,
@@ -135,7 +137,8 @@ class Pen:
         start, along : ndarray, shape (3,)
             Its tail, and the way from there to its head [m].
         """
-        (x, y), (u, v) = self.seen(start)[0], self.seen(along)[0]
+        x, y = self.seen(start)[0]
+        u, v = self.seen(along)[0]
         self.axes.annotate(
             "", (x + u, y + v), xytext=(x, y), annotation_clip=False, zorder=8,
             arrowprops={"arrowstyle": "-|>", "color": FORCE, "linewidth": scaled(1.6),
@@ -153,7 +156,8 @@ class Pen:
         view : str or Camera
         """
         corners = self.seen(np.array(np.meshgrid(*box.T)).reshape(3, -1).T)
-        (left, low), (right, high) = corners.min(axis=0), corners.max(axis=0)
+        left, low = corners.min(axis=0)
+        right, high = corners.max(axis=0)
         self.axes.set(xlim=(left, right), ylim=(low, high), aspect="equal")
         self.axes.grid(visible=False)
         if isinstance(view, str):

@@ -137,7 +137,8 @@ def panels(
     wanted = (options.get("subplot_kw") or {}).get("projection", "rectilinear")
     if isinstance(within, Axes) and rows * columns == 1 and within.name == wanted:
         return _whole(within), [within]
-    count, em = rows * columns, float(plt.rcParams["font.size"]) / 72
+    count = rows * columns
+    em = float(plt.rcParams["font.size"]) / 72
     if within is None:
         size = sized(width, height)
         if size[0] < columns * narrow * em:
@@ -179,7 +180,8 @@ def _place(within: Any) -> Any:
 
 def room(axes: Axes) -> tuple[float, float]:
     """Width and height of the cell that axes and their labels have in a grid [pixels]."""
-    spec, parent = axes.get_subplotspec(), axes.get_figure(root=False)
+    spec = axes.get_subplotspec()
+    parent = axes.get_figure(root=False)
     assert parent is not None
     whole = np.array(parent.bbox.size)
     if spec is None:

@@ -106,7 +106,8 @@ def faces(points: Array) -> list[Array]:
     ordered = []
     for plane, corners in members.items():
         at = points[sorted(corners)]
-        centre, normal = at.mean(axis=0), np.array(plane[:3])
+        centre = at.mean(axis=0)
+        normal = np.array(plane[:3])
         first = at[0] - centre
         angle = np.arctan2((at - centre) @ np.cross(normal, first), (at - centre) @ first)
         ordered.append(at[np.argsort(angle)])

@@ -112,7 +112,8 @@ def view_written(
     moments, fps = ([still(scene)], 1.0) if run is None else frames(scene, run, FRAMES_PER_SECOND)
     looks = visuals(scene)
     box = focus(moments, looks)
-    centre, half = box.mean(axis=0), float(np.ptp(box, axis=0).max()) / 2
+    centre = box.mean(axis=0)
+    half = float(np.ptp(box, axis=0).max()) / 2
     scale = force_scale(moments, None, half, LONGEST)
     commands = scene_commands(scene, moments, fps, half, scale, looks)
     title = scene.path.stem if isinstance(scene, Scenario) else "scene"
@@ -251,7 +252,8 @@ def _links(
 
 def _shape(placed: PlacedShape, of: Moment, half: float) -> dict[str, Any]:
     """A shape in the frame of its link; the points of a cloud are paler by depth."""
-    shape, colour = placed.shape, of.colours[placed.link]
+    shape = placed.shape
+    colour = of.colours[placed.link]
     if isinstance(shape, HalfSpace):
         corners = patch(shape, focus([of]).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
         return thing(corners, "Mesh", material(_number(FLOOR), 0.8))

@@ -120,7 +120,8 @@ def test_a_level_rim_whose_body_turns_has_no_lowest_point():
 @pytest.mark.parametrize("away", [0.0, 5.0])
 def test_nearly_level_is_a_matter_of_the_rim_and_of_a_slight_tilt(away):
     # Of a tilt between rounding and LEVEL, 1e-5, the lowest point of a rim is not well known.
-    slight, much = (0.0, 3e-6, 0.0), (0.0, 1e-3, 0.0)
+    slight = (0.0, 3e-6, 0.0)
+    much = (0.0, 1e-3, 0.0)
     for rpy, expected in ((slight, True), (much, False), ((0.0, 0.0, 0.0), False)):
         system = body((away, away, 0.06), rpy)
         _, (couple,) = kept(system, pair_of(system, FLOOR, Cylinder(0.04, 0.06), "fixed", 1))
@@ -134,7 +135,8 @@ def test_merged_features_are_those_of_either_side_with_their_ends_free():
     x, y = np.eye(3)[:2]
     system = body((0.0, 0.0, 0.2))
     _, (couple,) = kept(system, pair_of(system, FLOOR, Box(np.full(3, 0.1)), "fixed", 1))
-    one, other = Feature(np.eye(3), x[None], y[None]), Feature(2 * np.eye(3), y[None])
+    one = Feature(np.eye(3), x[None], y[None])
+    other = Feature(2 * np.eye(3), y[None])
     first, second = merged_features(couple._replace(features=(one, other)))
     np.testing.assert_allclose(first.free.T @ first.free, np.diag([1.0, 1, 0]), atol=ROUNDING)
     assert np.array_equal(first.bend, one.bend)

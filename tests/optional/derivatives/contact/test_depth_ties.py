@@ -30,7 +30,8 @@ AWAY = 1e-6
 
 D, C, S = 0.03, 0.6, 0.8  # a depth [m], a cosine and its sine
 BOX = Box(np.array([0.1, 0.2, 0.3]))
-TALL, FLAT = Cylinder(0.1, 0.2), Cylinder(0.3, 0.1)
+TALL = Cylinder(0.1, 0.2)
+FLAT = Cylinder(0.3, 0.1)
 CONE = Cone(0.3, 0.1)
 # The side of a cone is D deep where (R - r) 2 l - (z + l) R = D |(R, 2 l)|; here z + l = D.
 CONE_R = 0.3 - D * (0.3 + np.hypot(0.3, 0.2)) / 0.2
@@ -105,7 +106,9 @@ def test_a_point_on_or_outside_of_a_solid_or_near_one_part_is_not_tied(name) -> 
     assert not inside(solid, p, POINT, STILL)
 
 
-B, LOG, LONG = Box(np.array([0.2, 0.2, 0.2])), Cylinder(0.2, 0.2), Capsule(0.05, 0.2)
+B = Box(np.array([0.2, 0.2, 0.2]))
+LOG = Cylinder(0.2, 0.2)
+LONG = Capsule(0.05, 0.2)
 PAIRS = {
     "two boxes": (BOX, B, (0.3 - D, 0.4 - D, 0.1)),
     "a cylinder in a box": (LOG, B, (0.4 - D, 0.0, 0.4 - D)),
@@ -133,7 +136,8 @@ def test_two_solids_as_deep_in_each_other_along_two_axes_are_tied(name) -> None:
 def test_capsules_are_tied_where_their_axes_cross() -> None:
     # The capsules are apart where their axes are by more than 0.05 + 0.03. Equal is what differs by
     # at most TIED * extent; the extent is 0.5.
-    a, b = Capsule(0.05, 0.2), Capsule(0.03, 0.2)
+    a = Capsule(0.05, 0.2)
+    b = Capsule(0.03, 0.2)
     across = TURNED @ Rotation.from_euler("x", 1.0).as_matrix()
     near = NEAR * a.extent
     for off in (near, 0.75 * TIED / a.extent, AWAY, 0.07, 0.09):
@@ -142,7 +146,8 @@ def test_capsules_are_tied_where_their_axes_cross() -> None:
 
 
 def test_a_rim_that_touches_an_edge_has_two_normals() -> None:
-    rim, half = Cylinder(0.25, 0.25), Box(np.array([0.25, 0.25, 0.25]))
+    rim = Cylinder(0.25, 0.25)
+    half = Box(np.array([0.25, 0.25, 0.25]))
     found = couple_of(rim, half, STILL, (np.eye(3), np.array([0.5, 0.0, 0.5])))
     assert depth_tie(found)
     assert depth_tie(found._replace(phi=0.0))

@@ -11,13 +11,17 @@ from tests.tolerances import EXACT, ROUNDING
 
 X, Y, Z = np.eye(3)
 C, S = 0.6, 0.8  # a cosine and its sine
-U, AROUND = np.array([C, S, 0.0]), np.array([-S, C, 0.0])
+U = np.array([C, S, 0.0])
+AROUND = np.array([-S, C, 0.0])
 TILTED = np.array([2.0, 3.0, 6.0]) / 7
-BOX, LOG, PILL = Box(np.array([0.01, 0.02, 0.03])), Cylinder(0.01, 0.02), Capsule(0.01, 0.01)
+BOX = Box(np.array([0.01, 0.02, 0.03]))
+LOG = Cylinder(0.01, 0.02)
+PILL = Capsule(0.01, 0.01)
 MESH = convex_hull(BOX.corners(Z)[0])
 # A cone of base radius 0.03 and height 0.04: its slant is 0.05, and the normal of its side is
 # 0.8 outwards and 0.6 up. Its generator through the azimuth of U goes 0.6 inwards and 0.8 up.
-CONE, SIDE = Cone(0.03, 0.02), 0.8 * U + 0.6 * Z
+CONE = Cone(0.03, 0.02)
+SIDE = 0.8 * U + 0.6 * Z
 GENERATOR = 0.8 * Z - 0.6 * U
 HALF_AXES = np.array([0.01, 0.02, 0.03])
 TETRAHEDRON = convex_hull([[0, 0, 0], [0.02, 0, 0], [0, 0.02, 0], [0, 0, 0.02]])

@@ -73,7 +73,8 @@ def test_points_are_tied_within_a_share_of_the_size(solid) -> None:
 
 
 def test_corners_of_a_box_on_the_floor_are_tied_but_not_of_a_tilted_one() -> None:
-    box, floor = Box(np.array([0.1, 0.1, 0.1])), (np.eye(3), np.zeros(3))
+    box = Box(np.array([0.1, 0.1, 0.1]))
+    floor = (np.eye(3), np.zeros(3))
     lying = np.eye(3), np.array([0.0, 0.0, 0.1])
     kept, out = ties(FLOOR, box, 3, (floor, lying))
     assert sorted(kept + [i for i in out if i < 4]) == [0, 1, 2, 3]

@@ -10,8 +10,10 @@ from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import Box
 from tests.optional.derivatives.contact.test_couples import body, kept, pair_of
 
-SLAB, SMALL = Box(np.array([0.3, 0.3, 0.05])), Box(np.array([0.1, 0.1, 0.05]))
-LONG, BAR = Box(np.array([0.2, 0.02, 0.05])), Box(np.array([0.02, 0.2, 0.05]))
+SLAB = Box(np.array([0.3, 0.3, 0.05]))
+SMALL = Box(np.array([0.1, 0.1, 0.05]))
+LONG = Box(np.array([0.2, 0.02, 0.05]))
+BAR = Box(np.array([0.02, 0.2, 0.05]))
 PYRAMID = convex_hull([[0.1, 0.1, 0], [0.1, -0.1, 0], [-0.1, 0.1, 0], [-0.1, -0.1, 0], [0, 0, 0.1]])
 TRIANGLE = [(-0.2, -0.2), (0.05, -0.05), (-0.05, 0.05)]
 PRISM = convex_hull([[x, y, z] for x, y in TRIANGLE for z in (-0.05, 0.05)])

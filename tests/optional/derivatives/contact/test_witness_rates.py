@@ -24,7 +24,8 @@ def found(features, v, omega, turned=None):
         Sides([f.turned(R)], (R @ own)[None, :, None], (R @ turn)[None, :, None])
         for f, own, turn in zip(features, v, omega, strict=True)
     ]
-    phi, frames = np.array([PHI]), (ACROSS @ R.T)[None]
+    phi = np.array([PHI])
+    frames = (ACROSS @ R.T)[None]
     return witness_rates(phi, (R @ N)[None], frames, *sides, np.array([1.0]))
 
 

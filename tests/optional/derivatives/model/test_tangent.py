@@ -17,7 +17,8 @@ CONTINUOUS = Joint("arm/spin", "continuous", False, slice(0, 2), slice(0, 1))
 
 def test_the_jacobian_of_a_small_turn_keeps_its_second_order() -> None:
     # J = 1 - ad / 2 + ad^2 / 6 - ...: of a turn (a, b, 0) row x and column y have a b / 6 alone.
-    a, b = 1e-7, 2e-7
+    a = 1e-7
+    b = 2e-7
     J = right_jacobian(np.array([0, 0, 0, a, b, 0]))
     np.testing.assert_allclose(J[3, 4], a * b / 6, rtol=ROUNDING)
 
@@ -25,7 +26,8 @@ def test_the_jacobian_of_a_small_turn_keeps_its_second_order() -> None:
 @pytest.mark.parametrize("angle", [1e-3, 1.1, 3.0])
 def test_the_series_of_a_turn_is_summed_to_its_last_digits(angle: float) -> None:
     # About z: J_xx = J_yy = sin(a) / a, J_xy = -J_yx = (1 - cos(a)) / a = 2 sin(a / 2)^2 / a.
-    along, across = np.sin(angle) / angle, 2 * np.sin(angle / 2) ** 2 / angle
+    along = np.sin(angle) / angle
+    across = 2 * np.sin(angle / 2) ** 2 / angle
     turn = np.array([[along, across, 0], [-across, along, 0], [0, 0, 1]])
     found = right_jacobian(np.array([0, 0, 0, 0, 0, angle]))
     np.testing.assert_allclose(found, np.kron(np.eye(2), turn), rtol=0, atol=FOUR_ULP)

@@ -19,7 +19,9 @@ def pressed(m, force, kappa):
     Of its four equal rows each pushes with kappa / z: m z / h + h force = 4 kappa / z.
     """
     step = point_on_floor(m, 0.0, force=(0.0, 0.0, -force), h=H_OF_POINT)
-    a, b, c = m / H_OF_POINT, H_OF_POINT * force, -int(step.counts[0]) * kappa
+    a = m / H_OF_POINT
+    b = H_OF_POINT * force
+    c = -int(step.counts[0]) * kappa
     return step, np.array([0.0, 0.0, -2 * c / (b + np.sqrt(b * b - 4 * a * c))])
 
 
@@ -34,7 +36,8 @@ def test_a_pressed_point_hovers_at_the_root_of_its_balance_at_any_size(scale):
 
 @pytest.mark.parametrize("scale", [1.0, 1e-12])
 def test_newton_s_method_cut_short_gives_the_minimiser_or_nothing(scale, monkeypatch):
-    kappa, answers = 1e-4 * scale, 0
+    kappa = 1e-4 * scale
+    answers = 0
     step, z = pressed(0.3 * scale, 2.0 * scale, kappa)
     for steps in range(30):
         monkeypatch.setattr(barrier, "STEPS", steps)

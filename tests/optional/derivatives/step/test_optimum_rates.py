@@ -18,7 +18,8 @@ def walls(normals, strict, idle):
     table = np.array([[1.0, 0, 0, 0]])
     rows = [np.array([[j, 0] for j in some], dtype=np.int64).reshape(-1, 2)
             for some in (strict, idle)]  # fmt: skip
-    multipliers, none = np.zeros((len(normals), 4)), np.zeros(0)
+    multipliers = np.zeros((len(normals), 4))
+    none = np.zeros(0)
     return Touching(np.eye(n), generators, table, *rows, multipliers, rows[0][:0], none)
 
 
@@ -38,7 +39,8 @@ def test_growth_presses_rows_opens_others_and_leaves_the_rest():
     z >= 0 bears load; with -z >= 0 it keeps z, so that this one bears load in some optimal lam.
     x >= 0 opens. y >= 0, which stands twice, does neither, and stays idle.
     """
-    big, small = 2.0**38, 2.0**-38
+    big = 2.0**38
+    small = 2.0**-38
     normals = [[0, small, 0], [0, 0, big], [30, 0, 0], [0, 0, -3], [0, 3 * small, 0]]
     touching = walls(normals, [], range(5))
     found = Equations(touching).beyond(rates(normals, load=[1.0, 0.0, -1.0]))

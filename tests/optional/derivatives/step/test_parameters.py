@@ -23,12 +23,14 @@ def found_at(step):
 @pytest.mark.parametrize(("factor", "touches_on"), [(1.0, True), (0.5, False), (-1.0, False)])
 def test_an_idle_row_that_moves_with_the_optimum_still_touches(factor, touches_on):
     """A x >= b, a = 0.3, at x = 0.7 / 3: it does by da if a dx = -da x, and by db if a dx = db."""
-    a, x = 0.3, fraction(0.7) / 3
+    a = 0.3
+    x = fraction(0.7) / 3
     own = Extra(("row",), [[a]], [-1.0])
     step = free_step(3 * np.eye(1), [0.7], no_contacts(1), 1.0).replace(extra=own)
     form = exact_form(step)
     assert form.slack_unit != 1
-    of_row, of_gap = Change("", "", A={0: [fmpq(1)]}), Change("", "", b={0: fmpq(1)})
+    of_row = Change("", "", A={0: [fmpq(1)]})
+    of_gap = Change("", "", b={0: fmpq(1)})
     for change, rate in ((of_row, -x), (of_gap, fmpq(1))):
         dx = fraction(factor) * rate / fraction(a) / form.x_unit
         said = _obstacle(step, form, Active((), (), (0,)), change, [dx])

@@ -52,7 +52,8 @@ def number(step, key):
 
 def changed_by(step, key, little):
     """What :func:`program` reads of a step, in fractions, with one number changed."""
-    (name, i), c = key, step.contacts
+    name, i = key
+    c = step.contacts
     fields = {name: exact(getattr(step, name)) for name in ("K_q", "M_u", "tau_a", "tau_u")}
     fields |= {"h": F(step.h), "delta_q_bar_a": exact(step.delta_q_bar_a)}
     contacts = {name: exact(getattr(c, name)) for name in OF_CONTACTS}
@@ -72,7 +73,8 @@ def changed_by(step, key, little):
 def optimum(step, warm):
     """The exact optimum as fractions, or None."""
     H, g, A, b = program(step)
-    (H, g), (A, b) = whole(H, g, step.n_v), whole(A, b, step.n_v)
+    H, g = whole(H, g, step.n_v)
+    A, b = whole(A, b, step.n_v)
     end = dual_active_set(ExactForm(H, g, A, b, fmpq(1), fmpq(1), fmpq(1), fmpq(1)), warm)
     if isinstance(end, Farkas):
         return None

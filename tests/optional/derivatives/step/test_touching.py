@@ -22,7 +22,8 @@ def test_a_multiplier_is_nothing_compared_with_the_size_of_the_step():
 
 def test_a_row_in_the_span_of_those_that_bear_load_bears_it_too():
     """(1, 0) is 50 times h_1 + h_2: it takes 1/50 of their load at most, which is not nothing."""
-    size, sine = 1 / BEARING, 0.01
+    size = 1 / BEARING
+    sine = 0.01
     rows = np.array([[sine, 1.0], [sine, -1.0], [1.0, 0.0]])
     rows /= np.linalg.norm(rows, axis=1)[:, None]
     assert bearing(rows, np.array([2.0, 2.0, 0.0]), size).tolist() == [True, True, True]
@@ -47,7 +48,9 @@ def test_what_touches_and_bears_does_not_depend_on_the_unit_of_mass(unit):
 
     Of the load, another row is left with a share of BEARING / 1000, by rounding.
     """
-    W, mu, h = 3.0 * unit, 0.5, 0.01
+    W = 3.0 * unit
+    mu = 0.5
+    h = 0.01
     step = point_on_floor(0.3 * unit, mu, force=(mu * W, 0.0, -W), h=h)
     lam = h * W * np.array([BEARING / 1000, 0.0, 1.0, 0.0])  # of +d1, +d2, -d1, -d2
     found = touching_rows(answer(step, lam), np.zeros(1))

@@ -14,7 +14,8 @@ UNCERTIFIED = ["solver.certify=off", "record=light"]
 
 
 def results(scenario, fast, steps=12):
-    simulator, q = scenario.simulator(), scenario.system.q_start
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
     if not fast:
         simulator.compiled = None
     for k in range(steps):
@@ -25,7 +26,8 @@ def results(scenario, fast, steps=12):
 
 def counted(monkeypatch):
     """How many answers are taken in few calls, and how many are not."""
-    step, found = compiled("step"), []
+    step = compiled("step")
+    found = []
     plain = step.as_said
 
     def watched(*arguments):
@@ -39,7 +41,8 @@ def counted(monkeypatch):
 
 @pytest.mark.parametrize("name", ["bunny_grasp", "stack"])
 def test_runs_of_which_nothing_is_claimed_have_the_bits_of_numpy(monkeypatch, name):
-    scenario, found = load_scenario(name, UNCERTIFIED, fast=True), counted(monkeypatch)
+    scenario = load_scenario(name, UNCERTIFIED, fast=True)
+    found = counted(monkeypatch)
     for one, other in zip(results(scenario, True), results(scenario, False), strict=True):
         assert one == other
         assert one.solution.statistics._replace(solve_time=0.0) == (
@@ -49,7 +52,8 @@ def test_runs_of_which_nothing_is_claimed_have_the_bits_of_numpy(monkeypatch, na
 
 
 def fails(reply):
-    reply.solved, reply.status = False, "on purpose"
+    reply.solved = False
+    reply.status = "on purpose"
 
 
 def is_not_finite(reply):
@@ -69,7 +73,9 @@ def test_an_answer_that_will_not_do_is_left_to_the_long_way(monkeypatch, wrong):
     """The next reply of the backend is right again, and so is what the step comes to."""
     scenario = load_scenario("bunny_grasp", UNCERTIFIED, fast=True)
     expected = [result.q for result in results(scenario, True, 8)]
-    plain, calls, found = Daqp.reply, [], counted(monkeypatch)
+    plain = Daqp.reply
+    calls = []
+    found = counted(monkeypatch)
 
     def once(self, same_H, warm):
         reply = plain(self, same_H, warm)
@@ -86,10 +92,8 @@ def test_an_answer_that_will_not_do_is_left_to_the_long_way(monkeypatch, wrong):
 
 
 def test_backends_that_rows_out_of_reach_hurt_take_the_long_way(monkeypatch):
-    scenario, found = (
-        load_scenario("bunny_grasp", [*UNCERTIFIED, "solver.backend=piqp"], fast=True),
-        [],
-    )
+    scenario = load_scenario("bunny_grasp", [*UNCERTIFIED, "solver.backend=piqp"], fast=True)
+    found = []
     found = counted(monkeypatch)
     list(results(scenario, True, 4))
     assert found

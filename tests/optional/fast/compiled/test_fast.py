@@ -42,7 +42,8 @@ WHEELS = robot(
 
 def bodies(folder):
     """A body that is held, a free one, one in the plane, and joints that turn, slide and mimic."""
-    stone, cart = written(folder, STONE, "stone.urdf"), written(folder, CART, "cart.urdf")
+    stone = written(folder, STONE, "stone.urdf")
+    cart = written(folder, CART, "cart.urdf")
     wheels = written(folder, WHEELS, "wheels.urdf")
     return System(
         [
@@ -56,10 +57,12 @@ def bodies(folder):
 
 def shapes_and_clouds(system, names, rng):
     """Each solid on some link, a cloud of every kind on another; some clouds are alpha."""
-    pairs, links = [], list(range(1, len(system.links)))
+    pairs = []
+    links = list(range(1, len(system.links)))
     for i, name in enumerate(names):
         at, other = rng.permutation(links)[:2]
-        R, t = Rotation.random(rng=rng).as_matrix(), rng.uniform(-0.05, 0.05, size=3)
+        R = Rotation.random(rng=rng).as_matrix()
+        t = rng.uniform(-0.05, 0.05, size=3)
         solid = PlacedShape(name, int(at) * (i % 3 != 2), R, t, SHAPES[name])
         points = PointCloud(cloud(CLOUDS[i % len(CLOUDS)], 200, rng))
         some = PlacedShape("cloud", int(other), np.eye(3), np.zeros(3), points)
@@ -120,13 +123,15 @@ def compared(system, pairs, cone, rng):
 @needs_compiler
 @pytest.mark.parametrize("cone", CONES)
 def test_known_shapes_and_all_polyhedral_cones_have_the_bits_of_numpy(tmp_path, cone):
-    rng, system = np.random.default_rng(CONES.index(cone)), bodies(tmp_path)
+    rng = np.random.default_rng(CONES.index(cone))
+    system = bodies(tmp_path)
     assert compared(system, shapes_and_clouds(system, KNOWN, rng), cone, rng) == []
 
 
 @needs_compiler
 def test_shapes_that_compiled_code_does_not_know_are_measured_by_numpy(tmp_path):
-    rng, system = np.random.default_rng(11), bodies(tmp_path)
+    rng = np.random.default_rng(11)
+    system = bodies(tmp_path)
     pairs = shapes_and_clouds(system, [*KNOWN, "cone", "ellipsoid", "hull"], rng)
     assert compared(system, pairs, "pyramid", rng) == []
     simulator = Simulator(system, pairs, h=0.01, K_q=np.eye(system.n_a), fast=True)
@@ -143,7 +148,8 @@ def test_bodies_along_the_axes_of_the_world_have_the_zeros_of_the_plain_path(kin
         system = System([Body.of_shape("top", box, 1.0, xyz=W @ [0.0, 0.0, 0.5])])
         low = PlacedShape("low", 0, W, np.zeros(3), box)
         top = PlacedShape("top", system.link("top/solid"), W, np.zeros(3), shape)
-        pair, found = ContactPair("p", top, low, 0.5, 0.01, 6, 4), []
+        pair = ContactPair("p", top, low, 0.5, 0.01, 6, 4)
+        found = []
         for made in ({"backend": "none"}, {"backend": "daqp", "fast": True}):
             simulator = Simulator(system, [pair], h=0.01, K_q=np.zeros((0, 0)), **made)
             result = simulator.step(system.q_start, np.zeros(0))
@@ -209,10 +215,12 @@ def test_without_a_compiler_numpy_takes_the_steps(tmp_path):
 @needs_compiler
 def test_a_step_that_numpy_forms_otherwise_is_left_to_numpy():
     scenario = load_scenario("sphere_spin", ["record=light"], fast=True)
-    one, other = scenario.simulator(), scenario.simulator()
+    one = scenario.simulator()
+    other = scenario.simulator()
     one.compiled.scene["coefficient"][:] *= 2  # as if the compiled code were wrong
     other.compiled = None
-    q, goal = scenario.system.q_start, scenario.targets(scenario.h)
+    q = scenario.system.q_start
+    goal = scenario.targets(scenario.h)
     assert one.step(q, goal) == other.step(q, goal)
     assert one.compiled is None
 

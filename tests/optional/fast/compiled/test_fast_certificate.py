@@ -31,7 +31,8 @@ def pointer(array):
 @cache
 def matrices():
     """Regular matrices, sizes 1 to 9, rows of all sizes; inverses, vectors, defects of these."""
-    rng, found = np.random.default_rng(3), []
+    rng = np.random.default_rng(3)
+    found = []
     for k in range(MATRICES):
         n = 1 + k % 9
         K = rng.normal(size=(n, n)) * (2.0 ** rng.integers(-20, 21, (n, 1)) if k % 2 else 1.0)
@@ -57,7 +58,8 @@ def holds(library):
     """Whether the bounds of a library are bounds, on all matrices."""
     for K, R, r, exact in matrices():
         n = len(K)
-        G, e = np.zeros((n, n)), np.zeros(n)
+        G = np.zeros((n, n))
+        e = np.zeros(n)
         library.defect(pointer(R), pointer(K), ctypes.c_int64(n), pointer(G), pointer(e))
         if any(Fraction(G[i, j]) < exact[i][j] for i in range(n) for j in range(n)):
             return False
@@ -99,7 +101,8 @@ def made(folder, text, other):
     """The functions of contraction.c, which call no other file, with one text replaced."""
     library = compiled("library")
     changed_sources(folder, "contraction.c", text, other)
-    out, file = folder / "mutant.so", str(folder / "contraction.c")
+    out = folder / "mutant.so"
+    file = str(folder / "contraction.c")
     command = [*library.compiler(), *library.FLAGS, "-o", str(out), file, "-lm"]
     subprocess.run(command, check=True, capture_output=True)
     return ctypes.CDLL(str(out))
@@ -126,7 +129,8 @@ def test_numbers_that_do_not_fit_are_left_to_balls(factor, shown):
 
 
 def test_a_run_is_proved_by_compiled_code(monkeypatch):
-    certificate, proved = compiled("certificate"), []
+    certificate = compiled("certificate")
+    proved = []
     plain = certificate.Prover.optimum
 
     def counted(self, *arguments, **named):

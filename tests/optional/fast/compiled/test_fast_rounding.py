@@ -35,7 +35,8 @@ def library(folder, text="", other=""):
     made = compiled("library")
     changed_sources(folder, "rounding.c", text, other)
     (folder / "exposed.c").write_text(EXPOSED)
-    file, out = str(folder / "exposed.c"), folder / "exposed.so"
+    file = str(folder / "exposed.c")
+    out = folder / "exposed.so"
     command = [*made.compiler(), *made.FLAGS, "-O0", "-o", str(out), file, "-lm"]
     subprocess.run(command, check=True, capture_output=True)
     found = ctypes.CDLL(str(out))
@@ -63,7 +64,8 @@ def cases():
 
 def holds(made):
     """Whether each number that is said to be nearest is, at both ends; and how many are."""
-    count, c = 0, ctypes.c_double()
+    count = 0
+    c = ctypes.c_double()
     for first, second, third, place, unit, e in cases():
         if not made.shown(first, second, third, place, e, ctypes.byref(c)):
             continue

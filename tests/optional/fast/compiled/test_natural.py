@@ -19,7 +19,8 @@ HALF = np.sqrt(2.0)
 def units(H, g, A, b):
     """Units by C, and by NumPy; and the program that C has written, None if it has not."""
     H, g, A, b = (np.array(values, dtype=np.float64) for values in (H, g, A, b))
-    of_H, solver = natural_hessian(H), SimpleNamespace(written=None)
+    of_H = natural_hessian(H)
+    solver = SimpleNamespace(written=None)
     program = Program(H, np.zeros(len(g)), np.zeros(A.shape), np.zeros(len(b)))
     made = compiled("natural").NaturalProgram({"g": g, "A": A, "b": b}, solver, program, of_H)
     found = made.written()

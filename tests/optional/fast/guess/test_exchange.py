@@ -36,7 +36,8 @@ def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
         truth = exact_optimum(exact_form(step))
         if isinstance(truth, Farkas):
             continue
-        rng, right = np.random.default_rng(seed), list(truth.working_set)
+        rng = np.random.default_rng(seed)
+        right = list(truth.working_set)
         hessian = BallHessian(step)
         for guess in wrong_sets(rng, right, len(truth.lam)):
             found = nearby_answer(step, guess, hessian, by_code=False)
@@ -63,7 +64,9 @@ def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, b
         monkeypatch.setattr("quasistatic_ref.optional.fast.proofs.compiled", lambda name: None)
     monkeypatch.setattr("quasistatic_ref.optional.fast.proofs.warm_rows", refused)
     scenario = load_scenario("allegro_turn", fast=True)
-    simulator, q, wrong = scenario.simulator(), scenario.system.q_start, 0
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
+    wrong = 0
     for k in range(12):
         found = simulator.step(q, scenario.targets(scenario.h * (k + 1)))
         q = found.q

@@ -30,7 +30,8 @@ def test_what_loads_leave_at_rest_is_proved_with_the_same_bits(name):
         truth = exact_optimum(form, guess)
         answers = [BallStep(step, BallHessian(step)).confirmed(guess)]
         if (fast := compiled("certificate")) is not None:
-            units, rows = natural_units(step), np.array(guess, dtype=np.int64)
+            units = natural_units(step)
+            rows = np.array(guess, dtype=np.int64)
             answers.append(fast.prover(step, units.coordinate, None).optimum(step, rows, units))
         for answer in answers:
             assert isinstance(answer, ExactOptimum)
@@ -38,8 +39,10 @@ def test_what_loads_leave_at_rest_is_proved_with_the_same_bits(name):
 
 
 def test_what_is_not_pushed_stays_and_a_pair_of_slips_is_strictly_active():
-    unloaded, pushed = resting_point(), resting_point(tau_x=0.1)
-    several, one = Degeneracy(unique=False, smooth=True), Degeneracy(unique=True, smooth=True)
+    unloaded = resting_point()
+    pushed = resting_point(tau_x=0.1)
+    several = Degeneracy(unique=False, smooth=True)
+    one = Degeneracy(unique=True, smooth=True)
     assert zeros(unloaded, SPINS, SLIPS, [0, 1, 2, 3]) == several
     assert zeros(unloaded, SPINS, [0, 2], [0]) == several  # their sum is twice the gap
     assert zeros(pushed, SPINS, SLIPS, []) is None  # it slides along x

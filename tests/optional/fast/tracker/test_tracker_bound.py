@@ -29,7 +29,8 @@ from tests.tolerances import EXACT, ROUNDING
 
 X, _, Z = np.eye(3)
 SHAPES = {name: shape for name, shape in EVERY.items() if name != "tilted half-space"}
-K, WIDTH = 5, 32
+K = 5
+WIDTH = 32
 
 
 @pytest.fixture
@@ -64,12 +65,14 @@ def dumb_bells(rng):
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("kind", ["dumb bells", "random", "sheet"])
 def test_points_left_out_lie_beyond_a_bound_with_room_for_rounding(name, kind, rng, small_leaves):
-    shape, tightest = SHAPES[name], np.inf
+    shape = SHAPES[name]
+    tightest = np.inf
     for _ in range(5):
         points = dumb_bells(rng) if kind == "dumb bells" else rng.uniform(-1, 1, size=(300, 3))
         if kind == "sheet":
             points[:, 2] *= 1e-3
-        R, t = Rotation.random(rng=rng).as_matrix(), rng.uniform(-0.3, 0.3, size=3)
+        R = Rotation.random(rng=rng).as_matrix()
+        t = rng.uniform(-0.3, 0.3, size=3)
         x = rotated(R, points) + t
         phi, normal = shape.signed_distance(x)
         n = shape.normal if isinstance(shape, HalfSpace) else normal[phi.argmin()]
@@ -90,9 +93,11 @@ def test_a_solid_s_size_is_no_less_than_it_reaches_in_any_direction():
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_no_point_left_out_comes_below_the_limit_at_any_motion(name, rng):
-    shape, tightest = SHAPES[name], np.inf
+    shape = SHAPES[name]
+    tightest = np.inf
     points = rng.uniform(-0.2, 0.2, size=(300, 3))
-    n, phi = Z, points[:, 2]
+    n = Z
+    phi = points[:, 2]
     if not isinstance(shape, HalfSpace):
         phi, normal = shape.signed_distance(points + Z)
         n = normal[phi.argmin()]
@@ -112,7 +117,8 @@ def test_the_limit_of_a_falling_cloud_is_the_next_height_less_the_room():
     # A column of points above a floor, each 1 mm above the other, of which the lowest 32 are
     # listed: the next is at 32 mm, and comes down with the cloud.
     points = np.outer(1e-3 * np.arange(100), Z)
-    floor, tree = HalfSpace(Z, 0.0), ball_tree.ball_tree(points)
+    floor = HalfSpace(Z, 0.0)
+    tree = ball_tree.ball_tree(points)
     made = shortlist(tree, floor, np.eye(3), np.zeros(3), Z, np.inf, K, WIDTH)
     assert made.index.tolist() == list(range(WIDTH))
     for down in (0.0, 0.01, 0.5):
@@ -135,11 +141,13 @@ def test_a_limit_by_distance_falls_by_the_motion_and_the_room_for_that():
 
 def test_a_list_that_suffices_for_few_steps_is_made_twice_as_long(rng):
     # Twice the cloud is turned upside down: after as many steps as is worth it, and one fewer.
-    k, points = 12, PointCloud(rng.uniform(-0.1, 0.1, size=(500, 3)))
+    k = 12
+    points = PointCloud(rng.uniform(-0.1, 0.1, size=(500, 3)))
     floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(Z, 0.0))
     cloud = PlacedShape("cloud", 1, np.eye(3), np.zeros(3), points)
     tracker = ContactTracker([ContactPair("p", floor, cloud, 0.5, 0.0, 4, k)])
-    upright, upside_down = np.eye(3), np.diag([1.0, -1.0, -1.0])
+    upright = np.eye(3)
+    upside_down = np.diag([1.0, -1.0, -1.0])
     widths = []
     for R, steps in ((upright, SHORT), (upside_down, SHORT - 1), (upright, 1)):
         for _ in range(steps):

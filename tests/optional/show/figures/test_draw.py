@@ -197,7 +197,8 @@ def test_a_film_has_a_frame_for_every_twentieth_of_a_second(incline, tmp_path):
 
 def test_forces_are_scaled_by_what_of_them_is_in_view():
     # A force of 12 N along y and one of 1.5 N along z: seen along y, 1.5 N is the largest.
-    frame, rim = np.eye(3), np.zeros((0, 3))
+    frame = np.eye(3)
+    rim = np.zeros((0, 3))
     contacts = [
         DrawnContact(np.zeros(3), frame, np.array(force), 0.0, 1.0, 0.0, 0.0, rim)
         for force in ([0, 12.0, 0], [0, 0, 1.5])

@@ -72,7 +72,8 @@ def test_the_strip_has_a_run_in_each_row_and_an_instant_in_each_column(figures):
 def test_filled_dots_are_the_contacts_that_bear_load_at_that_instant(figures, runs):
     for row, run in enumerate(runs.values()):
         for column, t in enumerate(INSTANTS):
-            axes, k = figures["strip"].axes[row * COLUMNS + column], round(t / 0.01) - 1
+            axes = figures["strip"].axes[row * COLUMNS + column]
+            k = round(t / 0.01) - 1
             force = run.step_forces(k)[:, 2]
             expected = 1e3 * CAMERA.seen(run["beta"][k][force > 1e-3 * force.max()])[:, :2]
             dots = [line for line in axes.lines if line.get_marker() == "o"]

@@ -77,7 +77,8 @@ def test_a_planted_fault_is_found(page, plant, says):
 @pytest.mark.parametrize("style", ["slides", "poster"])
 def test_slides_and_posters_have_larger_figures_and_larger_text(style):
     with figure_style(style):
-        size, most = plt.rcParams["font.size"], plt.rcParams["figure.figsize"][0]
+        size = plt.rcParams["font.size"]
+        most = plt.rcParams["figure.figsize"][0]
         figure, (axes,) = panels(4.6, 2.8)
         text = axes.set_xlabel("time t [s]")
         axes.set_ylabel("force [N]")

@@ -169,7 +169,8 @@ def test_robots_are_grey_and_what_they_act_on_is_not(pushed):
 
 def test_a_link_that_only_looks_moves_and_is_looked_at():
     scene = Scene(System([Body("crate", LOOKS, base="floating", actuated=["neck"])]), ())
-    looks, start = visuals(scene), still(scene)
+    looks = visuals(scene)
+    start = still(scene)
     sent = scene_commands(scene, [start], 1.0, 0.1, 0.0, looks)
     assert {f"/links/{look.link}" for look in looks} == {c["path"] for c in animations(sent)}
     assert focus([start])[1, 2] == pytest.approx(0.05)  # the collision box

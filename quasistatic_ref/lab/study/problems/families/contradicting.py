@@ -40,7 +40,8 @@ def between_walls(rng: Rng, room: float) -> StepData:
     J = np.concatenate([c.J, wall[None], (MIRROR * wall)[None]])
     # The second gap is room - phi, whose float64 sum with phi is what contradicts.
     gaps = np.concatenate([np.abs(c.phi), [phi, room - phi]])
-    mu_v, mu_omega = np.append(c.mu_v, [0.5, 0.5]), np.append(c.mu_omega, [0.0, 0.0])
+    mu_v = np.append(c.mu_v, [0.5, 0.5])
+    mu_omega = np.append(c.mu_omega, [0.0, 0.0])
     return step.replace(contacts=framed(J, gaps, mu_v, mu_omega, np.append(c.rows, [4, 4])))
 
 
@@ -76,7 +77,8 @@ def in_a_wedge(rng: Rng, angle: float) -> StepData:
     other[2] += angle * wall[0]  # n turned towards d1
     J = np.concatenate([c.J, wall[None], other[None]])
     gaps = np.append(c.phi, np.full(2, -FAR * angle))
-    mu_v, mu_omega = np.append(c.mu_v, [0.0, 0.0]), np.append(c.mu_omega, [0.0, 0.0])
+    mu_v = np.append(c.mu_v, [0.0, 0.0])
+    mu_omega = np.append(c.mu_omega, [0.0, 0.0])
     return step.replace(contacts=framed(J, gaps, mu_v, mu_omega, np.append(c.rows, [4, 4])))
 
 

@@ -48,7 +48,8 @@ def with_axes(rng: Rng, step: StepData) -> StepData:
     step : StepData
         Whose un-actuated coordinates are those of free bodies, six each.
     """
-    n_a, M_u = step.n_a, step.M_u.copy()
+    n_a = step.n_a
+    M_u = step.M_u.copy()
     unit = np.sqrt(np.diag(step.K_q))
     K_q = unit[:, None] * spread_matrix(rng, n_a, 1.0) * unit
     for i in range(3, step.n_u, 6):

@@ -58,7 +58,9 @@ def brick_wall(rng: Rng, bodies: float) -> StepData:
 def _pairs(count: int) -> tuple[Indices, Indices, Array]:
     """Upper and lower body of each contact, and where it is along the upper brick [m]."""
     width = -(-count // LAYERS)
-    upper, lower, at = [], [], []
+    upper = []
+    lower = []
+    at = []
     for i in range(count):
         layer, place = divmod(i, width)
         below = [i - width, i - width + 1] if place + 1 < width else [i - width]
