@@ -80,17 +80,28 @@ def span(own: list[Record], verdict: str) -> str:
 
 def tables(found: list[Record]) -> str:
     """Time steps with which the body is held, and with which all is right [ms], scene by scene."""
+    names = labels()
     lines = ["<!-- Written by python -m validation.make.second_order. -->", ""]
+    lines += [*(f"- {name}: {setting}" for (_, setting), name in names.items()), ""]
     for scene, title in SCENES.items():
-        cells: dict[tuple[str, str], list[str]] = {}
+        cells: dict[str, list[str]] = {}
         for engine, setting, _, own in series(found, scene):
             held = span(own, "holds")
             right = span(own, "right")
-            cells.setdefault((engine, setting), []).append(f"{held}; **{right}**")
-        head = ("engine", "setting", *(f"{1e3 * speed:g} mm/s" for speed in STUDY["speeds"]))
+            cells.setdefault(names[engine, setting], []).append(f"{held}; **{right}**")
+        head = ("setting", *(f"{1e3 * speed:g} mm/s" for speed in STUDY["speeds"]))
         lines += [f"{title[0].upper()}{title[1:]}:", ""]
-        lines += [*markdown_table(head, [(*key, *words) for key, words in cells.items()]), ""]
+        lines += [*markdown_table(head, [(name, *words) for name, words in cells.items()]), ""]
     return "\n".join(lines)
+
+
+def labels() -> dict[tuple[str, str], str]:
+    """A short name of each setting, by engine and setting: the engine with a letter."""
+    return {
+        (engine, setting): f"{engine.removesuffix('_ref')} {letter}"
+        for engine, settings in STUDY["engines"].items()
+        for letter, setting in zip("ABCDEF", settings, strict=False)
+    }
 
 
 def figure(within: Any = None) -> Figure:
