@@ -36,7 +36,7 @@ def critical_damping(body: Any) -> float:
 
 
 def joint(body: Any, setting: Any) -> str:
-    """Joints of a body. Damping of a servo's joints is implicit in every integrator.
+    """Joints of a body. Damping of a servo's joints is implicit in the integrators that are used.
 
     MuJoCo evaluates springs at the start of a step. With ``implicit_spring`` a spring of stiffness
     K acts from the end of the step: what it gains on the way, -K h v, is more damping.

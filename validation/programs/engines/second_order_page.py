@@ -100,7 +100,7 @@ def labels() -> dict[tuple[str, str], str]:
     return {
         (engine, setting): f"{engine.removesuffix('_ref')} {letter}"
         for engine, settings in STUDY["engines"].items()
-        for letter, setting in zip("ABCDEF", settings, strict=False)
+        for letter, setting in zip("ABCDEFG", settings, strict=False)
     }
 
 
