@@ -35,7 +35,9 @@ def test_version_6_without_forces_is_version_5():
         for part in ("output", "digits", "tolerance"):
             case[part].pop("forces", None)
     both = (VECTORS / "inputs" / "step.json").read_bytes() + lines(record).encode()
-    assert frozen(6) == {**frozen(5), "step": frozen(6)["step"]}
+    # Of derivatives that are 0 some had entries of 1e-67, which are written as 0 now.
+    changed = {layer: frozen(6)[layer] for layer in ("step", "derivative")}
+    assert frozen(6) == {**frozen(5), **changed}
     assert hashlib.sha256(both).hexdigest() == frozen(5)["step"]
 
 

@@ -35,7 +35,7 @@ QUIET: Final = 1e-3
 STILL: Final = 1e-6
 """Size of what is 0 because nothing pulls: neither contacts nor the free step move."""
 NOTHING: Final = fmpq(1, 1 << 60)
-"""Share of the largest entry of a derivative below which an entry is written as 0."""
+"""Share of a derivative's size, of which SHARE is the tolerance, below which an entry is 0."""
 
 
 def expected(case_input: Json) -> Expected:
@@ -74,16 +74,16 @@ def _numbers(one: Base, found: Derivatives) -> Expected:
             continue
         field = FIELDS[name]
         largest = max(abs(x) for column in columns for x in column)
-        rows = [[_float(x, largest) for x in row] for row in zip(*columns, strict=True)]
-        output[field] = [row[0] for row in rows] if name == "h" else rows
         size = max(float(largest), QUIET * free[name]) or STILL
+        rows = [[_float(x, size) for x in row] for row in zip(*columns, strict=True)]
+        output[field] = [row[0] for row in rows] if name == "h" else rows
         tolerance[field] = Tolerance(float(f"{SHARE * size:.1e}"), _why(float(largest), free[name]))
     flags = {"differentiable": True, "switch": found.switch}
     return Expected(output, flags=flags, tolerance=tolerance)
 
 
-def _float(x: fmpq, largest: fmpq) -> float:
-    return 0.0 if abs(x) <= NOTHING * largest else nearest_fraction(x)
+def _float(x: fmpq, size: float) -> float:
+    return 0.0 if abs(x) <= NOTHING * fmpq(*size.as_integer_ratio()) else nearest_fraction(x)
 
 
 def _why(largest: float, free: float) -> str:
