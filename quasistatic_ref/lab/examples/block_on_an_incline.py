@@ -22,8 +22,10 @@ MU_V = {"rough": 0.6, "smooth": 0.3}
 G = 9.81
 H, TIME = 0.01, 0.4
 """Time step and length of the run [s]."""
-PARTS, SCALE = ("contacts", "cones", "forces"), 0.02
-"""What is drawn of contacts, and how long a force of 1 N is, of both blocks [m]."""
+PARTS = ("contacts", "cones", "forces")
+"""What is drawn of contacts."""
+SCALE = 0.02
+"""Length of a force of 1 N, of both blocks [m]."""
 
 
 def slid(h: float = H, **mu_v: float) -> tuple[Scenario, Trajectory, dict[str, Array]]:

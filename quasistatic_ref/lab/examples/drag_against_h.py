@@ -18,8 +18,12 @@ from quasistatic_ref.lab.scenes.contacts import GRAVITY as G
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.step.data import Array
 
-M, MU_V, V = 0.5, 0.4, 0.01
-"""Of the block [kg], of block and floor [-], of the plate's target [m/s]."""
+M = 0.5
+"""Of the block [kg]."""
+MU_V = 0.4
+"""Of block and floor [-]."""
+V = 0.01
+"""Of the plate's target [m/s]."""
 TIME_STEPS = tuple(np.geomspace(0.5e-3, 0.1, 6).tolist())
 """h [s]."""
 K_Q = 1e7

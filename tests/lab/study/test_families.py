@@ -65,13 +65,13 @@ def test_walls_that_overlap_leave_no_solution(overlap):
     assert sum(float(Fraction(v)) * tight.b[i] for i, v in y.items()) > 0
 
 
-@pytest.mark.parametrize("room", [1e-3, 1e-7, 1e-13])
-def test_a_cage_with_room_allows_to_stand_still_and_one_without_nothing(room):
+@pytest.mark.parametrize("clearance", [1e-3, 1e-7, 1e-13])
+def test_a_cage_with_clearance_allows_to_stand_still_and_one_without_nothing(clearance):
     """All gaps positive: x = 0 satisfies A x >= b; all negative, and normals all around: none."""
-    roomy = problem_of(one_turned("narrow", room, 1, 1))
-    assert (roomy.b < 0).all()
-    assert not roomy.answer.farkas
-    assert problem_of(one_turned("infeasible", room, 1, 1)).answer.farkas
+    loose = problem_of(one_turned("narrow", clearance, 1, 1))
+    assert (loose.b < 0).all()
+    assert not loose.answer.farkas
+    assert problem_of(one_turned("infeasible", clearance, 1, 1)).answer.farkas
 
 
 @pytest.mark.parametrize("angle", [1e-1, 1e-5, 1e-9])
@@ -82,17 +82,17 @@ def test_a_wedge_is_left_by_millimetres_at_any_angle(angle):
     assert (found.b[-8:] == 1e-4 * angle).all()
 
 
-@pytest.mark.parametrize("room", [1e-2, 1e-6, 1e-13])
-def test_joints_stay_within_their_limits(room):
+@pytest.mark.parametrize("travel", [1e-2, 1e-6, 1e-13])
+def test_joints_stay_within_their_limits(travel):
     """Rows e_i x >= -r and -e_i x >= -r', rooms between half and one and a half of the dial's."""
-    one = problem_of(one_turned("limits", room, 0, 2))
+    one = problem_of(one_turned("limits", travel, 0, 2))
     n_a = 7
     assert (
         one.A.toarray()[-2 * n_a :] == np.concatenate([np.eye(n_a, 13), -np.eye(n_a, 13)])
     ).all()
-    assert (np.abs(one.answer.x[:n_a]) <= 1.5 * room).all()
+    assert (np.abs(one.answer.x[:n_a]) <= 1.5 * travel).all()
     bearing = one.answer.lam[-2 * n_a :] > 0
-    assert bearing.any() == (room < 1e-2)
+    assert bearing.any() == (travel < 1e-2)
 
 
 @pytest.mark.parametrize("i", [0, 1])

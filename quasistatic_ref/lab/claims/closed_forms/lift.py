@@ -8,10 +8,17 @@ from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, contacts_of, poin
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
-M, MU_V, K, SQUEEZE = 0.2, 0.6, 2000.0, 10.0
-"""Mass of the bar [kg], [-], of a finger [N/m], its force [N]."""
-HALF_WIDTH, PAD = 0.03, 0.01
-"""Of the bar along x, and of a pad along y and z [m]."""
+M = 0.2
+"""Mass of the bar [kg]."""
+MU_V = 0.6
+K = 2000.0
+"""Of a finger [N/m]."""
+SQUEEZE = 10.0
+"""Force of a finger [N]."""
+HALF_WIDTH = 0.03
+"""Of the bar along x [m]."""
+PAD = 0.01
+"""Half-width of a pad along y and z [m]."""
 INERTIA = (7e-4, 9e-5, 7.3e-4)
 """Of the bar [kg m^2]."""
 

@@ -31,28 +31,28 @@ FAR = 1e-4
 """How far a body moves to leave a wedge, about [m]."""
 
 
-def between_walls(rng: Rng, room: float) -> StepData:
-    """The grasped body between two walls whose distance leaves it some room [m], or overlaps."""
+def between_walls(rng: Rng, clearance: float) -> StepData:
+    """The grasped body between two walls with a clearance [m], negative where they overlap."""
     step = base(rng)
     c = step.contacts
     wall = _wall(rng, step)
     phi = shortened(rng.uniform(0, 1e-4), OF_J)
     J = np.concatenate([c.J, wall[None], (MIRROR * wall)[None]])
-    # The second gap is room - phi, whose float64 sum with phi is what contradicts.
-    gaps = np.concatenate([np.abs(c.phi), [phi, room - phi]])
+    # The second gap is clearance - phi, whose float64 sum with phi is what contradicts.
+    gaps = np.concatenate([np.abs(c.phi), [phi, clearance - phi]])
     mu_v = np.append(c.mu_v, [0.5, 0.5])
     mu_omega = np.append(c.mu_omega, [0.0, 0.0])
     return step.replace(contacts=framed(J, gaps, mu_v, mu_omega, np.append(c.rows, [4, 4])))
 
 
-def in_a_cage(rng: Rng, room: float) -> StepData:
-    """A free body held from all sides, each contact with about that much room [m]."""
+def in_a_cage(rng: Rng, clearance: float) -> StepData:
+    """A free body held from all sides, each contact with about that clearance [m]."""
     n = rng.standard_normal((AROUND, 3))
     n -= n.mean(axis=0)
     n /= np.linalg.norm(n, axis=1, keepdims=True)
     J = point_jacobian(-SIZE * n + 0.3 * SIZE * rng.standard_normal((AROUND, 3)), n)
     J[:, :3] = frames_about(n, rng.standard_normal(3)) @ J[:, :3]
-    gaps = room * (0.5 + rng.uniform(size=AROUND))
+    gaps = clearance * (0.5 + rng.uniform(size=AROUND))
     contacts = framed(shortened(J, OF_J), shortened(gaps, OF_J), rng.uniform(0.2, 0.9, AROUND))
     M = np.zeros((6, 6))
     M[:3, :3] = 0.25 * np.eye(3)
@@ -82,14 +82,14 @@ def in_a_wedge(rng: Rng, angle: float) -> StepData:
     return step.replace(contacts=framed(J, gaps, mu_v, mu_omega, np.append(c.rows, [4, 4])))
 
 
-def under_a_ceiling(rng: Rng, room: float) -> StepData:
-    """A tower whose slabs touch, and a ceiling that leaves so much room above it.
+def under_a_ceiling(rng: Rng, clearance: float) -> StepData:
+    """A tower whose slabs touch, and a ceiling above it.
 
     Parameters
     ----------
     rng : Generator
-    room : float
-        Negative where the ceiling reaches into the uppermost slab [m].
+    clearance : float
+        Of the ceiling; negative where it reaches into the uppermost slab [m].
     """
     slabs = int(rng.integers(*TOWERS, endpoint=True))
     step = with_axes(rng, short_step(tower_step(rng, slabs)))
@@ -99,7 +99,7 @@ def under_a_ceiling(rng: Rng, room: float) -> StepData:
     ceiling = np.zeros((PRESSED, 4, step.n_v))
     ceiling[:, :, -6:] = point_jacobian(points, down)
     ceiling[:, :3] = frames_about(down, Y) @ ceiling[:, :3]
-    phi = np.concatenate([np.zeros(c.n_c), np.full(PRESSED, room)])
+    phi = np.concatenate([np.zeros(c.n_c), np.full(PRESSED, clearance)])
     mu_v = np.concatenate([c.mu_v, rng.uniform(0.2, 0.9, PRESSED)])
     J = np.concatenate([c.J, shortened(ceiling, OF_J)])
     return step.replace(contacts=framed(J, phi, mu_v))
