@@ -39,8 +39,9 @@ def paper_sentence(tables: Mapping[str, Any]) -> str:
     step = tables["interfaces"]["microseconds"]["step, native"]
     sentence = (
         f"the paper's step takes less than {PAPER:g} us (its own interior-point method, all "
-        f"distances, Julia 1.9.2 on a Mac M1 Pro). Like for like, with all "
-        f"distances and an interior-point method, which starts cold, nothing certified, the 13 x 80 step takes {alike} on "
+        "distances, Julia 1.9.2 on a Mac M1 Pro). Like for like, with all distances and an "
+        "interior-point method, which starts cold, nothing certified, the 13 x 80 step takes "
+        f"{alike} on "
         f"{m['processor']}, by NumPy, as the sum of its parts. With tracked distances and DAQP, "
         f"which starts from the last answer, it takes {step:.0f} us by NumPy"
     )
