@@ -169,7 +169,9 @@ def _columns(axes: Any) -> None:
     style: dict[str, Any] = {"linestyle": "", "markersize": scaled(5)}
     axes.plot(column[palm], row[palm], "s", color="black", markerfacecolor="white",
               label="columns of alpha's body", **style)  # fmt: skip
-    axes.plot(column[~palm], row[~palm], "D", color="#0072B2", label="columns of beta's body", **style)
+    axes.plot(
+        column[~palm], row[~palm], "D", color="#0072B2", label="columns of beta's body", **style
+    )
     axes.axhline(3.5, color="0.3", linestyle="-", gid=DRAWING)
     for edge in (5.5, 6.5):
         axes.axvline(edge, color="0.7", linestyle="-", gid=DRAWING)
