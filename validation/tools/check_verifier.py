@@ -40,14 +40,14 @@ BATCH = 2000
 """Files in one process of Node: its input is one string."""
 
 
-def verdicts(cases: list[Case], verifier: Path = VERIFIER) -> list[dict[str, Any]]:
+def verdicts(cases: list[Case]) -> list[dict[str, Any]]:
     """What ``verify.js`` says of each case; many in one process."""
     node = shutil.which("node") or sys.exit("no Node on this machine: install Debian's nodejs")
     found = []
     for k in range(0, len(cases), BATCH):
         given = json.dumps([[case.step, case.solution] for case in cases[k : k + BATCH]])
         done = subprocess.run(
-            [node, "-e", NODE, str(verifier)],
+            [node, "-e", NODE, str(VERIFIER)],
             input=given,
             stdout=subprocess.PIPE,
             text=True,
