@@ -100,7 +100,6 @@ RESULTS = (
         "validation.make.second_order",
         ("validation/results/second_order.jsonl", "validation/results/second_order.md"),
     ),
-    to_file("reach"),
     to_file("mjcf"),
     to_file("environments"),
     to_file("aligned_poses"),
