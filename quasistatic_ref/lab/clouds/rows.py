@@ -26,9 +26,7 @@ def chosen(**fields: Any) -> list[Record]:
     fields : object
         ``sampling="random"``, ``count=992``, ``change="none"``, ...
     """
-    return [
-        row for row in rows() if all(row[name] == value for name, value in fields.items())
-    ]
+    return [row for row in rows() if all(row[name] == value for name, value in fields.items())]
 
 
 def with_torsion(row: Record) -> bool:

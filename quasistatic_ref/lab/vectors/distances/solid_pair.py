@@ -3,7 +3,10 @@
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.distances.curved_pair import cylinder_and_curved, polytope_and_curved
+from quasistatic_ref.lab.vectors.distances.curved_pair import (
+    cylinder_and_curved,
+    polytope_and_curved,
+)
 from quasistatic_ref.lab.vectors.distances.plane_distance import solid_on_plane
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.polytope_pair import polytope_pair
