@@ -11,8 +11,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.rotation import turn
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
-from quasistatic_ref.lab.vectors.exact.algebra import vector
-from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number
+from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number, vector
 from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
 from quasistatic_ref.lab.vectors.families.step_scenes import FLOOR
 from quasistatic_ref.lab.vectors.layers import distance

@@ -24,8 +24,15 @@ from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed
 from quasistatic_ref.lab.vectors.distances.stationary import minimum
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, Vector, length
-from quasistatic_ref.lab.vectors.exact.precision import Real, cos_sin, rational_near, sign
+from quasistatic_ref.lab.vectors.exact.precision import (
+    IDENTITY,
+    Real,
+    Vector,
+    cos_sin,
+    length,
+    rational_near,
+    sign,
+)
 
 SECTORS = 48
 """Parts of a rim: its distance to a convex solid has few minima, far apart."""

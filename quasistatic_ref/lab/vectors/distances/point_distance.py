@@ -11,8 +11,17 @@ from flint import arb, ctx, fmpq
 
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, Vector, length, vector
-from quasistatic_ref.lab.vectors.exact.precision import Real, Undecided, ball, root, sign
+from quasistatic_ref.lab.vectors.exact.precision import (
+    IDENTITY,
+    Real,
+    Undecided,
+    Vector,
+    ball,
+    length,
+    root,
+    sign,
+    vector,
+)
 
 
 class Surface(NamedTuple):

@@ -14,8 +14,7 @@ from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.lab.vectors.distances.shapes import Core
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, Vector, length
-from quasistatic_ref.lab.vectors.exact.precision import Real, sign
+from quasistatic_ref.lab.vectors.exact.precision import IDENTITY, Real, Vector, length, sign
 
 Edge = tuple[Vector, Vector]
 

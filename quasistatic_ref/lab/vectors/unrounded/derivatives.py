@@ -16,7 +16,7 @@ from flint import fmpq
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.mechanism import slices
-from quasistatic_ref.lab.vectors.exact.algebra import Vector
+from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded import moved_inputs
 from quasistatic_ref.lab.vectors.unrounded.dependent import dependence_breaks

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from flint import fmpq
 
 from quasistatic_ref.lab.program.integration import way
-from quasistatic_ref.lab.vectors.exact.algebra import Vector
+from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP, on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, kept, pool

@@ -13,7 +13,7 @@ from typing import Final
 
 from flint import fmpq
 
-from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
+from quasistatic_ref.lab.vectors.exact.precision import Matrix, Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import row_count
 from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, are_solids
