@@ -94,7 +94,7 @@ def by_us() -> Callable[[Array, Array], Array]:
     mine = posed.mine
 
     def after(q: Array, target: Array) -> Array:
-        own = mine.model_q(q)
+        own = mine.model_q(q.tolist())
         force = wrench_force(SCENE, mine, own)
         return posed.simulator.step(own, target, force).q[mine.q]
 
