@@ -39,7 +39,10 @@ def turned(tau: float) -> StepData:
 
 def evidence() -> Evidence:
     """The torque that turns it, its turn, and who bears the load."""
+    points, _ = disk()
+    r = np.hypot(points[:, 0], points[:, 1])
     limit = MU * M * GRAVITY * RADIUS
+    uniform = MU * M * GRAVITY * r.mean()
     found = threshold(
         lambda share: bool(abs(exact(turned(share * limit)).delta_q[5]) > 1e-14), 0.3, 2
     )
@@ -58,10 +61,12 @@ def evidence() -> Evidence:
         shares.append(load / load.sum())
         inner.append(load[:-1].sum() / load.sum())
     picture = {"r": RADIUS * np.sqrt((np.arange(RINGS) + 1) / RINGS), "shares": shares[1], "h": H}
+    words = "its torque over that of a uniform load [-]"
     return Evidence.of(
         comparison("torque that turns it, over mu m g a [-]", found, 1.0, CLOSED_FORM),
         comparison("turn [rad]", turns, forms, CLOSED_FORM, scales),
         comparison("share of the load inside the rim [-]", inner, 0.0, 0.0),
+        comparison(words, found * limit / uniform, RADIUS / r.mean(), CLOSED_FORM),
         **picture,
     )
 
