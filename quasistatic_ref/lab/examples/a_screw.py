@@ -12,8 +12,7 @@ import numpy as np
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
-from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.step.data import Array
 
 AHEAD, TURN = 0.1, 120.0
