@@ -15,7 +15,7 @@ from tests.helpers import planted_step
 from tests.model.urdf.urdf_texts import written
 from tests.scenes import BALL
 
-LEAVES = "leaves the scenario's folder; put the file there, or give the path on the command line"
+LEAVES = "is outside the scenario's folder; move the file there, or give the path on the command"
 
 
 @pytest.fixture
@@ -66,7 +66,7 @@ def test_a_path_with_a_nul_character_is_none(tmp_path, refused):
 
 
 SETTINGS = {
-    "h": "must have the form dotted.key=value (got 'h')",
+    "h": "must be table.field=value, such as contacts.floor.mu_v=0.5 (got 'h')",
     "h.x=1": "--set: is not a table (got 'h.x=1')",
     "bodies.rail.targets.0.t=1": "--set: is not a table",
     "h=0.01\nsteps=9": "h: must be a number (got '0.01 steps=9')",

@@ -57,12 +57,12 @@ CAUSES = {
     "bodies a list": (("bodies", [1]), "bodies", "must be a table of named fields (got [1])"),
     "nothing that moves": (
         ("bodies/rail", ...), ("bodies/ball", {"urdf": "ball.urdf"}), ("contacts", {}),
-        "bodies", "nothing here can move",
+        "bodies", "no body can move",
     ),
     "a blank URDF": ((BALL + "urdf", " "), "bodies.ball.urdf", "must name a file (got ' ')"),
     "an unknown joint": ((RAIL + "actuated", ["slid"]), "rail.actuated", "did you mean 'slide'"),
     "actuated a number": ((RAIL + "actuated", 1), "bodies.rail.actuated", "a list of joint names"),
-    "the base in positions": ((BALL + "positions", {"base": 0}), "ball.positions", "placed by xyz"),
+    "the base in positions": ((BALL + "positions", {"base": 0}), "ball.positions", "by xyz and rpy"),
     "a joint with no stiffness": ((RAIL + "K_q", ...), "bodies.rail.K_q", "is missing for slide"),
     "stiffness not definite": (
         (RAIL + "K_q", [[-5.0]]), "bodies.rail.K_q", "must be positive definite",
@@ -78,22 +78,23 @@ CAUSES = {
     ),
     "gravity for nobody": (
         (BALL + "gravity_compensated", False), "bodies.ball.gravity_compensated",
-        "is for actuated joints; this body has none",
+        "needs an actuated joint, and this body has none",
     ),
     "a target for what is free": (
         (BALL + "targets", [{"t": 0, "base": {}}]),
         "bodies.ball.targets[0].base", "is not an actuated joint of this body; known: none",
     ),
     "a waypoint of nothing": (
-        (RAIL + "targets/0/slide", ...), "bodies.rail.targets[0]", "names no joint (got {'t'",
+        (RAIL + "targets/0/slide", ...), "bodies.rail.targets[0]",
+        "sets no joint; give the position of at least one (got {'t'",
     ),
     "waypoints that stand still": ((RAIL + "targets/1/t", 0.0), "rail/slide", "must increase"),
     "a wrench on what is fixed": (
         (RAIL + "wrenches", [{"t": 0, "force": [1, 0, 0]}]),
-        "bodies.rail.wrenches", 'do nothing to a body with base = "fixed"',
+        "bodies.rail.wrenches", 'have no effect on a body with base = "fixed"; remove them',
     ),
     "a wrench of nothing": (
-        (BALL + "wrenches", [{"t": 0}]), "bodies.ball.wrenches[0]", "neither force nor torque",
+        (BALL + "wrenches", [{"t": 0}]), "bodies.ball.wrenches[0]", "must contain a force",
     ),
     "wrenches backwards": (
         (BALL + "wrenches", [{"t": 1, "force": [0] * 3}, {"t": 0, "force": [0] * 3}]),
@@ -109,7 +110,7 @@ CAUSES = {
         ("shapes/post/capsule/radius", -1), "shapes.post.capsule.radius", "greater than 0 (got -1)",
     ),
     "a shape named as a body": (
-        ("shapes/ball", {"sphere": {"radius": 1}}), "shapes.ball", "is the name of a body as well",
+        ("shapes/ball", {"sphere": {"radius": 1}}), "shapes.ball", "is also the name of a body",
     ),
     "an unknown side": (("contacts/push/alpha", "rail/plat"), "push.alpha", "mean 'rail/plate'"),
     "a side without shapes": (
@@ -122,7 +123,7 @@ CAUSES = {
         (RAIL + "urdf", "ball.urdf"), (RAIL + "actuated", []), (RAIL + "K_q", ...),
         (RAIL + "targets", ...), (RAIL + "positions", ...),
         ("contacts/push", {"alpha": "rail", "beta": "floor", "mu_v": 0.5, "rows": 4}),
-        "contacts.push", "cannot move relative to each other, so it can never act",
+        "contacts.push", "cannot move relative to each other, so it has no effect",
     ),
     "two clouds": (
         (BALL + "cloud", "cloud.xyz"), (RAIL + "cloud", "cloud.xyz"),
@@ -131,7 +132,7 @@ CAUSES = {
     "negative friction": (("contacts/push/mu_v", -0.5), "contacts.push.mu_v", "at least 0 (got"),
     "torsion missing": (("contacts/floor/mu_omega", ...), "contacts.floor.mu_omega", "is missing"),
     "torsion without rows": (
-        ("contacts/push/mu_omega", 0.01), "contacts.push.mu_omega", "does nothing with rows = 4",
+        ("contacts/push/mu_omega", 0.01), "contacts.push.mu_omega", "has no effect with rows = 4",
     ),
     "no points": (("contacts/push/k", 0), "contacts.push.k", "must be at least 1 (got 0)"),
     "a distance without a unit": (

@@ -66,7 +66,7 @@ def test_a_path_from_python_is_the_callers_own_and_may_lead_anywhere(path, tmp_p
 def test_a_path_from_the_file_itself_still_may_not(path, tmp_path):
     text = path.read_text().replace('"ball.urdf"', '"../ball.urdf"')
     path.write_text(text)
-    with pytest.raises(ScenarioError, match="leaves the scenario's folder"):
+    with pytest.raises(ScenarioError, match="is outside the scenario's folder"):
         load_scenario(path)
 
 
@@ -87,7 +87,7 @@ REFUSED = {
         {},
         "bodies.bal: is not a table of this file; did you mean",
     ),
-    "no key": ({"": 3}, {}, "settings: must have the form dotted.key=value"),
+    "no key": ({"": 3}, {}, "settings: must be table.field=value, such as contacts.floor.mu_v=0.5"),
     "too deep": ({".".join("a" * 33): 3}, {}, "settings: names a key of more than 32 parts"),
     "unknown keyword": ((), {"step": 3}, "step: is unknown; did you mean 'steps'"),
     "a function": ({"h": abs}, {}, "h: must be a number"),

@@ -136,7 +136,7 @@ def answers_written(
 def check_layer(name: str) -> str:
     """Return a layer's name; InputError if it is none."""
     if name not in LAYERS:
-        raise InputError(f"is no layer{suggestion(name, LAYERS)}", field="layer", value=name)
+        raise InputError(f"is not a layer{suggestion(name, LAYERS)}", field="layer", value=name)
     return name
 
 
@@ -190,7 +190,7 @@ def _placed(value: Json, shapes: Json) -> Json:
         if value.get("kind") == SHARED:
             name = Fields(value).text("name")
             if name not in shapes:
-                raise InputError("is no shape of this file", field="shapes", value=name)
+                raise InputError("is not a shape of this file", field="shapes", value=name)
             return shapes[name]
         return {key: _placed(v, shapes) for key, v in value.items()}
     return [_placed(v, shapes) for v in value] if isinstance(value, list) else value

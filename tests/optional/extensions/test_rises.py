@@ -164,7 +164,7 @@ def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):
         private_rises(system, [], **given, friction={"cabinet/slid": 1.0})
     with pytest.raises(InputError, match=r'support: is for a body with base = "planar"'):
         private_rises(system, [], **given, support={"cabinet": (0.5, 0.0)})
-    with pytest.raises(InputError, match=r"support: is no body; .*cabinet"):
+    with pytest.raises(InputError, match=r"support: is not a body; .*cabinet"):
         private_rises(system, [], **given, support={"none": (0.5, 0.0)})
 
 

@@ -79,7 +79,7 @@ def test_a_backend_without_an_interface_of_its_own_is_refused(name, rng):
 
 
 def test_the_ellipsoid_is_refused_natively_by_backends_of_rows(rng):
-    with pytest.raises(BackendError, match="takes only linear rows; the ellipsoid needs one of"):
+    with pytest.raises(BackendError, match="accepts only linear rows; the ellipsoid needs one of"):
         solver_for(random_step(rng).replace(cone="ellipsoid"), "daqp", fast=True)
 
 
