@@ -62,7 +62,7 @@ CAUSES = {
     "a blank URDF": ((BALL + "urdf", " "), "bodies.ball.urdf", "must name a file (got ' ')"),
     "an unknown joint": ((RAIL + "actuated", ["slid"]), "rail.actuated", "did you mean 'slide'"),
     "actuated a number": ((RAIL + "actuated", 1), "bodies.rail.actuated", "a list of joint names"),
-    "the base in positions": ((BALL + "positions", {"base": 0}), "ball.positions", "by xyz and rpy"),
+    "the base in positions": ((BALL + "positions", {"base": 0}), "ball.positions", "by xyz and"),
     "a joint with no stiffness": ((RAIL + "K_q", ...), "bodies.rail.K_q", "is missing for slide"),
     "stiffness not definite": (
         (RAIL + "K_q", [[-5.0]]), "bodies.rail.K_q", "must be positive definite",
