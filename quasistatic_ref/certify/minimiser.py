@@ -193,7 +193,7 @@ def rounded_solution(
     return x, lam, net, slack
 
 
-class Point:
+class Minimiser:
     """The minimiser x of 1/2 x'Hx - g'x under A_i x = b_i for i in the working set.
 
     Parameters

@@ -1,6 +1,7 @@
-"""The optimality conditions (9)-(12) as residuals: an independent judge of any answer.
+"""The optimality conditions (9)-(12) as residuals of any answer, in float64.
 
-Nothing here knows which solver gave the answer, or by which interface it was called.
+They do not depend on the solver that gave the answer. They prove nothing: a certified step reports
+them, and its proof is in exact.py. Only ``certify="residual"`` refuses answers by them.
 """
 
 from dataclasses import dataclass

@@ -1,12 +1,17 @@
 """Closest points, signed distances and normals of the pairs, in the world frame.
 
-For a cloud on a solid, the k closest points are kept. Two solids have as candidates alpha's corners
-on beta, beta's corners on alpha, crossings of their edges and the closest pair, in that order; of
-these, the ones whose normal is about the pair's. The k with the smallest signed distances are kept;
-some rank after all others: candidates that repeat an earlier one; the closest pair if k others are
-as near; and crossings if k corners are. No candidate is nearer than the closest pair, so k = 1
-keeps that one alone. Where fewer than k are left, the closest pair fills the rest, put so far apart
-that it stands for nothing.
+A cloud on a solid: the k closest points of the cloud are the contacts.
+
+Two solids:
+
+- The candidates are alpha's corners on beta, beta's corners on alpha, crossings of their edges and
+  the closest pair, in that order. Those whose normal is not about the pair's are left out.
+- The k candidates with the smallest signed distances are the contacts. Three kinds rank after all
+  others: candidates that repeat an earlier one; the closest pair if k others are as near; and
+  crossings if k corners are.
+- No candidate is nearer than the closest pair, so k = 1 keeps that one alone.
+- Where fewer than k candidates are left, the number is filled with copies of the closest pair at
+  the distance ``FILLED``, at which a contact bears nothing.
 """
 
 from collections.abc import Sequence
@@ -18,9 +23,9 @@ import numpy as np
 
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.contact.separations import BISECTOR, OWN, pair_normal, rounding
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
@@ -33,7 +38,7 @@ FEW = 128
 
 
 class ClosestPoints(NamedTuple):
-    """Candidate contacts, in the world frame.
+    """Contacts, in the world frame.
 
     Parameters
     ----------
@@ -161,7 +166,7 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
 
 
 def filling(pair: ContactPair, nearest: ClosestPoints, count: int) -> list[ClosestPoints]:
-    """Contacts that stand for nothing: the closest pair, FILLED apart, `count` times."""
+    """Contacts that bear nothing: the closest pair, FILLED apart, `count` times."""
     far = nearest._replace(phi=np.array([FILLED]), tie=np.array([OWN]))
     return [far._replace(point=np.array([pair.corners + 1 + i])) for i in range(count)]
 

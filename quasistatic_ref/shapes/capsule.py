@@ -6,12 +6,12 @@ from typing import Any
 import coal
 import numpy as np
 
-from quasistatic_ref.shapes.round import Round
+from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.step.arrays import Array
 
 
-class Capsule(Round, Rounded):
+class Capsule(Revolved, Rounded):
     """All points within radius [m] of a segment of its local z axis, |z| <= half_length [m].
 
     half_length is that of the segment, as in URDF and coal: the caps lie beyond it.

@@ -6,13 +6,13 @@ from typing import Any
 import coal
 import numpy as np
 
-from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
+from quasistatic_ref.shapes.revolved import Revolved, rim_corners, rim_point
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import dot, norm
 from quasistatic_ref.tolerances import ON_SURFACE
 
 
-class Cone(Round):
+class Cone(Revolved):
     """A cone about its local z axis: its base at z = -half_length, its tip at z = +half_length.
 
     radius [m] is that of the base.

@@ -6,12 +6,12 @@ from typing import Any
 import coal
 import numpy as np
 
-from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
+from quasistatic_ref.shapes.revolved import Revolved, rim_corners, rim_point
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import norm
 
 
-class Cylinder(Round):
+class Cylinder(Revolved):
     """A cylinder about its local z axis, |z| <= half_length; radius and half_length in [m].
 
     Examples

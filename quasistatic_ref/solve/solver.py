@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from quasistatic_ref.certify.exact import ExactOptimum, exact_step
+from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.norm import Norm, energy_norm
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.certify.warm import warm_rows
@@ -28,8 +28,8 @@ from quasistatic_ref.solve.backends import (
     Options,
     check_backend,
 )
+from quasistatic_ref.solve.natural_step import DenseStep, NaturalStep
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, differences
@@ -153,11 +153,14 @@ class Solver(ABC):
     def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum, sought from where an answer shows it to be, or from cold.
 
+        It does not depend on the solver. It is asked of the solver only so that one of
+        `optional/fast` can try a quick proof before the exact method.
+
         Raises
         ------
         StepInfeasible, StepIllPosed
         """
-        return exact_step(scaled.step, warm_start(scaled, answer))
+        return step_optimum(scaled.step, warm_start(scaled, answer))
 
     def norm(self, scaled: NaturalStep) -> Norm:
         """The norm ||.||_H of a step, in which errors and lengths are measured."""
@@ -237,7 +240,7 @@ class Solver(ABC):
                 status = "an answer without multipliers"
             elif finite(reply.x) and finite(reply.lam):
                 if idle is not None:
-                    reply.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
+                    reply.lam[: idle.size][idle] = 0.0  # residuals are of the true gap
                 cost = reply.iterations, reply.seconds, tried
                 statistics = SolverStatistics(self.name, "optimal", *cost, None, self.engine)
                 return NaturalAnswer(reply.x, reply.lam, statistics)

@@ -13,14 +13,14 @@ conversion loses nothing, unless a number leaves the range of float64.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.certify.norm import float_inverse
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array, Extra, Mask, StepData
+from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR
 
@@ -209,18 +209,9 @@ def to_natural(step: StepData, units: Units) -> StepData:
     )
 
 
-def within_reach(natural: StepData) -> StepData:
-    """The same step with contacts that are too far to matter moved nearer, for solvers' sake."""
-    far = out_of_reach(natural)
-    if not far.any():
-        return natural
-    near = np.where(far, reach(natural.contacts.J), natural.contacts.phi)
-    return natural.replace(contacts=replace(natural.contacts, phi=near))
-
-
-def out_of_reach(natural: StepData) -> Mask:
-    """Which contacts are too far to matter, shape (n_c,)."""
-    return np.asarray(natural.contacts.phi > reach(natural.contacts.J))
+def within_reach(natural: StepData) -> Array:
+    """The phi of each contact, shape (n_c,) [-]; of those too far to matter nearer, for solvers."""
+    return np.minimum(natural.contacts.phi, reach(natural.contacts.J))
 
 
 def reach(J: Array) -> Array:

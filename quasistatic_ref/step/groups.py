@@ -98,7 +98,7 @@ def _members(label: Indices, firsts: Indices) -> list[Indices]:
     return np.split(order, np.searchsorted(label[order], firsts))[1:]
 
 
-def parts(step: StepData) -> list[tuple[Group, StepData]]:
+def group_steps(step: StepData) -> list[tuple[Group, StepData]]:
     """The groups of a step, each with its own step; the step itself if there is one group.
 
     Parameters

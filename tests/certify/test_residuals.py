@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.optimality import (
+from quasistatic_ref.certify.residuals import (
     optimality_residuals,
 )
 from quasistatic_ref.step.data import Extra

@@ -6,17 +6,17 @@ What is claimed of an answer in it is verified here, without any solver.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from flint import ctx, fmpq
 
+from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.compliance.forces import ContactForces
 from quasistatic_ref.certify.gap import duality_gap, fractions
-from quasistatic_ref.certify.point import rational_solution, rounded_solution
+from quasistatic_ref.certify.minimiser import rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows
-from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
@@ -36,9 +36,6 @@ from quasistatic_ref.step.cones import ELLIPSOID, CurvedCone, Judge, Rows, Viola
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
-
-if TYPE_CHECKING:
-    pass
 
 Active = tuple[tuple[int, int], ...]
 LARGEST = float(np.finfo(np.float64).max)

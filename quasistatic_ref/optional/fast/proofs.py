@@ -16,7 +16,7 @@ from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
 from quasistatic_ref.optional.fast.guess.far import Solved, far_slacks, with_far
 from quasistatic_ref.optional.fast.kept_step import KeptStep
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep, constants
-from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
+from quasistatic_ref.solve.natural_step import DenseStep, NaturalStep
 from quasistatic_ref.solve.solver import NaturalAnswer
 from quasistatic_ref.solve.units import NaturalHessian
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData

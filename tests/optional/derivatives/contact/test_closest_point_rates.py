@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.optional.derivatives.contact.features import Feature
-from quasistatic_ref.optional.derivatives.contact.witness_rates import (
+from quasistatic_ref.optional.derivatives.contact.closest_point_rates import (
     Sides,
-    witness_rates,
+    closest_point_rates,
 )
+from quasistatic_ref.optional.derivatives.contact.features import Feature
 from tests.tolerances import ROUNDING
 
 X, Y, N = np.eye(3)
@@ -26,7 +26,7 @@ def found(features, v, omega, turned=None):
     ]
     phi = np.array([PHI])
     frames = (ACROSS @ R.T)[None]
-    return witness_rates(phi, (R @ N)[None], frames, *sides, np.array([1.0]))
+    return closest_point_rates(phi, (R @ N)[None], frames, *sides, np.array([1.0]))
 
 
 @pytest.mark.parametrize("features", [(EDGE, FACE), (FACE, EDGE)])
