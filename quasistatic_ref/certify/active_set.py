@@ -136,18 +136,19 @@ def _start(form: ExactForm, balls: BallForm, warm: Sequence[int]) -> Minimiser:
 def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
     """Return the minimiser that the violated row p leads to, or a proof that there is none."""
     while True:
-        c = combination(minimiser.form, minimiser.working, p)
+        working = minimiser.working
+        c = combination(minimiser.form, working, p)
         if c is None:
-            after = Minimiser(minimiser.form, minimiser.ball_form, (*minimiser.working, p))
+            after = Minimiser(minimiser.form, minimiser.ball_form, (*working, p))
             leaving = _first_to_vanish(minimiser, after)
             if leaving is None:
                 return after
         else:
             leaving = _first_to_vanish_on_combination(minimiser, c)
             if leaving is None:  # a_p = sum c_j a_j with c <= 0, and b_p > sum c_j b_j
-                support = {i: -c_j for i, c_j in zip(minimiser.working, c, strict=True) if c_j}
+                support = {i: -c_j for i, c_j in zip(working, c, strict=True) if c_j}
                 return Farkas({**support, p: fmpq(1)})
-        rest = minimiser.working[:leaving] + minimiser.working[leaving + 1 :]
+        rest = working[:leaving] + working[leaving + 1 :]
         minimiser = Minimiser(minimiser.form, minimiser.ball_form, rest)
 
 
@@ -158,9 +159,9 @@ def _first_to_vanish(minimiser: Minimiser, after: Minimiser) -> int | None:
     """
     first = None
     for j in range(len(minimiser.working)):
-        if after.lam_sign(j) < 0 and (
-            first is None or _vanishes_before(minimiser, after, j, first)
-        ):
+        if after.lam_sign(j) >= 0:
+            continue
+        if first is None or _vanishes_before(minimiser, after, j, first):
             first = j
     return first
 
@@ -205,8 +206,6 @@ def _ratio_less(minimiser: Minimiser, c: Sequence[fmpq], j: int, k: int) -> bool
 def _without_zeros(minimiser: Minimiser) -> Minimiser:
     """Return the same minimiser on the rows whose multipliers are positive."""
     positive = minimiser.positive()
-    return (
-        minimiser
-        if positive == minimiser.working
-        else Minimiser(minimiser.form, minimiser.ball_form, positive)
-    )
+    if positive == minimiser.working:
+        return minimiser
+    return Minimiser(minimiser.form, minimiser.ball_form, positive)

@@ -32,7 +32,7 @@ from quasistatic_ref.certify.minimiser import (
     Minimiser,
     RationalSolution,
 )
-from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import all_nearest_in, nearest_fraction
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
@@ -271,7 +271,7 @@ def check_length(
         raise StepIllPosed(step, delta_q, longest)
 
 
-def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = None) -> float:
+def relative_length(step: StepData, delta_q: Array) -> float:
     """||delta_q||_H over the largest step that the loads or a single row ask for alone [-].
 
     It is compared with ``ILL_POSED`` for each group of a step by itself, lest a heavy body hide
@@ -287,8 +287,6 @@ def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = No
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
-    norm : EnergyNorm, optional
-        That of the step, where it is known.
 
     Returns
     -------
@@ -297,7 +295,7 @@ def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = No
     form = standard_form(step)
     h = step.h
     n_a = step.n_a
-    norm = energy_norm(form.H) if norm is None else norm
+    norm = energy_norm(form.H)
     b = np.maximum(form.b, 0.0)
     parameters = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, b])
     # All lengths are linear in these and delta_q. Of subnormal loads h tau could be zero.

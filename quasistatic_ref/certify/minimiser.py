@@ -255,8 +255,8 @@ class Minimiser:
     def spanned(self, rows: Sequence[int]) -> list[int]:
         """Return those of some rows whose slack is zero because the working set implies it."""
         new = [i for i in rows if i not in self._implied]
-        equations = self.form.equations(new)
         if new:
+            equations = self.form.equations(new)
             self._implied.update(zip(new, implied(self.form, self.working, equations), strict=True))
         return [i for i in rows if self._implied[i]]
 

@@ -257,37 +257,10 @@ def _cloud_on_solid(
     """The k closest points of a cloud on a solid."""
     relative = relative_pose(solid, cloud)
     x = rotated(relative[:, :3], points) + relative[:, 3]
-    return cloud_contacts(pair, solid, cloud, relative, x, *solid.shape.signed_distance(x))
-
-
-def cloud_contacts(
-    pair: ContactPair,
-    solid: ShapeInWorld,
-    cloud: ShapeInWorld,
-    relative: Array,
-    x: Array,
-    phi: Array,
-    normal: Array,
-    index: Indices | None = None,
-) -> ClosestPoints:
-    """The k closest points of a cloud on a solid, from their signed distances.
-
-    Parameters
-    ----------
-    pair : ContactPair
-    solid, cloud : ShapeInWorld
-    relative : ndarray, shape (3, 4)
-        [R, t] from the cloud's frame to the solid's.
-    x, phi, normal : ndarray, shapes (N, 3), (N,) and (N, 3)
-        Points in the solid's frame [m], their signed distances [m] and normals [-].
-    index : ndarray of int, shape (N,), optional
-        Their numbers in the cloud; by default they are all of it.
-    """
-    assert isinstance(cloud.shape, PointCloud)
-    some = closest(phi, pair.k)
-    point = some if index is None else index[some]
-    found = cloud_surface(pair.name, solid, cloud, relative, x[some], phi[some], normal[some])
-    return _contacts(solid, cloud, cloud.shape.points[point], 0.0, found)._replace(point=point)
+    phi, normal = solid.shape.signed_distance(x)
+    point = closest(phi, pair.k)
+    found = cloud_surface(pair.name, solid, cloud, relative, x[point], phi[point], normal[point])
+    return _contacts(solid, cloud, points[point], 0.0, found)._replace(point=point)
 
 
 def _corners_on_solid(

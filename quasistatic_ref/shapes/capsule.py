@@ -28,7 +28,7 @@ class Capsule(Revolved, Rounded):
         """The same shape as a coal geometry."""
         return coal.Capsule(self.radius, 2 * self.half_length)
 
-    @property
+    @cached_property
     def core(self) -> tuple[Array, float]:
         """Its segment, as half extents of shape (3,) [m], and the radius."""
         return np.array([0.0, 0.0, self.half_length]), self.radius

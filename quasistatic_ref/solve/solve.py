@@ -133,10 +133,9 @@ def solved(scaled: NaturalStep, solver: Solver, accuracy: float, certify: str) -
         solution = _certified(scaled, solver, accuracy)
     else:
         solution = uncertified(scaled, solver, solver.answer(scaled, accuracy), certify)
-    good = finite(solution.delta_q) and finite(solution.lam)
+    residuals = [*solution.certificate.residuals.values()]
+    good = finite(np.concatenate([solution.delta_q, solution.lam, solution.lam_extra, residuals]))
     if certify != "off" or solution.lam_extra.size:
-        residuals = np.array(list(solution.certificate.residuals.values()))
-        good = good and all(map(finite, (solution.lam_extra, residuals)))
         good = good and (_far_from_largest(solution) or finite(solution.wrench.ravel()))
     if not good:
         raise out_of_range(scaled.step)

@@ -62,12 +62,6 @@ def finite(x: Array) -> bool:
     return math.isfinite(x.dot(x)) or bool(np.isfinite(x).all())
 
 
-def largest(x: Array) -> float:
-    """The largest of the numbers of a vector and 0, in the vector's unit [-]; NaN if one is NaN."""
-    most = float(x[x.argmax()]) if x.size else 0.0
-    return 0.0 if most <= 0 else most
-
-
 def columns(value: Any, name: str, ndim: int) -> int:
     """Number of columns of a matrix or a stack of matrices; StepDataError of anything else."""
     shape = numbers(value, name).shape
