@@ -248,23 +248,20 @@ def joined(step: StepData, groups: Sequence[Group], optima: Sequence[ExactOptimu
     )
 
 
-def check_length(
-    step: StepData, delta_q: Array, divided: Sequence[tuple[Group, StepData]] | None = None
-) -> None:
+def check_length(step: StepData, delta_q: Array, divided: Sequence[tuple[Group, StepData]]) -> None:
     """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long in one of the step's groups.
 
     Parameters
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
-    divided : sequence of (Group, StepData), optional
-        The groups of the step, where they are known.
+    divided : sequence of (Group, StepData)
+        Its :func:`~quasistatic_ref.step.groups.group_steps`.
 
     Raises
     ------
     StepIllPosed
     """
-    divided = group_steps(step) if divided is None else divided
     lengths = [relative_length(part, delta_q[group.coordinates]) for group, part in divided]
     longest = max(lengths, key=lambda length: math.inf if math.isnan(length) else length)
     if not longest <= ILL_POSED:

@@ -243,13 +243,10 @@ def exact_friction_rows(contacts: Contacts, name: str, which: Which = ALL) -> Dy
 
 def block_diagonal(K: Dyadic, M: Dyadic) -> Dyadic:
     """Two square blocks, of any units, on the diagonal of a matrix of zeros."""
-    n_a, _ = K.m.shape
-    n_u, _ = M.m.shape
-    right = np.full((n_a, n_u), 0, object)
-    left = np.full((n_u, n_a), 0, object)
-    above = concatenated([K, Dyadic(right, 0)], axis=1)
-    below = concatenated([Dyadic(left, 0), M], axis=1)
-    return concatenated([above, below])
+    beside_K = np.zeros((len(K.m), len(M.m)), dtype=object)
+    above = np.hstack([K.m, beside_K])
+    below = np.hstack([beside_K.T, M.m])
+    return concatenated([Dyadic(above, K.e), Dyadic(below, M.e)])
 
 
 def in_integers(H: Dyadic, g: Dyadic, A: Dyadic, b: Dyadic, h: fmpq) -> ExactForm:

@@ -33,9 +33,6 @@ from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.ordered import dot, norm, product, rotated
 from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
 
-FEW = 128
-"""Numbers that are sorted in less time than the smallest of them are searched for."""
-
 
 class ClosestPoints(NamedTuple):
     """Contacts, in the world frame.
@@ -119,7 +116,10 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     candidates = every_candidate(pair, a, b, nearest)
     order = closest(np.where(late(candidates, pair.k), np.inf, candidates.phi), pair.k)
     kept = candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
-    return joined([kept, *filling(pair, nearest, pair.n_c - len(order))])
+    far = nearest._replace(phi=np.array([FILLED]), tie=np.array([OWN]))
+    missing = np.arange(pair.n_c - len(order))
+    filling = far.chosen(0 * missing)._replace(point=pair.corners + 1 + missing)
+    return joined([kept, filling])
 
 
 def closest(phi: Array, k: int) -> Indices:
@@ -135,10 +135,6 @@ def closest(phi: Array, k: int) -> Indices:
     -------
     ndarray of int, shape (min(k, N),)
     """
-    if k < len(phi) > FEW:
-        # Only what can be among the k smallest is sorted; every tie stays in the running.
-        candidates = np.flatnonzero(~(phi > np.partition(phi, k - 1)[k - 1]))
-        return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
     return phi.argsort(kind="stable")[:k]
 
 
@@ -163,12 +159,6 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
         every = every_candidate(whole, a, b, nearest_of_solids(whole, a, b))
         phi = every.phi[~late(every, 1)]  # without the closest pair, if a corner is as near
     return int(np.count_nonzero(phi <= phi.min() + within))
-
-
-def filling(pair: ContactPair, nearest: ClosestPoints, count: int) -> list[ClosestPoints]:
-    """Contacts that bear nothing: the closest pair, FILLED apart, `count` times."""
-    far = nearest._replace(phi=np.array([FILLED]), tie=np.array([OWN]))
-    return [far._replace(point=np.array([pair.corners + 1 + i])) for i in range(count)]
 
 
 def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:

@@ -23,6 +23,7 @@ from quasistatic_ref.step.arrays import Array, finite, without_warnings
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT, WORTHLESS
 
 LARGE = 2.0**200
@@ -167,7 +168,7 @@ def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolu
                 return uncertified(scaled, solver, answer, "residual")
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, accuracy)
-        check_length(step, optimum.delta_q)
+        check_length(step, optimum.delta_q, group_steps(step))
         certify = kind.certificate
     else:
         optimum = solver.optimum(scaled, answer)
@@ -177,8 +178,8 @@ def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolu
     if answered is not None:
         norm = solver.norm(scaled)
         error = norm.displacement(answered[0] - delta_q)
-        digits = relative_digits(error, norm.impulse(scaled.form.g))
-        statistics = statistics._replace(digits=digits)
+        of_free = norm.impulse(scaled.form.g)
+        statistics = statistics._replace(digits=relative_digits(error, of_free))
     residuals = vars(scaled.residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(proof_time=time.perf_counter() - begin)
     certificate = certify(step, optimum, residuals)

@@ -7,7 +7,6 @@ chooses among them.
 """
 
 import math
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -79,7 +78,7 @@ class OptionSet:
     kept: Any = None
 
 
-class Solver(ABC):
+class Solver:
     """What solves steps of one kind.
 
     A copy, or one that was pickled, compiles its problem again and starts cold.
@@ -160,7 +159,11 @@ class Solver(ABC):
         ------
         StepInfeasible, StepIllPosed
         """
-        return step_optimum(scaled.step, warm_start(scaled, answer))
+        warm = []
+        if answer is not None:
+            form = scaled.natural_form
+            warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
+        return step_optimum(scaled.step, warm)
 
     def norm(self, scaled: NaturalStep) -> Norm:
         """The norm ||.||_H of a step, in which errors and lengths are measured."""
@@ -177,7 +180,6 @@ class Solver(ABC):
         bound: float = bounds.error_bound(scaled.step, delta_q, lam).error
         return bound
 
-    @abstractmethod
     def write(self, scaled: Any) -> Mask | None:
         """Write a step in natural units into the problem.
 
@@ -188,10 +190,11 @@ class Solver(ABC):
         ndarray of bool, shape (m,), or None
             Whether each row is of such a contact; None if none is.
         """
+        raise NotImplementedError
 
-    @abstractmethod
     def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
         """What the backend says to the problem as it is written."""
+        raise NotImplementedError
 
     def attempts(self, accuracy: float) -> list[OptionSet]:
         """The sets of options for an accuracy in natural units [-], in the order to be tried."""
@@ -264,24 +267,9 @@ class NoSolver(Solver):
     def __init__(self, template: StepData, name: str = NONE) -> None:
         super().__init__(template, name)
 
-    def attempts(self, accuracy: float) -> list[OptionSet]:
-        """One, without options."""
-        return [OptionSet(accuracy, {})]
-
-    def write(self, scaled: Any) -> None:
-        """Nothing to write."""
-
-    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
-        """No reply."""
-        return Reply(None, None, False, "not called")
-
-
-def warm_start(scaled: NaturalStep, answer: NaturalAnswer | None) -> list[int]:
-    """Rows that an answer shows to be active, from which the exact method starts; none without."""
-    if answer is None:
-        return []
-    form = scaled.natural_form
-    return warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
+    def answer(self, scaled: NaturalStep, accuracy: float) -> NaturalAnswer:
+        """No answer: StepNotSolved."""
+        raise StepNotSolved(self.name, "not called", scaled.step, accuracy)
 
 
 def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> Solver:

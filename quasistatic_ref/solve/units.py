@@ -164,20 +164,19 @@ def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Un
     return Units(coordinate, length, _power_of_two(max(size, SMALLEST)))
 
 
-def natural_form(form: StandardForm, units: Units, H: Array | None = None) -> StandardForm:
+def natural_form(form: StandardForm, units: Units, H: Array) -> StandardForm:
     """The same quadratic program in natural units, bit for bit that of :func:`to_natural`.
 
     Parameters
     ----------
     form : StandardForm
     units : Units
-    H : ndarray, shape (n_v, n_v), optional
-        In these units, where it is known [-].
+    H : ndarray, shape (n_v, n_v)
+        In these units, of :func:`natural_hessian` [-].
     """
     S = units.coordinate
     ell = units.length
     rho = units.size
-    H = form.H * np.outer(S, S) if H is None else H
     return StandardForm(H, form.g * (S / rho), form.A * (S / ell), form.b * (1 / (rho * ell)))
 
 

@@ -38,7 +38,8 @@ def dense_answer(form: StandardForm) -> Answer:
 
 def _pressed(form: StandardForm) -> list[int]:
     """Rows that a solver found active; none if it found no answer."""
-    natural = natural_form(form, units_of(form, natural_hessian(form.H)))
+    of_H = natural_hessian(form.H)
+    natural = natural_form(form, units_of(form, of_H), of_H.natural)
     for solver in WITNESSES:
         reply = reply_of(natural, solver)
         if reply is not None and reply.solved and reply.x is not None and reply.lam is not None:
