@@ -136,9 +136,12 @@ def _name(member: zipfile.ZipInfo, problem: str) -> str:
 
 
 def array_of(content: bytes, name: str) -> NDArray[Any]:
-    """The array that the bytes of an ``.npy`` file hold, of its shape [its unit]; never a pickle.
+    """The array that the bytes of an ``.npy`` file hold, of any shape [its unit]; never a pickle.
 
-    It is called where a file is :func:`readable`.
+    Raises
+    ------
+    ValueError
+        If it is no such array; :func:`readable` says so of the file.
     """
     file = io.BytesIO(content)
     if np.lib.format.read_magic(file) != (1, 0):

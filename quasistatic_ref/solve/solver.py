@@ -189,11 +189,22 @@ class Solver:
         -------
         ndarray of bool, shape (m,), or None
             Whether each row is of such a contact; None if none is.
+
+        Raises
+        ------
+        NotImplementedError
+            Unless a subclass says how.
         """
         raise NotImplementedError
 
     def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
-        """What the backend says to the problem as it is written."""
+        """What the backend says to the problem as it is written.
+
+        Raises
+        ------
+        NotImplementedError
+            Unless a subclass says how.
+        """
         raise NotImplementedError
 
     def attempts(self, accuracy: float) -> list[OptionSet]:
@@ -264,9 +275,6 @@ class NoSolver(Solver):
     engine = "none"
     fixed = ()
 
-    def __init__(self, template: StepData, name: str = NONE) -> None:
-        super().__init__(template, name)
-
     def answer(self, scaled: NaturalStep, accuracy: float) -> NaturalAnswer:
         """No answer: StepNotSolved."""
         raise StepNotSolved(self.name, "not called", scaled.step, accuracy)
@@ -298,7 +306,7 @@ def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> S
     name = DEFAULT if name is None else name
     check_backend(name, step.cone)
     if name == NONE:
-        return NoSolver(step)
+        return NoSolver(step, name)
     if name.startswith(QPSOLVERS):
         other: Solver = needed_part(THROUGH_QPSOLVERS, name).QpsolversSolver(step, name)
         return other

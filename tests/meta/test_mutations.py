@@ -53,7 +53,7 @@ SAMPLE = {
         f"{CONES} pyramid: gap + spin -> gap - spin",
         f"{FRICTION} rows_along: mu_omega * J_w -> mu_omega / J_w",
         f"{RATIONAL} exact_friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
-        f"{MINIMISER} rational_solution: -form.A[i, j] -> form.A[i, j]",
+        f"{MINIMISER} rational_solution: -a[i] -> a[i]",
         f"{DEPENDENCE} combination: solution[j, 0] -> solution[0, j]",
         f"{MINIMISER} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
         f"{ROUNDING} nearest_in: low == high -> low != high",
