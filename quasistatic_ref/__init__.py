@@ -2,7 +2,7 @@
 
 The model is that of Tracy & Manchester, "Convex Quasi-Dynamic Simulation of Rigid Point
 Clouds with Torsional Friction"; equation numbers everywhere in this package are the paper's.
-Start reading at :mod:`quasistatic_ref.step.problem`.
+docs/contributing.md, "Read the code", names the files of a step in the order of its calls.
 
 The names below are loaded on first use, so that ``import quasistatic_ref as qr`` is cheap and
 ``step``, ``certify`` and ``solve`` work where pinocchio and coal are not installed. None of them
@@ -40,10 +40,10 @@ _HOMES = {
     "step.problem": "StepProblem",
     "step.standard_form": "standard_form",
     "step.extension": "Extension",
-    "certify.solution": "StepSolution Certificate",
+    "certify.solution": "StepSolution",
     "solve.solve": "solve_step",
     "optional.coulomb.fixed_point": "coulomb_step",
-    "certify.certificate": "verify",
+    "certify.certificate": "Certificate verify",
     "certify.compliance.forces": "contact_forces",
     "optional.derivatives.step.sensitivity": "sensitivity",
     # What can go wrong.

@@ -17,7 +17,7 @@ from quasistatic_ref.formats.quoting import clipped, one_line, short_words, show
 
 if TYPE_CHECKING:
     from quasistatic_ref.certify.farkas import FarkasVector
-    from quasistatic_ref.certify.optimality import Residuals
+    from quasistatic_ref.certify.residuals import Residuals
     from quasistatic_ref.step.data import Array, StepData
 
 

@@ -1,4 +1,4 @@
-"""The door to the optional parts: a module of ``optional``, or None where its folder is missing.
+"""Access to the optional parts: a module of ``optional``, or None where its folder is missing.
 
 The core imports no optional part. It asks for one here, under the word that users write.
 """

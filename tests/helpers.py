@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.optimality import optimality_residuals
+from quasistatic_ref.certify.residuals import optimality_residuals
 from quasistatic_ref.lab.scenes.contacts import NUMBERS, contacts_of
 from quasistatic_ref.lab.scenes.pinch import pinch_step
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step

@@ -1,6 +1,6 @@
 """The dual active-set method of Goldfarb and Idnani (1983), with exact signs.
 
-Each :class:`~quasistatic_ref.certify.point.Point` is the minimiser on a working set W of
+Each :class:`~quasistatic_ref.certify.minimiser.Minimiser` is the minimiser on a working set W of
 independent rows; if all multipliers are >= 0, it is the optimum of the problem with the rows of W
 alone. The method adds one violated row after the other.
 
@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.dependence import combination, independent_rows
-from quasistatic_ref.certify.point import PRECISION, BallForm, Point, ball_form
+from quasistatic_ref.certify.minimiser import PRECISION, BallForm, Minimiser, ball_form
 from quasistatic_ref.certify.rational import ExactForm
 
 
@@ -47,7 +47,7 @@ class Optimum:
 
     Parameters
     ----------
-    point : Point
+    minimiser : Minimiser
         Its working set has positive multipliers only.
     slack_signs : list of int
         0 or 1 for each row.
@@ -55,36 +55,36 @@ class Optimum:
         Rows that were added: none if the warm start was right.
     """
 
-    point: Point
+    minimiser: Minimiser
     slack_signs: list[int]
     walks: int
 
 
-def most_violated(point: Point) -> tuple[int | None, list[int]]:
+def most_violated(minimiser: Minimiser) -> tuple[int | None, list[int]]:
     """Return a violated row, if there is one, and all signs once there is none.
 
     Any violated row would do. With the most violated one (of equal ones that of least index) a
     grasp takes, from a cold start, a fifth of the walks that it takes with :func:`least_index`.
     """
-    shown = [i for i, sign in enumerate(point.slack_signs) if sign == -1]
-    if shown and point.balls is not None:
-        slack = point.balls.slack
+    shown = [i for i, sign in enumerate(minimiser.slack_signs) if sign == -1]
+    if shown and minimiser.balls is not None:
+        slack = minimiser.balls.slack
         return min(shown, key=lambda i: slack[i].mid()), []
-    return least_index(point)
+    return least_index(minimiser)
 
 
-def least_index(point: Point) -> tuple[int | None, list[int]]:
+def least_index(minimiser: Minimiser) -> tuple[int | None, list[int]]:
     """Return the violated row of least index, if there is one, and all signs once there is none.
 
     The choice depends on exact signs alone, not on the midpoints of balls: every implementation of
     the method takes the same path.
     """
-    signs = point.decided_slack_signs
+    signs = minimiser.decided_slack_signs
     violated = [i for i, sign in enumerate(signs) if sign == -1]
     return (violated[0], []) if violated else (None, signs)
 
 
-Choice = Callable[[Point], tuple[int | None, list[int]]]
+Choice = Callable[[Minimiser], tuple[int | None, list[int]]]
 """Which violated row is added next."""
 
 
@@ -109,98 +109,103 @@ def dual_active_set(
 
     """
     balls = ball_form(form)
-    point = _start(form, balls, warm)
+    minimiser = _start(form, balls, warm)
     walks = 0
     while True:
-        p, signs = violated(point)
+        p, signs = violated(minimiser)
         if p is None:
-            return Optimum(_without_zeros(point), signs, walks)
-        after = _walk(point, p)
+            return Optimum(_without_zeros(minimiser), signs, walks)
+        after = _walk(minimiser, p)
         if isinstance(after, Farkas):
             return after
-        point = after
+        minimiser = after
         walks += 1
 
 
-def _start(form: ExactForm, balls: BallForm, warm: Sequence[int]) -> Point:
-    """Return a point with positive multipliers: any subset of the warm rows that has them."""
+def _start(form: ExactForm, balls: BallForm, warm: Sequence[int]) -> Minimiser:
+    """Return a minimiser with positive multipliers: any subset of the warm rows that has them."""
     working = independent_rows(form, list(dict.fromkeys(warm)))
     while True:
-        point = Point(form, balls, working)
-        kept = point.surely_positive()
+        minimiser = Minimiser(form, balls, working)
+        kept = minimiser.surely_positive()
         if kept == working:
-            return point
+            return minimiser
         working = kept
 
 
-def _walk(point: Point, p: int) -> Point | Farkas:
-    """Return the point that the violated row p leads to, or a proof that there is none."""
+def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
+    """Return the minimiser that the violated row p leads to, or a proof that there is none."""
     while True:
-        c = combination(point.form, point.working, p)
+        working = minimiser.working
+        c = combination(minimiser.form, working, p)
         if c is None:
-            after = Point(point.form, point.ball_form, (*point.working, p))
-            leaving = _first_to_vanish(point, after)
+            after = Minimiser(minimiser.form, minimiser.ball_form, (*working, p))
+            leaving = _first_to_vanish(minimiser, after)
             if leaving is None:
                 return after
         else:
-            leaving = _first_to_vanish_on_combination(point, c)
+            leaving = _first_to_vanish_on_combination(minimiser, c)
             if leaving is None:  # a_p = sum c_j a_j with c <= 0, and b_p > sum c_j b_j
-                support = {i: -c_j for i, c_j in zip(point.working, c, strict=True) if c_j}
+                support = {i: -c_j for i, c_j in zip(working, c, strict=True) if c_j}
                 return Farkas({**support, p: fmpq(1)})
-        rest = point.working[:leaving] + point.working[leaving + 1 :]
-        point = Point(point.form, point.ball_form, rest)
+        rest = working[:leaving] + working[leaving + 1 :]
+        minimiser = Minimiser(minimiser.form, minimiser.ball_form, rest)
 
 
-def _first_to_vanish(point: Point, after: Point) -> int | None:
+def _first_to_vanish(minimiser: Minimiser, after: Minimiser) -> int | None:
     """Ratio test: index in W of the multiplier that vanishes first between two points, or None.
 
     That is the least l_j / (l_j - u_j) over u_j < 0; of a tie the first of W.
     """
     first = None
-    for j in range(len(point.working)):
-        if after.lam_sign(j) < 0 and (first is None or _vanishes_before(point, after, j, first)):
+    for j in range(len(minimiser.working)):
+        if after.lam_sign(j) >= 0:
+            continue
+        if first is None or _vanishes_before(minimiser, after, j, first):
             first = j
     return first
 
 
-def _vanishes_before(point: Point, after: Point, j: int, k: int) -> bool:
+def _vanishes_before(minimiser: Minimiser, after: Minimiser, j: int, k: int) -> bool:
     """Return whether l_j / (l_j - u_j) < l_k / (l_k - u_k), both u being negative."""
-    if point.balls is not None and after.balls is not None:
-        l_ball = point.balls.lam
+    if minimiser.balls is not None and after.balls is not None:
+        l_ball = minimiser.balls.lam
         u_ball = after.balls.lam
         with ctx.workprec(PRECISION):
             difference = l_ball[k] * u_ball[j] - l_ball[j] * u_ball[k]
         if not difference.contains(0):
             return bool(difference < 0)
-    l_exact = point.rational.lam
+    l_exact = minimiser.rational.lam
     u_exact = after.rational.lam
     return bool(l_exact[k] * u_exact[j] < l_exact[j] * u_exact[k])
 
 
-def _first_to_vanish_on_combination(point: Point, c: Sequence[fmpq]) -> int | None:
+def _first_to_vanish_on_combination(minimiser: Minimiser, c: Sequence[fmpq]) -> int | None:
     """Ratio test: index in W of the l_j - t c_j that vanishes first as t grows, or None.
 
     That is the least l_j / c_j over c_j > 0; of a tie the first of W.
     """
     first = None
     for j, c_j in enumerate(c):
-        if c_j > 0 and (first is None or _ratio_less(point, c, j, first)):
+        if c_j > 0 and (first is None or _ratio_less(minimiser, c, j, first)):
             first = j
     return first
 
 
-def _ratio_less(point: Point, c: Sequence[fmpq], j: int, k: int) -> bool:
+def _ratio_less(minimiser: Minimiser, c: Sequence[fmpq], j: int, k: int) -> bool:
     """Return whether l_j / c_j < l_k / c_k, both c being positive."""
-    if point.balls is not None:
+    if minimiser.balls is not None:
         with ctx.workprec(PRECISION):
-            difference = point.balls.lam[j] * c[k] - point.balls.lam[k] * c[j]
+            difference = minimiser.balls.lam[j] * c[k] - minimiser.balls.lam[k] * c[j]
         if not difference.contains(0):
             return bool(difference < 0)
-    l_exact = point.rational.lam
+    l_exact = minimiser.rational.lam
     return bool(l_exact[j] * c[k] < l_exact[k] * c[j])
 
 
-def _without_zeros(point: Point) -> Point:
+def _without_zeros(minimiser: Minimiser) -> Minimiser:
     """Return the same minimiser on the rows whose multipliers are positive."""
-    positive = point.positive()
-    return point if positive == point.working else Point(point.form, point.ball_form, positive)
+    positive = minimiser.positive()
+    if positive == minimiser.working:
+        return minimiser
+    return Minimiser(minimiser.form, minimiser.ball_form, positive)

@@ -1,4 +1,7 @@
-"""What is claimed about an exact answer, and its verification without any solver.
+"""What is claimed about an answer, and the verification of that claim without any solver.
+
+The exact method states its result as a :class:`Certificate`. No step calls :func:`verify`, which is
+for whoever wants to check an answer afterwards.
 
 A certificate names a working set of independent rows. Solving one linear system without rounding
 gives the minimiser on it; if its multipliers are > 0 and its slacks >= 0, it is the optimum, which
@@ -10,21 +13,87 @@ positive definite, and the decisions on degeneracy; it does not search for a wor
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.dependence import idle_rows
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.point import RationalSolution, rational_solution, rounded_solution
+from quasistatic_ref.certify.minimiser import RationalSolution, rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
-from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
+from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.groups import Group, parts
+from quasistatic_ref.step.files import step_sha256
+from quasistatic_ref.step.groups import Group, group_steps
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Certificate(Plain, Shown):
+    """What is known about an answer, and how.
+
+    Parameters
+    ----------
+    kind : str
+        ``"exact"`` (delta_q is the exact optimum, correctly rounded), ``"enclosure"`` (in the
+        ellipsoid: delta_q is proved to be as near to the optimum as error_bound says),
+        ``"residual"`` (optimality residuals were computed and are small) or ``"none"``.
+    residuals : mapping of str to float
+        Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` in natural units [-]. They differ in the last
+        places from processor to processor, prove nothing, and never enter a solution file.
+    active : tuple of (int, int)
+        Contact and row of each member of the working set; the user's own rows count as those of
+        one contact more. The rows of the working set are independent, their multipliers positive
+        and their slacks zero. In the ellipsoid, for ``"exact"``: the first independent rows of the
+        contacts that bear load.
+    multipliers_unique : bool or None
+        Whether lam may be compared component by component. Here and below None: nothing is claimed.
+    differentiable : bool or None
+        Whether delta_q is differentiable with respect to the forces and targets (g).
+    smallest_inactive_slack : float or None
+        Smallest slack [m] of the rows that are not strictly active: 0.0 where delta_q is not
+        differentiable. None if there are no such rows.
+    smallest_active_multiplier : float or None
+        Smallest multiplier [N s] of the working set. None if that is empty.
+    error_bound : float or None
+        Bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H [-]; 0.0 for ``"exact"``, where the only
+        error is the correct rounding of each entry.
+    gap : float or None
+        In the ellipsoid: bound of f(delta_q*) - d(lam), the duality gap of lam [N m s].
+    step : StepData or None
+        What it is about. Only kind ``"none"``, which claims nothing, is about no step.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.solve_step(step).certificate.kind
+    'exact'
+    """
+
+    kind: str
+    residuals: Mapping[str, float] = field(default_factory=dict)
+    active: tuple[tuple[int, int], ...] = ()
+    multipliers_unique: bool | None = None
+    differentiable: bool | None = None
+    smallest_inactive_slack: float | None = None
+    smallest_active_multiplier: float | None = None
+    error_bound: float | None = None
+    gap: float | None = None
+    step: StepData | None = None
+
+    @property
+    def step_sha256(self) -> str | None:
+        """SHA-256 of the step that it is about, as in a solution file; formed when it is read."""
+        return None if self.step is None else step_sha256(self.step)
+
+    def is_of(self, step: StepData) -> bool:
+        """Whether it is about this step: the same object, or one with the same SHA-256."""
+        return self.step is step or self.step_sha256 == step_sha256(step)
 
 
 def exact_certificate(
@@ -117,7 +186,7 @@ def verify(
     lam_exact = np.zeros(step.m)
     reason = ""
     solved = []
-    for group, part in parts(step):
+    for group, part in group_steps(step):
         form = exact_form(part)
         working_rows = tuple(group.within(working))
         try:

@@ -74,7 +74,7 @@ def feasible(
     rows = held + [[-a for a in row] for row in held] + moves
     identity = [[int(i == j) for j in range(n)] for i in range(n)]
     one = fmpq(1)
-    cone = ExactForm(
+    feasibility = ExactForm(
         H=fmpz_mat(identity),
         g=fmpz_mat(n, 1),
         A=fmpz_mat(len(rows), n, [a for row in rows for a in row]),
@@ -84,4 +84,4 @@ def feasible(
         lam_unit=one,
         net_unit=one,
     )
-    return isinstance(dual_active_set(cone, range(len(held))), Optimum)
+    return isinstance(dual_active_set(feasibility, range(len(held))), Optimum)

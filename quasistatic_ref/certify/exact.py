@@ -1,5 +1,8 @@
 """The exact optimum of a step, rounded correctly to float64.
 
+Numbers are computed as balls (a midpoint with a rigorous bound of its error) and, only where a ball
+leaves a sign or a rounding open, as fractions.
+
 delta_q, A'lam and the slacks are unique, and correct rounding leaves no choice: they have the
 same bits whatever the warm start was. lam and the working set are one of several possible
 choices where the multipliers are not unique.
@@ -23,19 +26,19 @@ from quasistatic_ref.certify.active_set import (
 )
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.farkas import farkas_vector
-from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
-from quasistatic_ref.certify.point import (
+from quasistatic_ref.certify.minimiser import (
     PRECISION,
     BallSolution,
-    Point,
+    Minimiser,
     RationalSolution,
 )
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import all_nearest_in, nearest_fraction
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.groups import Group, parts
+from quasistatic_ref.step.groups import Group, group_steps
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import ILL_POSED
 
@@ -80,7 +83,7 @@ class ExactOptimum:
     walks: int
 
 
-def exact_optimum(
+def form_optimum(
     form: ExactForm, warm: Sequence[int] = (), violated: Choice = most_violated
 ) -> ExactOptimum | Farkas:
     """The exact optimum, or an exact proof that there is none.
@@ -104,28 +107,28 @@ def exact_optimum(
 
 
 def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
-    point = end.point
-    working = point.working
+    minimiser = end.minimiser
+    working = minimiser.working
     signs = np.array(end.slack_signs, dtype=np.int64)
     inside = np.flatnonzero(signs)
     idle = [int(i) for i in np.flatnonzero(signs == 0) if i not in working]
-    spanned = point.spanned(idle)
+    spanned = minimiser.spanned(idle)
     unspanned = [i for i in idle if i not in spanned]
     smooth = differentiable(form, working, unspanned)
 
     coordinates = range(form.n)
     lam = np.zeros(form.m)
     slack = np.zeros(form.m)
-    lam_w = nearest_numbers(point, lambda s: s.lam, form.lam_unit, range(len(working)))
+    lam_w = nearest_numbers(minimiser, lambda s: s.lam, form.lam_unit, range(len(working)))
     lam[list(working)] = lam_w
-    slack[inside] = nearest_numbers(point, lambda s: s.slack, form.slack_unit, inside)
+    slack[inside] = nearest_numbers(minimiser, lambda s: s.slack, form.slack_unit, inside)
     least = float(slack[inside].min()) if inside.size else None
     return ExactOptimum(
         delta_q=nearest_numbers(
-            point, lambda s: s.x, form.x_unit, coordinates, point.zero_coordinates
+            minimiser, lambda s: s.x, form.x_unit, coordinates, minimiser.zero_coordinates
         ),
         lam=lam,
-        net=nearest_numbers(point, lambda s: s.net, form.net_unit, coordinates),
+        net=nearest_numbers(minimiser, lambda s: s.net, form.net_unit, coordinates),
         slack=slack,
         working_set=tuple(sorted(working)),
         multipliers_unique=multipliers_unique(form, working, spanned, unspanned),
@@ -137,20 +140,20 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
 
 
 def nearest_numbers(
-    point: Point,
+    minimiser: Minimiser,
     values: Callable[[BallSolution | RationalSolution], Sequence[Any]],
     unit: fmpq,
     entries: Sequence[int] | NDArray[np.int64],
     zeros: Callable[[Sequence[int]], Sequence[int]] = lambda _: (),
 ) -> Array:
-    """The numbers unit * values of a point in float64, rounded correctly, shape (entries,).
+    """The numbers unit * values of a minimiser in float64, rounded correctly, shape (entries,).
 
     Each of the `entries`, shape (entries,), is rounded from its ball; where the ball leaves that
     open, it is zero if `zeros` proves so, and otherwise rounded from the rational solution.
     """
     rounded: dict[int, float | None] = {int(i): None for i in entries}
-    if point.balls is not None:
-        shown = values(point.balls)
+    if minimiser.balls is not None:
+        shown = values(minimiser.balls)
         with ctx.workprec(PRECISION):
             factor = arb(unit)
             scaled = [shown[i] * factor for i in rounded]
@@ -159,12 +162,12 @@ def nearest_numbers(
     rounded.update(dict.fromkeys(zeros(hidden), 0.0))
     for i in hidden:
         if rounded[i] is None:
-            exact = point.rational
+            exact = minimiser.rational
             rounded[i] = nearest_fraction(unit * values(exact)[i] / exact.denominator)
     return np.array(list(rounded.values()), dtype=np.float64)
 
 
-def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
+def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     """The exact optimum of Eq. :eq:`eq-13`, sought and proved for each of its groups by itself.
 
     Parameters
@@ -189,7 +192,7 @@ def exact_step(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     """
     if not cone(step.cone).polyhedral:
         raise InputError("has no rational optimum", field="cone", value=step.cone)
-    divided = parts(step)
+    divided = group_steps(step)
     optima = [group_optimum(step, group, part, group.within(warm)) for group, part in divided]
     optimum = joined(step, [group for group, _ in divided], optima)
     check_length(step, optimum.delta_q, divided)
@@ -207,7 +210,7 @@ def group_optimum(
         If no displacement satisfies the rows of the group, with the proof in the step's rows.
     """
     form = exact_form(part)
-    optimum = exact_optimum(form, warm)
+    optimum = form_optimum(form, warm)
     if isinstance(optimum, Farkas):
         raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
     return optimum
@@ -245,30 +248,27 @@ def joined(step: StepData, groups: Sequence[Group], optima: Sequence[ExactOptimu
     )
 
 
-def check_length(
-    step: StepData, delta_q: Array, divided: Sequence[tuple[Group, StepData]] | None = None
-) -> None:
+def check_length(step: StepData, delta_q: Array, divided: Sequence[tuple[Group, StepData]]) -> None:
     """Refuse a delta_q, shape (n_v,) [m, rad], that is absurdly long in one of the step's groups.
 
     Parameters
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
-    divided : sequence of (Group, StepData), optional
-        The groups of the step, where they are known.
+    divided : sequence of (Group, StepData)
+        Its :func:`~quasistatic_ref.step.groups.group_steps`.
 
     Raises
     ------
     StepIllPosed
     """
-    divided = parts(step) if divided is None else divided
     lengths = [relative_length(part, delta_q[group.coordinates]) for group, part in divided]
     longest = max(lengths, key=lambda length: math.inf if math.isnan(length) else length)
     if not longest <= ILL_POSED:
         raise StepIllPosed(step, delta_q, longest)
 
 
-def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = None) -> float:
+def relative_length(step: StepData, delta_q: Array) -> float:
     """||delta_q||_H over the largest step that the loads or a single row ask for alone [-].
 
     It is compared with ``ILL_POSED`` for each group of a step by itself, lest a heavy body hide
@@ -284,8 +284,6 @@ def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = No
     ----------
     step : StepData
     delta_q : ndarray, shape (n_v,)
-    norm : EnergyNorm, optional
-        That of the step, where it is known.
 
     Returns
     -------
@@ -294,7 +292,7 @@ def relative_length(step: StepData, delta_q: Array, norm: EnergyNorm | None = No
     form = standard_form(step)
     h = step.h
     n_a = step.n_a
-    norm = energy_norm(form.H) if norm is None else norm
+    norm = energy_norm(form.H)
     b = np.maximum(form.b, 0.0)
     parameters = np.concatenate([step.delta_q_bar_a, step.tau_a, step.tau_u, b])
     # All lengths are linear in these and delta_q. Of subnormal loads h tau could be zero.

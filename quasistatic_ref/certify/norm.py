@@ -37,8 +37,15 @@ class EnergyNorm:
         return math.hypot(*self.inverse.dot(p * self.unit).tolist())
 
     def impulses(self, P: Array) -> Array:
-        """||H^-1 p||_H of each row p of P, shape (rows, n_v): how far an impulse moves; (rows,)."""
-        return _norms(np.asarray(np.linalg.solve(self.L, (P * self.unit).T), dtype=np.float64))
+        """||H^-1 p||_H of each row p of P, shape (rows, n_v): how far an impulse moves; (rows,).
+
+        NaN or infinity where an entry is.
+        """
+        columns = np.asarray(np.linalg.solve(self.L, (P * self.unit).T), dtype=np.float64)
+        largest = np.abs(columns).max(axis=0, initial=0.0)
+        safe = np.where((largest > 0) & np.isfinite(largest), largest, 1.0)
+        lengths: Array = np.linalg.norm(columns / safe, axis=0) * safe
+        return lengths
 
 
 class Norm(Protocol):
@@ -89,11 +96,3 @@ def float_inverse(H: Array) -> Array:
         norm = energy_norm(H)
         root = norm.inverse * norm.unit
         return root.T @ root
-
-
-def _norms(columns: Array) -> Array:
-    """Return the Euclidean length of each column; NaN or infinity where an entry is."""
-    largest = np.abs(columns).max(axis=0, initial=0.0)
-    safe = np.where((largest > 0) & np.isfinite(largest), largest, 1.0)
-    lengths: Array = np.linalg.norm(columns / safe, axis=0) * safe
-    return lengths

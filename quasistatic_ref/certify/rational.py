@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -102,7 +103,7 @@ def dyadic(array: Array | float) -> Dyadic:
     return Dyadic(integers, least)
 
 
-def joined(parts: Sequence[Dyadic], axis: int = 0) -> Dyadic:
+def concatenated(parts: Sequence[Dyadic], axis: int = 0) -> Dyadic:
     """Arrays of the same numbers, one after the other along an axis that they have."""
     e = min((p.e for p in parts if p.m.any()), default=0)
     aligned = [p.shifted(e) if p.m.any() else p.m for p in parts]
@@ -142,12 +143,12 @@ class ExactForm:
     lam_unit: fmpq
     net_unit: fmpq
 
-    @property
+    @cached_property
     def n(self) -> int:
         """Number of coordinates."""
         return self.A.ncols()
 
-    @property
+    @cached_property
     def m(self) -> int:
         """Number of rows."""
         return self.A.nrows()
@@ -181,10 +182,10 @@ def exact_form(step: StepData) -> ExactForm:
     InputError
         If nothing can be proved in this thread.
     """
-    of_contacts = friction_rows(step.contacts, step.cone)[step.mask]
+    of_contacts = exact_friction_rows(step.contacts, step.cone)[step.mask]
     gaps = row_gaps(step.contacts, step.cone)[step.mask]
-    A = joined([of_contacts, dyadic(step.extra.A)])  # Eq. (8)
-    b = joined([dyadic(-gaps), dyadic(step.extra.b)])
+    A = concatenated([of_contacts, dyadic(step.extra.A)])  # Eq. (8)
+    b = concatenated([dyadic(-gaps), dyadic(step.extra.b)])
     return form_on(step, A, b)
 
 
@@ -205,7 +206,7 @@ def h_times_load(step: StepData) -> Dyadic:
     """The vector h g of Eq. :eq:`eq-13` without rounding, shape (n_v,)."""
     h = dyadic(step.h)
     tau_k = dyadic(step.K_q) @ dyadic(step.delta_q_bar_a)  # Eq. (1)
-    return h * h * joined([tau_k + dyadic(step.tau_a), dyadic(step.tau_u)])  # Eq. (13)
+    return h * h * concatenated([tau_k + dyadic(step.tau_a), dyadic(step.tau_u)])  # Eq. (13)
 
 
 def h_times_hessian(step: StepData) -> Dyadic:
@@ -225,10 +226,10 @@ def contact_motion(contacts: Contacts, which: Which = ALL) -> Dyadic:
     """The motion along n, d1, d2 and spin per unit of delta_q, shape (n_c, 4, n_v), `of` some."""
     J = dyadic(contacts.J[which])
     axes = dyadic(np.stack([contacts.n[which], contacts.d1[which], contacts.d2[which]], axis=1))
-    return joined([axes @ J[:, :3], J[:, 3:]], axis=1)
+    return concatenated([axes @ J[:, :3], J[:, 3:]], axis=1)
 
 
-def friction_rows(contacts: Contacts, name: str, which: Which = ALL) -> Dyadic:
+def exact_friction_rows(contacts: Contacts, name: str, which: Which = ALL) -> Dyadic:
     """The rows n~' J + d~_i' J of Eq. :eq:`eq-4`, all of each contact, shape (n_c, R, n_v)."""
     motion = contact_motion(contacts, which)
     kind = cone(name)
@@ -237,18 +238,15 @@ def friction_rows(contacts: Contacts, name: str, which: Which = ALL) -> Dyadic:
     mu_v = mu[:, :1, None]
     mu_omega = mu[:, 2:, None]
     rows = kind.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
-    return joined(rows, axis=1)
+    return concatenated(rows, axis=1)
 
 
 def block_diagonal(K: Dyadic, M: Dyadic) -> Dyadic:
     """Two square blocks, of any units, on the diagonal of a matrix of zeros."""
-    n_a, _ = K.m.shape
-    n_u, _ = M.m.shape
-    right = np.full((n_a, n_u), 0, object)
-    left = np.full((n_u, n_a), 0, object)
-    above = joined([K, Dyadic(right, 0)], axis=1)
-    below = joined([Dyadic(left, 0), M], axis=1)
-    return joined([above, below])
+    beside_K = np.zeros((len(K.m), len(M.m)), dtype=object)
+    above = np.hstack([K.m, beside_K])
+    below = np.hstack([beside_K.T, M.m])
+    return concatenated([Dyadic(above, K.e), Dyadic(below, M.e)])
 
 
 def in_integers(H: Dyadic, g: Dyadic, A: Dyadic, b: Dyadic, h: fmpq) -> ExactForm:

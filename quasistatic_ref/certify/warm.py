@@ -7,7 +7,6 @@ move empties one of them.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.step.data import Array
 
@@ -28,7 +27,7 @@ def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
     Returns
     -------
     list of int
-        A start for :func:`~quasistatic_ref.certify.exact.exact_step`, as good as the answer.
+        A start for :func:`~quasistatic_ref.certify.exact.step_optimum`, as good as the answer.
     """
     pressed = np.flatnonzero(lam > np.maximum(slack, 0))
     basic = _basic(A[pressed], lam[pressed])
@@ -40,7 +39,11 @@ def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
 def _basic(A: Array, lam: Array) -> Array:
     """Return lam >= 0 of the same A'lam whose positive entries belong to independent rows."""
     lam = lam.copy()
-    dependences = _null_space(A.T)
+    dependences = np.eye(len(A))
+    if A.size:
+        _, size, directions = np.linalg.svd(A.T)
+        rank = np.count_nonzero(size > DEPENDENT * size[0])
+        dependences = directions[rank:].T
     while dependences.shape[1]:
         d = dependences[:, 0]
         rounding = DEPENDENT * np.abs(d).max()
@@ -53,11 +56,3 @@ def _basic(A: Array, lam: Array) -> Array:
         dependences = rest - np.outer(d / d[first], rest[first])  # none uses that row again
         dependences[first] = 0
     return lam
-
-
-def _null_space(M: Array) -> NDArray[np.float64]:
-    if 0 in M.shape:
-        return np.eye(M.shape[1])
-    _, size, directions = np.linalg.svd(M)
-    rank = int(np.sum(size > DEPENDENT * size[0]))
-    return np.asarray(directions[rank:].T, dtype=np.float64)

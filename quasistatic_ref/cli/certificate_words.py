@@ -1,6 +1,6 @@
 """What a certificate claims, in words."""
 
-from quasistatic_ref.certify.solution import Certificate
+from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.step.cones import CurvedCone, cone
 
 

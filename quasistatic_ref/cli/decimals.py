@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from fractions import Fraction
 
-from quasistatic_ref.certify.point import rational_solution
+from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
 
 

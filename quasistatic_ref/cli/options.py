@@ -87,7 +87,7 @@ def completed(
 
 def add_resume(parser: argparse.ArgumentParser) -> None:
     """``--resume`` and ``--save-every SECONDS``."""
-    saved = part("runs.saved")
+    saved = part("runs.saved_files")
     usual = "" if saved is None else f" ({saved.EVERY:g} by default)"
     parser.add_argument(
         "--resume", action="store_true", help="go on from the saved steps of a run that was ended"
@@ -176,7 +176,7 @@ def print_wrapped(words: str, indent: str = "", first: str | None = None) -> Non
 
 def failed_run(failure: RunFailed, path: Path) -> int:
     """Say where the steps of a failed run are; write its failing step; its status."""
-    saved = part("runs.saved")
+    saved = part("runs.saved_files")
     trajectory: Trajectory = failure.trajectory
     kept = f"the first {trajectory.steps} steps are in {failure.file or path}"
     if failure.step is not None:

@@ -69,7 +69,9 @@ def run(options: argparse.Namespace) -> int:
     """
     scenario = load_scenario(options.scenario, shared.scenario_settings(options))
     path = options.out / f"{scenario.path.stem}.npz"
-    saved = needed_part("runs.saved", "--resume") if options.resume else part("runs.saved")
+    saved = (
+        needed_part("runs.saved_files", "--resume") if options.resume else part("runs.saved_files")
+    )
     first = 0 if saved is None else saved.first_step(path, scenario.steps, options.resume)
     writable_folder(options.out)  # known before the work, not after it
     viewer = None

@@ -13,7 +13,8 @@ from typing import Any, get_type_hints
 
 import numpy as np
 
-from quasistatic_ref.certify.solution import Certificate, StepSolution
+from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepDataError, about_file
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import json_read, json_text

@@ -15,7 +15,7 @@ from quasistatic_ref.contact.solids.polytope import Polytope, polytope
 from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder
-from quasistatic_ref.shapes.round import Round
+from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SKEW
@@ -110,12 +110,12 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
     return Edges(rotated(body.R, ends) + body.t, number, total)
 
 
-def line(shape: Round, above: float, up: float, way: Array) -> tuple[Array, Indices]:
+def line(shape: Revolved, above: float, up: float, way: Array) -> tuple[Array, Indices]:
     """The line on the side of a solid of revolution that faces a way, if one does.
 
     Parameters
     ----------
-    shape : Round
+    shape : Revolved
     above : float
         Radius of its upper end [m].
     up : float

@@ -1,12 +1,17 @@
 """Closest points, signed distances and normals of the pairs, in the world frame.
 
-For a cloud on a solid, the k closest points are kept. Two solids have as candidates alpha's corners
-on beta, beta's corners on alpha, crossings of their edges and the closest pair, in that order; of
-these, the ones whose normal is about the pair's. The k with the smallest signed distances are kept;
-some rank after all others: candidates that repeat an earlier one; the closest pair if k others are
-as near; and crossings if k corners are. No candidate is nearer than the closest pair, so k = 1
-keeps that one alone. Where fewer than k are left, the closest pair fills the rest, put so far apart
-that it stands for nothing.
+A cloud on a solid: the k closest points of the cloud are the contacts.
+
+Two solids:
+
+- The candidates are alpha's corners on beta, beta's corners on alpha, crossings of their edges and
+  the closest pair, in that order. Those whose normal is not about the pair's are left out.
+- The k candidates with the smallest signed distances are the contacts. Three kinds rank after all
+  others: candidates that repeat an earlier one; the closest pair if k others are as near; and
+  crossings if k corners are.
+- No candidate is nearer than the closest pair, so k = 1 keeps that one alone.
+- Where fewer than k candidates are left, the number is filled with copies of the closest pair at
+  the distance ``FILLED``, at which a contact bears nothing.
 """
 
 from collections.abc import Sequence
@@ -18,9 +23,9 @@ import numpy as np
 
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.patch import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.contact.separations import BISECTOR, OWN, pair_normal, rounding
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
@@ -28,12 +33,9 @@ from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.ordered import dot, norm, product, rotated
 from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
 
-FEW = 128
-"""Numbers that are sorted in less time than the smallest of them are searched for."""
-
 
 class ClosestPoints(NamedTuple):
-    """Candidate contacts, in the world frame.
+    """Contacts, in the world frame.
 
     Parameters
     ----------
@@ -114,7 +116,10 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     candidates = every_candidate(pair, a, b, nearest)
     order = closest(np.where(late(candidates, pair.k), np.inf, candidates.phi), pair.k)
     kept = candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
-    return joined([kept, *filling(pair, nearest, pair.n_c - len(order))])
+    far = nearest._replace(phi=np.array([FILLED]), tie=np.array([OWN]))
+    missing = np.arange(pair.n_c - len(order))
+    filling = far.chosen(0 * missing)._replace(point=pair.corners + 1 + missing)
+    return joined([kept, filling])
 
 
 def closest(phi: Array, k: int) -> Indices:
@@ -130,10 +135,6 @@ def closest(phi: Array, k: int) -> Indices:
     -------
     ndarray of int, shape (min(k, N),)
     """
-    if k < len(phi) > FEW:
-        # Only what can be among the k smallest is sorted; every tie stays in the running.
-        candidates = np.flatnonzero(~(phi > np.partition(phi, k - 1)[k - 1]))
-        return candidates[np.argsort(phi[candidates], kind="stable")[:k]]
     return phi.argsort(kind="stable")[:k]
 
 
@@ -158,12 +159,6 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
         every = every_candidate(whole, a, b, nearest_of_solids(whole, a, b))
         phi = every.phi[~late(every, 1)]  # without the closest pair, if a corner is as near
     return int(np.count_nonzero(phi <= phi.min() + within))
-
-
-def filling(pair: ContactPair, nearest: ClosestPoints, count: int) -> list[ClosestPoints]:
-    """Contacts that stand for nothing: the closest pair, FILLED apart, `count` times."""
-    far = nearest._replace(phi=np.array([FILLED]), tie=np.array([OWN]))
-    return [far._replace(point=np.array([pair.corners + 1 + i])) for i in range(count)]
 
 
 def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:
@@ -252,37 +247,10 @@ def _cloud_on_solid(
     """The k closest points of a cloud on a solid."""
     relative = relative_pose(solid, cloud)
     x = rotated(relative[:, :3], points) + relative[:, 3]
-    return cloud_contacts(pair, solid, cloud, relative, x, *solid.shape.signed_distance(x))
-
-
-def cloud_contacts(
-    pair: ContactPair,
-    solid: ShapeInWorld,
-    cloud: ShapeInWorld,
-    relative: Array,
-    x: Array,
-    phi: Array,
-    normal: Array,
-    index: Indices | None = None,
-) -> ClosestPoints:
-    """The k closest points of a cloud on a solid, from their signed distances.
-
-    Parameters
-    ----------
-    pair : ContactPair
-    solid, cloud : ShapeInWorld
-    relative : ndarray, shape (3, 4)
-        [R, t] from the cloud's frame to the solid's.
-    x, phi, normal : ndarray, shapes (N, 3), (N,) and (N, 3)
-        Points in the solid's frame [m], their signed distances [m] and normals [-].
-    index : ndarray of int, shape (N,), optional
-        Their numbers in the cloud; by default they are all of it.
-    """
-    assert isinstance(cloud.shape, PointCloud)
-    some = closest(phi, pair.k)
-    point = some if index is None else index[some]
-    found = cloud_surface(pair.name, solid, cloud, relative, x[some], phi[some], normal[some])
-    return _contacts(solid, cloud, cloud.shape.points[point], 0.0, found)._replace(point=point)
+    phi, normal = solid.shape.signed_distance(x)
+    point = closest(phi, pair.k)
+    found = cloud_surface(pair.name, solid, cloud, relative, x[point], phi[point], normal[point])
+    return _contacts(solid, cloud, points[point], 0.0, found)._replace(point=point)
 
 
 def _corners_on_solid(

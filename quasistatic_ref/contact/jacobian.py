@@ -5,7 +5,6 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.step.contacts import Contacts
@@ -138,15 +137,10 @@ def contact_jacobian(
 ) -> Array:
     """J of Eq. :eq:`eq-3` between any links: `link_alpha`, `link_beta` in arrays (n_c,).
 
-    Raises
-    ------
-    ContactError
-        If no link of the kinematics moves.
+    A link of the kinematics moves.
     """
     nothing = np.zeros(len(n))
-    names = ("",) * len(n)
-    layout = ContactLayout(names, link_alpha, link_beta, nothing, nothing, link_alpha)
-    if kinematics.column_map is None:
-        raise ContactError("has no Jacobian, because no link moves", field="kinematics")
+    layout = ContactLayout((), link_alpha, link_beta, nothing, nothing, link_alpha)
+    assert kinematics.column_map is not None
     geometry = ContactGeometry(layout, kinematics.column_map)
     return geometry.jacobian(kinematics.columns, alpha, beta, n)

@@ -63,7 +63,7 @@ def tied_normals(
     b: ShapeInWorld,
     found: Witness,
     within: float,
-    every: tuple[Array, Array] | None = None,
+    every: tuple[Array, Array] | None,
 ) -> Array:
     """All normals of two solids along which their gap is the signed distance, shape (T, 3).
 
@@ -74,7 +74,7 @@ def tied_normals(
         Their closest points.
     within : float
         Largest difference of gaps that are equal [m].
-    every : (ndarray, ndarray), optional
+    every : (ndarray, ndarray) or None
         Of two polytopes, all gaps (N,) [m] and normals (N, 3) [-].
     """
     shapes = (a.shape, b.shape)
@@ -88,7 +88,10 @@ def tied_normals(
         gaps_along = np.array([-found.phi - 2 * radii])
         normals = -normal
     else:
-        gaps_along, normals = _of_curved(a, b, found) if every is None else every
+        if every is None:
+            # Gaps along what may be normals, and these.
+            every = needed_part("curved.ways_out", "a curved solid").known_gaps(a, b, found)
+        gaps_along, normals = every
     tied = distinct([*normals[gaps_along >= found.phi - within]])
     if len(tied) > 1:
         return tied
@@ -101,14 +104,6 @@ def _of_centre(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array,
     assert isinstance(ball.shape, Sphere)
     heights, normals = solid.shape.faces(product(ball.t - solid.t, solid.R)[None])
     return heights[0] - ball.shape.radius, sign * product(normals[0], solid.R.T)
-
-
-def _of_curved(a: ShapeInWorld, b: ShapeInWorld, found: Witness) -> tuple[Array, Array]:
-    """Of two solids that are not polytopes: gaps along what may be normals, and these."""
-    known: tuple[Array, Array] = needed_part("curved.ways_out", "a curved solid").known_gaps(
-        a, b, found
-    )
-    return known
 
 
 def gaps(a: ShapeInWorld, b: ShapeInWorld, directions: Array) -> Array:

@@ -58,10 +58,10 @@ def npz_arrays(path: str | Path, what: str, only: str = "") -> dict[str, NDArray
     """
     content = bytes_read(path)
     problem = f"is not {what}"
-    with _readable(path, problem), zipfile.ZipFile(io.BytesIO(content)) as archive:
+    with readable(path, problem), zipfile.ZipFile(io.BytesIO(content)) as archive:
         members = {_name(member, problem): member for member in _checked_sizes(archive)}
         return {
-            name: _array(archive.read(member), member.filename)
+            name: array_of(archive.read(member), member.filename)
             for name, member in members.items()
             if only in ("", name)
         }
@@ -102,30 +102,9 @@ def json_array(header: Mapping[str, Any]) -> NDArray[np.uint8]:
     return np.frombuffer(json_text(dict(header)).encode(), dtype=np.uint8)
 
 
-def npy_array(path: str | Path) -> NDArray[Any]:
-    """The array of an ``.npy`` file, of the shape and type that it has there.
-
-    Parameters
-    ----------
-    path : str or Path
-
-    Returns
-    -------
-    ndarray, any shape
-        In the file's own unit.
-
-    Raises
-    ------
-    InputError
-        If it is no such file, is spoilt, or holds a pickle.
-    """
-    with _readable(path, "is not an array of NumPy"):
-        return _array(bytes_read(path), "it")
-
-
 @contextmanager
-def _readable(path: str | Path, problem: str) -> Iterator[None]:
-    """Say `problem` of a file where what is done in this block fails."""
+def readable(path: str | Path, problem: str) -> Iterator[None]:
+    """InputError, which says `problem`, where what is done with a file in this block fails."""
     try:
         with about_file(path):
             yield
@@ -156,7 +135,14 @@ def _name(member: zipfile.ZipInfo, problem: str) -> str:
     return member.filename.removesuffix(".npy")
 
 
-def _array(content: bytes, name: str) -> NDArray[Any]:
+def array_of(content: bytes, name: str) -> NDArray[Any]:
+    """The array that the bytes of an ``.npy`` file hold, of any shape [its unit]; never a pickle.
+
+    Raises
+    ------
+    ValueError
+        If it is no such array; :func:`readable` says so of the file.
+    """
     file = io.BytesIO(content)
     if np.lib.format.read_magic(file) != (1, 0):
         raise ValueError(f"{name} is an array file of another version")

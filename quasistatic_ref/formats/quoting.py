@@ -74,13 +74,13 @@ def short_words(text: str) -> str:
     return re.sub(rf"\S{{{LONGEST + 1},}}", lambda word: clipped(word[0]), text)
 
 
-def shown_value(value: Any, limit: int = 80) -> str:
-    """What `repr` says of a value, on one line and of at most so many characters."""
+def shown_value(value: Any) -> str:
+    """What `repr` says of a value, on one line and of at most 80 characters."""
     try:
         text = " ".join(repr(value).split())
     except (RecursionError, ValueError):  # nested without end; an integer of too many digits
         return f"of type {type(value).__name__}, too long to show"
-    return text if len(text) <= limit else text[: limit - 3] + "..."
+    return text if len(text) <= 80 else f"{text[:77]}..."
 
 
 def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:

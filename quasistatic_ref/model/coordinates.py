@@ -144,7 +144,7 @@ class Order:
 
     def model_q(self, q: Array) -> Array:
         """Configuration in pinocchio's order, from the paper's; ModelError unless (n_q,)."""
-        q = of_shape(q, "q", self.q.shape)
+        q = with_shape(q, "q", self.q.shape)
         return q if self.same else q.take(self.q_back)
 
     def paper_v(self, v: Array) -> Array:
@@ -152,7 +152,7 @@ class Order:
         return v if self.same else v.take(self.v, axis=-1)
 
 
-def of_shape(x: Array, name: str, shape: tuple[int, ...]) -> Array:
+def with_shape(x: Array, name: str, shape: tuple[int, ...]) -> Array:
     """Numbers as a float64 array of that shape [any unit]; ModelError, which names it, else."""
     x = np.asarray(x, dtype=np.float64)
     if x.shape != shape:

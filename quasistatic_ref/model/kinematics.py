@@ -23,7 +23,8 @@ class Kinematics:
     columns : ndarray, shape (6, n_x)
         One column for each degree of freedom of the joints, in the world frame: the spatial
         velocity of the body that the joint moves, per unit of the joint's coordinate. Rows 0-2:
-        velocity of the body's point at the world's origin [m]; rows 3-5: angular velocity [rad].
+        velocity of the point fixed to the body that is now at the world's origin [m]; rows 3-5:
+        angular velocity [rad].
     column_map : ColumnMap, optional
         Which columns move a link; without it nothing moves.
     """

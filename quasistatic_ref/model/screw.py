@@ -66,8 +66,8 @@ def change(joint: Joint, q: list[float], q_next: list[float]) -> list[float]:
     if planar:
         angle = _turn(q_joint[2:], q_joint_next[2:])
         return [*linear_part(displacement, [0.0, 0.0, angle])[:2], angle]
-    w, a, twice = _rotation_between(q_joint[3:], q_joint_next[3:])
-    return [*_combined(displacement, w, a, -0.5, twice), *w]
+    w, a, c2 = _rotation_between(q_joint[3:], q_joint_next[3:])
+    return [*_combined(displacement, w, a, -0.5, c2), *w]
 
 
 class HalfTurn(NamedTuple):
@@ -135,16 +135,16 @@ def length(w: Vector) -> float:
     return math.sqrt(dot(w, w))
 
 
-def _combined(v: Vector, w: Vector, a: float, once: float, twice: float) -> list[float]:
-    """Sum of v, once w x v and twice e x (e x v), where w = a e; the last is (e . v) e - v."""
+def _combined(v: Vector, w: Vector, a: float, c1: float, c2: float) -> list[float]:
+    """V + c1 w x v + c2 e x (e x v), where w = a e, and e x (e x v) = (e . v) e - v."""
     x, y, z = v
     p, q, r = w
-    rest = 1 - twice
-    along = twice * dot(w, v) / (a * a) if a * a else 0.0
+    rest = 1 - c2
+    along = c2 * dot(w, v) / (a * a) if a * a else 0.0
     return [
-        rest * x + once * (q * z - r * y) + along * p,
-        rest * y + once * (r * x - p * z) + along * q,
-        rest * z + once * (p * y - q * x) + along * r,
+        rest * x + c1 * (q * z - r * y) + along * p,
+        rest * y + c1 * (r * x - p * z) + along * q,
+        rest * z + c1 * (p * y - q * x) + along * r,
     ]
 
 

@@ -22,7 +22,7 @@ from quasistatic_ref.model import screw
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.configuration import configuration
-from quasistatic_ref.model.coordinates import Coordinate, Joint, of_shape, paper_order
+from quasistatic_ref.model.coordinates import Coordinate, Joint, paper_order, with_shape
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.mass import (
     MassMatrix,
@@ -197,8 +197,8 @@ class System(Shown):
 
     def integrate(self, q: Array, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
-        q = of_shape(q, "q", (self.n_q,))
-        delta_q = of_shape(delta_q, "delta_q", (self.n_v,))
+        q = with_shape(q, "q", (self.n_q,))
+        delta_q = with_shape(delta_q, "delta_q", (self.n_v,))
         q_next = q.copy()
         here = q.tolist()
         change = delta_q.tolist()
@@ -213,7 +213,7 @@ class System(Shown):
 
     def _change(self, q: Array, q_next: Array, n: int) -> Array:
         """The first n entries of q_next (-) q, which are those of whole joints."""
-        q, q_next = (of_shape(x, "q", (self.n_q,)) for x in (q, q_next))
+        q, q_next = (with_shape(x, "q", (self.n_q,)) for x in (q, q_next))
         delta_q = np.zeros(self.n_v)
         here = q.tolist()
         there = q_next.tolist()

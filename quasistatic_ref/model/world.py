@@ -264,16 +264,14 @@ def _joints(body: Body, urdf: Urdf, model: Any) -> list[tuple[Joint, Array]]:
         actuated = body.actuated == "all" or name in body.actuated
         q = slice(joint.idx_q, joint.idx_q + joint.nq)
         v = slice(joint.idx_v, joint.idx_v + joint.nv)
-        limits = _limits(model, joint) if kind in ("revolute", "prismatic") else None
+        limits = None
+        if kind in ("revolute", "prismatic"):
+            lower = float(model.lowerPositionLimit[joint.idx_q])
+            upper = float(model.upperPositionLimit[joint.idx_q])
+            # URDF's default is 0 to 0, with which nothing is said.
+            limits = None if lower == upper == 0 else (lower, upper)
         joints.append((Joint(f"{body.name}/{name}", kind, actuated, q, v, limits), start))
     return joints
-
-
-def _limits(model: Any, joint: Any) -> tuple[float, float] | None:
-    """Position limits of a scalar joint; URDF's default is 0 to 0, with which nothing is said."""
-    lower = float(model.lowerPositionLimit[joint.idx_q])
-    upper = float(model.upperPositionLimit[joint.idx_q])
-    return None if lower == upper == 0 else (lower, upper)
 
 
 def _mimics(body: str, urdf: Urdf) -> list[MimicJoint]:

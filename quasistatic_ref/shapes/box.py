@@ -42,7 +42,7 @@ class Box(Rounded):
         """The same shape as a coal geometry."""
         return coal.Box(2 * self.half_extents)
 
-    @property
+    @cached_property
     def core(self) -> tuple[Array, float]:
         """Half extents, shape (3,) [m], and no ball."""
         return self.half_extents, 0.0

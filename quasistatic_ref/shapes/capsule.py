@@ -6,12 +6,12 @@ from typing import Any
 import coal
 import numpy as np
 
-from quasistatic_ref.shapes.round import Round
+from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.step.arrays import Array
 
 
-class Capsule(Round, Rounded):
+class Capsule(Revolved, Rounded):
     """All points within radius [m] of a segment of its local z axis, |z| <= half_length [m].
 
     half_length is that of the segment, as in URDF and coal: the caps lie beyond it.
@@ -28,7 +28,7 @@ class Capsule(Round, Rounded):
         """The same shape as a coal geometry."""
         return coal.Capsule(self.radius, 2 * self.half_length)
 
-    @property
+    @cached_property
     def core(self) -> tuple[Array, float]:
         """Its segment, as half extents of shape (3,) [m], and the radius."""
         return np.array([0.0, 0.0, self.half_length]), self.radius

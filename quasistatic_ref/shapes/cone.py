@@ -6,13 +6,13 @@ from typing import Any
 import coal
 import numpy as np
 
-from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
+from quasistatic_ref.shapes.revolved import Revolved, rim_corners, rim_point
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import dot, norm
 from quasistatic_ref.tolerances import ON_SURFACE
 
 
-class Cone(Round):
+class Cone(Revolved):
     """A cone about its local z axis: its base at z = -half_length, its tip at z = +half_length.
 
     radius [m] is that of the base.
@@ -35,8 +35,38 @@ class Cone(Round):
         return self.radius
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m], in the half-plane (r, z)."""
-        return distance_to_cone(points, self.radius, self.half_length)
+        """Of `points`, shape (N, 3) [m].
+
+        In the half-plane (r, z) it is a triangle with the edges rim - tip and axis - rim.
+        """
+        radius = self.radius
+        half_length = self.half_length
+        p, outward = _half_plane(points)
+        rim = np.array([radius, -half_length])
+        tip = np.array([0.0, half_length])
+        slant = norm(tip - rim)
+        side = _side(radius, half_length)
+        above_side, above_base = _heights(p, radius, half_length)
+        along = (tip - rim) / slant
+        s = (p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1]
+        on_side = rim + np.clip(s, 0.0, slant)[:, None] * along
+        on_base = np.stack([np.minimum(p[:, 0], radius), np.full(len(p), -half_length)], axis=1)
+        d_side = norm(p - on_side)
+        d_base = norm(p - on_base)
+        side_nearest = d_side <= d_base
+        nearest = np.where(side_nearest[:, None], on_side, on_base)
+        away = p - nearest
+        distance = norm(away)
+        flat = np.where((above_side >= above_base)[:, None], side, np.array([0.0, -1.0]))
+        level = np.maximum(above_side, above_base)
+        # Inside, and wherever a face is the closest feature, its normal; else that of an edge or
+        # tip. By where the closest point is, not by its distance: next to the surface that is all
+        # rounding, and on an edge or the tip so is its direction.
+        within = np.where(side_nearest, (s > 0) & (s < slant), p[:, 0] < radius)
+        face = (level <= 0) | within | (distance <= ON_SURFACE * slant)
+        flat = np.where(face[:, None], flat, away / np.where(face, 1.0, distance)[:, None])
+        phi = np.where(face, level, distance)
+        return phi, np.concatenate([flat[:, :1] * outward, flat[:, 1:]], axis=1)
 
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], above the side and the base."""
@@ -70,39 +100,6 @@ class Cone(Round):
         """Tip, and four points of the rim, the first `towards` [-] the other; shape (5, 3) [m]."""
         tip = np.array([[0, 0, self.half_length]])
         return np.concatenate([tip, rim_corners(self.radius, -self.half_length, towards)]), 0.0
-
-
-def distance_to_cone(points: Array, radius: float, half_length: float) -> tuple[Array, Array]:
-    """Signed distance (N,) [m] and outward normal (N, 3) of points against a cone, tip up.
-
-    In the half-plane (r, z) it is a triangle with the edges rim - tip and axis - rim.
-    """
-    p, outward = _half_plane(points)
-    rim = np.array([radius, -half_length])
-    tip = np.array([0.0, half_length])
-    slant = norm(tip - rim)
-    side = _side(radius, half_length)
-    above_side, above_base = _heights(p, radius, half_length)
-    along = (tip - rim) / slant
-    s = (p[:, 0] - rim[0]) * along[0] + (p[:, 1] - rim[1]) * along[1]
-    on_side = rim + np.clip(s, 0.0, slant)[:, None] * along
-    on_base = np.stack([np.minimum(p[:, 0], radius), np.full(len(p), -half_length)], axis=1)
-    d_side = norm(p - on_side)
-    d_base = norm(p - on_base)
-    side_nearest = d_side <= d_base
-    nearest = np.where(side_nearest[:, None], on_side, on_base)
-    away = p - nearest
-    distance = norm(away)
-    flat = np.where((above_side >= above_base)[:, None], side, np.array([0.0, -1.0]))
-    level = np.maximum(above_side, above_base)
-    # Inside, and wherever a face is the closest feature, its normal; else that of an edge or tip.
-    # By where the closest point is, not by its distance: next to the surface that is all rounding,
-    # and on an edge or the tip so is its direction.
-    within = np.where(side_nearest, (s > 0) & (s < slant), p[:, 0] < radius)
-    face = (level <= 0) | within | (distance <= ON_SURFACE * slant)
-    flat = np.where(face[:, None], flat, away / np.where(face, 1.0, distance)[:, None])
-    phi = np.where(face, level, distance)
-    return phi, np.concatenate([flat[:, :1] * outward, flat[:, 1:]], axis=1)
 
 
 def _half_plane(points: Array) -> tuple[Array, Array]:

@@ -6,12 +6,12 @@ from typing import Any
 import coal
 import numpy as np
 
-from quasistatic_ref.shapes.round import Round, rim_corners, rim_point
+from quasistatic_ref.shapes.revolved import Revolved, rim_corners, rim_point
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import norm
 
 
-class Cylinder(Round):
+class Cylinder(Revolved):
     """A cylinder about its local z axis, |z| <= half_length; radius and half_length in [m].
 
     Examples
@@ -32,8 +32,25 @@ class Cylinder(Round):
         return self.radius
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m], in the half-plane (r, |z|)."""
-        return distance_to_cylinder(points, self.radius, self.half_length)
+        """Of `points`, shape (N, 3) [m].
+
+        In the half-plane (r, |z|) it is a rectangle.
+        """
+        radial = points.copy()
+        radial[:, 2] = 0.0
+        r = norm(radial)
+        outward = _unit(radial, r)
+        excess = np.stack([r - self.radius, np.abs(points[:, 2]) - self.half_length], axis=1)
+        beyond = np.maximum(excess, 0.0)
+        outside = norm(beyond)
+        is_outside = outside > 0
+        side = excess[:, 0] >= excess[:, 1]
+        face = np.stack([side, ~side], axis=1).astype(np.float64)
+        flat = beyond / np.where(is_outside, outside, 1.0)[:, None]
+        weight = np.where(is_outside[:, None], flat, face)
+        normal = weight[:, :1] * outward
+        normal[:, 2] = weight[:, 1] * np.where(points[:, 2] < 0, -1.0, 1.0)
+        return np.where(is_outside, outside, excess.max(axis=1)), normal
 
     def faces(self, points: Array) -> tuple[Array, Array]:
         """Of `points`, shape (N, 3) [m], above the side and both caps."""
@@ -66,28 +83,6 @@ class Cylinder(Round):
         """Four points on each rim, shape (8, 3) [m], the first of each `towards` [-] the other."""
         ends = (-self.half_length, self.half_length)
         return np.concatenate([rim_corners(self.radius, z, towards) for z in ends]), 0.0
-
-
-def distance_to_cylinder(points: Array, radius: float, half_length: float) -> tuple[Array, Array]:
-    """Signed distance (N,) [m] and outward normal (N, 3) of points against a cylinder.
-
-    In the half-plane (r, |z|) it is a rectangle.
-    """
-    radial = points.copy()
-    radial[:, 2] = 0.0
-    r = norm(radial)
-    outward = _unit(radial, r)
-    excess = np.stack([r - radius, np.abs(points[:, 2]) - half_length], axis=1)
-    beyond = np.maximum(excess, 0.0)
-    outside = norm(beyond)
-    is_outside = outside > 0
-    side = excess[:, 0] >= excess[:, 1]
-    face = np.stack([side, ~side], axis=1).astype(np.float64)
-    flat = beyond / np.where(is_outside, outside, 1.0)[:, None]
-    weight = np.where(is_outside[:, None], flat, face)
-    normal = weight[:, :1] * outward
-    normal[:, 2] = weight[:, 1] * np.where(points[:, 2] < 0, -1.0, 1.0)
-    return np.where(is_outside, outside, excess.max(axis=1)), normal
 
 
 def _unit(vectors: Array, norms: Array) -> Array:

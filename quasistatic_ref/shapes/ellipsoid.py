@@ -46,8 +46,41 @@ class Ellipsoid(Shape):
         return coal.Ellipsoid(self.half_axes)
 
     def signed_distance(self, points: Array) -> tuple[Array, Array]:
-        """Of `points`, shape (N, 3) [m], by a root that Newton's method finds."""
-        return distance_to_ellipsoid(points, self.half_axes)
+        """Of `points`, shape (N, 3) [m].
+
+        The closest point x of p has p = x + t grad, x_i = e_i^2 p_i / (t + e_i^2), and t is the
+        largest root of sum (e_i p_i / (t + e_i^2))^2 = 1. With e the least half-axis and
+        w = t / e^2 + 1, every sum of the denominators is free of cancellation. Newton's method
+        starts at the largest w at which one of the three terms alone is 1: the sum is then between
+        1 and 3, and it is convex and decreasing, so that w rises to the root with every step.
+        (D. Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid".)
+        """
+        half_axes = self.half_axes
+        least = half_axes.min()
+        r = (half_axes / least) ** 2
+        sign = np.where(points < 0, -1.0, 1.0)
+        z = np.abs(points) / half_axes
+        # On the plane of the medial axis the closest point is not unique. A point on this plane is
+        # moved off it, always to the same side, by so little that no digit of the result changes.
+        z[:, half_axes.argmin()] = np.maximum(z[:, half_axes.argmin()], 1e-150)
+        low = np.max(np.where(r * z > r - 1, r * z - (r - 1), 0.0), axis=1)
+        w = low
+        for _ in range(STEPS):
+            terms = (r * z / (w[:, None] + (r - 1))) ** 2
+            slope = 2 * total((terms / (w[:, None] + (r - 1))).T)
+            rise = (total(terms.T) - 1) / slope
+            # A point that has converged is not moved again: its bits do not depend on its batch.
+            moving = rise > np.spacing(w)
+            if not moving.any():
+                break
+            w = np.where(moving, w + rise, w)
+        on = z * r / (w[:, None] + (r - 1))  # x / e, of length one
+        on /= norm(on)[:, None]
+        normal = on / half_axes
+        normal /= norm(normal)[:, None]
+        # Along the normal: right to rounding also where the distance is next to nothing.
+        phi = dot(np.abs(points) - on * half_axes, normal)
+        return phi, sign * normal
 
     def support_point(self, direction: Array) -> Array:
         """Where the normal is the `direction`, both of shape (3,), [m] and [-]."""
@@ -62,40 +95,3 @@ class Ellipsoid(Shape):
     def words(self) -> str:
         """Kind and axes [m]."""
         return f"ellipsoid {lengths(2 * self.half_axes)}"
-
-
-def distance_to_ellipsoid(points: Array, half_axes: Array) -> tuple[Array, Array]:
-    """Signed distance (N,) [m] and outward normal (N, 3) of points against an ellipsoid.
-
-    The closest point x of p has p = x + t grad, x_i = e_i^2 p_i / (t + e_i^2), and t is the largest
-    root of sum (e_i p_i / (t + e_i^2))^2 = 1. With e the least half-axis and w = t / e^2 + 1,
-    every sum of the denominators is free of cancellation. Newton's method starts at the largest w
-    at which one of the three terms alone is 1: the sum is then between 1 and 3, and it is convex
-    and decreasing, so that w rises to the root with every step.
-    (D. Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid".)
-    """
-    least = half_axes.min()
-    r = (half_axes / least) ** 2
-    sign = np.where(points < 0, -1.0, 1.0)
-    z = np.abs(points) / half_axes
-    # On the plane of the medial axis the closest point is not unique. A point on this plane is
-    # moved off it, always to the same side, by so little that no digit of the result changes.
-    z[:, half_axes.argmin()] = np.maximum(z[:, half_axes.argmin()], 1e-150)
-    low = np.max(np.where(r * z > r - 1, r * z - (r - 1), 0.0), axis=1)
-    w = low
-    for _ in range(STEPS):
-        terms = (r * z / (w[:, None] + (r - 1))) ** 2
-        slope = 2 * total((terms / (w[:, None] + (r - 1))).T)
-        rise = (total(terms.T) - 1) / slope
-        # A point that has converged is not moved again: its bits do not depend on its batch.
-        moving = rise > np.spacing(w)
-        if not moving.any():
-            break
-        w = np.where(moving, w + rise, w)
-    on = z * r / (w[:, None] + (r - 1))  # x / e, of length one
-    on /= norm(on)[:, None]
-    normal = on / half_axes
-    normal /= norm(normal)[:, None]
-    # Along the normal: right to rounding also where the distance is next to nothing.
-    phi = dot(np.abs(points) - on * half_axes, normal)
-    return phi, sign * normal

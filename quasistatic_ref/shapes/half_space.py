@@ -54,7 +54,7 @@ class HalfSpace(Shape):
         """The same shape as a coal geometry."""
         return coal.Halfspace(self.normal, self.offset)
 
-    @property
+    @cached_property
     def extent(self) -> float:
         """Infinity [m]."""
         return np.inf

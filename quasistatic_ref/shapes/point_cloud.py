@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -37,7 +38,7 @@ class PointCloud(Shape):
         if len(first) < len(self.points):
             object.__setattr__(self, "points", read_only(self.points[np.sort(first)]))
 
-    @property
+    @cached_property
     def extent(self) -> float:
         """Longest edge of the box about it along its own axes [m]."""
         return float(np.ptp(self.points, axis=0).max())

@@ -33,7 +33,7 @@ class Sphere(Rounded):
         """The same shape as a coal geometry."""
         return coal.Sphere(self.radius)
 
-    @property
+    @cached_property
     def core(self) -> tuple[Array, float]:
         """Its centre, as half extents of shape (3,) [m], and the radius."""
         return np.array([0.0, 0.0, 0.0]), self.radius

@@ -1,6 +1,6 @@
 """What a record of a run holds, and whether a header and arrays are one."""
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -70,14 +70,15 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
         needed = (*needed, *(FORCES if record == "forces" else ()), *iterated)
         _check_present(arrays, needed)
     of_record = {"full": PROGRAM, "forces": FORCES}.get(record, ())
-    _check_known(
-        arrays, ("q", *CONSTANT, *PER_STEP, *of_record, *(EXTRA if extra else ()), *iterated)
-    )
+    known = ("q", *CONSTANT, *PER_STEP, *of_record, *(EXTRA if extra else ()), *iterated)
+    for name in arrays:
+        if name not in known:
+            raise InputError(f"is unknown{suggestion(name, known)}", field=name)
     for name, array in arrays.items():
         if array.dtype.kind not in ("U" if name == "certificate" else "fiu"):
             raise InputError("must contain numbers", field=name, value=str(array.dtype))
-        known = array[~np.isnan(array)] if name in NOT_KNOWN else array
-        if array.dtype.kind == "f" and not np.isfinite(known).all():
+        numbers = array[~np.isnan(array)] if name in NOT_KNOWN else array
+        if array.dtype.kind == "f" and not np.isfinite(numbers).all():
             raise InputError("must contain finite numbers only", field=name)
     for name, length in {**dict.fromkeys(needed, steps), "q": steps + 1}.items():
         if arrays[name].ndim == 0 or len(arrays[name]) != length:
@@ -100,12 +101,6 @@ def _unless_null(top: Fields, name: str, read: Callable[[str], Any]) -> None:
         top.take(name)
     else:
         read(name)
-
-
-def _check_known(arrays: Iterable[str], known: Collection[str]) -> None:
-    for name in arrays:
-        if name not in known:
-            raise InputError(f"is unknown{suggestion(name, known)}", field=name)
 
 
 def _check_present(arrays: Mapping[str, NDArray[Any]], names: Iterable[str]) -> None:

@@ -14,7 +14,8 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.simulate import wrenches
-from quasistatic_ref.simulate.wrenches import ContactsOverSteps, Scene
+from quasistatic_ref.simulate.scene import Scene
+from quasistatic_ref.simulate.wrenches import ContactsOverSteps
 from quasistatic_ref.step.data import Array, StepData
 
 

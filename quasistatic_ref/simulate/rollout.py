@@ -73,7 +73,8 @@ def rollout(
     save : str or Path, optional
         The trajectory's file, written when the run ends, also when it ends early: then next to it,
         as ``NAME_failed.npz``, if a longer run is there. While the run goes on, its steps are saved
-        in a folder next to that file; see :class:`~quasistatic_ref.optional.runs.saved.SavedRun`.
+        in a folder next to that file; see
+        :class:`~quasistatic_ref.optional.runs.saved_files.SavedSteps`.
     save_every : float
         Time between two saves [s]; by default a minute.
     resume : bool
@@ -93,8 +94,8 @@ def rollout(
         If the target or the force takes other arguments than these, q is no configuration, or steps
         no whole number; if
         the saved steps are of another run; if steps that are there would be lost, see
-        :func:`~quasistatic_ref.optional.runs.saved.first_step`; if there is no ``optional/runs``
-        for `save`.
+        :func:`~quasistatic_ref.optional.runs.saved_files.first_step`; if there is no
+        ``optional/runs`` for `save`.
     RunFailed
         If a step fails, or Ctrl-C is pressed, which is answered between two steps; it holds the
         trajectory so far, and the failing step.
@@ -116,8 +117,9 @@ def rollout(
     if save is not None:
         given = {"target": (target, q_bar_a), "force": (force, pushed)}
         runs = needed_part("runs.resume", "save")
-        saved = runs.saved_run(save, save_every, resume, steps, recorder, given, STRETCH)
+        saved = runs.begun_or_resumed(save, save_every, resume, steps, recorder, given, STRETCH)
     left = range(recorder.steps, steps)
+    # Of a run that takes long, it prints that `fast` would shorten it.
     if progress and (fast := part("fast.pace")) is not None:
         recorder.observers.append(fast.Pace(simulator.fast, len(left)))
     bar: Any = progress_bar(left, unit="step", total=steps, done=left.start, shown=progress)

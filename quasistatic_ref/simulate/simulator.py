@@ -21,7 +21,7 @@ from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, check_law, coulomb
 from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.result import StepResult
-from quasistatic_ref.simulate.wrenches import Scene
+from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.solve.backends import DEFAULT, check_backend
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
@@ -253,7 +253,9 @@ class Simulator(Shown):
         lap("rows")
         solution = self.solution(step) if self.extension is None else self.extended(step, q)
         self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
-        step = solution.step  # an extension adds rows and private rises; Eq. (13), certified
+        # An extension may have added rows and coordinates (step/extension.py). Without one it is
+        # the same step.
+        step = solution.step
         lap("solve", proof=solution.statistics.proof_time)
         q_next = self.system.integrate(q, solution.delta_q[: self.system.n_v])  # q (+) delta_q
         self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)

@@ -29,7 +29,7 @@ from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 if TYPE_CHECKING:
     from pandas import DataFrame
 
-    from quasistatic_ref.simulate.wrenches import HasScene, Scene
+    from quasistatic_ref.simulate.scene import HasScene, Scene
 
 FORMAT = "quasistatic-ref/trajectory"
 VERSION = 1

@@ -1,41 +1,16 @@
 """Contact forces, summed over bodies and over pairs, in the world frame."""
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.contact.pairs import contact_layout
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.model.system import System
+from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.trajectory import Trajectory
-
-
-class Scene(NamedTuple):
-    """What moves, and what may touch.
-
-    Parameters
-    ----------
-    system : System
-    pairs : tuple of ContactPair
-    """
-
-    system: System
-    pairs: tuple[ContactPair, ...]
-
-
-class HasScene(Protocol):
-    """A Scenario, a Simulator or a Scene."""
-
-    @property
-    def system(self) -> System:
-        """What moves."""
-
-    @property
-    def pairs(self) -> tuple[ContactPair, ...]:
-        """What may touch."""
 
 
 class ContactsOverSteps(NamedTuple):

@@ -1,4 +1,4 @@
-"""The page's problem of any step: its cone, rows of a user's own, multipliers in the order of A."""
+"""The program (13) of any step: its cone, rows of a user's own, multipliers in the order of A."""
 
 import cvxpy as cp
 import numpy as np
@@ -10,7 +10,7 @@ from quasistatic_ref.step.problem import StepProblem
 
 
 class CvxpyProblem(StepProblem):
-    """The paper's page, with what a step has that is not in the paper.
+    """The paper's program (13), with what a step has that is not in the paper.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class CvxpyProblem(StepProblem):
         Raises
         ------
         StepDataError
-            If this is not the step's problem, naming what differs.
+            If the step is of another kind, naming what differs.
         """
         super().fill(step)
         self.parameters["A_x"].value = step.extra.A

@@ -1,4 +1,4 @@
-"""One step, solved: natural units, a solver, the judge, and back to SI units."""
+"""One step, solved: natural units, a backend's guess, the exact optimum and its certificate."""
 
 from __future__ import annotations
 
@@ -9,25 +9,21 @@ from collections.abc import Callable
 import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.certify.certificate import exact_certificate
+from quasistatic_ref.certify.certificate import Certificate, exact_certificate
 from quasistatic_ref.certify.digits import relative_digits
 from quasistatic_ref.certify.exact import check_length
-from quasistatic_ref.certify.solution import (
-    Certificate,
-    SolverStatistics,
-    StepSolution,
-    step_solution,
-)
+from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import NONE, check_certify
-from quasistatic_ref.solve.scaled import NaturalStep, out_of_range
+from quasistatic_ref.solve.natural_step import NaturalStep, out_of_range
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import from_natural, in_natural
-from quasistatic_ref.step.arrays import QUIET, Array, finite
+from quasistatic_ref.step.arrays import Array, finite, without_warnings
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT, WORTHLESS
 
 LARGE = 2.0**200
@@ -117,12 +113,14 @@ def solve_step(
         solver.check(step)
     else:
         solver = solver_for(step, solver, fast)
-    scaled = QUIET.copy().run(solver.scaled, step)
-    return solved(scaled, solver, accuracy, certify)
+    scaled = without_warnings(solver.scaled, step)
+    return without_warnings(solved, scaled, solver, accuracy, certify)
 
 
 def solved(scaled: NaturalStep, solver: Solver, accuracy: float, certify: str) -> StepSolution:
     """The optimum of a step that fits a solver, from the step in natural units.
+
+    It is called :func:`~quasistatic_ref.step.arrays.without_warnings`.
 
     Parameters
     ----------
@@ -132,26 +130,17 @@ def solved(scaled: NaturalStep, solver: Solver, accuracy: float, certify: str) -
     """
     if certify != "off":
         check_arithmetic()
-    solution = QUIET.copy().run(_solved, scaled, solver, accuracy, certify)
-    if solution is None:
-        raise out_of_range(scaled.step)
-    return solution
-
-
-def _solved(
-    scaled: NaturalStep, solver: Solver, accuracy: float, certify: str
-) -> StepSolution | None:
-    """The solution, or None if it is not finite."""
     if certify == "full":
         solution = _certified(scaled, solver, accuracy)
     else:
         solution = uncertified(scaled, solver, solver.answer(scaled, accuracy), certify)
-    good = finite(solution.delta_q) and finite(solution.lam)
+    residuals = [*solution.certificate.residuals.values()]
+    good = finite(np.concatenate([solution.delta_q, solution.lam, solution.lam_extra, residuals]))
     if certify != "off" or solution.lam_extra.size:
-        residuals = np.array(list(solution.certificate.residuals.values()))
-        good = good and all(map(finite, (solution.lam_extra, residuals)))
         good = good and (_far_from_largest(solution) or finite(solution.wrench.ravel()))
-    return solution if good else None
+    if not good:
+        raise out_of_range(scaled.step)
+    return solution
 
 
 def _far_from_largest(solution: StepSolution) -> bool:
@@ -162,16 +151,16 @@ def _far_from_largest(solution: StepSolution) -> bool:
 
 
 def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolution:
-    """The proved optimum; a backend that fails costs its start, not the answer."""
+    """The proved optimum; if the backend fails, the exact method starts cold: the same answer."""
     step = scaled.step
     units = scaled.units
-    kind = cone(scaled.step.cone)
+    kind = cone(step.cone)
     answer, statistics = _attempt(scaled, solver, accuracy)
     begin = time.perf_counter()
     answered = None
     if answer is not None:
         answered = from_natural(answer.delta_q, answer.lam, units)
-    certificate: Callable[..., Certificate]
+    certify: Callable[..., Certificate]
     if isinstance(kind, CurvedCone):
         optimum = kind.optimum(step, answered)
         if optimum is None:
@@ -179,22 +168,22 @@ def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolu
                 return uncertified(scaled, solver, answer, "residual")
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, accuracy)
-        check_length(step, optimum.delta_q)
-        certificate = kind.certificate
+        check_length(step, optimum.delta_q, group_steps(step))
+        certify = kind.certificate
     else:
         optimum = solver.optimum(scaled, answer)
-        certificate = exact_certificate
+        certify = exact_certificate
     delta_q = optimum.delta_q
     lam = optimum.lam
     if answered is not None:
         norm = solver.norm(scaled)
         error = norm.displacement(answered[0] - delta_q)
-        digits = relative_digits(error, norm.impulse(scaled.form.g))
-        statistics = statistics._replace(digits=digits)
+        of_free = norm.impulse(scaled.form.g)
+        statistics = statistics._replace(digits=relative_digits(error, of_free))
     residuals = vars(scaled.residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(proof_time=time.perf_counter() - begin)
-    claims = certificate(step, optimum, residuals)
-    return step_solution(step, delta_q, lam, claims, statistics, optimum.net)
+    certificate = certify(step, optimum, residuals)
+    return step_solution(step, delta_q, lam, certificate, statistics, optimum.net)
 
 
 def _attempt(

@@ -7,11 +7,10 @@ chooses among them.
 """
 
 import math
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from quasistatic_ref.certify.exact import ExactOptimum, exact_step
+from quasistatic_ref.certify.exact import ExactOptimum, step_optimum
 from quasistatic_ref.certify.norm import Norm, energy_norm
 from quasistatic_ref.certify.solution import SolverStatistics
 from quasistatic_ref.certify.warm import warm_rows
@@ -28,8 +27,8 @@ from quasistatic_ref.solve.backends import (
     Options,
     check_backend,
 )
+from quasistatic_ref.solve.natural_step import DenseStep, NaturalStep
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, differences
@@ -79,7 +78,7 @@ class OptionSet:
     kept: Any = None
 
 
-class Solver(ABC):
+class Solver:
     """What solves steps of one kind.
 
     A copy, or one that was pickled, compiles its problem again and starts cold.
@@ -153,11 +152,18 @@ class Solver(ABC):
     def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum, sought from where an answer shows it to be, or from cold.
 
+        It does not depend on the solver. It is asked of the solver only so that one of
+        `optional/fast` can try a quick proof before the exact method.
+
         Raises
         ------
         StepInfeasible, StepIllPosed
         """
-        return exact_step(scaled.step, warm_start(scaled, answer))
+        warm = []
+        if answer is not None:
+            form = scaled.natural_form
+            warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
+        return step_optimum(scaled.step, warm)
 
     def norm(self, scaled: NaturalStep) -> Norm:
         """The norm ||.||_H of a step, in which errors and lengths are measured."""
@@ -174,7 +180,6 @@ class Solver(ABC):
         bound: float = bounds.error_bound(scaled.step, delta_q, lam).error
         return bound
 
-    @abstractmethod
     def write(self, scaled: Any) -> Mask | None:
         """Write a step in natural units into the problem.
 
@@ -184,11 +189,23 @@ class Solver(ABC):
         -------
         ndarray of bool, shape (m,), or None
             Whether each row is of such a contact; None if none is.
-        """
 
-    @abstractmethod
+        Raises
+        ------
+        NotImplementedError
+            Unless a subclass says how.
+        """
+        raise NotImplementedError
+
     def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
-        """What the backend says to the problem as it is written."""
+        """What the backend says to the problem as it is written.
+
+        Raises
+        ------
+        NotImplementedError
+            Unless a subclass says how.
+        """
+        raise NotImplementedError
 
     def attempts(self, accuracy: float) -> list[OptionSet]:
         """The sets of options for an accuracy in natural units [-], in the order to be tried."""
@@ -237,7 +254,7 @@ class Solver(ABC):
                 status = "an answer without multipliers"
             elif finite(reply.x) and finite(reply.lam):
                 if idle is not None:
-                    reply.lam[: idle.size][idle] = 0.0  # the judge, who sees the true gap, decides
+                    reply.lam[: idle.size][idle] = 0.0  # residuals are of the true gap
                 cost = reply.iterations, reply.seconds, tried
                 statistics = SolverStatistics(self.name, "optimal", *cost, None, self.engine)
                 return NaturalAnswer(reply.x, reply.lam, statistics)
@@ -258,27 +275,9 @@ class NoSolver(Solver):
     engine = "none"
     fixed = ()
 
-    def __init__(self, template: StepData, name: str = NONE) -> None:
-        super().__init__(template, name)
-
-    def attempts(self, accuracy: float) -> list[OptionSet]:
-        """One, without options."""
-        return [OptionSet(accuracy, {})]
-
-    def write(self, scaled: Any) -> None:
-        """Nothing to write."""
-
-    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
-        """No reply."""
-        return Reply(None, None, False, "not called")
-
-
-def warm_start(scaled: NaturalStep, answer: NaturalAnswer | None) -> list[int]:
-    """Rows that an answer shows to be active, from which the exact method starts; none without."""
-    if answer is None:
-        return []
-    form = scaled.natural_form
-    return warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
+    def answer(self, scaled: NaturalStep, accuracy: float) -> NaturalAnswer:
+        """No answer: StepNotSolved."""
+        raise StepNotSolved(self.name, "not called", scaled.step, accuracy)
 
 
 def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> Solver:
@@ -307,7 +306,7 @@ def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> S
     name = DEFAULT if name is None else name
     check_backend(name, step.cone)
     if name == NONE:
-        return NoSolver(step)
+        return NoSolver(step, name)
     if name.startswith(QPSOLVERS):
         other: Solver = needed_part(THROUGH_QPSOLVERS, name).QpsolversSolver(step, name)
         return other

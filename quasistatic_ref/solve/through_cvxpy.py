@@ -1,4 +1,4 @@
-"""Through CVXPY: the step as the problem of the paper's page."""
+"""Through CVXPY: the step as the paper's program (13)."""
 
 import warnings
 from time import perf_counter
@@ -9,10 +9,10 @@ import numpy as np
 
 from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
+from quasistatic_ref.solve.natural_step import DenseStep
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import OptionSet, Solver
-from quasistatic_ref.solve.units import out_of_reach, within_reach
+from quasistatic_ref.solve.units import within_reach
 from quasistatic_ref.step.data import KIND, Array, Mask, StepData
 
 CANON = cp.CPP_CANON_BACKEND
@@ -53,8 +53,10 @@ class CvxpySolver(Solver):
     def write(self, scaled: DenseStep) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
         natural = scaled.natural
-        self.problem.fill(within_reach(natural))
-        return np.repeat(out_of_reach(natural), natural.counts)
+        near = within_reach(natural)
+        self.problem.fill(natural)
+        self.problem.parameters["phi"].value = near
+        return np.repeat(near < natural.contacts.phi, natural.counts)
 
     def reply(self, attempt: OptionSet, scaled: DenseStep) -> Reply:
         """What the backend says, from a cold start.

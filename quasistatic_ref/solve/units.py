@@ -13,14 +13,14 @@ conversion loses nothing, unless a number leaves the range of float64.
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.certify.norm import float_inverse
 from quasistatic_ref.step.contacts import Contacts
-from quasistatic_ref.step.data import Array, Extra, Mask, StepData
+from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 from quasistatic_ref.tolerances import FAR
 
@@ -164,20 +164,19 @@ def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Un
     return Units(coordinate, length, _power_of_two(max(size, SMALLEST)))
 
 
-def natural_form(form: StandardForm, units: Units, H: Array | None = None) -> StandardForm:
+def natural_form(form: StandardForm, units: Units, H: Array) -> StandardForm:
     """The same quadratic program in natural units, bit for bit that of :func:`to_natural`.
 
     Parameters
     ----------
     form : StandardForm
     units : Units
-    H : ndarray, shape (n_v, n_v), optional
-        In these units, where it is known [-].
+    H : ndarray, shape (n_v, n_v)
+        In these units, of :func:`natural_hessian` [-].
     """
     S = units.coordinate
     ell = units.length
     rho = units.size
-    H = form.H * np.outer(S, S) if H is None else H
     return StandardForm(H, form.g * (S / rho), form.A * (S / ell), form.b * (1 / (rho * ell)))
 
 
@@ -198,29 +197,22 @@ def to_natural(step: StepData, units: Units) -> StepData:
     extra = step.extra
     phi = c.phi / (rho * ell)
     J = c.J * (S / ell)
-    return step.replace(
+    return StepData(
+        h=step.h,
         K_q=step.K_q * np.outer(S_a, S_a),
         M_u=step.M_u * np.outer(S_u, S_u),
         tau_a=step.tau_a * S_a / rho,
         tau_u=step.tau_u * S_u / rho,
         delta_q_bar_a=step.delta_q_bar_a / (rho * S_a),
         contacts=Contacts(c.name, phi, c.n, c.d1, c.d2, J, c.mu_v, c.mu_omega, c.rows),
+        cone=step.cone,
         extra=Extra(extra.names, extra.A * (S / ell), extra.b / (rho * ell)),
     )
 
 
-def within_reach(natural: StepData) -> StepData:
-    """The same step with contacts that are too far to matter moved nearer, for solvers' sake."""
-    far = out_of_reach(natural)
-    if not far.any():
-        return natural
-    near = np.where(far, reach(natural.contacts.J), natural.contacts.phi)
-    return natural.replace(contacts=replace(natural.contacts, phi=near))
-
-
-def out_of_reach(natural: StepData) -> Mask:
-    """Which contacts are too far to matter, shape (n_c,)."""
-    return np.asarray(natural.contacts.phi > reach(natural.contacts.J))
+def within_reach(natural: StepData) -> Array:
+    """The phi of each contact, shape (n_c,) [-]; of those too far to matter nearer, for solvers."""
+    return np.minimum(natural.contacts.phi, reach(natural.contacts.J))
 
 
 def reach(J: Array) -> Array:

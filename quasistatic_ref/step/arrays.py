@@ -1,9 +1,9 @@
 """Arrays of a step, checked: real numbers of the right shape, read-only."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextvars import copy_context
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +16,20 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-QUIET = copy_context()
-"""A context in which NumPy does not warn: an overflow shows in the result, and the flags of the
-processor, on which NumPy's warnings depend, get lost between BLAS's threads. (np.errstate instead
-would set a variable that every call of NumPy then looks up again: 9 us a step.)"""
-QUIET.run(np.seterr, all="ignore")
+Result = TypeVar("Result")
+
+_QUIET = copy_context()
+_QUIET.run(np.seterr, all="ignore")
+
+
+def without_warnings(function: Callable[..., Result], *arguments: Any) -> Result:
+    """What a function returns, called where NumPy does not warn.
+
+    An overflow shows in the result, and the flags of the processor, on which NumPy's warnings
+    depend, get lost between BLAS's threads. (np.errstate instead would set a variable that every
+    call of NumPy then looks up again: 9 us a step.)
+    """
+    return _QUIET.copy().run(function, *arguments)
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
@@ -51,12 +60,6 @@ def numbers(value: Any, name: str, error: type[InputError] = StepDataError) -> A
 def finite(x: Array) -> bool:
     """Whether all numbers of a vector are finite: one product if they are, which may overflow."""
     return math.isfinite(x.dot(x)) or bool(np.isfinite(x).all())
-
-
-def largest(x: Array) -> float:
-    """The largest of the numbers of a vector and 0, in the vector's unit [-]; NaN if one is NaN."""
-    most = float(x[x.argmax()]) if x.size else 0.0
-    return 0.0 if most <= 0 else most
 
 
 def columns(value: Any, name: str, ndim: int) -> int:

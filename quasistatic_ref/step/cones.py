@@ -35,8 +35,8 @@ from quasistatic_ref.parts import needed_part
 from quasistatic_ref.step.arrays import Array, Indices, Mask, read_only
 
 if TYPE_CHECKING:
+    from quasistatic_ref.certify.certificate import Certificate
     from quasistatic_ref.certify.compliance.forces import ContactForces
-    from quasistatic_ref.certify.solution import Certificate
     from quasistatic_ref.certify.verdict import Verdict
     from quasistatic_ref.step.data import StepData
 

@@ -90,7 +90,7 @@ class Contacts(Plain, Shown):
         """Contacts of the same numbers, each of which has been checked: these themselves."""
         return self
 
-    @property
+    @cached_property
     def n_v(self) -> int:
         """Number of columns of J."""
         return int(self.J.shape[-1])
@@ -123,7 +123,7 @@ class Contacts(Plain, Shown):
         columns: Array = self.J[contacts][:, :, coordinates]
         return columns
 
-    @property
+    @cached_property
     def n_c(self) -> int:
         """Number of contacts."""
         return len(self.name)

@@ -24,7 +24,6 @@ from quasistatic_ref.step.arrays import (
     columns,
     definite,
     freeze,
-    frozen,
     names,
     numbers,
     read_only,
@@ -167,25 +166,26 @@ class StepData(Plain, Shown):
         n_u = np.size(tau_u)
         n_v = n_a + n_u
         extra = no_rows(n_v) if extra is None else extra
-        checked = {
+        if not isinstance(contacts, Contacts):
+            raise StepDataError("must be Contacts", field="contacts", value=contacts)
+        given = {
             "h": seconds(h),
             "K_q": definite("K_q", K_q, n_a),
             "M_u": definite("M_u", M_u, n_u),
-            "tau_a": frozen(tau_a, "tau_a", (n_a,)),
-            "tau_u": frozen(tau_u, "tau_u", (n_u,)),
-            "delta_q_bar_a": frozen(delta_q_bar_a, "delta_q_bar_a", (n_a,)),
+            "tau_a": tau_a,
+            "tau_u": tau_u,
+            "delta_q_bar_a": delta_q_bar_a,
+            "contacts": contacts.checked(),
             "cone": cone,
             "extra": extra,
         }
-        if not isinstance(contacts, Contacts):
-            raise StepDataError("must be Contacts", field="contacts", value=contacts)
-        checked["contacts"] = contacts.checked()
+        for key, value in given.items():
+            object.__setattr__(self, key, value)
+        freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
         for key, found in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
             if found != n_v:
                 problem = f"must have n_a + n_u = {n_v} columns"
                 raise StepDataError(problem, field=key, value=found)
-        for key, value in checked.items():
-            object.__setattr__(self, key, value)
 
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""
@@ -201,22 +201,22 @@ class StepData(Plain, Shown):
         one, other = np.concatenate([of_a, of_u + self.n_a]).T
         return one, other
 
-    @property
+    @cached_property
     def n_a(self) -> int:
         """Number of actuated coordinates."""
         return int(self.tau_a.size)
 
-    @property
+    @cached_property
     def n_u(self) -> int:
         """Number of un-actuated coordinates."""
         return int(self.tau_u.size)
 
-    @property
+    @cached_property
     def n_v(self) -> int:
         """Number of coordinates of delta_q."""
         return self.n_a + self.n_u
 
-    @property
+    @cached_property
     def m(self) -> int:
         """Number of all multipliers, the user's own rows last; in a polyhedral cone, of rows."""
         return int(self.offsets[-1]) + len(self.extra.names)
@@ -226,17 +226,17 @@ class StepData(Plain, Shown):
         """Which rows of the cone the contacts have; one object for steps that have the same."""
         return row_layout(self.cone, self.contacts.rows.tobytes())
 
-    @property
+    @cached_property
     def counts(self) -> Indices:
         """Number of multipliers of each contact, shape (n_c,); in a polyhedral cone, of rows."""
         return self.layout.counts
 
-    @property
+    @cached_property
     def mask(self) -> Mask:
         """Which of the cone's rows each contact has, shape (n_c, R)."""
         return self.layout.mask
 
-    @property
+    @cached_property
     def offsets(self) -> Indices:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return self.layout.offsets

@@ -71,8 +71,11 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
     of_extra_rows = of_link[n_c : n_c + n_extra]
     of_rows = np.concatenate([np.repeat(of_contacts, step.counts), of_extra_rows])
     labels = (label, of_contacts, of_extra_rows, of_rows)
-    members = zip(*(_members(part, firsts) for part in labels), strict=True)
-    return [Group(*parts) for parts in members]
+    members = []
+    for part in labels:  # which entries have each of the labels `firsts`, ascending
+        order = np.argsort(part, kind="stable")
+        members.append(np.split(order, np.searchsorted(part[order], firsts))[1:])
+    return [Group(*parts) for parts in zip(*members, strict=True)]
 
 
 def _labels(n: int, links: int, link: Indices, coordinate: Indices) -> tuple[Indices, Indices]:
@@ -92,13 +95,7 @@ def _labels(n: int, links: int, link: Indices, coordinate: Indices) -> tuple[Ind
         label = lower
 
 
-def _members(label: Indices, firsts: Indices) -> list[Indices]:
-    """Which entries have each of the labels `firsts`, ascending."""
-    order = np.argsort(label, kind="stable")
-    return np.split(order, np.searchsorted(label[order], firsts))[1:]
-
-
-def parts(step: StepData) -> list[tuple[Group, StepData]]:
+def group_steps(step: StepData) -> list[tuple[Group, StepData]]:
     """The groups of a step, each with its own step; the step itself if there is one group.
 
     Parameters

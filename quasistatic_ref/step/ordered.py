@@ -96,9 +96,3 @@ def crossed(a: Array, b: Array) -> Array:
     """
     products: Array = a.take(YZX, 1) * b.take(ZXY, 1) - a.take(ZXY, 1) * b.take(YZX, 1)
     return products
-
-
-def cross_matrix(r: Array) -> Array:
-    """[r x], shape (..., 3, 3), of vectors r, shape (..., 3) [any unit]: [r x] w = r x w."""
-    columns = crossed(r.reshape(-1, 3, 1), np.eye(3)[None])
-    return columns.reshape(*r.shape, 3)

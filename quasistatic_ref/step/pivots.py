@@ -17,7 +17,6 @@ of S are at least those of L L', which are the squares of L's diagonal.
 
 import math
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,20 +57,16 @@ def _surely_positive(S: Array) -> bool:
         L = np.linalg.cholesky(S * _less(n))
     except np.linalg.LinAlgError:
         return False
-    pairs = zip(_diagonal(L), _diagonal(S), strict=True)
+    s = np.linalg.diagonal(S)
     # Twice the share, because these products are rounded.
-    return all(v * v > 2 * DEFINITE * s and least < s < most for v, s in pairs)
+    sure = np.square(np.linalg.diagonal(L)) > 2 * DEFINITE * s
+    return bool((sure & (least < s) & (s < most)).all())
 
 
 @lru_cache(maxsize=8)
 def _less(n: int) -> Array:
     """What takes c D off a matrix (n, n), entry by entry [-]."""
     return 1 - 2 * n * (n + 3) * U * np.eye(n)
-
-
-def _diagonal(S: NDArray[Any]) -> list[float]:
-    """The entries on the diagonals of a stack (..., n, n) [any unit], one after the other."""
-    return np.linalg.diagonal(S).ravel().tolist()
 
 
 def _diagonal_blocks(S: Array) -> list[Array]:

@@ -1,6 +1,8 @@
-"""The paper's page: Eqs. :eq:`eq-1`, :eq:`eq-3`-:eq:`eq-7`, :eq:`eq-10`, :eq:`eq-13` in CVXPY.
+"""The paper's program in CVXPY: Eqs. :eq:`eq-1`, :eq:`eq-3`-:eq:`eq-7`, :eq:`eq-10`, :eq:`eq-13`.
 
 Where the problem is built, symbols are CVXPY objects, except the numbers h, mu_v and mu_omega.
+Units are those of the steps that fill it. A run fills it with steps in natural units, in which
+contacts out of reach are nearer (:mod:`~quasistatic_ref.solve.through_cvxpy`).
 """
 
 import cvxpy as cp
@@ -30,7 +32,8 @@ class StepProblem(Shown):
     parameters : dict of str to cvxpy.Parameter
         What changes from step to step, by name; :meth:`fill` sets it.
     contact_motion : tuple of cvxpy.Expression
-        gap, slip_1, slip_2 and spin [m], shapes (n_c,), mu included in the last three.
+        gap, slip_1, slip_2 and spin [m, or natural units], shapes (n_c,), mu included in the last
+        three.
     contact_rows : list of cvxpy.Constraint
         Eq. :eq:`eq-4` in the paper's order, one constraint for that row of the contacts that have
         it; none where no contact has.
@@ -116,7 +119,7 @@ class StepProblem(Shown):
         Raises
         ------
         StepDataError
-            If this is not the step's problem, naming what differs.
+            If the step is of another kind, naming what differs.
         """
         self.check(step)
         J_n, J_1, J_2, J_w = frame_jacobian(step.contacts, step.contacts.J)

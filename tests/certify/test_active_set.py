@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.certify import active_set
 from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
-from quasistatic_ref.certify.point import Point, ball_form
+from quasistatic_ref.certify.minimiser import Minimiser, ball_form
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 
 
@@ -18,7 +18,7 @@ def program(A, b, g=None):
 
 def point_on(form, working, balls=True):
     """The minimiser on a working set; without balls all signs are those of fractions."""
-    point = Point(form, ball_form(form), tuple(working))
+    point = Minimiser(form, ball_form(form), tuple(working))
     if not balls:
         point.__dict__["balls"] = None
     return point
@@ -111,7 +111,7 @@ def test_exactly_tied_duplicated_and_dependent_rows_end(seed):
     form, warm = lifted_corner(seed)
     end = dual_active_set(form, warm)
     assert isinstance(end, Optimum)
-    x = end.point.rational
+    x = end.minimiser.rational
     assert [form.x_unit * v / x.denominator for v in x.x] == [10, 10, 10, 10, 0]
     assert end.walks <= form.m
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.certificate import exact_certificate, verify
-from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
@@ -23,13 +23,13 @@ def step():
     step = grasp_step(np.random.default_rng(11))
     row = np.zeros((2, step.n_v))
     row[:, 6] = [1.0, -1.0]  # the gripper stays a little more open than it would
-    least = exact_step(step).delta_q[6] + 1e-6
+    least = step_optimum(step).delta_q[6] + 1e-6
     return step.replace(extra=Extra(("close", "open"), row, np.array([least, -1.0])))
 
 
 @pytest.fixture(scope="module")
 def optimum(step):
-    return exact_step(step)
+    return step_optimum(step)
 
 
 def test_rows_have_a_contact_and_a_number_in_it(step):
@@ -71,7 +71,7 @@ def test_a_row_without_multiplier_is_in_no_working_set(touching):
     step = resting_point(tau_x=3.0, contacts=0)
     step = step.replace(extra=Extra(("touched",), np.eye(4)[:1], np.array([0.75])))
     step = step if touching != "a contact" else point_on_floor(mu_v=0.0)
-    optimum = exact_step(step)
+    optimum = step_optimum(step)
     claims = exact_certificate(step, optimum)
     assert claims.active == ()
     assert not claims.differentiable
@@ -87,7 +87,7 @@ def test_a_row_without_multiplier_is_in_no_working_set(touching):
 def test_claims_of_a_sticking_body_are_checked(phi, contacts):
     """Its idle rows follow from those that press: not unique, but differentiable."""
     step = resting_point(tau_x=0.1, phi=phi, contacts=contacts)
-    optimum = exact_step(step)
+    optimum = step_optimum(step)
     claims = exact_certificate(step, optimum)
     assert (claims.multipliers_unique, claims.differentiable) == (False, True)
     assert verify(step, optimum.delta_q, claims.active, optimum.lam, claims)

@@ -11,7 +11,7 @@ from quasistatic_ref.certify.degeneracy import (
     differentiable,
     multipliers_unique,
 )
-from quasistatic_ref.certify.exact import exact_optimum, exact_step
+from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import contacts_of
@@ -40,7 +40,7 @@ def resting_point(
 def test_sticking_body_stays_where_its_contact_is(phi, contacts):
     """delta_q = (0, 0, -phi, 0): six rows of rank four for each contact, none of them split."""
     step = resting_point(tau_x=0.1, weight=2.0, phi=phi, contacts=contacts, mass=0.125, h=0.01)
-    optimum = exact_step(step)
+    optimum = step_optimum(step)
     assert optimum.delta_q.tobytes() == np.array([0.0, 0.0, -phi + 0.0, 0.0]).tobytes()
     assert not optimum.slack.any()
     h = F(step.h)
@@ -54,7 +54,7 @@ def test_sticking_body_stays_where_its_contact_is(phi, contacts):
 @pytest.mark.parametrize(("tau_x", "slides"), [(0.75, False), (1.0, False), (1.25, True)])
 def test_limit_of_friction_is_a_kink(tau_x, slides):
     """At |tau_x| = mu_v weight one row carries all and the others are idle."""
-    optimum = exact_step(resting_point(tau_x=tau_x))
+    optimum = step_optimum(resting_point(tau_x=tau_x))
     # Sliding: H = 1/h, only the row -d1 presses: dz = mu dx, (dx + mu dz) / h = h (tau_x - mu w).
     h = F(1, 2)
     mu = F(1, 2)
@@ -103,14 +103,14 @@ def chain(b, H=None):
     ],
 )
 def test_half_way_values_round_to_even(b, rounded):
-    optimum = exact_optimum(chain(b))
+    optimum = form_optimum(chain(b))
     assert optimum.delta_q.tolist() == [rounded, 1.0]
 
 
 def test_row_without_coefficients_is_idle_or_a_contradiction():
     for b, feasible in ((-1.0, True), (0.0, True), (LEAST, False)):
         form = exact_form_of(np.eye(2), np.ones(2), np.zeros((1, 2)), np.array([b]))
-        found = exact_optimum(form)
+        found = form_optimum(form)
         assert isinstance(found, Farkas) != feasible
         if feasible:
             assert found.delta_q.tolist() == [1.0, 1.0]
@@ -139,7 +139,7 @@ def test_matrix_beyond_the_precision_of_the_balls_is_solved():
     half = [sum(row) for row in inverse]  # L^-1 g
     x = [sum(inverse[i][j] * half[i] for i in range(n)) for j in range(n)]  # L^-T L^-1 g
     form = exact_form_of(L @ L.T, g, np.eye(n)[:1], np.zeros(1))
-    optimum = exact_optimum(form)
+    optimum = form_optimum(form)
     assert optimum.delta_q.tolist() == [float(v) for v in x]
     assert optimum.slack.tolist() == [float(x[0])]
 
@@ -147,8 +147,8 @@ def test_matrix_beyond_the_precision_of_the_balls_is_solved():
 def test_grasp_is_decided_by_balls_alone(monkeypatch):
     """Fractions would be as right, and some ten times slower."""
     forms = [exact_form(grasp_step(np.random.default_rng(seed))) for seed in range(3)]
-    expected = [exact_optimum(form) for form in forms]
-    monkeypatch.setattr("quasistatic_ref.certify.point.rational_solution", None)
+    expected = [form_optimum(form) for form in forms]
+    monkeypatch.setattr("quasistatic_ref.certify.minimiser.rational_solution", None)
     for form, right in zip(forms, expected, strict=True):
         for warm in ([], range(0, form.m, 3), right.working_set):
-            assert exact_optimum(form, warm).delta_q.tobytes() == right.delta_q.tobytes()
+            assert form_optimum(form, warm).delta_q.tobytes() == right.delta_q.tobytes()

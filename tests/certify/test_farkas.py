@@ -5,7 +5,7 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact import exact_step, relative_length
+from quasistatic_ref.certify.exact import relative_length, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import Z, contacts_of, frames_about, no_contacts
@@ -30,7 +30,7 @@ def test_walls_that_overlap_are_infeasible_and_named():
     """X >= 1 mm and -x >= 3 mm add up to 0 >= 4 mm."""
     step = point_between_walls([NORTH, EAST, WEST], [1.0, -1e-3, -3e-3])
     with pytest.raises(StepInfeasible) as failure:
-        exact_step(step)
+        step_optimum(step)
     error = failure.value
     assert isinstance(error, StepNotSolved)
     assert error.step is step
@@ -50,7 +50,7 @@ def test_single_row_that_nothing_satisfies_is_named_alone():
     extra = Extra(("my limit",), np.zeros((1, 3)), np.array([1.0]))
     step = point_between_walls([EAST], [1.0]).replace(extra=extra)
     with pytest.raises(StepInfeasible, match=r"extra \(my limit\) cannot be satisfied"):
-        exact_step(step)
+        step_optimum(step)
 
 
 def test_false_proofs_are_refused_with_a_reason():
@@ -69,7 +69,7 @@ def test_false_proofs_are_refused_with_a_reason():
         assert reason in farkas_refutation(step, wrong)
     apart = point_between_walls([EAST, WEST], [1e-3, -1e-3])  # x >= -1 mm, -x >= 1 mm: x = -1 mm
     assert "b'y" in farkas_refutation(apart, right)
-    assert exact_step(apart).delta_q.tolist() == [-1e-3, 0.0, 0.0]
+    assert step_optimum(apart).delta_q.tolist() == [-1e-3, 0.0, 0.0]
 
 
 def test_nearly_contradictory_walls_are_ill_posed():
@@ -79,7 +79,7 @@ def test_nearly_contradictory_walls_are_ill_posed():
     n_2[1] = np.nextafter(n_2[1], 0)
     step = point_between_walls([n_1, n_2], -1e-3, force=(0.0, 0.0, -9.81))
     with pytest.raises(StepIllPosed) as failure:
-        exact_step(step)
+        step_optimum(step)
     # (n_1 + n_2) x >= 2 mm with |n_1 + n_2| = 2^-53
     least = 2e-3 * 2.0**53
     assert np.linalg.norm(failure.value.delta_q) >= least * (1 - 1e-9)
@@ -100,16 +100,16 @@ def test_length_counts_from_the_push_that_the_step_wants(k, is_refused):
     step = free_step(np.eye(3), [0.0, 0.0, 4 * b], no_contacts(3), 0.5).replace(extra=pair)
     if is_refused:
         with pytest.raises(StepIllPosed) as failure:
-            exact_step(step)
+            step_optimum(step)
         assert failure.value.length == pytest.approx(2.0**k, rel=1e-9)
     else:
-        assert exact_step(step).delta_q.tolist() == [0.0, b / e, b]
+        assert step_optimum(step).delta_q.tolist() == [0.0, b / e, b]
 
 
 @pytest.mark.parametrize("force", [0.0, 1e-300])
 def test_push_out_is_not_ill_posed_however_small_the_forces(force):
     step = point_between_walls([EAST], [-1e-3], force=(0.0, 0.0, force))
-    optimum = exact_step(step)
+    optimum = step_optimum(step)
     assert optimum.delta_q[0] == 1e-3
     assert relative_length(step, optimum.delta_q) == pytest.approx(1, abs=1e-8)
 
@@ -121,7 +121,7 @@ def test_a_free_body_is_not_ill_posed_however_small_its_load(tau):
     Of the first two loads the impulse h tau rounds to zero.
     """
     step = free_step(2.0**-20 * np.eye(1), [tau], no_contacts(1), 2.0**-10)
-    delta_q = exact_step(step).delta_q
+    delta_q = step_optimum(step).delta_q
     assert delta_q.tolist() == [tau]
     assert relative_length(step, delta_q) == pytest.approx(1, rel=1e-12)
 

@@ -1,9 +1,9 @@
-"""Eq. (10), A_j delta_q >= b_j. Under test: certify.optimality.optimality_residuals."""
+"""Eq. (10), A_j delta_q >= b_j. Under test: certify.residuals.optimality_residuals."""
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.optimality import optimality_residuals
+from quasistatic_ref.certify.residuals import optimality_residuals
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import random_step, slacks
 from tests.tolerances import ROUNDING

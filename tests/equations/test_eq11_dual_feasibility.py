@@ -1,9 +1,9 @@
-"""Eq. (11), lam_j >= 0. Under test: certify.optimality.optimality_residuals."""
+"""Eq. (11), lam_j >= 0. Under test: certify.residuals.optimality_residuals."""
 
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.optimality import optimality_residuals
+from quasistatic_ref.certify.residuals import optimality_residuals
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import planted_step, random_step

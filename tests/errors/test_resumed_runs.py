@@ -8,8 +8,8 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError, RunFailed
-from quasistatic_ref.optional.runs import saved
-from quasistatic_ref.optional.runs.saved import saved_folder, saved_steps
+from quasistatic_ref.optional.runs import saved_files
+from quasistatic_ref.optional.runs.saved_files import saved_folder, saved_steps
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate import rollout as module
 from quasistatic_ref.simulate.rollout import rollout
@@ -149,7 +149,7 @@ def test_a_changed_urdf_another_record_and_another_version_are_named(tmp_path, s
     urdf.write_text(text)
     with pytest.raises(InputError, match="differs in record: full then, light now"):
         ran(load_scenario(scene, {"record": "light"}, fast=True), path, resume=True)
-    monkeypatch.setattr(saved, "__version__", "9.9")
+    monkeypatch.setattr(saved_files, "__version__", "9.9")
     says = r"differs in version of quasistatic_ref: 0\.1\.0 then, 9\.9 now; run what it is of"
     with pytest.raises(InputError, match=says):
         ran(load_scenario(scene, fast=True), path, resume=True)
@@ -203,7 +203,7 @@ def test_ctrl_c_keeps_the_saved_steps_of_a_run_that_was_long(tmp_path, scene, ev
 
 
 def test_steps_that_could_not_be_saved_are_saved_with_the_next(tmp_path, scene, monkeypatch):
-    honest = saved.written_whole
+    honest = saved_files.written_whole
     calls = []
 
     def now_and_then(path, write):
@@ -212,7 +212,7 @@ def test_steps_that_could_not_be_saved_are_saved_with_the_next(tmp_path, scene, 
             raise InputError("cannot be written: No space left on device", file=path)
         return honest(path, write)
 
-    monkeypatch.setattr(saved, "written_whole", now_and_then)
+    monkeypatch.setattr(saved_files, "written_whole", now_and_then)
     path = tmp_path / "run.npz"
     plain = tmp_path / "plain.npz"
     scenario = load_scenario(scene, {"steps": STEPS}, fast=True)

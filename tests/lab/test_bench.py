@@ -13,7 +13,7 @@ from quasistatic_ref.lab.study.bench.grasp import (
 )
 from quasistatic_ref.lab.study.bench.report import promise_rows
 from quasistatic_ref.lab.study.bench.timing import in_turn
-from quasistatic_ref.solve.scaled import DenseStep
+from quasistatic_ref.solve.natural_step import DenseStep
 from quasistatic_ref.solve.units import from_natural
 from tests.helpers import error
 from tests.tolerances import ACTIVE_SET

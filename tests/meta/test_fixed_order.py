@@ -29,7 +29,6 @@ EXCEPTIONS = {
         "simulate/limits.py:Limits.out_of_reach",
         "step/arrays.py:finite",
         "step/contacts.py:Contacts._check_frames",
-        "step/pivots.py:_diagonal",
         "step/pivots.py:_surely_positive",
     ),
     "what the backend is given; the proof forms its own, without rounding": (

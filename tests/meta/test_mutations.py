@@ -13,10 +13,10 @@ FORM = "step/standard_form.py"
 CONES = "step/cones.py"
 FRICTION = "step/friction.py"
 ELLIPSOID = "optional/ellipsoid/cone.py"
-JUDGE = "certify/optimality.py"
+JUDGE = "certify/residuals.py"
 RATIONAL = "certify/rational.py"
 DEPENDENCE = "certify/dependence.py"
-POINT = "certify/point.py"
+MINIMISER = "certify/minimiser.py"
 ROUNDING = "certify/rounding.py"
 EXACT = "certify/exact.py"
 FARKAS = "certify/farkas.py"
@@ -34,7 +34,7 @@ SAMPLE = {
         f"{FRICTION} wrenches: [mu_v * f_d1, mu_v * f_d2, f_n, mu_omega * tau_n] -> "
         "[mu_v * f_d2, mu_v * f_d1, f_n, mu_omega * tau_n]",
     ),
-    "certify/test_optimality.py::test_a_planted_optimum_has_no_residual": (
+    "certify/test_residuals.py::test_a_planted_optimum_has_no_residual": (
         f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "
         "row_gaps(step.contacts, step.cone)[step.mask]",
         f"{FORM} linear_term: tau_k + step.tau_a -> tau_k - step.tau_a",
@@ -42,20 +42,20 @@ SAMPLE = {
         f"{CONES} row_violations: -lam -> lam",
         f"{JUDGE} optimality_residuals: A @ delta_q - b -> A @ delta_q + b",
     ),
-    "certify/test_optimality.py::test_impulses_outside_an_ellipsoid_are_its_dual_residual": (
+    "certify/test_residuals.py::test_impulses_outside_an_ellipsoid_are_its_dual_residual": (
         f"{ELLIPSOID} cone_violations: mu * s[:, 1:] -> mu / s[:, 1:]",
     ),
-    "certify/test_optimality.py::test_rows_of_the_user_beside_an_ellipsoid_are_judged_one_by_one": (
+    "certify/test_residuals.py::test_rows_of_the_user_beside_an_ellipsoid_are_judged_one_by_one": (
         f"{ELLIPSOID} cone_violations: -own_lam -> own_lam",
     ),
     "certify/test_certificate.py::test_claims_of_a_sticking_body_are_checked": (
         f"{CONES} pyramid: gap + slip_2 -> gap - slip_2",
         f"{CONES} pyramid: gap + spin -> gap - spin",
         f"{FRICTION} rows_along: mu_omega * J_w -> mu_omega / J_w",
-        f"{RATIONAL} friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
-        f"{POINT} rational_solution: -form.A[i, j] -> form.A[i, j]",
+        f"{RATIONAL} exact_friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
+        f"{MINIMISER} rational_solution: -a[i] -> a[i]",
         f"{DEPENDENCE} combination: solution[j, 0] -> solution[0, j]",
-        f"{POINT} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
+        f"{MINIMISER} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
         f"{ROUNDING} nearest_in: low == high -> low != high",
         f"{EXACT} _rounded: signs == 0 -> signs != 0",
     ),
@@ -73,7 +73,7 @@ SAMPLE = {
         "[contacts.n[which], contacts.d2[which], contacts.d1[which]]",
     ),
     "certify/test_exact.py::test_grasp_is_decided_by_balls_alone": (
-        f"{POINT} Point.zero_coordinates: i == v -> i != v",
+        f"{MINIMISER} Minimiser.zero_coordinates: i == v -> i != v",
     ),
     "certify/test_rational.py::test_step_is_formed_without_rounding": (
         f"{RATIONAL} in_integers: two_to(H.e + e_x) / h -> two_to(H.e + e_x) * h",

@@ -17,7 +17,7 @@ import numpy as np
 from flint import arb, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import exact_optimum
+from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
@@ -233,7 +233,7 @@ class Judge:
         if claims["kind"] == "exact":  # where every loaded contact sticks
             working = [4 * j + i for j, i in claims["active"]]
             return on_rows((self.H, self.g, self.A, self.b), working)[0]
-        end = exact_optimum(exact_form(step))
+        end = form_optimum(exact_form(step))
         working = () if isinstance(end, Farkas) else end.working_set  # () violates a row
         return proved((self.H, self.g, self.A, self.b), working)[0]
 

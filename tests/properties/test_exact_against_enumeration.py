@@ -12,7 +12,7 @@ from itertools import combinations
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import exact_optimum
+from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from tests.oracles.solution_truth import dot, exact
 
@@ -144,7 +144,7 @@ def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
         rng = random.Random(seed)
         warm = [[], list(range(len(b))), [rng.randrange(len(b)) for _ in b]]
         for rows in warm:
-            found = exact_optimum(form, rows)
+            found = form_optimum(form, rows)
             if truth.x is None:
                 assert isinstance(found, Farkas), seed
                 y = [Fraction(0)] * len(b)
@@ -175,11 +175,11 @@ def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
 def test_bits_do_not_depend_on_the_precision_of_the_balls(monkeypatch):
     """With balls that decide next to nothing every sign is taken from rational numbers."""
     problems = [small_problem(seed) for seed in range(0, PROBLEMS, 5)]
-    expected = [exact_optimum(exact_form_of(*problem)) for problem in problems]
+    expected = [form_optimum(exact_form_of(*problem)) for problem in problems]
     for module in ("active_set", "point", "exact"):
         monkeypatch.setattr(f"quasistatic_ref.certify.{module}.PRECISION", 2)
     for problem, right in zip(problems, expected, strict=True):
-        found = exact_optimum(exact_form_of(*problem))
+        found = form_optimum(exact_form_of(*problem))
         assert isinstance(found, Farkas) == isinstance(right, Farkas)
         if not isinstance(found, Farkas):
             for name in ("delta_q", "net", "slack"):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.certificate import verify
-from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rows import flat_rows
 from quasistatic_ref.errors import StepInfeasible
@@ -19,7 +19,7 @@ BACKENDS = ("clarabel", "osqp", "piqp", "daqp", NONE)
 def optimum_of(step, rows=()):
     """The optimum from a warm start; None, with its proof checked, if there is none."""
     try:
-        return exact_step(step, rows)
+        return step_optimum(step, rows)
     except StepInfeasible as failure:
         refusal = farkas_refutation(step, failure.farkas.exact)
     assert refusal is None
@@ -40,7 +40,7 @@ def assert_backends_agree(step, optimum):
         solution = solve_step(step, backend)
         claims = solution.certificate
         assert solution.delta_q.tobytes() == optimum.delta_q.tobytes(), backend
-        assert_equal_bits(exact_step(step, flat_rows(step, claims.active)), optimum)
+        assert_equal_bits(step_optimum(step, flat_rows(step, claims.active)), optimum)
         lam = np.concatenate([solution.lam, solution.lam_extra])
         assert verify(step, solution.delta_q, claims.active, lam, claims), backend
 
@@ -51,7 +51,7 @@ def test_every_backend_ends_at_the_same_bits_of_a_grasp():
     run = load_scenario("bunny_grasp", settings, fast=True).run(progress=False)
     for k in range(0, run.steps, 35):
         step = run.step_data(k)
-        assert_backends_agree(step, exact_step(step))
+        assert_backends_agree(step, step_optimum(step))
 
 
 def test_every_backend_and_every_start_end_at_the_same_bits_of_random_steps():

@@ -7,7 +7,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.solution import Certificate
+from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.solve.solve import solve_step

@@ -8,8 +8,8 @@ import pytest
 
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.simulate.trajectory import trajectory_read
-from quasistatic_ref.simulate.wrenches import Scene
 from tests.scenes import SWING, written_scenario
 from tests.tolerances import ROUNDING
 

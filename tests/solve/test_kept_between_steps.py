@@ -9,7 +9,7 @@ from quasistatic_ref.certify.solution import step_solution
 from quasistatic_ref.errors import StepDataError, StepNotSolved
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
-from quasistatic_ref.solve.scaled import DenseStep
+from quasistatic_ref.solve.natural_step import DenseStep
 from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import Extra

@@ -155,9 +155,9 @@ def test_a_sparse_solver_and_its_copy_certify_the_bits_of_the_exact_method(large
 
 def test_no_solver_gives_no_answer_of_its_own(step):
     with pytest.raises(BackendError, match="has no answer of its own"):
-        solve_step(step, NoSolver(step), certify="residual")
+        solve_step(step, NoSolver(step, "none"), certify="residual")
     with pytest.raises(StepNotSolved, match="not called"):
-        NoSolver(step).answer(NoSolver(step).scaled(step), 1e-9)
+        NoSolver(step, "none").answer(NoSolver(step, "none").scaled(step), 1e-9)
 
 
 @pytest.mark.parametrize(("fast", "engine"), [(False, "cvxpy"), (True, "native")])

@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.compliance.forces import contact_forces
-from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
 from quasistatic_ref.formats.plain import bits
@@ -14,7 +14,7 @@ from quasistatic_ref.lab.scenes.piles import SIDE, pile
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.groups import groups, parts
+from quasistatic_ref.step.groups import group_steps, groups
 from quasistatic_ref.tolerances import ILL_POSED
 from tests.helpers import always_in_blocks, changed
 from validation.make.grouped_proofs import faults, random_case
@@ -55,12 +55,12 @@ def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
     assert [g.coordinates.tolist() for g in tied] == [[0, 2, 3], [1, 4]]
     assert [g.extra_rows.tolist() for g in tied] == [[0, 1], []]
     assert tied[0].rows.tolist() == [4, 5, 6, 7, 8, 9]
-    assert parts(step.replace(extra=own))[0][1].extra.A.tolist() == [[0, 0, 0], [0, 1, 1]]
+    assert group_steps(step.replace(extra=own))[0][1].extra.A.tolist() == [[0, 0, 0], [0, 1, 1]]
 
 
 def test_a_group_without_solution_is_named_by_its_contacts():
     step = two_bodies([X, -X], [-1e-3, -1e-3], np.ones(6))
-    for solved in (exact_step, contact_forces):
+    for solved in (step_optimum, contact_forces):
         with pytest.raises(StepInfeasible) as failure:
             solved(step)
         farkas = failure.value.farkas
@@ -79,7 +79,7 @@ def test_a_wedged_light_body_is_ill_posed_also_next_to_a_heavy_one_that_falls():
     unit = np.linalg.norm(n)
     step = two_bodies([n / unit, m / unit], -1e-3, [0, 0, -1e8, 0, 0, 0])
     with pytest.raises(StepIllPosed) as failure:
-        exact_step(step)
+        step_optimum(step)
     assert failure.value.length > ILL_POSED
     assert abs(failure.value.delta_q[4]) > 1e-3 * 2**19
     assert np.abs(failure.value.delta_q[:3]).max() > 1e3
@@ -96,6 +96,6 @@ def test_groups_in_blocks_are_proved_and_verified(monkeypatch):
     assert verify(step, answer.delta_q, answer.certificate.active, answer.lam, answer.certificate)
     dense = step.replace(contacts=changed(step.contacts))
     assert [bits(g) for g in groups(dense)] == [bits(g) for g in groups(step)]
-    assert answer.delta_q.tobytes() == exact_step(dense).delta_q.tobytes()
+    assert answer.delta_q.tobytes() == step_optimum(dense).delta_q.tobytes()
     moved = np.nextafter(answer.delta_q, np.inf)
     assert not verify(step, moved, answer.certificate.active)

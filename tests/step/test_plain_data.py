@@ -44,7 +44,7 @@ def locked(data):
         if isinstance(value, Plain):
             yield from locked(value)
         elif isinstance(value, np.ndarray) and not value.flags.writeable:
-            yield from {key} - {"H", "mu", "wrench"}
+            yield from {key} - {"H", "mu", "wrench", "counts", "mask", "offsets"}
 
 
 @every_trip

@@ -26,7 +26,7 @@ import numpy as np
 from tqdm import tqdm
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.norm import float_inverse
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.formats.plain import bits
@@ -124,7 +124,7 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     rng = np.random.default_rng([seed, 2])
     form = exact_form(step)
     hessian = BallHessian(step)
-    truth = exact_optimum(form)
+    truth = form_optimum(form)
     if isinstance(truth, Farkas):
         found["infeasible"] += 1
         right: list[int] = []
@@ -136,7 +136,7 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
         found["left open" if answer is None else "confirmed"] += 1
         found["compiled"] += proved is not None
         for one in (answer, proved):
-            if one is not None and (wrong := differing(one, exact_optimum(form, right))):
+            if one is not None and (wrong := differing(one, form_optimum(form, right))):
                 faults.append(f"{kind}, step {seed}: {', '.join(wrong)}")
     for guess in wrong_sets(rng, right, form.m):
         answer = confirmed_answer(step, guess, hessian)
@@ -145,7 +145,7 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
         found["refused" if answer is None else "also right"] += 1
         found["proved too"] += proved is not None
         for one in (answer, proved):
-            if one is not None and (wrong := differing(one, exact_optimum(form, guess))):
+            if one is not None and (wrong := differing(one, form_optimum(form, guess))):
                 faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
         if (near := nearby_answer(step, guess, hessian, by_code=False)) is not None:
             found["nearby"] += 1

@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum, exact_step
+from quasistatic_ref.certify.exact import ExactOptimum, form_optimum, step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
@@ -243,9 +243,9 @@ def random_case(seed: int) -> StepData:
 
 def faults(step: StepData) -> list[str]:
     """In what the optimum by group is not that of the whole; empty if it is."""
-    whole = exact_optimum(exact_form(step))
+    whole = form_optimum(exact_form(step))
     try:
-        grouped = exact_step(step)
+        grouped = step_optimum(step)
     except StepInfeasible as failure:
         if not isinstance(whole, Farkas):
             return ["infeasible by group only"]

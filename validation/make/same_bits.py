@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.claim import finding
@@ -55,7 +55,7 @@ def run_record(name: str, settings: list[str]) -> Record:
     nets = []
     slacks = []
     for k in range(run.steps):
-        optimum = exact_step(run.step_data(k), np.flatnonzero(run["lam"][k] > 0).tolist())
+        optimum = step_optimum(run.step_data(k), np.flatnonzero(run["lam"][k] > 0).tolist())
         nets.append(optimum.net)
         slacks.append(optimum.slack)
     return {

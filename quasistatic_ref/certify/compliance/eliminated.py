@@ -22,17 +22,17 @@ from quasistatic_ref.certify.compliance.faces import (
 )
 from quasistatic_ref.certify.exact import nearest_numbers
 from quasistatic_ref.certify.farkas import farkas_vector
-from quasistatic_ref.certify.point import Point, ball_form
+from quasistatic_ref.certify.minimiser import Minimiser, ball_form
 from quasistatic_ref.certify.rational import (
     Dyadic,
     ExactForm,
+    concatenated,
     contact_motion,
     dyadic,
     fraction,
     h_times_hessian,
     h_times_load,
     in_integers,
-    joined,
     two_to,
 )
 from quasistatic_ref.errors import StepInfeasible
@@ -50,7 +50,7 @@ class Candidate:
 
     Parameters
     ----------
-    point : Point
+    minimiser : Minimiser
         The minimiser of a program in delta_q. Its rows are the conditions of the faces, contact by
         contact, then s times the coefficients of friction, then the user's own rows.
     own : int
@@ -59,7 +59,7 @@ class Candidate:
         s times the coefficients = s_unit * slack of its rows [m, m^2].
     """
 
-    point: Point
+    minimiser: Minimiser
     own: int
     s_unit: fmpq
 
@@ -89,8 +89,8 @@ class EliminatedStep:
         mu = Dyadic(self.mu.m.reshape(-1, 4, 1), self.mu.e)
         gap = np.zeros((contacts.n_c, 4, 1))
         gap[:, 0, 0] = contacts.phi
-        self.z = joined([mu * contact_motion(contacts), dyadic(gap)], axis=2)
-        self.own = joined([dyadic(step.extra.A), dyadic(-step.extra.b[:, None])], axis=1)
+        self.z = concatenated([mu * contact_motion(contacts), dyadic(gap)], axis=2)
+        self.own = concatenated([dyadic(step.extra.A), dyadic(-step.extra.b[:, None])], axis=1)
 
     def candidate(self, faces: Sequence[Rows], held: Sequence[int]) -> Candidate:
         """The optimum on the face of each contact, in a polyhedral cone.
@@ -119,33 +119,35 @@ class EliminatedStep:
         push = self.h * self.h * (Dyadic(B.m.T, B.e) @ s)
         H = Dyadic(scale * self.H.m, self.H.e) - push[:, :n]
         g = Dyadic(scale * self.g.m, self.g.e) + push[:, n]
-        rows = joined([conditions, self.mu * s, self.own])
+        rows = concatenated([conditions, self.mu * s, self.own])
         form = in_integers(H, g, rows[:, :n], -rows[:, n], fmpq(1))
         first_own = len(conditions.m) + len(s.m)
         working: tuple[int, ...] = ()
         if first_own < form.m:
             under = in_integers(H, g, self.own[:, :n], -self.own[:, n], fmpq(1))
             working = tuple(first_own + i for i in self._active(under, held))
-        return Candidate(Point(form, ball_form(form), working), first_own, form.slack_unit / scale)
+        return Candidate(
+            Minimiser(form, ball_form(form), working), first_own, form.slack_unit / scale
+        )
 
     def _active(self, under: ExactForm, held: Sequence[int]) -> tuple[int, ...]:
         """The working set of the user's own rows, which are those of a form."""
         end = dual_active_set(under, held)
         if not isinstance(end, Farkas):
-            return end.point.working
+            return end.minimiser.working
         own = np.arange(self.step.offsets[-1], self.step.m)
         raise StepInfeasible(self.step, farkas_vector(self.step, under, end, own))
 
     def wrong_faces(self, found: Candidate) -> list[int]:
         """The contacts that break a condition of their face."""
-        signs = np.array(found.point.decided_slack_signs[: self.step.offsets[-1]])
+        signs = np.array(found.minimiser.decided_slack_signs[: self.step.offsets[-1]])
         broken = np.flatnonzero(signs < 0)
         return sorted({*(np.searchsorted(self.step.offsets, broken, side="right") - 1).tolist()})
 
     def motion(self, found: Candidate, j: int) -> list[fmpq]:
         """The z of a contact j [m], exact but for the 1e-90 of the balls in which it is."""
-        unit = found.point.form.x_unit
-        x = [unit * v for v in _coordinates(found.point)]
+        unit = found.minimiser.form.x_unit
+        x = [unit * v for v in _coordinates(found.minimiser)]
         terms = [*x, fmpq(1)]
         size = two_to(self.z.e)
         return [sum((size * b * v for b, v in zip(row, terms, strict=True)), fmpq(0))
@@ -153,11 +155,11 @@ class EliminatedStep:
 
     def numbers(self, found: Candidate) -> tuple[Array, Array]:
         """The p, scaled to forces, shape (n_c, 4) [N, N m], and delta_q of a candidate, rounded."""
-        point = found.point
+        minimiser = found.minimiser
         n_c = self.step.contacts.n_c
         entries = range(found.own - 4 * n_c, found.own)
-        p = nearest_numbers(point, lambda at: at.slack, found.s_unit / self.compliance, entries)
-        x = nearest_numbers(point, lambda at: at.x, point.form.x_unit, range(self.step.n_v))
+        p = nearest_numbers(minimiser, lambda at: at.slack, found.s_unit / self.compliance, entries)
+        x = nearest_numbers(minimiser, lambda at: at.x, minimiser.form.x_unit, range(self.step.n_v))
         return p.reshape(-1, 4), x
 
 
@@ -201,9 +203,9 @@ def eliminated_optimum(
     return None
 
 
-def _coordinates(point: Point) -> list[fmpq]:
-    """The x of a point in its form's units: the midpoints of its balls, where there are any."""
-    if point.balls is None:
-        return [fmpq(v) / point.rational.denominator for v in point.rational.x]
-    dyadics = [ball.mid().man_exp() for ball in point.balls.x]
+def _coordinates(minimiser: Minimiser) -> list[fmpq]:
+    """The x of a minimiser in its form's units: the midpoints of its balls, where there are any."""
+    if minimiser.balls is None:
+        return [fmpq(v) / minimiser.rational.denominator for v in minimiser.rational.x]
+    dyadics = [ball.mid().man_exp() for ball in minimiser.balls.x]
     return [fmpq(m) * two_to(int(e)) for m, e in dyadics]

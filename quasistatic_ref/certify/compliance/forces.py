@@ -31,23 +31,23 @@ from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.compliance.eliminated import EliminatedStep, eliminated_optimum
 from quasistatic_ref.certify.compliance.face_guess import guessed_faces
 from quasistatic_ref.certify.compliance.faces import rows_of
-from quasistatic_ref.certify.exact import exact_step, nearest_numbers
+from quasistatic_ref.certify.exact import nearest_numbers, step_optimum
 from quasistatic_ref.certify.gap import fractions
 from quasistatic_ref.certify.rational import (
     Dyadic,
     ExactForm,
     block_diagonal,
+    concatenated,
     dyadic,
     fraction,
     in_integers,
-    joined,
 )
 from quasistatic_ref.errors import InputError, StepInfeasible
-from quasistatic_ref.step.arrays import QUIET, read_only
+from quasistatic_ref.step.arrays import read_only, without_warnings
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import contact_wrenches, scaled_by
-from quasistatic_ref.step.groups import parts
+from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.tolerances import COMPLIANCE
 
 WRENCH: Final = [1, 2, 0, 3]
@@ -118,19 +118,19 @@ def contact_forces(
         problem = "must be a positive number of metres per newton"
         raise InputError(problem, field="compliance", value=compliance)
     if near is None and cone(step.cone).polyhedral:
-        rigid = exact_step(step)
+        rigid = step_optimum(step)
         lam = rigid.lam[: step.offsets[-1]]
         near = rigid.delta_q, contact_wrenches(step.contacts, lam, step.h, step.cone)
     wrench = np.zeros((step.contacts.n_c, 4))
     delta_q = np.zeros(step.n_v)
-    for group, part in parts(step):
+    for group, part in group_steps(step):
         x = group.coordinates
         f = group.contacts
         start = None if near is None else (near[0][x], near[1][f])
         try:
             found = _of_group(part, compliance, start)
         except StepInfeasible:
-            exact_step(step)  # says so of the whole step
+            step_optimum(step)  # says so of the whole step
             raise
         delta_q[x] = found.delta_q
         wrench[f] = found.wrench
@@ -143,7 +143,7 @@ def _of_group(step: StepData, compliance: float, near: tuple[Array, Array] | Non
     if isinstance(kind, CurvedCone):
         return kind.forces(step, compliance, near)
     assert near is not None
-    faces, held = QUIET.copy().run(guessed_faces, step, compliance, near)
+    faces, held = without_warnings(guessed_faces, step, compliance, near)
     optimum = eliminated_optimum(step, compliance, faces, held)
     p, delta_q = defined_optimum(step, compliance) if optimum is None else optimum
     return ContactForces(p[:, WRENCH], delta_q)
@@ -171,15 +171,15 @@ def compliant_form(step: StepData, compliance: float) -> ExactForm:
     lengths = 4 * n_c
     # Eq. (13) with the energy |s|^2 / (2c), times h c
     H = block_diagonal(program.H, h * h * dyadic(np.eye(lengths)))
-    g = joined([program.g, dyadic(np.zeros(lengths))])
+    g = concatenated([program.g, dyadic(np.zeros(lengths))])
     C = np.concatenate([np.eye(0, 4), *(rows_of(step.cone, k) for k in step.counts.tolist())])
     blocks = np.zeros((len(C), n_c, 4))
     blocks[np.arange(len(C)), np.repeat(np.arange(n_c), step.counts)] = C
     gives = dyadic(blocks.reshape(len(C), lengths))
     z = Dyadic(program.z.m.reshape(lengths, n + 1), program.z.e)
-    rows = joined([gives @ z, program.own])  # times [delta_q; 1]
-    of_s = joined([gives, dyadic(np.zeros((len(step.extra.b), lengths)))])
-    A = joined([rows[:, :n], of_s], axis=1)
+    rows = concatenated([gives @ z, program.own])  # times [delta_q; 1]
+    of_s = concatenated([gives, dyadic(np.zeros((len(step.extra.b), lengths)))])
+    A = concatenated([rows[:, :n], of_s], axis=1)
     return in_integers(H, g, A, -rows[:, n], program.compliance * fraction(step.h))
 
 
@@ -212,5 +212,5 @@ def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
     def coordinates(found: Any) -> list[Any]:
         return [unit * x for unit, x in zip(units, found.x, strict=True)]
 
-    numbers = nearest_numbers(end.point, coordinates, fmpq(1), range(form.n))
+    numbers = nearest_numbers(end.minimiser, coordinates, fmpq(1), range(form.n))
     return numbers[step.n_v :].reshape(-1, 4), numbers[: step.n_v]

@@ -15,10 +15,10 @@ from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
 from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import cross_matrix
 
 M, LENGTH, TILT, H, STEPS = 0.5, 0.2, 20.0, 0.02, 9
 """A rod [kg], [m], its start [deg] about y; time step [s], steps that are drawn."""

@@ -34,7 +34,11 @@ def group_inertias(file: UrdfFile) -> dict[str, Array]:
     }
     total = {first: np.zeros((6, 6)) for first in dict.fromkeys(group.values())}
     for link, first in group.items():
-        inertia = _spatial_inertia(file.links[link])
+        m = file.links[link].mass
+        c = pin.skew(file.links[link].com)
+        about_com = file.links[link].inertia
+        # About the link's frame, linear part first.
+        inertia = np.block([[m * np.eye(3), -m * c], [m * c, about_com - m * c @ c]])
         # As a congruence, not through pinocchio's Inertia: that would divide by a mass of zero.
         X = poses[first].actInv(poses[link]).toActionMatrixInverse()
         total[first] += X.T @ inertia @ X
@@ -64,8 +68,11 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
     poses = link_poses(file.root, file.joints, {joint.name: 0.0 for joint in file.joints})
     for first in dict.fromkeys(group.values()):
         links = [link for link in group if group[link] == first]
-        defects = [(link, file.links[link].defect) for link in links]
-        connects = first in loaded and not any(_has_substance(file.links[link]) for link in links)
+        welded = [file.links[link] for link in links]
+        defects = [(one.name, one.defect) for one in welded]
+        connects = first in loaded and not any(
+            one.mass or one.defect or one.collisions for one in welded
+        )
         if mover[first] is not None and not connects:
             composite = _composite(file, links, poses)
             if not composite.mass > 0 and defects[0][1] is None:
@@ -82,10 +89,6 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
             if defect
         ]
     return tuple(notes)
-
-
-def _has_substance(link: FileLink) -> bool:
-    return bool(link.mass or link.defect or link.collisions)
 
 
 def _loaded(file: UrdfFile) -> set[str]:
@@ -131,12 +134,3 @@ def _composite(file: UrdfFile, links: Sequence[str], poses: Mapping[str, Pose]) 
         d = centre - com
         inertia += R @ link.inertia @ R.T + link.mass * (d @ d * np.eye(3) - np.outer(d, d))
     return FileLink("", mass, com, inertia, ())
-
-
-def _spatial_inertia(link: FileLink) -> Array:
-    """(6, 6) about the link's frame, linear part first."""
-    m = link.mass
-    c = pin.skew(link.com)
-    top = np.hstack([m * np.eye(3), -m * c])
-    bottom = np.hstack([m * c, link.inertia - m * c @ c])
-    return np.vstack([top, bottom])

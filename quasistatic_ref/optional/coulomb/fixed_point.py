@@ -13,12 +13,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import InputError, NoFixedPoint
 from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
-from quasistatic_ref.step.arrays import Array, finite, largest, read_only
+from quasistatic_ref.step.arrays import Array, finite, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian

@@ -23,7 +23,7 @@ from quasistatic_ref.optional.curved.settle import settled
 from quasistatic_ref.optional.curved.ways_out import rival_directions
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Ellipsoid, Shape
-from quasistatic_ref.shapes.round import Round
+from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SUPPORT, WITNESS
 
@@ -97,7 +97,7 @@ def _resized(shape: Shape, scale: float) -> Shape:
     match shape:
         case Box():
             return Box(scale * shape.half_extents)
-        case Round():
+        case Revolved():
             return type(shape)(scale * shape.radius, scale * shape.half_length)
         case Ellipsoid():
             return Ellipsoid(scale * shape.half_axes)

@@ -6,7 +6,8 @@ from functools import partial
 
 import numpy as np
 
-from quasistatic_ref.certify.solution import Certificate, SolverStatistics, step_solution
+from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.solution import SolverStatistics, step_solution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.derivatives.derivatives import check_derivable
 from quasistatic_ref.optional.derivatives.gradient import Derivatives

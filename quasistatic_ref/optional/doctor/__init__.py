@@ -1,1 +1,1 @@
-"""What a run shows of the model's artifacts, in words."""
+"""Findings: what is wrong with a scene or a run."""

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.compliance.forces import contact_forces
-from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.doctor.start import Start, contacts_of
@@ -90,7 +90,7 @@ class Run(Start):
 def wrenches(step: StepData) -> Array | None:
     """Contact wrenches of the exact optimum, (n_c, 4) [N, N m]; None where there is no optimum."""
     try:
-        optimum = exact_step(step)
+        optimum = step_optimum(step)
     except StepNotSolved:
         return None
     return contact_wrenches(step.contacts, optimum.lam, step.h, step.cone)

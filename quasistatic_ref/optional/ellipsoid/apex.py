@@ -16,7 +16,7 @@ from flint import fmpq, fmpq_mat, fmpz_mat
 
 from quasistatic_ref.certify.dependence import independent_rows
 from quasistatic_ref.certify.gap import fractions
-from quasistatic_ref.certify.point import rational_solution
+from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks, inside, outside_of_cones
 from quasistatic_ref.step.data import Array, StepData

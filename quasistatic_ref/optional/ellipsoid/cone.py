@@ -6,17 +6,18 @@ What is claimed of an answer in it is verified here, without any solver.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from flint import ctx, fmpq
 
+from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.compliance.forces import ContactForces
 from quasistatic_ref.certify.gap import duality_gap, fractions
-from quasistatic_ref.certify.point import rational_solution, rounded_solution
+from quasistatic_ref.certify.minimiser import rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.rows import contact_rows
-from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
@@ -31,14 +32,11 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
 from quasistatic_ref.optional.ellipsoid.forces import compliant_forces
 from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
-from quasistatic_ref.step.arrays import Array, Mask, largest
+from quasistatic_ref.step.arrays import Array, Mask
 from quasistatic_ref.step.cones import ELLIPSOID, CurvedCone, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
-
-if TYPE_CHECKING:
-    pass
 
 Active = tuple[tuple[int, int], ...]
 LARGEST = float(np.finfo(np.float64).max)

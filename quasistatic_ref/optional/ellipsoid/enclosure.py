@@ -17,7 +17,7 @@ import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
 from quasistatic_ref.certify.gap import duality_gap, fractions
-from quasistatic_ref.certify.point import (
+from quasistatic_ref.certify.minimiser import (
     BallForm,
     ball_form,
     rational_solution,

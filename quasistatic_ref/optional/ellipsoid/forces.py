@@ -21,7 +21,7 @@ from flint import arb, arb_mat, ctx
 from quasistatic_ref.certify.compliance.eliminated import EliminatedStep
 from quasistatic_ref.certify.compliance.face_guess import lengths_of
 from quasistatic_ref.certify.compliance.forces import WRENCH, ContactForces
-from quasistatic_ref.certify.point import square_root
+from quasistatic_ref.certify.minimiser import square_root
 from quasistatic_ref.certify.rational import Dyadic, two_to
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.errors import StepNotSolved

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from flint import arb, arb_mat
 
-from quasistatic_ref.certify.point import BallForm, square_root
+from quasistatic_ref.certify.minimiser import BallForm, square_root
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, Vector

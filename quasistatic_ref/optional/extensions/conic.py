@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
+from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.step.cones import Violations
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm

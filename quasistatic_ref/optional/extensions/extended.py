@@ -14,12 +14,8 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.certify.solution import (
-    Certificate,
-    SolverStatistics,
-    StepSolution,
-    step_solution,
-)
+from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, step_solution
 from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residuals
 from quasistatic_ref.optional.extensions.rises import with_rises

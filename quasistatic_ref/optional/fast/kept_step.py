@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.solve.scaled import DenseStep, check_units, out_of_range
+from quasistatic_ref.solve.natural_step import DenseStep, check_units, out_of_range
 from quasistatic_ref.solve.units import NaturalHessian, Units, natural_hessian, units_of
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form

@@ -16,11 +16,11 @@ from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
 from quasistatic_ref.optional.fast.guess.far import Solved, far_slacks, with_far
 from quasistatic_ref.optional.fast.kept_step import KeptStep
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep, constants
-from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
+from quasistatic_ref.solve.natural_step import DenseStep, NaturalStep
 from quasistatic_ref.solve.solver import NaturalAnswer
 from quasistatic_ref.solve.units import NaturalHessian
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
-from quasistatic_ref.step.groups import Group, extra_rows, groups, split
+from quasistatic_ref.step.groups import Group, extra_rows, group_steps, groups, split
 from quasistatic_ref.tolerances import ILL_POSED
 
 SMALL = 24
@@ -228,7 +228,7 @@ class Proofs:
                 break
             near = near | doubtful
         if long:
-            check_length(step, optimum.delta_q)
+            check_length(step, optimum.delta_q, group_steps(step))
         return optimum
 
     def _near(self, step: StepData, lam: Array, slack: Array) -> Mask:

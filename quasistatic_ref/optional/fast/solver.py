@@ -15,7 +15,7 @@ from quasistatic_ref.optional.fast.second_order import ConeSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.backends import RESIDUAL
-from quasistatic_ref.solve.scaled import DenseStep, NaturalStep
+from quasistatic_ref.solve.natural_step import DenseStep, NaturalStep
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import Units, in_natural
 from quasistatic_ref.step.cones import CurvedCone, cone

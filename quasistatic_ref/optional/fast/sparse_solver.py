@@ -17,7 +17,7 @@ from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import BACKENDS, Options
-from quasistatic_ref.solve.scaled import NaturalStep
+from quasistatic_ref.solve.natural_step import NaturalStep
 from quasistatic_ref.solve.solver import NaturalAnswer, OptionSet
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.tolerances import FAR

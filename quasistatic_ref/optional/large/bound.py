@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
-from quasistatic_ref.certify.point import (
+from quasistatic_ref.certify.minimiser import (
     PRECISION,
     BallForm,
     ball_form,

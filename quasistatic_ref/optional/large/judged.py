@@ -15,9 +15,9 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import exact_optimum
+from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
-from quasistatic_ref.certify.point import rational_solution
+from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.verdict import Verdict
 from quasistatic_ref.step.cones import cone
@@ -53,7 +53,7 @@ def bound_verdict(
         return Verdict(False, f"error_bound is {claimed!r}; a bound is from 0 to {WORTHLESS:g}")
     if lam.min(initial=0.0) < 0:
         return Verdict(False, "a multiplier is negative")
-    optimum = exact_optimum(form, np.argsort(-lam, kind="stable")[: int((lam > 0).sum())].tolist())
+    optimum = form_optimum(form, np.argsort(-lam, kind="stable")[: int((lam > 0).sum())].tolist())
     if isinstance(optimum, Farkas):
         return Verdict(False, "the step has no solution")
     solution = rational_solution(form, optimum.working_set)

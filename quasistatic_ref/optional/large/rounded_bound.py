@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, arb_mat, ctx
 
-from quasistatic_ref.certify.point import PRECISION
+from quasistatic_ref.certify.minimiser import PRECISION
 from quasistatic_ref.optional.large.bound import opening_direction
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm

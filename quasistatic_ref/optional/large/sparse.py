@@ -1,8 +1,8 @@
 """Large steps of one kind in natural units, and the sparse standard form of each.
 
-As :mod:`~quasistatic_ref.solve.scaled`, in time and memory that grow with the number of entries
-that are not zero. :class:`~quasistatic_ref.optional.fast.sparse_solver.SparseSolver` hands them to
-a backend.
+As :mod:`~quasistatic_ref.solve.natural_step`, in time and memory that grow with the number of
+entries that are not zero. :class:`~quasistatic_ref.optional.fast.sparse_solver.SparseSolver`
+hands them to a backend.
 """
 
 import math
@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
+from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.optional.large.sizes import sizes_of
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
-from quasistatic_ref.solve.scaled import check_units
+from quasistatic_ref.solve.natural_step import check_units
 from quasistatic_ref.solve.units import coordinate_units, in_natural, small_power, units_from
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm

@@ -1,6 +1,7 @@
 """Through qpsolvers: the standard form handed over, without CVXPY."""
 
 import warnings
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -8,10 +9,10 @@ import numpy as np
 import qpsolvers
 
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
+from quasistatic_ref.solve.natural_step import DenseStep
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solver import OptionSet, Solver
-from quasistatic_ref.solve.units import out_of_reach, within_reach
+from quasistatic_ref.solve.units import within_reach
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
@@ -38,8 +39,10 @@ class QpsolversSolver(Solver):
     def write(self, scaled: DenseStep) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
         natural = scaled.natural
-        self.form = standard_form(within_reach(natural))
-        return np.repeat(out_of_reach(natural), natural.counts)
+        contacts = natural.contacts
+        near = replace(contacts, phi=within_reach(natural))
+        self.form = standard_form(natural.replace(contacts=near))
+        return np.repeat(near.phi < contacts.phi, natural.counts)
 
     def reply(self, attempt: OptionSet, scaled: DenseStep) -> Reply:
         """What the backend says, from a cold start."""

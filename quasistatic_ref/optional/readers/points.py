@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.formats.files import bytes_read
-from quasistatic_ref.formats.npz import npy_array, npz_arrays
+from quasistatic_ref.formats.npz import array_of, npz_arrays, readable
 from quasistatic_ref.optional.readers.pcd import pcd_points
 from quasistatic_ref.optional.readers.ply import ply_points
 from quasistatic_ref.step.arrays import Array
@@ -24,6 +24,12 @@ def _npz(path: Path) -> Array:
     return _of_array(arrays[name], name)
 
 
+def _npy(path: Path) -> Array:
+    with readable(path, "is not an array of NumPy"):
+        array = array_of(bytes_read(path), "it")
+    return _of_array(array, "its array")
+
+
 def _of_array(array: NDArray[Any], name: str) -> Array:
     if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] != 3:
         given = f"{array.dtype} of shape {array.shape}"
@@ -34,7 +40,7 @@ def _of_array(array: NDArray[Any], name: str) -> Array:
 POINTS: Final[dict[str, Callable[[Path], Array]]] = {
     ".ply": lambda path: ply_points(bytes_read(path, ModelError)),
     ".pcd": lambda path: pcd_points(bytes_read(path, ModelError)),
-    ".npy": lambda path: _of_array(npy_array(path), "its array"),
+    ".npy": _npy,
     ".npz": _npz,
 }
 """Extension -> the points of such a file, shape (N, 3) [m]."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from quasistatic_ref.errors import InputError, StepNotSolved
-from quasistatic_ref.optional.runs.saved import EVERY, SavedRun, first_step, run_settings
+from quasistatic_ref.optional.runs.saved_files import EVERY, SavedSteps, first_step, run_settings
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.goals import needed_arguments
 from quasistatic_ref.simulate.law import COULOMB
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
 
 
-def saved_run(
+def begun_or_resumed(
     path: str | Path,
     every: float | None,
     resume: bool,
@@ -34,7 +34,7 @@ def saved_run(
     recorder: Recorder,
     given: Mapping[str, tuple[Any, Checked]],
     stretch: int,
-) -> SavedRun:
+) -> SavedSteps:
     """The observer that saves a run, which the recorder has then; and perhaps its saved steps.
 
     Those are handed to the recorder, and those since the solver last started cold to the solver.
@@ -65,7 +65,7 @@ def saved_run(
     first = first_step(path, steps, resume)
     simulator = recorder.simulator
     settings = run_settings(simulator, recorder.start, recorder.record)
-    saved = SavedRun(path, settings, recorder.notes, EVERY if every is None else every)
+    saved = SavedSteps(path, settings, recorder.notes, EVERY if every is None else every)
     recorder.observers.append(saved)
     if not first:
         return saved

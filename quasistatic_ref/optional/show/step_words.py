@@ -12,7 +12,8 @@ from quasistatic_ref.step.cones import cone
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from quasistatic_ref.certify.solution import Certificate, StepSolution
+    from quasistatic_ref.certify.certificate import Certificate
+    from quasistatic_ref.certify.solution import StepSolution
     from quasistatic_ref.step.contacts import Contacts
     from quasistatic_ref.step.data import Array, Extra, StepData
     from quasistatic_ref.step.problem import StepProblem

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat
 
-from quasistatic_ref.certify.point import ball_form
+from quasistatic_ref.certify.minimiser import ball_form
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     Checked,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.certificate import verify
-from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.errors import InputError, StepNotSolved
@@ -163,7 +163,7 @@ def test_the_methods_of_polyhedra_refuse_the_ellipsoid():
     with pytest.raises(InputError, match="has no rows"):
         cone_matrix(step.cone)
     with pytest.raises(InputError, match="has no rational optimum"):
-        exact_step(step)
+        step_optimum(step)
     answer = solve_step(step)
     assert error_bound(step, answer.delta_q, answer.lam).error == float("inf")
     assert "proves nothing of a cone" in str(farkas_refutation(step, ["1"] * 8))

@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.certificate import verify
-from quasistatic_ref.certify.solution import Certificate
+from quasistatic_ref.certify.certificate import Certificate, verify
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
 from quasistatic_ref.lab.scenes.slider import push, push_step
 from quasistatic_ref.optional.ellipsoid.enclosure import GAP, RESERVE, checked_pair, enclosure

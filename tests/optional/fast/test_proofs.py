@@ -5,7 +5,7 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact import exact_optimum, exact_step
+from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import contacts_of
@@ -44,7 +44,7 @@ def test_contacts_that_do_not_touch_are_left_out_and_proved_open(monkeypatch, to
             optimum, parts = optimum_of(step)
         except (StepInfeasible, StepIllPosed):
             continue
-        assert unlike(optimum, exact_optimum(exact_form(step))) == [], seed
+        assert unlike(optimum, form_optimum(exact_form(step))) == [], seed
         several += parts > 1
     assert several > 1
 
@@ -56,7 +56,7 @@ def test_a_row_of_boxes_that_is_pushed_has_the_bits_of_the_whole(monkeypatch):
         result = some.simulator.step(q, np.zeros(0), some.force)
         q = result.q
     assert len(some.simulator.solver.proofs.parts) >= 5
-    whole = exact_optimum(exact_form(result.step), np.flatnonzero(result.solution.lam).tolist())
+    whole = form_optimum(exact_form(result.step), np.flatnonzero(result.solution.lam).tolist())
     assert result.solution.delta_q.tobytes() == whole.delta_q.tobytes()
     assert unlike(optimum_of(result.step)[0], whole) == []
 
@@ -88,4 +88,4 @@ def test_one_solver_is_given_contacts_in_blocks_of_other_bodies():
     solver = solver_for(steps[0].replace(contacts=changed(steps[0].contacts)), "daqp", fast=True)
     for step in steps:
         answer = solve_step(step, solver)
-        assert answer.delta_q.tobytes() == exact_step(step).delta_q.tobytes()
+        assert answer.delta_q.tobytes() == step_optimum(step).delta_q.tobytes()

@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.optional.fast.second_order import ConeSolver, coefficients
-from quasistatic_ref.solve.scaled import DenseStep
+from quasistatic_ref.solve.natural_step import DenseStep
 from quasistatic_ref.solve.units import from_natural
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form

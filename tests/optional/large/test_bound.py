@@ -3,9 +3,9 @@
 import numpy as np
 from flint import fmpq
 
-from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.gap import duality_gap, energy, fractions, free_energy
-from quasistatic_ref.certify.point import rational_solution
+from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.grasps import grasp_step
@@ -23,13 +23,13 @@ def test_bound_shows_about_eight_digits_of_an_exact_answer():
     rng = np.random.default_rng(8)
     for _ in range(10):
         step = grasp_step(rng)
-        exact = exact_step(step)
+        exact = step_optimum(step)
         assert 1e-10 < error_bound(step, exact.delta_q, exact.lam).error < 1e-6
 
 
 def test_step_without_contacts_is_bounded_to_rounding():
     step = point_between_walls(np.zeros((0, 3)), [], force=(1.0, 2.0, 3.0))
-    exact = exact_step(step)
+    exact = step_optimum(step)
     assert error_bound(step, exact.delta_q, exact.lam).error < 1e-15
 
 
@@ -89,7 +89,7 @@ def test_no_answer_of_random_steps_has_a_false_bound():
     for _ in range(FUZZED):
         step = any_step(rng, *(int(v) for v in rng.integers((0, 1, 1), (3, 4, 4))))
         try:
-            exact = exact_step(step)
+            exact = step_optimum(step)
         except StepNotSolved:
             continue
         if not standard_form(step).g.any():

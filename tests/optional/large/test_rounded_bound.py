@@ -12,7 +12,7 @@ from quasistatic_ref.optional.large import rounded_bound
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.rounded_bound import FloatBound
-from quasistatic_ref.solve.scaled import DenseStep
+from quasistatic_ref.solve.natural_step import DenseStep
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import Units, from_natural, in_natural, to_natural
 from tests.helpers import point_on_floor

@@ -6,7 +6,7 @@ import numpy as np
 from flint import fmpz_mat
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
@@ -43,7 +43,7 @@ def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
         cone = rng.choice(["pyramid", "product", "facets-6", "frictionless"])
         step = step.replace(cone=str(cone))
         try:
-            exact = exact_step(step)
+            exact = step_optimum(step)
         except StepNotSolved:
             continue
         for _ in range(3):
@@ -65,7 +65,7 @@ def test_a_sparse_answer_has_a_bound_as_good_as_that_of_a_dense_one(monkeypatch)
     answer = result.solution
     assert type(step.contacts) is SparseContacts
     bound = answer.certificate.error_bound
-    exact = exact_step(step)
+    exact = step_optimum(step)
     assert error(step, answer.delta_q, exact.delta_q) <= bound < 1e-4
     assert within(step, exact, answer.delta_q, bound, answer.lam)
     dense = error_bound(step, answer.delta_q, answer.lam).error
@@ -80,7 +80,7 @@ def test_what_is_wedged_broken_or_too_large_has_no_bound():
     assert opening(A, np.array([0.0, 1e3])) is not None  # the other wall is far away
     assert opening(csc_matrix(np.zeros((1, 2))), np.zeros(1)) is None
     step = random_step(np.random.default_rng(1))
-    exact = exact_step(step)
+    exact = step_optimum(step)
     for bad in (np.nan, np.inf, 2.0**120):
         assert bound_of(step, exact.delta_q + bad, exact.lam) == np.inf
         assert bound_of(step, exact.delta_q, exact.lam + bad) == np.inf

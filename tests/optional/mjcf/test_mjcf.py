@@ -11,7 +11,7 @@ from quasistatic_ref.optional.mjcf import mjcf
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.wrenches import Scene
+from quasistatic_ref.simulate.scene import Scene
 from tests.model.urdf.urdf_texts import written
 from validation.make.mjcf import CURVED, SAME, differences
 

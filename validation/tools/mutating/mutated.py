@@ -27,9 +27,9 @@ SETS = {
     "DIFFERENTIATED": (
         "touching optimum_rates derivatives derivative_verdicts gradient derivative_layer"
     ),
-    "SOLIDS": "corners patch polytope_pair solid_pair contact/distance curved_pair",
+    "SOLIDS": "corners tied_faces polytope_pair solid_pair contact/distance curved_pair",
     "CURVED": "curved_pair settle faces by_coal contact/distance",
-    "PAIRS": "cloud patch contact/distance pairs jacobian",
+    "PAIRS": "cloud tied_faces contact/distance pairs jacobian",
     "SPARSE": "mass_in_blocks sparse solver",
     "CLOUDS": "clouds cloud_headers mesh_files",
     "URDF": "urdf urdf_refusals urdf_file mesh_files",
@@ -55,7 +55,7 @@ model/readers/mesh_files.py optional/fast/pace.py
     own
 step/standard_form.py
     PAGE
-certify/optimality.py
+certify/residuals.py
     JUDGE enclosure
 certify/compliance/forces.py certify/compliance/faces.py
 certify/compliance/eliminated.py certify/compliance/face_guess.py
@@ -66,7 +66,7 @@ certify/arithmetic.py
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
 certify/rounding.py cli/decimals.py certify/exact.py certify/warm.py certify/certificate.py
     EXACT
-certify/point.py
+certify/minimiser.py
     EXACT
 optional/large/bound.py certify/gap.py optional/ellipsoid/impulses.py optional/large/judged.py
 optional/ellipsoid/apex.py optional/extensions/conic.py
@@ -79,7 +79,7 @@ optional/large/sparse_bound.py
 optional/large/outward.py
     sizes LARGE
 optional/ellipsoid/cone.py
-    apex FORGED optimality standard_form
+    apex FORGED residuals standard_form
 certify/verdict.py
     certificate FORGED
 optional/derivatives/step/sensitivity.py
@@ -108,14 +108,14 @@ optional/ellipsoid/scaled_blocks.py
     ENCLOSED
 contact/distance.py
     PAIRS
-contact/patch.py
+contact/tied_faces.py
     flat_on_flat PAIRS
 contact/crossings.py
     own
 optional/curved/rims.py
     crossings
 contact/shape_in_world.py contact/solids/polytope.py contact/solids/polytope_pair.py
-optional/curved/ways_out.py shapes/hull.py shapes/round.py
+optional/curved/ways_out.py shapes/hull.py shapes/revolved.py
     SOLIDS
 contact/separations.py
     flat_on_flat depth_ties
@@ -173,7 +173,7 @@ model/world.py
 optional/fast/adapters/clarabel.py optional/fast/adapters/daqp.py optional/fast/adapters/osqp.py
 optional/fast/adapters/piqp.py optional/fast/adapters/program.py optional/fast/adapters/quadprog.py
 solve/backends.py
-optional/extensions/extended.py solve/scaled.py solve/units.py
+optional/extensions/extended.py solve/natural_step.py solve/units.py
     SOLVERS
 solve/cvxpy_problem.py
     standard_form problem SOLVERS
@@ -211,7 +211,7 @@ optional/derivatives/step/optimum_rates.py optional/derivatives/step/reason.py
 optional/derivatives/step/touching.py optional/derivatives/contact/couples.py
 optional/derivatives/contact/depth_ties.py optional/derivatives/contact/features.py
 optional/derivatives/contact/kinks.py optional/derivatives/contact/point_ties.py
-optional/derivatives/contact/spare_pairs.py optional/derivatives/contact/witness_rates.py
+optional/derivatives/contact/spare_pairs.py optional/derivatives/contact/closest_point_rates.py
 optional/derivatives/model/mass_rates.py optional/derivatives/model/motion_rates.py
     DIFFERENTIATED
 optional/fast/guess/zeros.py

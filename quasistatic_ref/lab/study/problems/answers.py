@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.lab.study.calling.calls import tried
 from quasistatic_ref.lab.study.problems.problem import EXACT, Answer
@@ -38,7 +38,8 @@ def dense_answer(form: StandardForm) -> Answer:
 
 def _pressed(form: StandardForm) -> list[int]:
     """Rows that a solver found active; none if it found no answer."""
-    natural = natural_form(form, units_of(form, natural_hessian(form.H)))
+    of_H = natural_hessian(form.H)
+    natural = natural_form(form, units_of(form, of_H), of_H.natural)
     for solver in WITNESSES:
         reply = reply_of(natural, solver)
         if reply is not None and reply.solved and reply.x is not None and reply.lam is not None:
@@ -56,7 +57,7 @@ def exact_answer(form: StandardForm, warm: Sequence[int] = ()) -> Answer:
     warm : sequence of int
         Rows that the exact method starts from.
     """
-    found = exact_optimum(exact_form_of(*form), warm)
+    found = form_optimum(exact_form_of(*form), warm)
     if isinstance(found, ExactOptimum):
         return Answer(EXACT, 0.0, found.delta_q, found.net, found.slack, found.lam, {},
                       found.walks, found.multipliers_unique, found.differentiable)  # fmt: skip

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.sparse import csc_matrix
 
-from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.study.problems.answers import step_of
@@ -32,7 +32,7 @@ def refutation(one: Problem) -> str | None:
     if one.answer.kind == BOUNDED:
         return _not_bounded(one)
     warm = np.flatnonzero(one.answer.lam).tolist()
-    found = exact_optimum(exact_form_of(*one.form), warm)
+    found = form_optimum(exact_form_of(*one.form), warm)
     if not isinstance(found, ExactOptimum):
         return "it has no solution"
     parts = {"x": found.delta_q, "net": found.net, "slack": found.slack}

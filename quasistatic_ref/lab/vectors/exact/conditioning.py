@@ -28,7 +28,7 @@ from typing import Any, Final
 import numpy as np
 from flint import fmpq
 
-from quasistatic_ref.certify.point import rational_solution
+from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, inverse, largest, rationals
 

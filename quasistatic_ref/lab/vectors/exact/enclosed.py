@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
-from quasistatic_ref.certify.point import square_root
+from quasistatic_ref.certify.minimiser import square_root
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.cli.decimals import decimal_string

@@ -13,10 +13,10 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.certify.active_set import Farkas, least_index
-from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
-from quasistatic_ref.certify.point import rational_solution
+from quasistatic_ref.certify.certificate import Certificate
+from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
+from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
-from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.program.optimum import is_optimum
 from quasistatic_ref.lab.scenes.contacts import contacts_of
@@ -48,7 +48,7 @@ def expected(case_input: Json, errors: Errors = NO_ERRORS) -> Expected:
     if "second_order" in case_input:
         return enclosed(cone_step(case_input))
     form = form_of(case_input)
-    optimum = exact_optimum(form, (), least_index)
+    optimum = form_optimum(form, (), least_index)
     if isinstance(optimum, Farkas):
         return _infeasible(form, optimum)
     exact = _proved(case_input, form, optimum.working_set)

@@ -53,7 +53,7 @@ class Base:
         moved = case["q"] is not self.at.case["q"]  # if not, bodies and contacts stay
         at = world(case) if moved else World(case, self.at.at)
         contacts = self.contacts_at(at) if moved else self.contacts
-        found = solved(at, contacts, self.step.optimum.point.working)
+        found = solved(at, contacts, self.step.optimum.minimiser.working)
         return found, contacts, away(at, self.q_next, after(at, found.delta_q))
 
 

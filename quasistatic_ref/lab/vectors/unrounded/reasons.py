@@ -84,12 +84,12 @@ def _rows(one: Base) -> list[Json]:
 
 def weak_rows(one: Base) -> list[int]:
     """Rows without slack whose multiplier is 0 in every optimal lam."""
-    point = one.step.optimum.point
+    minimiser = one.step.optimum.minimiser
     signs = one.step.optimum.slack_signs
-    idle = [i for i, sign in enumerate(signs) if sign == 0 and i not in point.working]
-    spanned = point.spanned(idle)
+    idle = [i for i, sign in enumerate(signs) if sign == 0 and i not in minimiser.working]
+    spanned = minimiser.spanned(idle)
     unspanned = [i for i in idle if i not in spanned]
-    strict = strictly_active(one.step.form, point.working, unspanned)
+    strict = strictly_active(one.step.form, minimiser.working, unspanned)
     return [i for i in unspanned if i not in strict]
 
 

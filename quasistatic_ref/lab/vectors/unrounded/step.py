@@ -140,7 +140,7 @@ def solved(at: World, contacts: Sequence[Contact], warm: Sequence[int] = ()) -> 
 
 def delta_q(form: ExactForm, optimum: Optimum) -> Vector:
     """The displacement of an optimum, on the grid [m, rad]."""
-    found = optimum.point.rational
+    found = optimum.minimiser.rational
     return on_grid(form.x_unit * rationals(found.x) / found.denominator)
 
 

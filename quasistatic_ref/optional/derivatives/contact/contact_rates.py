@@ -5,9 +5,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from quasistatic_ref.optional.derivatives.contact.closest_point_rates import (
+    Rates,
+    Sides,
+    closest_point_rates,
+)
 from quasistatic_ref.optional.derivatives.contact.couples import Couple, rim_velocity
 from quasistatic_ref.optional.derivatives.contact.features import Feature, across
-from quasistatic_ref.optional.derivatives.contact.witness_rates import Rates, Sides, witness_rates
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
@@ -151,7 +155,7 @@ def couple_rates(
     size = np.array([c.of.size for c in couples])
     size = np.maximum(size, far)
     n = np.array([c.n for c in couples]).reshape(-1, 3)
-    return witness_rates(phi, n, frames, sides[0], sides[1], size)
+    return closest_point_rates(phi, n, frames, sides[0], sides[1], size)
 
 
 def _rim_side(couple: Couple) -> int:

@@ -17,7 +17,7 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
 from quasistatic_ref.shapes.placed_shape import Cylinder, PointCloud, Sphere
-from quasistatic_ref.shapes.round import QUARTERS
+from quasistatic_ref.shapes.revolved import QUARTERS
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from quasistatic_ref.contact.patch import TURNED, faces_apart
 from quasistatic_ref.contact.separations import gaps
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.contact.solids.polytope_pair import gaps_between
+from quasistatic_ref.contact.tied_faces import TURNED, faces_apart
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.shapes.placed_shape import (

@@ -16,13 +16,19 @@ import numpy as np
 
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import cross_matrix
+from quasistatic_ref.step.ordered import crossed
 
 PLANAR = np.ix_([0, 1, 5], [0, 1, 5])
 """What of a twist a planar base has."""
 
 TERMS = 60
 """Most terms of the series: after 40 a twist of pi has less than rounding left."""
+
+
+def cross_matrix(r: Array) -> Array:
+    """[r x], shape (..., 3, 3), of vectors r, shape (..., 3) [any unit]: [r x] w = r x w."""
+    columns = crossed(r.reshape(-1, 3, 1), np.eye(3)[None])
+    return columns.reshape(*r.shape, 3)
 
 
 def bracket(twist: Array) -> Array:

@@ -25,12 +25,12 @@ from dataclasses import dataclass
 import numpy as np
 from flint import fmpq, fmpq_mat
 
+from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.dependence import combination, idle_rows, independent_rows
-from quasistatic_ref.certify.point import rational_solution
+from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import flat_rows, row_owners
-from quasistatic_ref.certify.solution import Certificate
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.optional.derivatives.step.parameters import Change, parameter_changes

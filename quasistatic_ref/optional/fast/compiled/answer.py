@@ -6,7 +6,7 @@ from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.solve import NOTHING_CLAIMED
 from quasistatic_ref.solve.units import Units, from_natural
-from quasistatic_ref.step.arrays import QUIET, finite
+from quasistatic_ref.step.arrays import finite, without_warnings
 from quasistatic_ref.step.data import StepData
 
 NONE_OF_OWN = np.zeros(0)
@@ -36,7 +36,7 @@ def as_said(
     """
     if units is None or solver.adapter.NEAR:
         return None
-    return QUIET.copy().run(_as_said, step, solver, units, accuracy)
+    return without_warnings(_as_said, step, solver, units, accuracy)
 
 
 def _as_said(

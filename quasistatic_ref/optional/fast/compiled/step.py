@@ -28,7 +28,7 @@ from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Stopwatch
 from quasistatic_ref.solve.solve import solved
 from quasistatic_ref.solve.units import Units
-from quasistatic_ref.step.arrays import QUIET
+from quasistatic_ref.step.arrays import without_warnings
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -232,8 +232,8 @@ class CompiledStep:
         said = as_said(step, solver, units, accuracy) if certify == "off" else None
         if said is not None:
             return said
-        scaled = QUIET.copy().run(KeptStep, step, solver.metric, form, units)
-        return solved(scaled, solver, accuracy, certify)
+        scaled = without_warnings(KeptStep, step, solver.metric, form, units)
+        return without_warnings(solved, scaled, solver, accuracy, certify)
 
     def units(self, solver: FastSolver, step: StepData) -> Units | None:
         """The natural units in which the program of the step is written; None if it is not."""

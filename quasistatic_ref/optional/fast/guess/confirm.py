@@ -23,8 +23,8 @@ from flint import arb, arb_mat, ctx
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.certify.minimiser import PRECISION, inverse
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.certify.point import PRECISION, inverse
 from quasistatic_ref.certify.rational import h_times_hessian, matrix
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.certify.rows import places

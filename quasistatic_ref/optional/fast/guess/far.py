@@ -13,7 +13,7 @@ import numpy as np
 from flint import arb, ctx
 
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.point import PRECISION
+from quasistatic_ref.certify.minimiser import PRECISION
 from quasistatic_ref.optional.fast.guess.confirm import (
     BallHessian,
     BallStep,

@@ -21,8 +21,14 @@ from flint import fmpz
 
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.dependence import follow, idle_rows
-from quasistatic_ref.certify.point import rational_solution
-from quasistatic_ref.certify.rational import Dyadic, dyadic, form_on, friction_rows, joined
+from quasistatic_ref.certify.minimiser import rational_solution
+from quasistatic_ref.certify.rational import (
+    Dyadic,
+    concatenated,
+    dyadic,
+    exact_friction_rows,
+    form_on,
+)
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Indices, StepData
@@ -166,9 +172,9 @@ def _some_rows(step: StepData, rows: Sequence[int]) -> tuple[Dyadic, Dyadic]:
     own = contact == step.contacts.n_c
     used, at = np.unique(contact[~own], return_inverse=True)
     gaps = row_gaps(step.contacts, step.cone)[contact[~own], row[~own]]
-    of_contacts = friction_rows(step.contacts, step.cone, used)[at, row[~own]]
-    A = joined([of_contacts, dyadic(step.extra.A[row[own]])])  # Eq. (8)
-    b = joined([dyadic(-gaps), dyadic(step.extra.b[row[own]])])
+    of_contacts = exact_friction_rows(step.contacts, step.cone, used)[at, row[~own]]
+    A = concatenated([of_contacts, dyadic(step.extra.A[row[own]])])  # Eq. (8)
+    b = concatenated([dyadic(-gaps), dyadic(step.extra.b[row[own]])])
     order = np.argsort(own, kind="stable").argsort()
     return A[order], b[order]
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints, closest
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.patch import cloud_surface
 from quasistatic_ref.contact.separations import OWN
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.tied_faces import cloud_surface
 from quasistatic_ref.optional.fast.tracker.tracker_bound import Shortlist
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape, PointCloud, Shape
 from quasistatic_ref.shapes.rounded import Rounded, distance_to_rounded_box

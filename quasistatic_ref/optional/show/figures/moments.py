@@ -10,8 +10,8 @@ from quasistatic_ref.optional.show.figures.looks import link_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points
 from quasistatic_ref.optional.show.figures.visuals import Visual
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Array, Mask
 

@@ -50,8 +50,8 @@ from quasistatic_ref.optional.show.figures.visuals import (
 )
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
-from quasistatic_ref.simulate.wrenches import HasScene
 from quasistatic_ref.step.data import Array
 
 FRAMES_PER_SECOND = 30

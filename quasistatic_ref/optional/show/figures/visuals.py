@@ -16,7 +16,7 @@ from quasistatic_ref.model.urdf.urdf_file import FileMesh, urdf_file, written_sh
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.optional.show.figures.looks import body_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
-from quasistatic_ref.simulate.wrenches import HasScene
+from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.step.data import Array
 
 AROUND, UP = 32, 12

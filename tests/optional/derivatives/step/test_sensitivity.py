@@ -14,7 +14,7 @@ from flint import fmpq, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.certificate import exact_certificate
-from quasistatic_ref.certify.exact import exact_step
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import repeated
@@ -78,7 +78,7 @@ def optimum(step, warm):
     end = dual_active_set(ExactForm(H, g, A, b, fmpq(1), fmpq(1), fmpq(1), fmpq(1)), warm)
     if isinstance(end, Farkas):
         return None
-    solution = end.point.rational
+    solution = end.minimiser.rational
     d = int(solution.denominator)
     return [F(int(v), d) for v in solution.x]
 
@@ -116,7 +116,7 @@ def test_derivatives_agree_with_central_differences_on_50_random_steps():
         n_a, n_u, n_c = (int(v) for v in rng.integers(0, 4, 3))
         step = any_step(rng, n_a, n_u + (n_a + n_u == 0), n_c).replace(cone=CONES[seed % 4])
         try:
-            best = exact_step(step)
+            best = step_optimum(step)
         except StepNotSolved:
             continue
         found = sensitivity(step, exact_certificate(step, best))
@@ -139,7 +139,7 @@ def test_derivatives_agree_with_central_differences_on_50_random_steps():
 
 
 def found_at(step):
-    return sensitivity(step, exact_certificate(step, exact_step(step)))
+    return sensitivity(step, exact_certificate(step, step_optimum(step)))
 
 
 def test_a_sticking_contact_with_dependent_rows_is_differentiable():

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -120,12 +120,12 @@ def test_numbers_that_do_not_fit_are_left_to_balls(factor, shown):
     J = step.contacts.J.copy()
     J[0, 0, 0] *= factor  # its last bit is then below the grid
     step = step.replace(contacts=changed(step.contacts, J=J))
-    truth = exact_optimum(exact_form(step))
+    truth = form_optimum(exact_form(step))
     assert not isinstance(truth, Farkas)
     found = proof(step, truth.working_set)
     assert (found is not None) == shown
     if shown:
-        assert not differing(found, exact_optimum(exact_form(step), list(truth.working_set)))
+        assert not differing(found, form_optimum(exact_form(step), list(truth.working_set)))
 
 
 def test_a_run_is_proved_by_compiled_code(monkeypatch):

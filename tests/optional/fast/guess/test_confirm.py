@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact import exact_optimum, exact_step
+from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import no_contacts
@@ -22,9 +22,9 @@ FLOOR_OWN = Extra(("stop", "far"), [[1.0, 0, 0, 0, 0, 0, 0], [0, 1.0, 0, 0, 0, 0
 def optimum_and_answer(step, guess=None):
     """What the exact method makes of a guess, its own working set by default, and what is new."""
     form = exact_form(step)
-    truth = exact_optimum(form, () if guess is None else guess)
+    truth = form_optimum(form, () if guess is None else guess)
     given = truth.working_set if guess is None else guess
-    return exact_optimum(form, given), BallStep(step, BallHessian(step)).confirmed(given)
+    return form_optimum(form, given), BallStep(step, BallHessian(step)).confirmed(given)
 
 
 def some_steps():
@@ -67,7 +67,7 @@ def test_a_row_that_touches_and_bears_nothing_is_a_kink():
     truth, answer = optimum_and_answer(step)
     assert not truth.differentiable
     assert differing(answer, truth) == []
-    assert differing(exact_step(step, truth.working_set), truth) == []
+    assert differing(step_optimum(step, truth.working_set), truth) == []
 
 
 def test_rows_that_depend_on_each_other_are_refused():

@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.certify import exact as method
 from quasistatic_ref.certify.active_set import Farkas
-from quasistatic_ref.certify.exact import exact_optimum
+from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.guess import exchange
@@ -33,7 +33,7 @@ def test_what_is_proved_near_a_wrong_guess_is_the_optimum_in_every_bit():
     mended = 0
     for seed in range(20):
         step = random_case(seed)[1]
-        truth = exact_optimum(exact_form(step))
+        truth = form_optimum(exact_form(step))
         if isinstance(truth, Farkas):
             continue
         rng = np.random.default_rng(seed)
@@ -59,7 +59,7 @@ def refused(*_):
 @pytest.mark.parametrize("by", ["balls", pytest.param("compiled code", marks=needs_compiler)])
 def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, by):
     """A hand turns a ball: from the third step on a row is missing of nearly every guess."""
-    monkeypatch.setattr(method, "exact_optimum", refused)
+    monkeypatch.setattr(method, "form_optimum", refused)
     if by == "balls":
         monkeypatch.setattr("quasistatic_ref.optional.fast.proofs.compiled", lambda name: None)
     monkeypatch.setattr("quasistatic_ref.optional.fast.proofs.warm_rows", refused)
@@ -83,14 +83,14 @@ def test_boxes_at_rest_on_each_other_do_not_cost_the_exact_method(monkeypatch, t
     q = falling.system.q_start
     for _ in range(50):
         q = falling.step(q, NONE).q
-    monkeypatch.setattr(method, "exact_optimum", refused)
+    monkeypatch.setattr(method, "form_optimum", refused)
     with nullcontext() if tries else pytest.raises(AssertionError, match="decides everything"):
         assert certified.step(q, NONE).solution.certificate.kind == "exact"
 
 
 def test_rows_that_depend_on_each_other_are_chosen_from_and_proved(monkeypatch):
     """Clarabel presses on all six rows of each contact that sticks, of which four hold it."""
-    monkeypatch.setattr(method, "exact_optimum", refused)
+    monkeypatch.setattr(method, "form_optimum", refused)
     assert solve_step(pinch(grip=5.0), "clarabel", fast=True).certificate.kind == "exact"
 
 

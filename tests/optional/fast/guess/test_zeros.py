@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.exact import ExactOptimum, exact_optimum
+from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step
@@ -26,8 +26,8 @@ def test_what_loads_leave_at_rest_is_proved_with_the_same_bits(name):
     for k in range(2, run.steps, 3):
         step = run.step_data(k)
         form = exact_form(step)
-        guess = exact_optimum(form).working_set
-        truth = exact_optimum(form, guess)
+        guess = form_optimum(form).working_set
+        truth = form_optimum(form, guess)
         answers = [BallStep(step, BallHessian(step)).confirmed(guess)]
         if (fast := compiled("certificate")) is not None:
             units = natural_units(step)
@@ -58,7 +58,7 @@ def test_a_row_without_slack_that_nothing_presses_on_is_a_kink():
     every = Degeneracy(unique=True, smooth=False)  # the gap falls along no combination of rows
     assert zeros(weightless, [], [0, 1, 2, 3, 4, 5], []) == every
     assert zeros(weightless, [], [], [0, 1, 2, 3]) == Degeneracy(unique=True, smooth=True)
-    truth = exact_optimum(exact_form(weightless))
+    truth = form_optimum(exact_form(weightless))
     assert (truth.multipliers_unique, truth.differentiable) == every
 
 

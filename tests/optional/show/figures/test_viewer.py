@@ -26,7 +26,7 @@ from quasistatic_ref.optional.show.figures.viewer import (
 from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Sphere
-from quasistatic_ref.simulate.wrenches import Scene
+from quasistatic_ref.simulate.scene import Scene
 from tests.model.urdf.urdf_texts import collision, joint, link, robot
 from tests.tolerances import ROUNDING
 

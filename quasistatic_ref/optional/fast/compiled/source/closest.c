@@ -89,7 +89,7 @@ static double distance(int64_t kind, const double *size, const double *x, double
     return along(size, x[0], x[1], x[2]) - size[3];
 }
 
-/* contact/patch: whether two faces of a solid are as high, within twice what counts there, where a
+/* contact/tied_faces: whether two faces of a solid are as high, within twice what counts there, where a
    point touches or is inside. NumPy then says which one the normal is of. */
 static int faces_tie(int64_t kind, const double *size, const double *x, double phi, double places)
 {

@@ -1,13 +1,13 @@
-"""The optimality conditions (9)-(12) as residuals: an independent judge of any answer.
+"""The optimality conditions (9)-(12) as residuals of any answer, in float64.
 
-Nothing here knows which solver gave the answer, or by which interface it was called.
+They do not depend on the solver that gave the answer. They prove nothing: a certified step reports
+them, and its proof is in exact.py. Only ``certify="residual"`` refuses answers by them.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from quasistatic_ref.step.arrays import largest
 from quasistatic_ref.step.cones import Judge, row_violations
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -38,6 +38,12 @@ class Residuals:
     def worst(self) -> float:
         """The largest of the four, NaN if any of them is: for a step in natural units [-]."""
         return largest(np.array([*vars(self).values()]))
+
+
+def largest(x: Array) -> float:
+    """The largest of the numbers of a vector and 0, in the vector's unit [-]; NaN if one is NaN."""
+    most = float(x[x.argmax()]) if x.size else 0.0
+    return 0.0 if most <= 0 else most
 
 
 def optimality_residuals(

@@ -93,7 +93,7 @@ def _version(package: str) -> str:
         return "unknown"
 
 
-class SavedRun(Observer):
+class SavedSteps(Observer):
     """The saved steps of one run: begun, added to, read, removed when its trajectory is written.
 
     The run itself is never ended by a save that fails, such as on a full disk: one sentence on

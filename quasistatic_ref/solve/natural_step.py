@@ -6,7 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
-from quasistatic_ref.certify.optimality import Residuals, optimality_residuals
+from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.solve.units import (
     Units,

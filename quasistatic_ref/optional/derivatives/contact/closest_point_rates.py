@@ -68,7 +68,7 @@ class Sides(NamedTuple):
     omega: Array
 
 
-def witness_rates(
+def closest_point_rates(
     phi: Array, n: Array, frames: Array, alpha: Sides, beta: Sides, size: Array
 ) -> Rates:
     """The derivatives of all pairs at once.

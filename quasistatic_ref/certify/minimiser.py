@@ -147,17 +147,11 @@ def rational_solution(form: ExactForm, working: tuple[int, ...]) -> RationalSolu
     """
     n = form.n
     k = len(working)
-    K = fmpz_mat(n + k, n + k)
-    right = fmpz_mat(n + k, 1)
-    for i in range(n):
-        right[i, 0] = form.g[i, 0]
-        for j in range(n):
-            K[i, j] = form.H[i, j]
-    for row, i in enumerate(working, start=n):
-        right[row, 0] = form.b[i, 0]
-        for j in range(n):
-            K[row, j] = form.A[i, j]
-            K[j, row] = -form.A[i, j]
+    A_w = form.rows(working)
+    above = [[*H_i, *(-a[i] for a in A_w)] for i, H_i in enumerate(form.H.tolist())]
+    below = [[*a, *[fmpz(0)] * k] for a in A_w]
+    K = fmpz_mat(n + k, n + k, [entry for row in above + below for entry in row])
+    right = fmpz_mat(n + k, 1, form.g.entries() + [form.b[i, 0] for i in working])
     numerators, denominator = cast("fmpq_mat", K.solve(right)).numer_denom()  # positive
     entries = numerators.entries()
     x = fmpz_mat(n, 1, entries[:n])
@@ -193,7 +187,7 @@ def rounded_solution(
     return x, lam, net, slack
 
 
-class Point:
+class Minimiser:
     """The minimiser x of 1/2 x'Hx - g'x under A_i x = b_i for i in the working set.
 
     Parameters
@@ -255,8 +249,8 @@ class Point:
     def spanned(self, rows: Sequence[int]) -> list[int]:
         """Return those of some rows whose slack is zero because the working set implies it."""
         new = [i for i in rows if i not in self._implied]
-        equations = self.form.equations(new)
         if new:
+            equations = self.form.equations(new)
             self._implied.update(zip(new, implied(self.form, self.working, equations), strict=True))
         return [i for i in rows if self._implied[i]]
 

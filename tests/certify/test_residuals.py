@@ -1,11 +1,11 @@
 """Each residual answers to a planted violation with exactly the planted size."""
 
+import math
+
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.optimality import (
-    optimality_residuals,
-)
+from quasistatic_ref.certify.residuals import largest, optimality_residuals
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import (
@@ -101,3 +101,17 @@ def test_the_work_of_a_contact_in_an_ellipsoid_is_one_sum():
     near(found.complementarity, 0.0)
     pressed = judged(step, delta_q, np.array([2.0, 0.0, 0.0, 0.0]))
     near(pressed.complementarity, 2e-3)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "expected"),
+    [([], 0.0), ([-2.0, -1.0], 0.0), ([-0.0], 0.0), ([1.0, 5.0, 2.0], 5.0), ([math.inf], math.inf)],
+)
+def test_the_largest_number_is_never_below_zero(numbers, expected):
+    found = largest(np.array(numbers))
+    assert found == expected
+    assert math.copysign(1.0, found) == 1.0
+
+
+def test_a_number_that_is_none_is_the_largest():
+    assert math.isnan(largest(np.array([1.0, math.nan, math.inf])))

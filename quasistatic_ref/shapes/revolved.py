@@ -17,7 +17,7 @@ QUARTERS = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
 
 
 @dataclass(frozen=True, eq=False, init=False)
-class Round(Shape):
+class Revolved(Shape):
     """A solid of revolution about its local z axis; radius and half_length in [m].
 
     It is made of its half_length or, as in files, of its `length` [m].
