@@ -73,8 +73,8 @@ CLAIM = Claim(
     "solver's call, the answer in SI units. A majority is more than a half. Where one is claimed, "
     "or denied, solve : rest was measured at 1.25 times or more from 1 (the call of Clarabel alone "
     "is the nearest), and other processes hardly move medians of steps that take turns; near a "
-    "half is 1/3 to 3. OSQP iterates far longer in some steps, so that its mean step is a matter of "
-    "its own. The paper's time, less than 90 us, is that of another method, language and "
+    "half is 1/3 to 3. OSQP iterates far longer in some steps, so that its mean step is a matter "
+    "of its own. The paper's time, less than 90 us, is that of another method, language and "
     "machine (docs/speed.md).",
     measure=evidence,
     engine="daqp",
