@@ -82,13 +82,13 @@ def configurations(after: Callable[[Array, Array], Array]) -> Array:
     return np.array(states)
 
 
-def by_the_program(q: Array, target: Array) -> Array:
+def _by_the_program(q: Array, target: Array) -> Array:
     """The q after a step."""
     found: Array = step(SCENE | {"q": q, "q_bar_a": target})["q_next"]
     return found
 
 
-def by_us() -> Callable[[Array, Array], Array]:
+def _by_us() -> Callable[[Array, Array], Array]:
     """The same from URDFs, through System and Simulator."""
     posed = posed_case(SCENE | {"q": START, "q_bar_a": START[:1]})
     mine = posed.mine
@@ -103,8 +103,8 @@ def by_us() -> Callable[[Array, Array], Array]:
 
 def evidence() -> Evidence:
     """Sixty steps from touching nothing to rolling, sliding and spinning."""
-    hand = configurations(by_the_program)
-    ours = configurations(by_us())
+    hand = configurations(_by_the_program)
+    ours = configurations(_by_us())
     way = np.linalg.norm(ours[-1, 1:4] - START[1:4])
     return Evidence.of(
         comparison("finger and centre of the sphere [m]", ours[:, :4], hand[:, :4], DRIFT, way),

@@ -115,7 +115,7 @@ def _pair(pair: Json, shapes: Json, mine: OwnSystem) -> ContactPair:
 
 
 def wrench_force(case: Json, mine: OwnSystem, q: Array) -> Array:
-    """Generalised force of the wrenches, each at its body's own centre of mass."""
+    """Generalised force of the wrenches, each at its body's own centre of mass, shape (n_v,)."""
     bodies = {body["name"]: body for body in case["mechanism"]["bodies"]}
     kinematics = mine.system.kinematics(q)
     force = np.zeros(mine.system.n_v)
