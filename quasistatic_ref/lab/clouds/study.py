@@ -133,7 +133,7 @@ def row(cell: Cell, cloud: Array | None = None) -> Record:
         Its cloud, where it is there already [m].
     """
     found = grasped(cell.cloud() if cloud is None else cloud, cell.settings())
-    written = {
+    written: Record = {
         name: value if isinstance(value, bool) else float(f"{value:.6g}")
         for name, value in found.items()
     }
