@@ -142,7 +142,7 @@ def answers_written(
 def check_layer(name: str) -> str:
     """Return a layer's name; InputError if it is none."""
     if name not in LAYERS:
-        raise InputError(f"is no layer{suggestion(name, LAYERS)}", field="layer", value=name)
+        raise InputError(f"is not a layer{suggestion(name, LAYERS)}", field="layer", value=name)
     return name
 
 
@@ -180,5 +180,5 @@ def _placed(shapes: Json, table: Json) -> Json:
         return None
     name = Fields(table).text("name")
     if name not in shapes:
-        raise InputError("is no shape of this file", field="shapes", value=name)
+        raise InputError("is not a shape of this file", field="shapes", value=name)
     return shapes[name]
