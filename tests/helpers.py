@@ -160,17 +160,14 @@ def sphere_on_floor(
     phi=0.0,
     wrench=(0.0,) * 6,
     h=0.01,
-    rows=6,
 ):
     """A sphere above a floor z = 0; delta_q is its twist at the centre, wrench its load."""
-    return sphere_step(
-        m, inertia, radius, wrench, mu_v=mu_v, mu_omega=mu_omega, phi=phi, h=h, rows=rows
-    )
+    return sphere_step(m, inertia, radius, wrench, mu_v=mu_v, mu_omega=mu_omega, phi=phi, h=h)
 
 
-def pinch(m=0.2, grip=20.0, offset=0.01, mu_v=0.5, mu_omega=0.02, stiffness=1000.0, h=0.01):
+def pinch(m=0.2, grip=20.0, offset=0.01, mu_v=0.5, mu_omega=0.02):
     """A bar held by two fingers on the axis x, `offset` [m] along y from its centre of mass."""
-    return pinch_step(grip, offset, mu_v, mu_omega, m=m, stiffness=stiffness, h=h)
+    return pinch_step(grip, offset, mu_v, mu_omega, m=m)
 
 
 def hessian(step):

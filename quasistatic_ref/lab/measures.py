@@ -1,6 +1,7 @@
 """What claims and examples measure sweeps by: grids, exact answers, exponents, thresholds."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Final
 
 import numpy as np
@@ -55,3 +56,37 @@ def threshold(
         middle = (low + high) / 2
         low, high = (low, middle) if moves(middle) else (middle, high)
     return high
+
+
+def thresholds(
+    step: Callable[..., StepData],
+    sweep: Array,
+    limits: Array,
+    within: tuple[float, float] = (0.5, 2.0),
+    part: slice = slice(None),
+) -> Array:
+    """Where steps begin to move something, by bisection on exact answers, shape (N,).
+
+    Parameters
+    ----------
+    step : callable
+        From what is bisected, and a row of the sweep.
+    sweep : ndarray, shape (N, k)
+    limits : ndarray, shape (N,)
+        About where it is.
+    within : (float, float)
+        Between which multiples of that it is looked for [-].
+    part : slice
+        Of delta_q: what has to move.
+    """
+
+    def moves(x: float, of: Array) -> bool:
+        return bool(np.any(exact(step(x, *of)).delta_q[part]))
+
+    low, high = within
+    return np.array(
+        [
+            threshold(partial(moves, of=of), low * limit, high * limit)
+            for of, limit in zip(sweep, limits, strict=True)
+        ]
+    )

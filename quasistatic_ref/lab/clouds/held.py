@@ -11,6 +11,7 @@ import numpy as np
 from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.errors import RunFailed
 from quasistatic_ref.lab.grasp import CLOSED, TOP
+from quasistatic_ref.lab.parallel import Record
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
@@ -52,32 +53,7 @@ class Grip:
     needed: float
 
 
-@dataclass(frozen=True)
-class Grasped:
-    """A grasp and lift.
-
-    Parameters
-    ----------
-    rotation : float
-        Largest rotation of the bunny during the lift [deg].
-    lift : float
-        How high its origin rose [mm].
-    certified : float
-        Share of the steps that are certified exactly [-].
-    failed : bool
-        Whether a step had no solution, or left the scene's limits.
-    grip : Grip or None
-        None where a finger bore no load.
-    """
-
-    rotation: float
-    lift: float
-    certified: float
-    failed: bool
-    grip: Grip | None
-
-
-def grasped(cloud: Array, settings: Mapping[str, Any]) -> Grasped:
+def grasped(cloud: Array, settings: Mapping[str, Any]) -> Record:
     """Run ``bunny_grasp`` to the end of the lift with another cloud.
 
     Parameters
@@ -86,6 +62,14 @@ def grasped(cloud: Array, settings: Mapping[str, Any]) -> Grasped:
         [m], in the bunny's frame.
     settings : mapping
         Changes of the scenario, by dotted key.
+
+    Returns
+    -------
+    dict
+        ``failed``: whether a step had no solution, or left the scene's limits; ``rotation``: the
+        largest of the bunny during the lift [deg]; ``lift``: how high its origin rose [mm];
+        ``certified``: share of the steps that are certified exactly [-]; and the fields of its
+        grip, where both fingers bore load.
     """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "cloud.npz"
@@ -102,13 +86,14 @@ def grasped(cloud: Array, settings: Mapping[str, Any]) -> Grasped:
     first = motion.index(CLOSED)
     last = motion.index(TOP)
     turned = motion.rotation_since(CLOSED)[first : last + 1]
-    return Grasped(
-        rotation=float(np.degrees(turned.max())),
-        lift=1e3 * float(motion.t[last, 2] - motion.t[first, 2]),
-        certified=float(np.mean(run["certificate"] == "exact")),
-        failed=failed,
-        grip=_grip(scenario, run, first),
-    )
+    grip = _grip(scenario, run, first)
+    return {
+        "failed": failed,
+        "rotation": float(np.degrees(turned.max())),
+        "lift": 1e3 * float(motion.t[last, 2] - motion.t[first, 2]),
+        "certified": float(np.mean(run["certificate"] == "exact")),
+        **(vars(grip) if grip else {}),
+    }
 
 
 def _grip(scenario: Scenario, run: Trajectory, step: int) -> Grip | None:

@@ -42,14 +42,6 @@ def held(row: Record) -> bool:
     return bool(not row["failed"] and rises and turns)
 
 
-def predicted(row: Record) -> bool:
-    """Whether the closed grip says, by (R14), that the bunny will be held.
-
-    A finger that bears nothing, or a squeeze too weak for the weight, says that it will not.
-    """
-    return margin(row) >= 1.0
-
-
 def margin(row: Record) -> float:
     """mu_omega over the one that is needed [-]; 0 where none would do."""
     if row.get("needed") is None:

@@ -133,16 +133,10 @@ def row(cell: Cell, cloud: Array | None = None) -> Record:
         Its cloud, where it is there already [m].
     """
     found = grasped(cell.cloud() if cloud is None else cloud, cell.settings())
-    numbers: dict[str, float] = {
-        "rotation": found.rotation,
-        "lift": found.lift,
-        "certified": found.certified,
+    written: Record = {
+        name: value if isinstance(value, bool) else float(f"{value:.6g}")
+        for name, value in found.items()
     }
-    if found.grip is not None:
-        numbers |= vars(found.grip)
-    written: dict[str, float | None] = {
-        name: float(f"{value:.6g}") for name, value in numbers.items()
-    }
-    if numbers.get("needed") == np.inf:
+    if written.get("needed") == np.inf:
         written["needed"] = None  # JSON has no infinity
-    return vars(cell) | {"failed": found.failed} | written
+    return vars(cell) | written

@@ -19,6 +19,7 @@ EXAMPLES: Final = (
     "slip_margins",
     "drag_against_h",
     "both_laws",
+    "planar_pushing",
     "flat_patch",
     "which_cone_is_real",
     "boundary_layer",

@@ -1,4 +1,4 @@
-"""The figures of a report on solvers: performance profiles, and digits against time."""
+"""The figures of reports: performance profiles, digits against time, and sweeps."""
 
 from collections.abc import Mapping
 from typing import Any, Final
@@ -14,6 +14,8 @@ from quasistatic_ref.optional.show.figures.style import PAGE
 FURTHEST: Final = 1e4
 """Largest ratio of times that a profile shows."""
 POINT: Final = {"linestyle": "", "label": "_"}
+PANELS: Final = ("largest rotation [deg]", r"boundary layer [$\mu$m]")
+"""Of a sweep."""
 
 
 def profiles(data: Mapping[str, Any]) -> Figure:
@@ -49,6 +51,28 @@ def digits_time(data: Mapping[str, Any]) -> Figure:
     label = r"median correct digits of $\delta q$ [-]"
     axes.set(ylim=(0, 16.5), yticks=range(0, 17, 4), ylabel=label)
     _legend(figure, list(lines))
+    return figure
+
+
+def sweep(data: Mapping[str, Any]) -> Figure:
+    """Rotation and boundary layer against a parameter, a line a value of the second one."""
+    lines = data["lines"]
+    pen = pens(list(lines))
+    figure, grid = plt.subplots(1, 2, figsize=(PAGE, 2.7), layout="constrained")
+    first = [value for points in lines.values() for value, *_ in points]
+    words = [v for v in dict.fromkeys(first) if isinstance(v, str)]
+    for k, (axes, label) in enumerate(zip(grid, PANELS, strict=True)):
+        for name, points in lines.items():
+            at = [words.index(p[0]) if words else p[0] for p in points]
+            own = pen[name] | ({"linestyle": ""} if words else {})
+            axes.plot(at, [p[1 + k] for p in points], **own, fillstyle="none")
+        if words:
+            axes.set_xticks(range(len(words)), words)
+            axes.set_xlim(-0.5, len(words) - 0.5)
+        top = 1.08 * max(p[1 + k] for points in lines.values() for p in points) or 1
+        axes.set(ylim=(0, top), xlabel=data["axis"], ylabel=label)
+    if len(lines) > 1:
+        grid[0].legend()
     return figure
 
 

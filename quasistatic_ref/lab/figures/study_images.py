@@ -7,8 +7,7 @@ from typing import Any, Final
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 
-from quasistatic_ref.lab.figures.study import digits_time, profiles
-from quasistatic_ref.lab.figures.study_sweep import sweep
+from quasistatic_ref.lab.figures.study import digits_time, profiles, sweep
 from quasistatic_ref.optional.show.figures.style import figure_style
 
 KINDS: Final[dict[str, Callable[[Mapping[str, Any]], Figure]]] = {

@@ -22,19 +22,19 @@ def _open(mark: str) -> dict[str, Any]:
     return {"marker": mark, "markersize": size, "fillstyle": "none"}
 
 
-def grasp(picture: Picture, within: Any = None) -> Figure:
+def grasp(picture: Picture) -> Figure:
     """Rotation of the bunny during the lift."""
-    figure, (axes,) = panels(4.6, 2.8, within=within)
+    figure, (axes,) = panels(4.6, 2.8)
     for case, angle in picture["angles"].items():
         axes.plot(picture["times"], angle, label=case)
     labelled(axes, "time t [s]", "rotation since the grip closed [deg]", caption(picture["h"]))
     return figure
 
 
-def contact_geometry(picture: Picture, within: Any = None) -> Figure:
+def contact_geometry(picture: Picture) -> Figure:
     """Two bodies, their closest points, phi and the frame; in the plane of d1 or d2 and n."""
     data = picture["outline"]
-    figure, (axes,) = panels(4.6, 3.2, within=within)
+    figure, (axes,) = panels(4.6, 3.2)
     for body in ("capsule", "box"):
         axes.fill(1e3 * data[body][:, 0], 1e3 * data[body][:, 2], facecolor="0.88", edgecolor="0.3")
     alpha = 1e3 * data["alpha"][[0, 2]]
@@ -77,9 +77,9 @@ def boundary_layer(picture: Picture, within: Any = None) -> Figure:
     return figure
 
 
-def step_time(picture: Picture, within: Any = None) -> Figure:
+def step_time(picture: Picture) -> Figure:
     """Parts of a step by backend, each with the tracker and with all distances, stacked."""
-    figure, (axes,) = panels(6.3, 3.9, within=within)
+    figure, (axes,) = panels(6.3, 3.9)
     profiles = picture["profiles"].all
     # Two bars of a backend touch, backends stand apart.
     at = -np.array([k + 0.5 * (k // 2) for k in range(len(profiles))])
@@ -115,9 +115,9 @@ def _duration(microseconds: float) -> str:
     return f"{microseconds / 1000:.1f} ms" if ms else rf"{microseconds:.0f} $\mu$s"
 
 
-def sliding_threshold(picture: Picture, within: Any = None) -> Figure:
+def sliding_threshold(picture: Picture) -> Figure:
     """Least force that moves a point, by direction: the pyramid and Coulomb's circle."""
-    figure, (axes,) = panels(4.6, 2.8, within=within)
+    figure, (axes,) = panels(4.6, 2.8)
     degrees = np.degrees(picture["angles"])
     axes.plot(degrees, np.ones_like(degrees), color="0.5", linestyle=":", label="Coulomb's circle")
     exact = 1 / (np.cos(picture["angles"]) + np.sin(picture["angles"]))
@@ -131,9 +131,9 @@ def sliding_threshold(picture: Picture, within: Any = None) -> Figure:
     return figure
 
 
-def pushed_block(picture: Picture, within: Any = None) -> Figure:
+def pushed_block(picture: Picture) -> Figure:
     """Force of the finger over friction, against the quasi-dynamic number."""
-    figure, (axes,) = panels(4.6, 2.8, within=within)
+    figure, (axes,) = panels(4.6, 2.8)
     friction = picture["mu"] * picture["m"] * 9.81
     pi = picture["v"] / (picture["mu"] * 9.81 * picture["h"])
     line = np.geomspace(0.8 * pi.min(), 1.2 * pi.max(), 100)
@@ -165,9 +165,9 @@ def planar_push(picture: Picture, within: Any = None) -> Figure:
     return figure
 
 
-def patch_torsion(picture: Picture, within: Any = None) -> Figure:
+def patch_torsion(picture: Picture) -> Figure:
     """mu_omega of patches made of rings, and their limits."""
-    figure, (axes,) = panels(4.6, 2.8, within=within)
+    figure, (axes,) = panels(4.6, 2.8)
     for (name, found), mark in zip(picture["found"].items(), MARKS, strict=False):
         axes.plot(picture["rings"], found, marker=mark, label=name)
         axes.axhline(picture["limits"][name], color="black", linestyle=":", linewidth=1)
@@ -179,9 +179,9 @@ def patch_torsion(picture: Picture, within: Any = None) -> Figure:
     return figure
 
 
-def flat_patch(picture: Picture, within: Any = None) -> Figure:
+def flat_patch(picture: Picture) -> Figure:
     """Who bears the load of a rigid disk that turns."""
-    figure, (axes,) = panels(4.6, 2.6, within=within)
+    figure, (axes,) = panels(4.6, 2.6)
     at = np.arange(len(picture["r"]))
     uniform = np.full(len(at), 1 / len(at))
     axes.set_axisbelow(True)
@@ -194,9 +194,9 @@ def flat_patch(picture: Picture, within: Any = None) -> Figure:
     return figure
 
 
-def peg_wedging(picture: Picture, within: Any = None) -> Figure:
+def peg_wedging(picture: Picture) -> Figure:
     """Depth at which a peg stops to wedge, against Whitney's line."""
-    figure, (axes,) = panels(4.6, 2.8, within=within)
+    figure, (axes,) = panels(4.6, 2.8)
     line = np.array([0, 0.9])
     axes.plot(line, line, label=r"$l = \mu d$, (R17)", **THIN)
     for width, mark in zip(np.unique(picture["width"]), MARKS, strict=False):
@@ -212,9 +212,9 @@ def peg_wedging(picture: Picture, within: Any = None) -> Figure:
     return figure
 
 
-def mujoco_friction(picture: Picture, within: Any = None) -> Figure:
+def mujoco_friction(picture: Picture) -> Figure:
     """Velocity against load, below and beyond the threshold, of both engines."""
-    figure, both = panels(6.3, 2.8, columns=2, within=within)
+    figure, both = panels(6.3, 2.8, columns=2)
     units = {"torsion": "spin rate [rad/s]", "tangent": "velocity [m/s]"}
     for axes, (kind, unit) in zip(both, units.items(), strict=True):
         for (what, cone), final in picture["creep"].items():
@@ -231,9 +231,9 @@ def mujoco_friction(picture: Picture, within: Any = None) -> Figure:
     return figure
 
 
-def locked_guide(picture: Picture, within: Any = None) -> Figure:
+def locked_guide(picture: Picture) -> Figure:
     """What a force does to a body in a guide, and how far any force takes it in a step."""
-    figure, (left, right) = panels(6.3, 3.0, columns=2, within=within)
+    figure, (left, right) = panels(6.3, 3.0, columns=2)
     forces = picture["forces"]
     left.plot(forces, np.minimum(forces, 1.0), label=r"slip / (c / $\mu_v$), (R38)")
     left.plot(forces, picture["slips"], linestyle="", **_open("o"), label="of steps")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from .distance import closest_points, transformed
+from .distance import closest_points, corners, transformed
 from .rotation import AXES, unit
 
 OVER, SKEW = 1e-9, 1e-6
@@ -24,14 +24,6 @@ def selection(case):
         indices = [*order.tolist(), *filling][: case["k"]]
         found.append(indices)
     return {"indices": found}
-
-
-def corners(shape):
-    """The corners of a box, the sign of x changing first; other solids have none here."""
-    if shape["kind"] != "box":
-        return []
-    signs = 2 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
-    return signs * np.array(shape["size"]) / 2
 
 
 def edges(shape):

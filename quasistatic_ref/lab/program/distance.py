@@ -20,6 +20,14 @@ def transformed(pose, points):
     return np.atleast_2d(points) @ pose[0].T + pose[1]
 
 
+def corners(shape):
+    """The corners of a box, the sign of x changing first; other solids have none here."""
+    if shape["kind"] != "box":
+        return []
+    signs = 2 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
+    return signs * np.array(shape["size"]) / 2
+
+
 def core(shape, pose):
     """(points, radius) of a shape that has a core; None if not."""
     kind = shape["kind"]
@@ -29,8 +37,7 @@ def core(shape, pose):
         z = shape["length"] / 2
         return transformed(pose, [[0, 0, -z], [0, 0, z]]), shape["radius"]
     if kind == "box":
-        signs = 2 * ((np.arange(8)[:, None] >> np.arange(3)) & 1) - 1
-        return transformed(pose, signs * np.array(shape["size"]) / 2), 0.0
+        return transformed(pose, corners(shape)), 0.0
     if kind == "convex":
         return transformed(pose, shape["vertices"]), 0.0
     return None

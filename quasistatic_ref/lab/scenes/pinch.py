@@ -7,6 +7,8 @@ from quasistatic_ref.step.data import StepData
 
 HALF_WIDTH, INERTIA = 0.03, 1e-4
 """Of the bar, along x [m]; about each axis [kg m^2]."""
+STIFFNESS, H = 1000.0, 0.01
+"""Of a finger [N/m]; time step [s]."""
 
 
 def pinch_step(
@@ -16,8 +18,6 @@ def pinch_step(
     mu_omega: float,
     *,
     m: float = 0.2,
-    stiffness: float = 1000.0,
-    h: float = 0.01,
     cone: str = "pyramid",
 ) -> StepData:
     """A bar between two fingers on the axis x; gravity pulls along -z, an axis of both frames.
@@ -33,8 +33,8 @@ def pinch_step(
         Of the fingers along y, from the centre of mass [m].
     mu_v, mu_omega : float
         [-], [m].
-    m, stiffness, h : float
-        Mass of the bar [kg], of a finger [N/m], time step [s].
+    m : float
+        Mass of the bar [kg].
     cone : str
     """
     n = np.array([X, -X])  # finger j closes along n
@@ -43,12 +43,12 @@ def pinch_step(
     J[[0, 1], :3, [0, 1]] = -n
     J[:, :, 2:] = point_jacobian(offset * Y - HALF_WIDTH * n, n)
     return StepData(
-        h=h,
-        K_q=stiffness * np.eye(2),
+        h=H,
+        K_q=STIFFNESS * np.eye(2),
         M_u=np.diag([m, m, m, INERTIA, INERTIA, INERTIA]),
         tau_a=np.zeros(2),
         tau_u=np.array([0.0, 0.0, -m * GRAVITY, 0.0, 0.0, 0.0]),
-        delta_q_bar_a=np.full(2, grip / stiffness),
+        delta_q_bar_a=np.full(2, grip / STIFFNESS),
         contacts=contacts_of(0.0, frames, J, mu_v, mu_omega, rows=6),
         cone=cone,
     )

@@ -76,11 +76,10 @@ def sphere_step(
     mu_omega: float,
     phi: float,
     h: float,
-    rows: int = 6,
 ) -> StepData:
     """A sphere over the floor z = 0; wrench at its centre."""
     below = [[0.0, 0.0, -radius]]
     return rigid_step(
         m, inertia, wrench, below, [np.eye(3)],
-        mu_v=mu_v, mu_omega=mu_omega, phi=phi, rows=rows, h=h,
+        mu_v=mu_v, mu_omega=mu_omega, phi=phi, rows=6, h=h,
     )  # fmt: skip

@@ -70,20 +70,11 @@ def converted(layer: str, case: Json, output: Json, tangent: str, quaternion: st
 
 def xyzw(mechanism: Json, q: Json) -> Json:
     """A configuration whose quaternions are [w, x, y, z], with [x, y, z, w]."""
-    return _rolled(mechanism, q, -1)
-
-
-def wxyz(mechanism: Json, q: Json) -> Json:
-    """A configuration whose quaternions are [x, y, z, w], with [w, x, y, z]."""
-    return _rolled(mechanism, q, 1)
-
-
-def _rolled(mechanism: Json, q: Json, by: int) -> Json:
     if not isinstance(q, list):
         raise TypeError("q must be a list")
     q = list(q)
     for at in quaternion_places(mechanism):
-        q[at] = q[at][-by:] + q[at][:-by]
+        q[at] = q[at][1:] + q[at][:1]
     return q
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.clouds.rows import chosen, held, margin, predicted, rows, spread
+from quasistatic_ref.lab.clouds.rows import chosen, held, margin, rows, spread
 from quasistatic_ref.lab.clouds.study import NONE, Cell, cells, row
 
 NAMES = list(Cell.__dataclass_fields__)
@@ -23,7 +23,6 @@ def test_a_grip_whose_numbers_are_known_has_the_margin_of_r14():
         needed = one["lever"] / (2 * one["squeeze"] / weight - 1 / 0.6)
         np.testing.assert_allclose(one["needed"], needed, rtol=1e-4)
         np.testing.assert_allclose(margin(one) * needed, one["mu_omega"] + one["spread"], rtol=1e-4)
-        assert predicted(one) == (margin(one) >= 1.0)
 
 
 @pytest.mark.parametrize("change", [NONE, "squeeze"])

@@ -105,7 +105,7 @@ def test_measured_and_expected_stand_side_by_side_and_agree(name, rtol, atol):
 
 
 def test_there_is_an_example_for_every_subject():
-    assert len(EXAMPLES) == len(set(EXAMPLES)) == 31
+    assert len(EXAMPLES) == len(set(EXAMPLES)) == 32
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -170,6 +170,13 @@ def test_a_planned_push_reaches_its_goal_in_certified_steps():
     found = np.reshape(list(numbers("plan_a_push").values()), (2, 3))
     assert (found < [5.0, 5.0, 41]).all()  # mm, degrees
     assert (found[:, 2] == plan_a_push.STEPS).all()
+
+
+def test_a_slider_turns_as_lynch_says_when_it_is_slow():
+    found = np.reshape(list(numbers("planar_pushing").values()), (3, 3))
+    slow, fast, law = found.T
+    np.testing.assert_allclose(slow, 1.0, atol=2e-3)  # Pi (1 - (rho / c)^2), Pi = 1e-3
+    np.testing.assert_allclose(fast, law, rtol=ROUNDING)
 
 
 def test_the_ellipsoid_predicts_pushes_far_better_than_the_pyramid():

@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.measures import exact, grid, threshold
+from quasistatic_ref.lab.measures import exact, grid, thresholds
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, contacts_of, point_jacobian
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
@@ -62,19 +62,16 @@ def lifting_step(speed: float, lever: float, h: float) -> StepData:
 
 def evidence() -> Evidence:
     """The rate 1 / h of steps from which on the bar turns."""
-    found = []
-    expected = []
-    risen = []
-    for speed, lever in grid([0.001, 0.01, 0.1, 0.3], [0.02, 0.03, 0.04]):
-        rate = (2 * MU_V * SQUEEZE * PAD / lever - M * GRAVITY) / (M * speed)
+    sweep = grid([0.001, 0.01, 0.1, 0.3], [0.02, 0.03, 0.04])
+    speed, lever = sweep.T
+    expected = (2 * MU_V * SQUEEZE * PAD / lever - M * GRAVITY) / (M * speed)
 
-        def turns(rate: float, of: tuple[float, float] = (speed, lever)) -> bool:
-            return bool(np.any(exact(lifting_step(*of, 1 / rate)).delta_q[7:]))
+    def at_rate(rate: float, speed: float, lever: float) -> StepData:
+        return lifting_step(speed, lever, 1 / rate)
 
-        found.append(threshold(turns, 0.5 * rate, 2 * rate))
-        expected.append(rate)
-        h = 1.1 / rate
-        risen.append(exact(lifting_step(speed, lever, h)).delta_q[6] / (speed * h))
+    found = thresholds(at_rate, sweep, expected, part=slice(7, None))
+    held = (at_rate(rate / 1.1, *of) for rate, of in zip(expected, sweep, strict=True))
+    risen = np.array([exact(step).delta_q[6] for step in held]) / (speed * 1.1 / expected)
     return Evidence.of(
         comparison(
             "rate of steps that turns the bar [1/s]", found, expected, CLOSED_FORM, expected

@@ -3,7 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.measures import exact, grid, threshold
+from quasistatic_ref.lab.measures import exact, grid, thresholds
 from quasistatic_ref.lab.scenes.contacts import X, Y, Z
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.step.data import StepData
@@ -28,18 +28,12 @@ def pushed(depth: float, width: float, mu: float, force: float) -> StepData:
 
 def evidence() -> Evidence:
     """The depth at which the peg wedges, for weak and strong pushes; and how it slides deeper."""
-    found = []
-    expected = []
-    rest = []
-    for width, mu, force in grid([0.01, 0.04], [0.1, 0.3, 0.8], [1e-3, 1.0, 1e6]):
-        limit = mu * width
-
-        def moves(depth: float, of: tuple[float, float, float] = (width, mu, force)) -> bool:
-            return bool(np.any(exact(pushed(depth, *of)).delta_q))
-
-        found.append(threshold(moves, 0.2 * limit, 5 * limit))
-        expected.append(limit)
-        rest.append(exact(pushed(0.99 * limit, width, mu, force)).delta_q)
+    sweep = grid([0.01, 0.04], [0.1, 0.3, 0.8], [1e-3, 1.0, 1e6])
+    widths, mus, _ = sweep.T
+    expected = mus * widths
+    found = thresholds(pushed, sweep, expected, (0.2, 5.0))
+    wedged = (pushed(0.99 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
+    rest = [exact(step).delta_q for step in wedged]
     solved = []
     formula = []
     for width, mu, over, force in grid([0.01, 0.04], [0.1, 0.3, 0.8], [1.05, 2, 6], [0.1, 5.0]):
@@ -49,10 +43,7 @@ def evidence() -> Evidence:
         descent = H**2 * force / (M * (1 + x**2) + INERTIA * theta**2)
         formula.append(descent * np.array([x, 0, -1, 0, theta, 0]))
     size = np.abs(formula).max(1, keepdims=True)
-    widths = np.array([0.01, 0.04])
-    mus = np.array([0.1, 0.3, 0.8])
-    picture = {"mu": np.repeat(np.tile(mus, len(widths)), 3), "width": np.repeat(widths, 9),
-               "found": np.array(found), "h": H}  # fmt: skip
+    picture = {"mu": mus, "width": widths, "found": found, "h": H}
     return Evidence.of(
         comparison("depth below which it wedges [m]", found, expected, CLOSED_FORM, expected),
         comparison("motion of a wedged peg [m, rad]", rest, 0.0, 0.0),

@@ -3,31 +3,30 @@
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
-from quasistatic_ref.lab.measures import exact, grid, threshold
+from quasistatic_ref.lab.measures import exact, grid, thresholds
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.pinch import pinch_step
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 M = 0.2
 """Mass of the bar [kg]."""
 
 
+def held(offset: float, grip: float, mu_v: float, mu_omega: float) -> StepData:
+    """A bar that is held at an offset [m]."""
+    return pinch_step(grip, offset, mu_v, mu_omega, m=M)
+
+
 def evidence() -> Evidence:
     """The offset at which the bar begins to turn."""
-    found = []
-    expected = []
-    loads = []
-    grips = []
-    for grip, mu_v, mu_omega in grid([4.0, 10.0, 40.0], [0.4, 0.8], [0.005, 0.02]):
-        limit = mu_omega * (2 * grip / (M * GRAVITY) - 1 / mu_v)
-
-        def moves(offset: float, of: tuple[float, float, float] = (grip, mu_v, mu_omega)) -> bool:
-            return bool(np.any(exact(pinch_step(of[0], offset, *of[1:], m=M)).delta_q))
-
-        found.append(threshold(moves, 0.5 * limit, 2 * limit))
-        expected.append(limit)
-        loads.append(exact(pinch_step(grip, 0.9 * limit, mu_v, mu_omega, m=M)).wrench[:, 2])
-        grips.append([grip, grip])
+    sweep = grid([4.0, 10.0, 40.0], [0.4, 0.8], [0.005, 0.02])
+    grip, mu_v, mu_omega = sweep.T
+    expected = mu_omega * (2 * grip / (M * GRAVITY) - 1 / mu_v)
+    found = thresholds(held, sweep, expected)
+    steps = (held(0.9 * limit, *of) for limit, of in zip(expected, sweep, strict=True))
+    loads = [exact(step).wrench[:, 2] for step in steps]
+    grips = np.stack([grip, grip], axis=1)
     return Evidence.of(
         comparison("offset that turns the bar [m]", found, expected, CLOSED_FORM, expected),
         comparison("normal force of a finger [N]", loads, grips, CLOSED_FORM, grips),

@@ -3,10 +3,10 @@
 import numpy as np
 
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison, sum_of_terms
-from quasistatic_ref.lab.measures import exact, grid, threshold
+from quasistatic_ref.lab.measures import exact, grid, thresholds
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.rigid import point_step
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import CLOSED_FORM
 
 M = 0.3
@@ -34,22 +34,21 @@ def slip(fx: float, fy: float, mu: float, phi: float, h: float = H) -> Array:
     return np.array([0.0, 0.0, -phi])
 
 
+def pushed(share: float, angle: float, mu: float) -> StepData:
+    """A point under a share of mu m g, at an angle from d1 [rad]."""
+    f1, f2 = share * mu * M * GRAVITY * np.array([np.cos(angle), np.sin(angle)])
+    return point_step(M, (f1, f2, -M * GRAVITY), mu, 0.0, H)
+
+
 def threshold_evidence() -> Evidence:
     """The least force that moves the point, by direction."""
     angles = np.radians(np.linspace(0.0, 90.0, 13))
-    found = []
-    expected = []
     mus = (0.2, 1.0)
-    for mu in mus:
-        for a in angles:
-            fx, fy = mu * M * GRAVITY * np.array([np.cos(a), np.sin(a)])
-
-            def moves(share: float, fx: float = fx, fy: float = fy, mu: float = mu) -> bool:
-                return bool(np.any(pulled(share * fx, share * fy, mu, 0.0)))
-
-            found.append(threshold(moves, 0.5, 1.5))
-            expected.append(1 / (abs(np.cos(a)) + abs(np.sin(a))))
-    picture = {"angles": angles, "found": np.array(found).reshape(len(mus), -1), "mus": mus, "h": H}
+    sweep = grid(angles, mus)
+    at = sweep[:, 0]
+    expected = 1 / (np.cos(at) + np.sin(at))
+    found = thresholds(pushed, sweep, expected)
+    picture = {"angles": angles, "found": found.reshape(-1, len(mus)).T, "mus": mus, "h": H}
     what = "least force that moves it, over mu_v m g [-]"
     return Evidence.of(comparison(what, found, expected, CLOSED_FORM), **picture)
 

@@ -24,8 +24,6 @@ class Outcome:
     findings : list of Finding
     remarks : list of str
         What is no mistake, but worth to know.
-    seconds : float
-        [s].
     found_after : float
         When the first answer that is wrong was seen [s]; infinite if none was.
     """
@@ -35,7 +33,6 @@ class Outcome:
     verdicts: Counter[tuple[str, str]] = field(default_factory=Counter)
     findings: list[Finding] = field(default_factory=list)
     remarks: list[str] = field(default_factory=list)
-    seconds: float = 0.0
     found_after: float = inf
 
     @property

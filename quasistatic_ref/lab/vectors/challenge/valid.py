@@ -1,8 +1,10 @@
-"""Whether an input is one of its layer: what the families keep to, and moves may break."""
+"""Whether an input is one of its layer: what the families keep to, and moves may break.
+
+A q that cannot be has no answer, and is not looked at here.
+"""
 
 import numpy as np
 
-from quasistatic_ref.lab.vectors.converters import UNITS, places
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.trees import nodes
 
@@ -10,16 +12,8 @@ SQUARE = 1e-9
 """How far a frame may be from a right-handed one of unit vectors [-]."""
 
 
-def is_valid(name: str, case: Json) -> bool:
-    """Whether an input is valid for a layer.
-
-    Parameters
-    ----------
-    name : str
-        A layer.
-    case : dict
-        Its input, of the right shape.
-    """
+def is_valid(case: Json) -> bool:
+    """Whether an input of the right shape is valid for its layer."""
     positive = ("radius", "length", "h", "size", "half_axes")
     for path, value in nodes(case):
         key = path[-1] if path else ""
@@ -32,8 +26,6 @@ def is_valid(name: str, case: Json) -> bool:
         if key == "inertia" and not _positive(value):
             return False
     if not all(_frame(contact) for contact in case.get("contacts", [])):
-        return False
-    if "mechanism" in case and not (case["mechanism"]["bodies"] and _turned(case)):
         return False
     return all(_positive(case[key]) for key in ("H", "K_q") if case.get(key))
 
@@ -53,17 +45,3 @@ def _frame(contact: Json) -> bool:
     return bool(
         np.abs(R @ R.T - np.eye(3)).max() < SQUARE and np.abs(np.cross(n, d1) - d2).max() < SQUARE
     )
-
-
-def _turned(case: Json) -> bool:
-    """Whether no quaternion and no (cos, sin) in q or in a target is zero."""
-    found = list(places(case["mechanism"]))
-    if len(case["q"]) != max((q.stop for _, q, _ in found), default=0):
-        return False
-    for body, q, _ in found:
-        if body["joint"] in UNITS:
-            part = slice(q.start + UNITS[body["joint"]], q.stop)
-            values = [case["q"][part], case.get("q_bar_a", [])[part]]
-            if not all(np.any(value) for value in values if value):
-                return False
-    return bool(found)

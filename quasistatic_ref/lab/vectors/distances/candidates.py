@@ -15,12 +15,12 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.candidates import (
-    corners,
     crossing_index,
     crossings,
     edges,
     lateness,
 )
+from quasistatic_ref.lab.program.distance import corners
 from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses

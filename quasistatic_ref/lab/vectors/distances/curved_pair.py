@@ -19,7 +19,7 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.distances.plane_distance import SUPPORTS
+from quasistatic_ref.lab.vectors.distances.plane_distance import SUPPORTS, flat_of
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed
 from quasistatic_ref.lab.vectors.distances.stationary import minimum
@@ -56,7 +56,7 @@ def polytope_and_curved(flat: Core, curved: Placed) -> Witness:
     reach = found.n @ found.alpha
     highest = [x for x in flat.vertices if sign(found.n @ x - reach) == 0]
     ways = _independent([x - highest[0] for x in highest[1:]])
-    unique = not _shares_a_way(ways, _flat_of(curved, -found.n))
+    unique = not _shares_a_way(ways, flat_of(curved, -found.n))
     return replace(found, unique=unique).inflated(flat.margin, fmpq(0))
 
 
@@ -72,7 +72,7 @@ def cylinder_and_curved(cylinder: Placed, other: Placed) -> Witness:
         _of_cylinder(cylinder, other), partial(_is_normal_of_cylinder, cylinder),
         cylinder.kind, other.kind,
     )  # fmt: skip
-    unique = not _shares_a_way(_flat_of(cylinder, found.n), _flat_of(other, -found.n))
+    unique = not _shares_a_way(flat_of(cylinder, found.n), flat_of(other, -found.n))
     return replace(found, unique=unique)
 
 
@@ -127,7 +127,7 @@ def _slope(curved: Placed, start: Vector, way: Vector, at: Real) -> Real:
 
 def _on_face(height: Real, normal: Vector, curved: Placed) -> Witness:
     """From the plane normal @ x = height to the farthest point of a curved solid towards it."""
-    support, _ = SUPPORTS[curved.kind](curved.sizes, curved.local_direction(-normal))
+    support = SUPPORTS[curved.kind](curved.sizes, curved.local_direction(-normal))
     beta = curved.world(support)
     phi = (normal @ beta - height) / length(normal)
     n = normal / length(normal)
@@ -190,28 +190,6 @@ def _independent(ways: Sequence[Vector]) -> list[Vector]:
         return []
     others = [way for way in ways[1:] if any(np.cross(ways[0], way))]
     return [ways[0], *others[:1]]
-
-
-def _flat_of(solid: Placed, direction: Vector) -> Sequence[Vector]:
-    """Directions that span what of a curved solid is farthest along another: none, one or two.
-
-    A cylinder or cone has its cap (two), a generator (one) or a point there.
-    """
-    d = solid.local_direction(direction)
-    flat: Sequence[Vector] = []
-    radial = length(d[:2])
-    if solid.kind == "ellipsoid":
-        return flat
-    if sign(radial) == 0:
-        if solid.kind == "cylinder" or sign(d[2]) < 0:
-            flat = IDENTITY[:2]
-    elif solid.kind == "cylinder":
-        flat = IDENTITY[2:] if sign(d[2]) == 0 else []
-    else:
-        radius, half = solid.sizes
-        generator = np.append(-radius / radial * d[:2], 2 * half)
-        flat = [generator] if sign(generator @ d) == 0 else []
-    return [solid.world_direction(way) for way in flat]
 
 
 def _shares_a_way(a: Sequence[Vector], b: Sequence[Vector]) -> bool:
