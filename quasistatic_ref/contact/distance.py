@@ -289,6 +289,8 @@ def _corners_on_solid(
     solid: ShapeInWorld, other: ShapeInWorld, corners: Array, radius: float, n: Array
 ) -> ClosestPoints:
     """Corners of another solid, each with a ball about it; n is the pair's normal, out of this."""
+    if not len(corners):
+        return joined([])
     relative = relative_pose(solid, other)
     x = rotated(relative[:, :3], corners) + relative[:, 3]
     found = corner_surface(solid, x, product(solid.R.T, n), rounding(solid, other))

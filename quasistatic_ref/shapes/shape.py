@@ -1,5 +1,6 @@
 """The questions that every shape answers, in its own frame; by default a shape refuses them."""
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,13 @@ AXES = np.concatenate([np.eye(3), -np.eye(3)])
 
 class Shape(Plain):
     """A shape; a subclass is a frozen dataclass of its sizes."""
+
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return super().__hash__()
 
     @property
     def coal(self) -> Any:

@@ -5,6 +5,7 @@ from typing import Any
 
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.bench.acceptance import PAPER, STRETCH
+from quasistatic_ref.lab.study.bench.derived import STEP
 from quasistatic_ref.lab.study.bench.grasp import PARTS, PLAIN
 
 Rows = list[tuple[str, ...]]
@@ -88,20 +89,24 @@ def page(tables: Mapping[str, Any]) -> str:
         f"In short: {paper_sentence(tables)}.",
         "",
         *markdown_table(promises[0], promises[1:]),
-        *_section("The step of the bunny by every interface", _interfaces(tables)),
+        *_section(
+            "The step of the bunny by every interface",
+            _over(tables["interfaces"]["microseconds"], "step, native"),
+        ),
         *_section("By part, interface and backend [us], all in turn, caches cold", parts),
         *_section(
             "With a certificate, fast; and on the plain path [us]",
             certified,
         ),
+        *_section("Derivatives of the step of a pushed box", _over(tables["derivatives"], STEP)),
     ]
     return "\n".join(lines) + "\n"
 
 
-def _interfaces(tables: Mapping[str, Any]) -> Rows:
-    times = tables["interfaces"]["microseconds"]
-    rows: Rows = [("interface", "median [us]", "over native")]
-    rows += [(k, f"{us:.1f}", f"{us / times['step, native']:.2f}") for k, us in times.items()]
+def _over(times: Mapping[str, float], base: str) -> Rows:
+    """Times, and how many times that of the row `base` each is."""
+    rows: Rows = [("what", "median [us]", f"over {base}")]
+    rows += [(name, f"{us:.1f}", f"{us / times[base]:.2f}") for name, us in times.items()]
     return rows
 
 

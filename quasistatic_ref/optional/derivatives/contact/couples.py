@@ -67,7 +67,13 @@ class PairInWorld:
         )
         return first, second
 
-    @property
+    @cached_property
+    def radii(self) -> tuple[float, float]:
+        """Radii of the balls about the corners of both bodies [m]."""
+        first, second = (body.shape.corners(Z)[1] for body in self.bodies)
+        return first, second
+
+    @cached_property
     def size(self) -> float:
         """The larger extent [m]; a half-space has none, and a single point one metre."""
         return max(extent for extent in self.extents if np.isfinite(extent)) or 1.0
@@ -175,7 +181,7 @@ def _corner(of: PairInWorld, index: int) -> tuple[int, float, Rim | None] | None
     before = shape.corner_count % 4  # its rims come last, with four corners each
     if shape.rim_radius is not None and k >= before:
         return side, 0.0, Rim(side, (k - before) % 4, shape.rim_radius)
-    return side, shape.corners(Z)[1], None
+    return side, of.radii[side], None
 
 
 def rim_velocity(rim: Rim, body: ShapeInWorld, towards: Array, turning: Array) -> Array | None:

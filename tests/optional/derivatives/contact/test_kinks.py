@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.optional.derivatives.contact.couples import couples
-from quasistatic_ref.optional.derivatives.contact.kinks import _not_unique, _switches
+from quasistatic_ref.optional.derivatives.contact.kinks import _not_unique, _switching
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.tolerances import TIED, UNIQUE
@@ -53,4 +53,5 @@ SWITCHES = {
 @pytest.mark.parametrize("name", SWITCHES)
 def test_tangents_switch_where_two_axes_are_as_far_from_the_normal(name) -> None:
     n, d_n, quarters, expected = SWITCHES[name]
-    assert _switches(np.array(n), np.array(d_n, dtype=float)[:, None], quarters) == expected
+    d_n = np.array(d_n, dtype=float)[None, :, None]
+    assert _switching(np.array([n]), d_n, quarters).tolist() == [expected]

@@ -4,10 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.optional.derivatives.contact.features import Feature
-from quasistatic_ref.optional.derivatives.contact.witness_rates import (
-    Sides,
-    witness_rates,
-)
+from quasistatic_ref.optional.derivatives.contact.witness_rates import witness_rates
 from tests.tolerances import ROUNDING
 
 X, Y, N = np.eye(3)
@@ -20,13 +17,11 @@ EDGE, FACE = (Feature(np.zeros((3, 3)), free) for free in (DIAGONAL[None], ACROS
 def found(features, v, omega, turned=None):
     """Of two bodies at the origin and at PHI N that move by v and turn by omega, one coordinate."""
     R = np.eye(3) if turned is None else turned
-    sides = [
-        Sides([f.turned(R)], (R @ own)[None, :, None], (R @ turn)[None, :, None])
-        for f, own, turn in zip(features, v, omega, strict=True)
-    ]
+    turned_features = [f.turned(R) for f in features]
+    velocities = ((np.array(both) @ R.T)[:, :, None] for both in (v, omega))
     phi = np.array([PHI])
     frames = (ACROSS @ R.T)[None]
-    return witness_rates(phi, (R @ N)[None], frames, *sides, np.array([1.0]))
+    return witness_rates(phi, (R @ N)[None], frames, turned_features, *velocities, np.ones(1))
 
 
 @pytest.mark.parametrize("features", [(EDGE, FACE), (FACE, EDGE)])
