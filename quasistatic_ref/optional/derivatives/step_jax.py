@@ -213,7 +213,7 @@ def _differentiable(
         return (q_next, verdict), (change, none)
 
     def twice(*given: Any) -> Any:
-        problem = "has no second derivative: its first ones are given to JAX as numbers"
+        problem = "has no second derivative: JAX has the first ones as numbers, take differences"
         raise InputError(problem, field="step in JAX")
 
     step = jax.custom_jvp(partial(called, ()))

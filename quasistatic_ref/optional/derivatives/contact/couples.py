@@ -15,8 +15,8 @@ from quasistatic_ref.contact.distance import (
 )
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
-from quasistatic_ref.shapes.placed_shape import Cylinder, PointCloud, Sphere
+from quasistatic_ref.optional.derivatives.contact.features import Feature, across, ball, feature
+from quasistatic_ref.shapes.placed_shape import Cylinder, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.shapes.round import QUARTERS
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
@@ -66,6 +66,16 @@ class PairInWorld:
             for body in self.bodies
         )
         return first, second
+
+    @cached_property
+    def plane(self) -> Feature:
+        """The feature of the half-space that one of them is: the same at every point."""
+        (free,) = [
+            across(body.R @ body.shape.normal)
+            for body in self.bodies
+            if isinstance(body.shape, HalfSpace)
+        ]
+        return Feature(np.zeros((3, 3)), free)
 
     @cached_property
     def radii(self) -> tuple[float, float]:
@@ -159,6 +169,9 @@ def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
             features.append(ball(own[1], outward))
             centre = (1 - side, end - own[1] * outward, own[1])
             rim = own[2]
+            continue
+        if isinstance(body.shape, HalfSpace):
+            features.append(of.plane)
             continue
         local = feature(body.shape, body.R.T @ (end - body.t), body.R.T @ outward)
         features.append(local.turned(body.R))
