@@ -202,6 +202,8 @@ def _crossings(
     n = nearest.n[0]
     found = crossings(a, b, nearest.alpha[0], nearest.beta[0], n)
     count = len(found.number)
+    if not count:
+        return joined([])
     return ClosestPoints(
         phi=dot(found.beta - found.alpha, n),
         alpha=found.alpha,

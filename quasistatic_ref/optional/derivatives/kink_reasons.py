@@ -106,18 +106,19 @@ def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
     mu = result.step.contacts.mu
     spin = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
     phi = np.array([couple.phi for couple in kept])
-    motion = np.zeros(len(kept))
-    turn = np.zeros(len(kept))
-    for side in (0, 1):
-        link = [(couple.of.pair.alpha, couple.of.pair.beta)[side].link for couple in kept]
-        end = np.array([couple.points[side] for couple in kept]).reshape(-1, 3)
-        extents = np.array([couple.of.extents[side] for couple in kept])
-        v = twist[link, :3] + crossed(twist[link, 3:], end)
-        turn += spin[link]
-        motion += np.sqrt(np.sum(v * v, axis=1))
-        turning = spin[link] > 0  # any other point of the shape is this far from the end
-        motion[turning] += np.sqrt(3) * spin[link][turning] * extents[turning]
-    return np.asarray(phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
+    pairs = [couple.of.pair for couple in kept]
+    link = np.array([(pair.alpha.link, pair.beta.link) for pair in pairs], np.int64).reshape(-1, 2)
+    ends = np.array([couple.points for couple in kept]).reshape(-1, 2, 3)
+    extents = np.array([couple.of.extents for couple in kept]).reshape(-1, 2)
+    turning = spin[link]
+    v = twist[link, :3] + crossed(twist[link, 3:].swapaxes(1, 2), ends.swapaxes(1, 2)).swapaxes(
+        1, 2
+    )
+    motion = np.sqrt(np.sum(v * v, axis=2))
+    some = turning > 0  # any other point of the shape is this far from the end
+    motion[some] += np.sqrt(3) * turning[some] * extents[some]
+    most = (1 + 2 * mu[:, 0]) * motion.sum(axis=1) + mu[:, 2] * turning.sum(axis=1)
+    return np.asarray(phi > most)
 
 
 @cache

@@ -64,7 +64,16 @@ class RowRates:
 
     @cached_property
     def ends(self) -> tuple[Indices, Array, Array]:
-        """Links, points and derivatives of the points, of all beta's bodies, then alpha's."""
+        """Links, points and their derivatives, shapes (2 n_c, ...), beta's first [-, m, m].
+
+        Returns
+        -------
+        link : ndarray of int, shape (2 n_c,)
+        at : ndarray, shape (2 n_c, 3)
+            [m].
+        d_at : ndarray, shape (2 n_c, 3, n_v)
+            [m per m or rad].
+        """
         of = self.layout
         link = np.concatenate([of.link_beta, of.link_alpha])
         at = np.concatenate([self.points.beta, self.points.alpha])

@@ -173,8 +173,8 @@ def _differentiable(
     matrices = tuple(shaped((n_q, n), np.float64) for n in (n_q, system.n_q_a, system.n_v))
     symbolic = jax.custom_derivatives.SymbolicZero
 
-    # JAX's own threads flush subnormal numbers to zero; a thread has the arithmetic of the one that
-    # starts it, which is therefore done here.
+    # JAX's own threads, which call back, flush subnormal numbers to zero; a thread has the
+    # arithmetic of the one that starts it, which is therefore done here.
     thread = ThreadPoolExecutor(1)
     thread.submit(check_arithmetic).result()
 
@@ -198,7 +198,7 @@ def _differentiable(
 
     def called(names: tuple[str, ...], *given: Any) -> Any:
         if not any(isinstance(one, jax.core.Tracer) for one in given):
-            return tuple(map(jax.numpy.asarray, computed(names, *given)))  # errors come as they are
+            return tuple(map(jax.numpy.asarray, alone(names, *map(np.asarray, given))))
         what = ends + (matrices if names else ())
         return jax.pure_callback(outside(names), what, *given, vmap_method="broadcast_all")
 
@@ -222,12 +222,17 @@ def _differentiable(
     once.defjvp(twice)
 
     def checked(q: Any, q_bar_a: Any, force: Any, kappa: Any) -> Any:
-        given = [jax.numpy.asarray(one) for one in (q, q_bar_a, force, kappa)]
-        if any(one.dtype != np.float64 for one in given):
+        given = q, q_bar_a, force, kappa
+        traced = any(isinstance(one, jax.core.Tracer) for one in given)
+        arrays = jax.numpy if traced else np
+        q, q_bar_a, force, kappa = map(arrays.asarray, given)
+        wide = jax.dtypes.canonicalize_dtype(np.float64)
+        if not all(one.dtype == wide == np.float64 for one in (q, q_bar_a, force, kappa)):
             problem = "must be float64: jax.config.update('jax_enable_x64', True)"
             raise InputError(problem, field="step in JAX")
-        given[2] = jax.numpy.broadcast_to(given[2], (system.n_v,))
-        return step(*given)
+        force = arrays.broadcast_to(force, (system.n_v,))
+        given = q, q_bar_a, force, kappa
+        return step(*given) if traced else called((), *given)
 
     return checked
 

@@ -138,8 +138,9 @@ def couple_rates(
     features = [c.features for c in couples] if features is None else features
     links = [c.of.pair.alpha.link for c in couples] + [c.of.pair.beta.link for c in couples]
     at = np.array([c.points[side] for side in (0, 1) for c in couples]).reshape(-1, 3)
-    omega = J[links][:, 3:]
-    v = J[links][:, :3] + crossed(omega, at[:, :, None])
+    twist = J[links]
+    omega = twist[:, 3:]
+    v = twist[:, :3] + crossed(omega, at[:, :, None])
     v = v if slides is None else v + slides.reshape(v.shape)
     phi = np.array([c.phi for c in couples])
     size = np.array([c.of.size for c in couples])
