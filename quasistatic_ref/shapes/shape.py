@@ -140,7 +140,7 @@ class Shape(Plain):
         """Most pieces of its edges that touch another body at once; by default there are none."""
         return 0
 
-    @property
+    @cached_property
     def extent(self) -> float:
         """Longest edge of the bounding box along its own axes [m]; of a half-space, infinity."""
         reach = self.support_value(AXES)

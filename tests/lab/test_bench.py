@@ -7,10 +7,8 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.bench.acceptance import promises
-from quasistatic_ref.lab.study.bench.grasp import (
-    bare_daqp,
-    places,
-)
+from quasistatic_ref.lab.study.bench.derived import MAPPED, STEP
+from quasistatic_ref.lab.study.bench.grasp import bare_daqp, places
 from quasistatic_ref.lab.study.bench.report import promise_rows
 from quasistatic_ref.lab.study.bench.timing import in_turn
 from quasistatic_ref.solve.scaled import DenseStep
@@ -36,8 +34,9 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     assert {("native", "daqp"), ("cvxpy", "clarabel"), ("native", "quadprog")} <= measured
     # By brute force the selection is a part of the distances.
     assert all((row["selection"] > 0) == (row["engine"] == "native") for row in found["parts"])
+    assert {STEP, MAPPED, "derivatives", "step_jax"} == set(found["derivatives"])
     text = (tmp_path / "bench.md").read_text()
-    for title in ("by every interface", "By part", "certificate"):
+    for title in ("by every interface", "By part", "certificate", "Derivatives"):
         assert title in text
     # Distances by brute force, and what a step of this backend takes besides its own.
     brute = found["interfaces"]["microseconds"]["all distances, brute force"]

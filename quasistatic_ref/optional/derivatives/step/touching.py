@@ -97,7 +97,6 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
     generators = np.stack([J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w], axis=1)
     x = solution.delta_q
-    n_c = contacts.n_c
     moved = generators @ x
     moved[:, 0] += contacts.phi
     slack = (moved @ table.T)[step.mask]
@@ -121,8 +120,9 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     lam = solution.lam[touches]
     unit = reached[touches] / length[touches, None]
     bears = bearing(unit, lam * length[touches], size)
-    multipliers = np.zeros((n_c, 4))
-    np.add.at(multipliers, Z[:, 0], lam[:, None] * table[Z[:, 1]])
+    loads = np.zeros(step.mask.shape)
+    loads[step.mask] = np.where(touches, solution.lam, 0.0)
+    multipliers = loads @ table
     away = ~touches & (contacts.phi[every[:, 0]] < FILLED)
     return Touching(
         inverse, generators, table, Z[bears], Z[~bears], multipliers, every[away], slack[away]
