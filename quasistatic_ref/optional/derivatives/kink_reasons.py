@@ -107,18 +107,16 @@ def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
     spin = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
     phi = np.array([couple.phi for couple in kept])
     pairs = [couple.of.pair for couple in kept]
-    link = np.array([(pair.alpha.link, pair.beta.link) for pair in pairs], np.int64).reshape(-1, 2)
-    ends = np.array([couple.points for couple in kept]).reshape(-1, 2, 3)
-    extents = np.array([couple.of.extents for couple in kept]).reshape(-1, 2)
-    turning = spin[link]
-    v = twist[link, :3] + crossed(twist[link, 3:].swapaxes(1, 2), ends.swapaxes(1, 2)).swapaxes(
-        1, 2
-    )
-    motion = np.sqrt(np.sum(v * v, axis=2))
-    some = turning > 0  # any other point of the shape is this far from the end
-    motion[some] += np.sqrt(3) * turning[some] * extents[some]
-    most = (1 + 2 * mu[:, 0]) * motion.sum(axis=1) + mu[:, 2] * turning.sum(axis=1)
-    return np.asarray(phi > most)
+    link = [pair.alpha.link for pair in pairs] + [pair.beta.link for pair in pairs]
+    ends = np.array([couple.points[side] for side in (0, 1) for couple in kept]).reshape(-1, 3)
+    extents = np.array([couple.of.extents[side] for side in (0, 1) for couple in kept])
+    turn = spin[link]
+    v = twist[link, :3] + crossed(twist[link, 3:], ends)
+    motion = np.sqrt(np.sum(v * v, axis=1))
+    turning = turn > 0  # any other point of the shape is this far from the end
+    motion[turning] += np.sqrt(3) * turn[turning] * extents[turning]
+    motion, turn = (both.reshape(2, -1).sum(axis=0) for both in (motion, turn))
+    return np.asarray(phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
 
 
 @cache
