@@ -178,9 +178,6 @@ def _differentiable(
     thread = ThreadPoolExecutor(1)
     thread.submit(check_arithmetic).result()
 
-    def computed(names: tuple[str, ...], *given: Any) -> tuple[Array, ...]:
-        return thread.submit(alone, names, *map(np.asarray, given)).result()
-
     def alone(names: tuple[str, ...], *given: Array) -> tuple[Array, ...]:
         with system.lock:  # a system is for one thread, and each function has its own
             many = given[0].shape[:-1]  # of vmap, one inside of another
@@ -194,7 +191,7 @@ def _differentiable(
 
     @cache  # JAX compiles the call of each function once
     def outside(names: tuple[str, ...]) -> Callable[..., tuple[Array, ...]]:
-        return partial(computed, names)
+        return lambda *given: thread.submit(alone, names, *map(np.asarray, given)).result()
 
     def called(names: tuple[str, ...], *given: Any) -> Any:
         if not any(isinstance(one, jax.core.Tracer) for one in given):
