@@ -197,6 +197,8 @@ def _crossings(
     n = nearest.n[0]
     found = crossings(a, b, nearest.alpha[0], nearest.beta[0], n)
     count = len(found.number)
+    if not count:
+        return joined([])
     return ClosestPoints(
         phi=dot(found.beta - found.alpha, n),
         alpha=found.alpha,
@@ -257,6 +259,8 @@ def _corners_on_solid(
     solid: ShapeInWorld, other: ShapeInWorld, corners: Array, radius: float, n: Array
 ) -> ClosestPoints:
     """Corners of another solid, each with a ball about it; n is the pair's normal, out of this."""
+    if not len(corners):
+        return joined([])
     relative = relative_pose(solid, other)
     x = rotated(relative[:, :3], corners) + relative[:, 3]
     found = corner_surface(solid, x, product(solid.R.T, n), rounding(solid, other))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -82,17 +83,17 @@ class ContactPair(Plain):
                     field=self.name,
                 )
 
-    @property
+    @cached_property
     def has_cloud(self) -> bool:
         """Whether one side is a cloud."""
         return isinstance(self.alpha.shape, PointCloud) or isinstance(self.beta.shape, PointCloud)
 
-    @property
+    @cached_property
     def corners(self) -> int:
         """Number of corners of both shapes: the closest pair's, which is counted after them."""
         return self.alpha.shape.corner_count + self.beta.shape.corner_count
 
-    @property
+    @cached_property
     def candidates(self) -> int:
         """Largest number of points that its contacts are chosen from."""
         for shape in (self.alpha.shape, self.beta.shape):
@@ -101,7 +102,7 @@ class ContactPair(Plain):
         pieces = min(self.alpha.shape.edge_count, self.beta.shape.edge_count)
         return self.corners + 2 * pieces + 1  # two convex curves cross twice for each piece
 
-    @property
+    @cached_property
     def n_c(self) -> int:
         """Number of contacts that this pair makes at every step."""
         return min(self.k, self.candidates)

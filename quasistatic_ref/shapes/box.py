@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.shapes.frozen import freeze_lengths, halved
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.shapes.shape import AXES, lengths
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, read_only
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -59,8 +59,12 @@ class Box(Rounded):
 
     def corners(self, towards: Array) -> tuple[Array, float]:
         """Its vertices, shape (8, 3) [m], whichever way `towards` [-] is."""
+        return self._vertices, 0.0
+
+    @cached_property
+    def _vertices(self) -> Array:
         bits = (np.arange(8)[:, None] >> np.array([0, 1, 2])) & 1
-        return (2 * bits - 1) * self.half_extents, 0.0
+        return read_only((2 * bits - 1) * self.half_extents)
 
     @property
     def edge_count(self) -> int:

@@ -15,6 +15,13 @@ AXES = np.concatenate([np.eye(3), -np.eye(3)])
 class Shape(Plain):
     """A shape; a subclass is a frozen dataclass of its sizes."""
 
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return super().__hash__()
+
     @property
     def coal(self) -> Any:
         """The same shape as a coal geometry; ContactError if there is none."""

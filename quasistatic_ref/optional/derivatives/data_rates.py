@@ -119,4 +119,4 @@ def _coefficients(simulator: Simulator, step: StepData, x: Array) -> dict[str, D
 
 def _exerted(J: Array, own: Array, y: Array) -> Array:
     """What multipliers of slips and spin exert, pair by pair."""
-    return np.asarray(np.einsum("jiv,ji,jp->vp", J, y[:, 1:], own))
+    return np.asarray(np.einsum("jiv,ji->vj", J, y[:, 1:]) @ own)

@@ -106,17 +106,16 @@ def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
     mu = result.step.contacts.mu
     spin = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
     phi = np.array([couple.phi for couple in kept])
-    motion = np.zeros(len(kept))
-    turn = np.zeros(len(kept))
-    for side in (0, 1):
-        link = [(couple.of.pair.alpha, couple.of.pair.beta)[side].link for couple in kept]
-        end = np.array([couple.points[side] for couple in kept]).reshape(-1, 3)
-        extents = np.array([couple.of.extents[side] for couple in kept])
-        v = twist[link, :3] + crossed(twist[link, 3:], end)
-        turn += spin[link]
-        motion += np.sqrt(np.sum(v * v, axis=1))
-        turning = spin[link] > 0  # any other point of the shape is this far from the end
-        motion[turning] += np.sqrt(3) * spin[link][turning] * extents[turning]
+    pairs = [couple.of.pair for couple in kept]
+    link = [pair.alpha.link for pair in pairs] + [pair.beta.link for pair in pairs]
+    ends = np.array([couple.points[side] for side in (0, 1) for couple in kept]).reshape(-1, 3)
+    extents = np.array([couple.of.extents[side] for side in (0, 1) for couple in kept])
+    turn = spin[link]
+    v = twist[link, :3] + crossed(twist[link, 3:], ends)
+    motion = np.sqrt(np.sum(v * v, axis=1))
+    turning = turn > 0  # any other point of the shape is this far from the end
+    motion[turning] += np.sqrt(3) * turn[turning] * extents[turning]
+    motion, turn = (both.reshape(2, -1).sum(axis=0) for both in (motion, turn))
     return np.asarray(phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
 
 

@@ -43,38 +43,52 @@ class RowRates:
 
     def of_motion(self, x: Array) -> Array:
         """Derivatives by q of gap, slips and spin, (n_c, 4, n_v), x (n_v,) being fixed [m]."""
-        c = self.contacts
         r = self.rates
-        twist = self.motion.twists(x)
-        d_twist = self.motion.twist_rates(x)
-        u = np.zeros((c.n_c, 3))
-        d_u = np.zeros((c.n_c, 3, len(x)))
-        turn = u.copy()
-        d_turn = d_u.copy()
-        for link, r_point, d_point, sign in self._ends():
-            nu = twist[link, :3]
-            omega = twist[link, 3:]
-            d_nu = d_twist[link, :3]
-            d_omega = d_twist[link, 3:]
-            u += sign * (nu + crossed(omega, r_point))
-            d_u += sign * (
-                d_nu + crossed(d_omega, r_point[:, :, None]) + crossed(omega[:, :, None], d_point)
-            )
-            turn += sign * omega
-            d_turn += sign * d_omega
-        d_d1, d_d2 = self.tangents
-        found = np.empty((c.n_c, 4, len(x)))
-        found[:, 0] = r.phi + _along(u, r.n) + _along(c.n, d_u)
-        found[:, 1] = _along(u, d_d1) + _along(c.d1, d_u)
-        found[:, 2] = _along(u, d_d2) + _along(c.d2, d_u)
-        found[:, 3] = _along(turn, r.n) + _along(c.n, d_turn)
-        found[:, 1:] *= c.mu[:, :, None]
+        link, at, d_at = self.ends
+        twist = self.motion.twists(x)[link]
+        d_twist = self.motion.twist_rates(x)[link]
+        omega = twist[:, 3:]
+        d_omega = d_twist[:, 3:]
+        u = _relative(twist[:, :3] + crossed(omega, at))
+        d_u = _relative(
+            d_twist[:, :3] + crossed(d_omega, at[:, :, None]) + crossed(omega[:, :, None], d_at)
+        )
+        turn = _relative(omega)
+        d_turn = _relative(d_omega)
+        found = np.empty((len(u), 4, len(x)))
+        found[:, :3] = self.frames @ d_u + np.einsum("ja,jiak->jik", u, self.frame_rates)
+        found[:, 3] = _along(turn, r.n) + _along(self.contacts.n, d_turn)
+        found[:, 0] += r.phi
+        found[:, 1:] *= self.contacts.mu[:, :, None]
         return found
 
     @cached_property
-    def tangents(self) -> tuple[Array, Array]:
-        """Derivatives of d1 and d2, each of shape (n_c, 3, n_v)."""
-        return tangent_rates(self.contacts.n, self.rates.n)
+    def ends(self) -> tuple[Indices, Array, Array]:
+        """Links, points and their derivatives, shapes (2 n_c, ...), beta's first [-, m, m].
+
+        Returns
+        -------
+        link : ndarray of int, shape (2 n_c,)
+        at : ndarray, shape (2 n_c, 3)
+            [m].
+        d_at : ndarray, shape (2 n_c, 3, n_v)
+            [m per m or rad].
+        """
+        of = self.layout
+        link = np.concatenate([of.link_beta, of.link_alpha])
+        at = np.concatenate([self.points.beta, self.points.alpha])
+        return link, at, np.concatenate([self.rates.beta, self.rates.alpha])
+
+    @cached_property
+    def frames(self) -> Array:
+        """Rows n, d1, d2 of each contact, shape (n_c, 3, 3) [-]."""
+        return np.stack([self.contacts.n, self.contacts.d1, self.contacts.d2], axis=1)
+
+    @cached_property
+    def frame_rates(self) -> Array:
+        """Derivatives of n, d1 and d2, shape (n_c, 3, 3, n_v) [-]."""
+        d_n = self.rates.n
+        return np.stack([d_n, *tangent_rates(self.contacts.n, d_n)], axis=1)
 
     @property
     def terms(self) -> Array:
@@ -85,31 +99,32 @@ class RowRates:
     def pull(self, y: Array) -> Array:
         """Derivative by q of what multipliers y (n_c, 4) exert, (n_v, n_v) [N s]."""
         c = self.contacts
-        r = self.rates
-        d_d1, d_d2 = self.tangents
-        y0 = y[:, 0, None]
-        y1 = (c.mu[:, 0] * y[:, 1])[:, None]
-        y2 = (c.mu[:, 1] * y[:, 2])[:, None]
-        force = y0 * c.n + y1 * c.d1 + y2 * c.d2
-        d_force = y0[:, None] * r.n + y1[:, None] * d_d1 + y2[:, None] * d_d2
-        y3 = (c.mu[:, 2] * y[:, 3])[:, None]
+        link, at, d_at = self.ends
+        pressed = y.copy()
+        pressed[:, 1:] *= c.mu
+        force = _opposite(np.einsum("ji,jia->ja", pressed[:, :3], self.frames))
+        d_force = _opposite(np.einsum("ji,jiak->jak", pressed[:, :3], self.frame_rates))
+        torque = _opposite(pressed[:, 3, None] * c.n)
+        d_torque = _opposite(pressed[:, 3, None, None] * self.rates.n)
+        moment = crossed(at, force) + torque
+        d_moment = crossed(d_at, force[:, :, None]) + crossed(at[:, :, None], d_force) + d_torque
         links = len(self.motion.moves)
         wrench = np.zeros((links, 6))
-        d_wrench = np.zeros((links, 6, r.phi.shape[1]))
-        for link, r_point, d_point, sign in self._ends():
-            moment = crossed(r_point, force) + y3 * c.n
-            d_moment = crossed(d_point, force[:, :, None]) + crossed(r_point[:, :, None], d_force)
-            d_moment += y3[:, None] * r.n
-            np.add.at(wrench, link, sign * np.concatenate([force, moment], axis=1))
-            np.add.at(d_wrench, link, sign * np.concatenate([d_force, d_moment], axis=1))
+        d_wrench = np.zeros((links, 6, d_at.shape[2]))
+        np.add.at(wrench, link, np.concatenate([force, moment], axis=1))
+        np.add.at(d_wrench, link, np.concatenate([d_force, d_moment], axis=1))
         return self.motion.force_rates(wrench, d_wrench)
 
-    def _ends(self) -> tuple[tuple[Indices, Array, Array, float], ...]:
-        """Links, points, their derivatives and the sign of both bodies."""
-        p = self.points
-        r = self.rates
-        of = self.layout
-        return (of.link_beta, p.beta, r.beta, 1.0), (of.link_alpha, p.alpha, r.alpha, -1.0)
+
+def _relative(ends: Array) -> Array:
+    """What is of beta's bodies, less what is of alpha's; shape (n_c, ...)."""
+    n_c = len(ends) // 2
+    return np.asarray(ends[:n_c] - ends[n_c:])
+
+
+def _opposite(exerted: Array) -> Array:
+    """What contacts exert, (n_c, ...), on beta's bodies, and the opposite on alpha's."""
+    return np.concatenate([exerted, -exerted])
 
 
 def _along(vectors: Array, rates: Array) -> Array:

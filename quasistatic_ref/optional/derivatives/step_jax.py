@@ -173,13 +173,10 @@ def _differentiable(
     matrices = tuple(shaped((n_q, n), np.float64) for n in (n_q, system.n_q_a, system.n_v))
     symbolic = jax.custom_derivatives.SymbolicZero
 
-    # JAX's own threads flush subnormal numbers to zero; a thread has the arithmetic of the one that
-    # starts it, which is therefore done here.
+    # JAX's own threads, which call back, flush subnormal numbers to zero; a thread has the
+    # arithmetic of the one that starts it, which is therefore done here.
     thread = ThreadPoolExecutor(1)
     thread.submit(check_arithmetic).result()
-
-    def computed(names: tuple[str, ...], *given: Any) -> tuple[Array, ...]:
-        return thread.submit(alone, names, *map(np.asarray, given)).result()
 
     def alone(names: tuple[str, ...], *given: Array) -> tuple[Array, ...]:
         with system.lock:  # a system is for one thread, and each function has its own
@@ -194,11 +191,11 @@ def _differentiable(
 
     @cache  # JAX compiles the call of each function once
     def outside(names: tuple[str, ...]) -> Callable[..., tuple[Array, ...]]:
-        return partial(computed, names)
+        return lambda *given: thread.submit(alone, names, *map(np.asarray, given)).result()
 
     def called(names: tuple[str, ...], *given: Any) -> Any:
         if not any(isinstance(one, jax.core.Tracer) for one in given):
-            return tuple(map(jax.numpy.asarray, computed(names, *given)))  # errors come as they are
+            return tuple(map(jax.numpy.asarray, alone(names, *map(np.asarray, given))))
         what = ends + (matrices if names else ())
         return jax.pure_callback(outside(names), what, *given, vmap_method="broadcast_all")
 
@@ -213,7 +210,7 @@ def _differentiable(
         return (q_next, verdict), (change, none)
 
     def twice(*given: Any) -> Any:
-        problem = "has no second derivative: its first ones are given to JAX as numbers"
+        problem = "has no second derivative: JAX has the first ones as numbers, take differences"
         raise InputError(problem, field="step in JAX")
 
     step = jax.custom_jvp(partial(called, ()))
@@ -222,12 +219,17 @@ def _differentiable(
     once.defjvp(twice)
 
     def checked(q: Any, q_bar_a: Any, force: Any, kappa: Any) -> Any:
-        given = [jax.numpy.asarray(one) for one in (q, q_bar_a, force, kappa)]
-        if any(one.dtype != np.float64 for one in given):
+        given = q, q_bar_a, force, kappa
+        traced = any(isinstance(one, jax.core.Tracer) for one in given)
+        arrays = jax.numpy if traced else np
+        q, q_bar_a, force, kappa = map(arrays.asarray, given)
+        wide = jax.dtypes.canonicalize_dtype(np.float64)
+        if not all(one.dtype == wide == np.float64 for one in (q, q_bar_a, force, kappa)):
             problem = "must be float64: jax.config.update('jax_enable_x64', True)"
             raise InputError(problem, field="step in JAX")
-        given[2] = jax.numpy.broadcast_to(given[2], (system.n_v,))
-        return step(*given)
+        force = arrays.broadcast_to(force, (system.n_v,))
+        given = q, q_bar_a, force, kappa
+        return step(*given) if traced else called((), *given)
 
     return checked
 

@@ -148,10 +148,35 @@ def test_a_wrong_question_is_refused_in_a_sentence():
         step_jax(simulator, "one-sided")
     with pytest.raises(InputError, match="kappa: has no derivative"):
         jax.grad(lambda kappa: smoothed_jax(simulator)(q, NONE, kappa)[0][2])(1e-6)
-    with pytest.raises(InputError, match="step in JAX: has no second derivative"):
-        jax.hessian(lambda force: smoothed_jax(simulator)(q, NONE, 1e-6, force)[0][2])(np.zeros(6))
     with jax.enable_x64(False), pytest.raises(InputError, match="must be float64"):
         step_jax(simulator)(q, NONE)
+
+
+SECOND = {
+    "forward over reverse": jax.hessian,
+    "reverse over reverse": lambda f: jax.jacrev(jax.jacrev(f)),
+    "compiled": lambda f: jax.jit(jax.jacrev(jax.grad(f))),
+    "of several": lambda f: lambda force: jax.vmap(jax.hessian(f))(force[None]),
+}
+
+
+@pytest.mark.parametrize("twice", SECOND.values(), ids=SECOND)
+def test_second_derivatives_are_refused_in_a_sentence(twice):
+    simulator, q = resting(Sphere(RADIUS), RADIUS)
+    step = step_jax(simulator)
+    with pytest.raises(InputError, match="step in JAX: has no second derivative"):
+        twice(lambda force: step(q, NONE, force)[0][2])(np.zeros(6))
+
+
+def test_elements_of_a_vmap_are_steps_taken_once(monkeypatch):
+    simulator, q = resting(Sphere(RADIUS), RADIUS)
+    taken = []
+    step_of = type(simulator).step
+    monkeypatch.setattr(type(simulator), "step", lambda *given: taken.append(1) or step_of(*given))
+    step = step_jax(simulator)
+    by_q = jax.jit(jax.vmap(jax.jacfwd(lambda q: step(q, NONE)[0])))
+    jax.block_until_ready(by_q(np.tile(q, (3, 1))))
+    assert len(taken) == 3
 
 
 def test_without_jax_one_sentence_names_the_extra(monkeypatch):

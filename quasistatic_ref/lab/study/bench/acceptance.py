@@ -30,11 +30,6 @@ COMPILED = (
 
 AT_MOST = "at most"
 AT_LEAST = "at least"
-STRETCH = {
-    "step over the bare solver": 8.0,
-    "compiled step over the bare solver": 2.5,
-    "compiled step, certified [us]": 150.0,
-}
 
 
 def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -43,7 +38,6 @@ def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
     measured = [
         ("step over the bare solver", interfaces["over_solver"], AT_MOST, OVER_SOLVER),
         ("through CVXPY over native", interfaces["cvxpy_over_native"], AT_LEAST, THROUGH_CVXPY),
-        ("rebuilt each step over native", interfaces["rebuilt_over_native"], AT_LEAST, 25.0),
         ("bounded step over the same without", tables.get("residual_over_off"), AT_MOST, BOUNDED),
     ]
     compiled = tables.get("compiled") or {}

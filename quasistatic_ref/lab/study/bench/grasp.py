@@ -1,4 +1,4 @@
-"""The 13 x 80 step of the bunny: native, through CVXPY, rebuilt; and the solver alone."""
+"""The 13 x 80 step of the bunny: native, through CVXPY, and the solver alone."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -16,21 +16,20 @@ from quasistatic_ref.lab.study.bench.timing import (
     in_turn,
     microseconds,
     ratio,
-    seconds,
 )
 from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, installed, installed_backends
+from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, installed
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
 PLAIN = "full, plain"
 FORCES = "full, and the forces of its contacts"
 SETTINGS = ["solver.certify=off", "record=light"]
-PARTS = ("distances", "selection", "rows", "solve", "integrate")
+PARTS = ("distances", "rows", "solve", "integrate")
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +80,6 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
     others: dict[str, Callable[[Array, Array], Job]] = {
         "DAQP alone": lambda q, goal: alone_call,
         "step, through CVXPY": lambda q, goal: partial(through.step, q, goal),
-        "step, CVXPY rebuilt each time": lambda q, goal: partial(_rebuilt, through, q, goal),
         "all distances, brute force": lambda q, goal: partial(brute_force, at.scenario, q),
     }
     before = min(BEFORE, len(at.q) - 1)
@@ -91,7 +89,7 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
         rounds: list[dict[str, Job]] = [
             {f"before, {k - j}": partial(run.step, j) for j in range(k - before, k)}
             | {"native": partial(run.step, k), name: other(at.q[k], at.goals[k])}
-            for k in range(before, len(at.q), 2 * FEWER.get(name, 1))
+            for k in range(before, len(at.q), 2)
         ]
         # The slow ones wait for their turn on a busy machine, and that is not their time.
         clock = time.perf_counter if name == "DAQP alone" else time.thread_time
@@ -102,7 +100,6 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
         "microseconds": medians,
         "over_solver": 1 / ratios["DAQP alone"],
         "cvxpy_over_native": ratios["step, through CVXPY"],
-        "rebuilt_over_native": ratios["step, CVXPY rebuilt each time"],
     }
 
 
@@ -152,10 +149,6 @@ def by_compiled_code(at: Places, repeat: int) -> dict[str, float] | None:
     }
 
 
-FEWER = {"step, CVXPY rebuilt each time": 3}
-"""Every how many rounds the slow interfaces are taken."""
-
-
 class _Run:
     """A native run along the same targets: each step starts where the one before ended."""
 
@@ -176,7 +169,7 @@ def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
     """The parts of a step for every interface and backend, the backends taking turns [us]."""
     simulators: dict[tuple[str, str], Simulator] = {}
     for interface, fast in INTERFACES.items():
-        for name in installed("native") if fast else installed_backends():
+        for name in installed(interface):
             if name not in UNFIT:
                 settings = replace(at.scenario, fast=fast, backend=name)
                 made = by_numpy(settings) if fast else settings.simulator()
@@ -191,27 +184,15 @@ def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
                 except StepNotSolved:
                     failed[key] += 1
                     continue
-                # Selecting once more shows its share of the time.
-                lap["selection"] = _selection(simulator, q)
-                lap["distances"] -= lap["selection"]
                 lap["solve"] += lap["proof"]
                 row = np.array([lap[part] for part in PARTS])
                 taken[key][k] = np.minimum(taken[key][k], row)
     return [_row(key, taken[key], failed[key]) for key in simulators]
 
 
-def _selection(simulator: Simulator, q: Array) -> float:
-    """Time of finding the closest points among those that are measured [s]; 0 by brute force."""
-    if not isinstance(simulator, FastSimulator):
-        return 0.0
-    at = simulator.system.kinematics(q)
-    clouds = simulator.tracker.clouds
-    phi = clouds.measured(clouds.poses(at.R, at.t)[1])[1]
-    return seconds(lambda: clouds.kept(phi))
-
-
-UNFIT = ("highs", "qpsolvers:highs")
-"""At the accuracy of a run HiGHS leaves a third of the grasp unsolved (docs/conventions.md)."""
+UNFIT = ("highs", "qpalm")
+"""At the accuracy of a run HiGHS leaves a third of the grasp unsolved (docs/conventions.md); QPALM
+solves no steps, only problems of studies."""
 
 
 def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:
@@ -221,12 +202,6 @@ def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:
     row |= {part: float(us) for part, us in zip(PARTS, medians, strict=True)}
     row["step"] = 1e6 * float(np.median(solved.sum(axis=1))) if len(solved) else float("nan")
     return row | {"unsolved": failed}
-
-
-def _rebuilt(simulator: Simulator, q: Array, goal: Array) -> None:
-    """A step with a solver of which nothing is kept."""
-    simulator.solver = None
-    simulator.step(q, goal)
 
 
 def brute_force(scenario: Scenario, q: Array) -> None:

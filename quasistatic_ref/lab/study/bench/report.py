@@ -4,7 +4,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.study.bench.acceptance import PAPER, STRETCH
+from quasistatic_ref.lab.study.bench.acceptance import PAPER
+from quasistatic_ref.lab.study.bench.derived import SCENE, STEP
 from quasistatic_ref.lab.study.bench.grasp import PARTS, PLAIN
 
 Rows = list[tuple[str, ...]]
@@ -22,8 +23,6 @@ def promise_rows(promises: Sequence[Mapping[str, Any]]) -> Rows:
     rows: Rows = [("promise", "measured", "limit", "verdict")]
     for p in promises:
         limit = f"{p['sense']} {p['limit']:g}"
-        if p["what"] in STRETCH:
-            limit += f" (stretch {STRETCH[p['what']]:g})"
         rows.append((p["what"], f"{p['measured']:.3g}", limit, "holds" if p["holds"] else "FAILS"))
     return rows
 
@@ -88,20 +87,24 @@ def page(tables: Mapping[str, Any]) -> str:
         f"In short: {paper_sentence(tables)}.",
         "",
         *markdown_table(promises[0], promises[1:]),
-        *_section("The step of the bunny by every interface", _interfaces(tables)),
+        *_section(
+            "The step of the bunny by every interface",
+            _over(tables["interfaces"]["microseconds"], "step, native"),
+        ),
         *_section("By part, interface and backend [us], all in turn, caches cold", parts),
         *_section(
             "With a certificate, fast; and on the plain path [us]",
             certified,
         ),
+        *_section(f"Derivatives of a step of {SCENE}", _over(tables["derivatives"], STEP)),
     ]
     return "\n".join(lines) + "\n"
 
 
-def _interfaces(tables: Mapping[str, Any]) -> Rows:
-    times = tables["interfaces"]["microseconds"]
-    rows: Rows = [("interface", "median [us]", "over native")]
-    rows += [(k, f"{us:.1f}", f"{us / times['step, native']:.2f}") for k, us in times.items()]
+def _over(times: Mapping[str, float], base: str) -> Rows:
+    """Times, and how many times that of the row `base` each is."""
+    rows: Rows = [("what", "median [us]", f"over {base}")]
+    rows += [(name, f"{us:.1f}", f"{us / times[base]:.2f}") for name, us in times.items()]
     return rows
 
 

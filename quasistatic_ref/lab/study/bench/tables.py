@@ -9,6 +9,7 @@ import numpy as np
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.bench.acceptance import promises
+from quasistatic_ref.lab.study.bench.derived import of_derivatives
 from quasistatic_ref.lab.study.bench.grasp import (
     by_compiled_code,
     certification,
@@ -53,6 +54,8 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     tell("certification")
     found["certification"] = certification(some, 1 if quick else 2)
     found["residual_over_off"] = residual_over_off(some, 1 if quick else 2)
+    tell("derivatives")
+    found["derivatives"] = of_derivatives(2 if quick else 100, 1 if quick else 2)
     found["machine"]["load"] = f"{load}, after it {_load()}"
     found["promises"] = promises(found)
     return found

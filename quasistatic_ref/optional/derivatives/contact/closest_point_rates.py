@@ -19,6 +19,7 @@ common straight line do no harm if the bodies cannot turn out of it: the equatio
 consistent, and no row depends on where along the line the points are.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -50,27 +51,10 @@ class Rates(NamedTuple):
     blurred: Mask
 
 
-class Sides(NamedTuple):
-    """One side of N pairs.
-
-    Parameters
-    ----------
-    features : list of Feature
-        In the world frame.
-    v : ndarray, shape (N, 3, n_v)
-        Velocity of the point that is the closest one now, on its body or with a corner [m].
-    omega : ndarray, shape (N, 3, n_v)
-        Angular velocity of the body [rad].
-    """
-
-    features: list[Feature]
-    v: Array
-    omega: Array
-
-
 def closest_point_rates(
-    phi: Array, n: Array, frames: Array, alpha: Sides, beta: Sides, size: Array
-) -> Rates:
+    phi: Array, n: Array, frames: Array, features: Sequence[Feature], v: Array, omega: Array,
+    size: Array,
+) -> Rates:  # fmt: skip
     """The derivatives of all pairs at once.
 
     Parameters
@@ -79,21 +63,27 @@ def closest_point_rates(
     n : ndarray, shape (N, 3)
     frames : ndarray, shape (N, 2, 3)
         Two unit vectors across each n [-].
-    alpha, beta : Sides
+    features : sequence of Feature, length 2 N
+        In the world frame, here and below those of all alpha's bodies first, then beta's.
+    v : ndarray, shape (2 N, 3, n_v)
+        Velocity of the point that is the closest one now, on its body or with a corner [m].
+    omega : ndarray, shape (2 N, 3, n_v)
+        Angular velocity of the body [rad].
     size : ndarray, shape (N,)
         About how large the bodies are [m]: what a singular matrix is measured by.
     """
-    count = len(phi)
-    turn = [crossed(side.omega, n[:, :, None]) for side in (alpha, beta)]  # omega x n
-    bends = [np.array([f.bend for f in side.features]).reshape(-1, 3, 3) for side in (alpha, beta)]
-    free = [_padded(side.features) for side in (alpha, beta)]
-    curved = [np.array([f.curvature for f in side.features]) for side in (alpha, beta)]
-    matrix, right = _system(phi, frames, bends, free, curved, turn, beta.v - alpha.v, size)
+    N = len(phi)
+    turn = crossed(omega, np.concatenate([n, n])[:, :, None])  # omega x n
+    bend = np.array([f.bend for f in features]).reshape(-1, 3, 3)
+    free = _padded(features)
+    curved = np.array([f.curvature for f in features])
+    apart = v[N:] - v[:N]
+    matrix, right = _system(phi, frames, bend, free, curved, turn, apart, size)
     least = np.linalg.svd(matrix, compute_uv=False)[:, -1]
     good = least > UNIQUE
-    turns = beta.omega - alpha.omega
+    turns = omega[N:] - omega[:N]
     solutions = {
-        int(j): _sliding(matrix[j], right[j], free[0][j], turns[j]) for j in np.flatnonzero(~good)
+        int(j): _sliding(matrix[j], right[j], free[j], turns[j]) for j in np.flatnonzero(~good)
     }
     matrix[~good] = np.eye(6)
     solved = np.linalg.solve(matrix, right)
@@ -102,15 +92,13 @@ def closest_point_rates(
             solved[j] = solution
             good[j] = True
     dn = frames.transpose(0, 2, 1) @ solved[:, :2]
-    moved = []
-    for side, D, F, w, z, sign in zip(
-        (alpha, beta), bends, free, turn, (solved[:, 2:4], solved[:, 4:]), (1, -1), strict=True
-    ):
-        slide = F.transpose(0, 2, 1) @ z * size[:, None, None]
-        moved.append(side.v + sign * (D @ (dn - w)) + slide)
-    d_phi = np.einsum("ja,jak->jk", n, beta.v - alpha.v)
-    assert len(good) == count
-    return Rates(d_phi, moved[0], moved[1], dn, good, ~good & (least > SPLIT))
+    z = np.concatenate([solved[:, 2:4], solved[:, 4:]])
+    bent = bend @ (np.concatenate([dn, dn]) - turn)
+    bent[N:] *= -1
+    slid = free.transpose(0, 2, 1) @ z * np.concatenate([size, size])[:, None, None]
+    moved = v + bent + slid
+    d_phi = np.einsum("ja,jak->jk", n, apart)
+    return Rates(d_phi, moved[:N], moved[N:], dn, good, ~good & (least > SPLIT))
 
 
 def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | None:
@@ -130,35 +118,34 @@ def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | 
 
 
 def _system(
-    phi: Array,
-    frames: Array,
-    bends: list[Array],
-    free: list[Array],
-    curved: list[Array],
-    turn: list[Array],
-    apart: Array,
-    size: Array,
-) -> tuple[Array, Array]:
+    phi: Array, frames: Array, bend: Array, free: Array, curved: Array, turn: Array,
+    apart: Array, size: Array,
+) -> tuple[Array, Array]:  # fmt: skip
     """The matrices (N, 6, 6) [-] and right sides (N, 6, n_v), lengths in units of `size`."""
+    N = len(phi)
     s = size[:, None, None]
     across = frames.transpose(0, 2, 1)
-    matrix = np.zeros((len(phi), 6, 6))
-    right = np.zeros((len(phi), 6, apart.shape[2]))
-    matrix[:, :2, :2] = frames @ ((bends[0] + bends[1]) / s) @ across
+    matrix = np.zeros((N, 6, 6))
+    right = np.zeros((N, 6, apart.shape[2]))
+    matrix[:, :2, :2] = frames @ ((bend[:N] + bend[N:]) / s) @ across
     matrix[:, :2, :2] += (phi / size)[:, None, None] * np.eye(2)
-    right[:, :2] = frames @ (apart + bends[0] @ turn[0] + bends[1] @ turn[1]) / s
-    for F, k, w, first, sign in zip(free, curved, turn, (2, 4), (1, -1), strict=True):
-        own = F @ across
-        at = slice(first, first + 2)
-        matrix[:, :2, at], matrix[:, at, :2] = sign * own.transpose(0, 2, 1), own
-        matrix[:, at, at] = np.eye(2) * (np.abs(F).max(axis=2) == 0)[:, :, None]
-        matrix[:, first, first] -= sign * k * size
-        right[:, at] = F @ w
+    bent = bend @ turn
+    right[:, :2] = frames @ (apart + bent[:N] + bent[N:]) / s
+    along = free @ np.concatenate([across, across])
+    held = free @ turn
+    idle = ~np.any(free, axis=2)
+    none = np.eye(2) * idle[:, :, None]
+    for at, side, sign in ((slice(2, 4), slice(N), 1), (slice(4, 6), slice(N, None), -1)):
+        matrix[:, :2, at] = sign * along[side].transpose(0, 2, 1)
+        matrix[:, at, :2] = along[side]
+        matrix[:, at, at] = none[side]
+        matrix[:, at.start, at.start] -= sign * curved[side] * size
+        right[:, at] = held[side]
     return matrix, right
 
 
-def _padded(features: list[Feature]) -> Array:
-    """The free directions of features, or that of a rim, (N, 2, 3), filled up by zeros."""
+def _padded(features: Sequence[Feature]) -> Array:
+    """The free directions of features, or that of a rim, (2 N, 2, 3), filled up by zeros."""
     padded = np.zeros((len(features), 2, 3))
     for own, f in zip(padded, features, strict=True):
         own[: len(f.free)] = f.free

@@ -7,7 +7,6 @@ import numpy as np
 
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import (
     Rates,
-    Sides,
     closest_point_rates,
 )
 from quasistatic_ref.optional.derivatives.contact.couples import Couple, rim_velocity
@@ -140,22 +139,18 @@ def couple_rates(
         Others than those of the couples.
     """
     features = [c.features for c in couples] if features is None else features
-    sides = []
-    far = np.zeros(len(couples))
-    for side in (0, 1):
-        links = [(c.of.pair.alpha, c.of.pair.beta)[side].link for c in couples]
-        nu = J[links][:, :3]
-        omega = J[links][:, 3:]
-        at = np.array([c.points[side] for c in couples]).reshape(-1, 3, 1)
-        far = np.maximum(far, np.abs(at).max(axis=(1, 2), initial=0.0))
-        v = nu + crossed(omega, at)
-        v = v if slides is None else v + slides[side]
-        sides.append(Sides([own[side] for own in features], v, omega))
+    links = [c.of.pair.alpha.link for c in couples] + [c.of.pair.beta.link for c in couples]
+    at = np.array([c.points[side] for side in (0, 1) for c in couples]).reshape(-1, 3)
+    twist = J[links]
+    omega = twist[:, 3:]
+    v = twist[:, :3] + crossed(omega, at[:, :, None])
+    v = v if slides is None else v + slides.reshape(v.shape)
     phi = np.array([c.phi for c in couples])
     size = np.array([c.of.size for c in couples])
-    size = np.maximum(size, far)
+    size = np.maximum(size, np.abs(at).reshape(2, -1, 3).max(axis=(0, 2), initial=0.0))
     n = np.array([c.n for c in couples]).reshape(-1, 3)
-    return closest_point_rates(phi, n, frames, sides[0], sides[1], size)
+    both = [own[side] for side in (0, 1) for own in features]
+    return closest_point_rates(phi, n, frames, both, v, omega, size)
 
 
 def _rim_side(couple: Couple) -> int:

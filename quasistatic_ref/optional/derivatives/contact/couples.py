@@ -15,8 +15,8 @@ from quasistatic_ref.contact.distance import (
 )
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
-from quasistatic_ref.shapes.placed_shape import Cylinder, PointCloud, Sphere
+from quasistatic_ref.optional.derivatives.contact.features import Feature, across, ball, feature
+from quasistatic_ref.shapes.placed_shape import Cylinder, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.shapes.revolved import QUARTERS
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
@@ -67,7 +67,23 @@ class PairInWorld:
         )
         return first, second
 
-    @property
+    @cached_property
+    def plane(self) -> Feature:
+        """The feature of the half-space that one of them is: the same at every point."""
+        (free,) = [
+            across(body.R @ body.shape.normal)
+            for body in self.bodies
+            if isinstance(body.shape, HalfSpace)
+        ]
+        return Feature(np.zeros((3, 3)), free)
+
+    @cached_property
+    def radii(self) -> tuple[float, float]:
+        """Radii of the balls about the corners of both bodies [m]."""
+        first, second = (body.shape.corners(Z)[1] for body in self.bodies)
+        return first, second
+
+    @cached_property
     def size(self) -> float:
         """The larger extent [m]; a half-space has none, and a single point one metre."""
         return max(extent for extent in self.extents if np.isfinite(extent)) or 1.0
@@ -154,6 +170,9 @@ def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
             centre = (1 - side, end - own[1] * outward, own[1])
             rim = own[2]
             continue
+        if isinstance(body.shape, HalfSpace):
+            features.append(of.plane)
+            continue
         local = feature(body.shape, body.R.T @ (end - body.t), body.R.T @ outward)
         features.append(local.turned(body.R))
         if isinstance(body.shape, Sphere):
@@ -175,7 +194,7 @@ def _corner(of: PairInWorld, index: int) -> tuple[int, float, Rim | None] | None
     before = shape.corner_count % 4  # its rims come last, with four corners each
     if shape.rim_radius is not None and k >= before:
         return side, 0.0, Rim(side, (k - before) % 4, shape.rim_radius)
-    return side, shape.corners(Z)[1], None
+    return side, of.radii[side], None
 
 
 def rim_velocity(rim: Rim, body: ShapeInWorld, towards: Array, turning: Array) -> Array | None:

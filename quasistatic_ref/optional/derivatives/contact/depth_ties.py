@@ -34,6 +34,8 @@ def depth_tie(couple: Couple) -> bool:
     couple : Couple
     """
     a, b = couple.of.bodies
+    if isinstance(a.shape, HalfSpace) or isinstance(b.shape, HalfSpace):
+        return False  # there is one way out of a half-space
     if couple.centre is not None:
         other, centre, _ = couple.centre
         solid = couple.of.bodies[other]
@@ -41,12 +43,10 @@ def depth_tie(couple: Couple) -> bool:
         corner = not isinstance(body, PointCloud | Sphere)
         way = solid.R.T @ (couple.n if other == 0 else -couple.n) if corner else None
         return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.of.size, way)
-    if couple.phi > 0 or isinstance(a.shape, HalfSpace) or isinstance(b.shape, HalfSpace):
-        if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
-            return _axes_cross(couple)
-        return False
     if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
         return _axes_cross(couple)
+    if couple.phi > 0:
+        return False
     P = polytope(a.shape)
     Q = polytope(b.shape)
     if P is None or Q is None:

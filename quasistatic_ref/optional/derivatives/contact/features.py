@@ -62,12 +62,16 @@ class Feature(NamedTuple):
 
     def turned(self, R: Array) -> "Feature":
         """The same in another frame, R of shape (3, 3) [-] from this frame to that."""
-        free, ends, arc = (some @ R.T for some in (self.free, self.ends, self.arc))
+        free, ends, arc = (
+            some @ R.T if len(some) else some for some in (self.free, self.ends, self.arc)
+        )
         return Feature(R @ self.bend @ R.T, free, ends, arc, self.curvature)
 
 
 def ball(radius: float, n: Array) -> Feature:
     """A sphere's [m], or of radius 0 a vertex's, whose outward normal is n of shape (3,) [-]."""
+    if not radius:
+        return Feature(np.zeros((3, 3)))
     return Feature(radius * (np.eye(3) - np.outer(n, n)))
 
 

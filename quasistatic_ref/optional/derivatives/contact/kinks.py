@@ -13,7 +13,7 @@ from quasistatic_ref.optional.derivatives.contact.contact_rates import (
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import FILLED, TIED, UNIQUE
 
 
@@ -56,6 +56,7 @@ def kinks(
     quarters : bool
         Whether the friction cone is the same after a quarter turn about n.
     """
+    switching = _switching(np.array([c.n for c in couples]).reshape(-1, 3), rates.n, quarters)
     for j, couple in enumerate(couples):
         if couple.phi >= FILLED:
             continue  # it stands for nothing
@@ -74,7 +75,7 @@ def kinks(
             yield _not_unique(j, couple)._replace(blurs=blurs)
         elif any(len(f.ends) for f in couple.features) and not rates.slides[j]:
             yield _at_an_end(j, couple, frames[j], J)._replace(blurs=blurs)
-        if _switches(couple.n, rates.n[j], quarters):
+        if switching[j]:
             says = "has two axes that are as far from its normal: its tangents jump"
             yield Kink(j, reason.TANGENTS, says, True)
 
@@ -98,14 +99,15 @@ def _at_an_end(j: int, couple: Couple, frame: Array, J: Array) -> Kink:
     return Kink(j, reason.FEATURE, "is where a vertex, an edge or a face of a shape ends", False)
 
 
-def _switches(n: Array, d_n: Array, quarters: bool) -> bool:
-    """Whether another axis of the world is as far from n, and n moves so that it matters.
+def _switching(n: Array, d_n: Array, quarters: bool) -> Mask:
+    """Whether another axis is as far from n (n_c, 3), and n moves so that it matters, (n_c,).
 
     Where n is along an axis the frames of the two others are quarter turns of each other.
     """
-    size = np.abs(n)
-    order = np.argsort(size, kind="stable")
-    tied = [k for k in order[1:] if size[k] - size[order[0]] <= TIED]
-    if not tied or (quarters and size[order[1]] <= TIED and len(tied) == 1):
-        return False
-    return bool(np.abs(d_n[[order[0], *tied]]).max(initial=0.0) > TIED)
+    size = np.sort(np.abs(n), axis=1)
+    tied = np.abs(n) - size[:, :1] <= TIED
+    count = np.count_nonzero(tied, axis=1)
+    if quarters:
+        count[(size[:, 1] <= TIED) & (count == 2)] = 1
+    turns = np.where(tied[:, :, None], np.abs(d_n), 0.0).max(axis=(1, 2), initial=0.0)
+    return np.asarray((count > 1) & (turns > TIED))

@@ -44,7 +44,7 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
         number = every.point
     worst = points.phi.max()
     as_near = number[np.abs(phi - worst) <= TIED * of.size]
-    left_out = np.setdiff1d(as_near, points.point).tolist()
+    left_out = as_near[~(as_near[:, None] == points.point).any(axis=1)].tolist()
     if not left_out:
         return [], []
     level = np.abs(points.phi - worst) <= TIED * of.size

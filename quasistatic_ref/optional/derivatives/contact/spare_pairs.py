@@ -12,7 +12,7 @@ import numpy as np
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, merged_features
-from quasistatic_ref.optional.derivatives.contact.couples import Couple
+from quasistatic_ref.optional.derivatives.contact.couples import Couple, PairInWorld
 from quasistatic_ref.optional.derivatives.contact.features import across
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
@@ -36,28 +36,38 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
     """
     of = kept[0].of
     pair = of.pair
-    a, b = of.bodies
     if pair.has_cloud or not 1 < pair.n_c < pair.candidates or pair.corners in points.point:
         return None
     nearest = of.closest
-    frame = across(of.closest.n)[None]
-    unique = couple_rates([nearest], frame, J).unique[0]
+    covered = _covered(of)
     ends = any(len(f.ends) for f in nearest.features)
-    if unique and not ends:
+    if covered and not ends:
+        return None
+    frame = across(nearest.n)[None]
+    if not ends and couple_rates([nearest], frame, J).unique[0]:
         return None
     merged = couple_rates([nearest], frame, J, features=[merged_features(nearest)])
     if merged.unique[0]:
         return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
+    if covered:
+        return None
+    return reason.MANY, "has parallel surfaces that overlap in more than corners"
+
+
+def _covered(of: PairInWorld) -> bool:
+    """Whether the corners at the distance of the closest pair are all of a face, or edge."""
+    a, b = of.bodies
+    n = of.closest.n
     every = of.candidates
-    level = every.phi <= nearest.phi + REPEATED
+    level = every.phi <= of.closest.phi + REPEATED
     of_alpha = every.point < a.shape.corner_count
-    of_beta = every.point < pair.corners
+    of_beta = every.point < of.pair.corners
     counts = int((level & of_alpha).sum()), int((level & of_beta & ~of_alpha).sum())
-    for body, way, count in ((a, nearest.n, counts[0]), (b, -nearest.n, counts[1])):
+    for body, way, count in ((a, n, counts[0]), (b, -n, counts[1])):
         whole = not isinstance(body.shape, HalfSpace | Sphere)
         if whole and count >= _face_corners(body, way):
-            return None  # all of the smaller face lies on the larger one
-    return reason.MANY, "has parallel surfaces that overlap in more than corners"
+            return True
+    return False
 
 
 def _face_corners(body: ShapeInWorld, n: Array) -> int:

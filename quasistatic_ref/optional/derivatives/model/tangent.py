@@ -24,6 +24,9 @@ PLANAR = np.ix_([0, 1, 5], [0, 1, 5])
 TERMS = 60
 """Most terms of the series: after 40 a twist of pi has less than rounding left."""
 
+ROUNDING = 2.0**-58
+"""Bound of a term that is left out."""
+
 
 def cross_matrix(r: Array) -> Array:
     """[r x], shape (..., 3, 3), of vectors r, shape (..., 3) [any unit]: [r x] w = r x w."""
@@ -33,22 +36,31 @@ def cross_matrix(r: Array) -> Array:
 
 def bracket(twist: Array) -> Array:
     """The matrix ad of a twist (6,) [m, rad], shape (6, 6): linear part first."""
+    along, about = cross_matrix(twist.reshape(2, 3))
     ad = np.zeros((6, 6))
-    ad[:3, :3] = ad[3:, 3:] = cross_matrix(twist[3:])
-    ad[:3, 3:] = cross_matrix(twist[:3])
+    ad[:3, :3] = ad[3:, 3:] = about
+    ad[:3, 3:] = along
     return ad
 
 
 def right_jacobian(twist: Array) -> Array:
     """J(x) of a twist (6,) [m, rad], shape (6, 6)."""
-    ad = -bracket(twist)
-    total = term = np.eye(6)
-    for k in range(2, TERMS):
-        term = term @ ad / k
-        if not (np.abs(term) > np.spacing(1.0) / TERMS).any():
-            break
-        total = total + term
-    return total
+    return _series(bracket(twist))
+
+
+def _series(ad: Array) -> Array:
+    """J(x) of the matrix ad of x."""
+    size = float(np.abs(ad).sum(axis=1).max())
+    left = 1.0
+    last = 1
+    while left > ROUNDING and last < TERMS:
+        last += 1
+        left *= size / last
+    one = np.eye(6)
+    J = one
+    for k in range(last, 1, -1):  # from the last term on
+        J = one - ad @ J / k
+    return J
 
 
 def sum_rates(joints: Sequence[Joint], delta_q: Array) -> tuple[Array, Array]:
@@ -63,9 +75,10 @@ def sum_rates(joints: Sequence[Joint], delta_q: Array) -> tuple[Array, Array]:
     by_q = np.eye(len(delta_q))
     by_change = np.eye(len(delta_q))
     for joint, x in _bases(joints, delta_q):
-        J = right_jacobian(x)
-        own = np.ix_(range(joint.v.start, joint.v.stop), range(joint.v.start, joint.v.stop))
-        by_q[own] = _of(joint, np.eye(6) - bracket(x) @ J)
+        ad = bracket(x)
+        J = _series(ad)
+        own = joint.v, joint.v
+        by_q[own] = _of(joint, np.eye(6) - ad @ J)
         by_change[own] = _of(joint, J)
     return by_q, by_change
 
@@ -82,7 +95,7 @@ def difference_rates(joints: Sequence[Joint], change: Array) -> tuple[Array, Arr
     by_q = -np.eye(len(change))
     by_next = np.eye(len(change))
     for joint, y in _bases(joints, change):
-        own = np.ix_(range(joint.v.start, joint.v.stop), range(joint.v.start, joint.v.stop))
+        own = joint.v, joint.v
         by_q[own] = -np.linalg.inv(_of(joint, right_jacobian(-y)))
         by_next[own] = np.linalg.inv(_of(joint, right_jacobian(y)))
     return by_q, by_next

@@ -84,13 +84,8 @@ class Equations:
 
     def __init__(self, touching: Touching) -> None:
         self.of = touching
-        L = touching.L
-        self.blocks = [
-            (j, _combinations(touching, j)) for j in sorted({*touching.strict[:, 0].tolist()})
-        ]
-        parts = [E @ touching.generators[j] for j, E in self.blocks]
-        rows = np.concatenate([np.zeros((0, len(L))), *parts])
-        rows = np.linalg.solve(L, rows.T).T
+        self.E, self.kept = _combinations(touching)
+        rows = self._combined(touching.generators) @ touching.inverse.T
         self.length = np.linalg.norm(rows, axis=1)
         self.length[self.length == 0] = 1.0
         self.rows = rows / self.length[:, None]
@@ -107,13 +102,10 @@ class Equations:
     def rates(self, data: DataRates) -> OptimumRates:
         """The derivatives, and what forbids them."""
         t = self.of
-        needed = [-(E @ data.motion[j]) for j, E in self.blocks]
-        right = (
-            np.concatenate([np.zeros((0, data.motion.shape[2])), *needed]) / self.length[:, None]
-        )
-        forces = np.linalg.solve(t.L, data.load + data.pull(t.multipliers))
+        right = -self._combined(data.motion) / self.length[:, None]
+        forces = t.inverse @ (data.load + data.pull(t.multipliers))
         y = self.V.T @ ((self.U.T @ right) / self.s[:, None]) + self.free.T @ (self.free @ forces)
-        x = np.linalg.solve(t.L.T, y)
+        x = t.inverse.T @ y
         closing, opens = self.slack_rates(t.idle, x, data)
         contradicts = self._contradictions(data, right, y)
         exerted = y - forces
@@ -141,6 +133,10 @@ class Equations:
         scale = np.abs(rows) @ np.abs(x) + np.abs(moved) + data.terms
         return rates, np.abs(rates) > CONSISTENT * scale
 
+    def _combined(self, values: Array) -> Array:
+        """The combinations of some `values` of gap, slips and spin, shape (n_c, 4, P)."""
+        return np.asarray((self.E @ values)[self.kept])
+
     def _contradictions(
         self, data: DataRates, right: Array, y: Array
     ) -> list[tuple[set[int], Mask]]:
@@ -148,17 +144,14 @@ class Equations:
         found = []
         terms = data.terms / self.length.min(initial=1.0)
         size = np.abs(right).max(axis=0, initial=0.0) + np.linalg.norm(y, axis=0) + terms
-        owner = np.array([j for j, E in self.blocks for _ in E], dtype=np.int64)
+        owner = np.nonzero(self.kept)[0]
         for nu, left in zip(self.null, self.left, strict=True):
             bad = (np.abs(nu @ right) > CONSISTENT * size) | (left > SPLIT)
-            multipliers = np.zeros((len(data.motion), 4))
-            weights = nu / self.length
-            at = 0
-            for j, E in self.blocks:
-                multipliers[j] = weights[at : at + len(E)] @ E
-                at += len(E)
             if len(self.free):
-                pulled = np.linalg.solve(self.of.L, data.pull(multipliers))
+                weights = np.zeros(self.kept.shape)
+                weights[self.kept] = nu / self.length
+                multipliers = np.einsum("jr,jri->ji", weights, self.E)
+                pulled = self.of.inverse @ data.pull(multipliers)
                 across = np.linalg.norm(self.free @ pulled, axis=0)
                 bad |= across > CONSISTENT * np.maximum(np.linalg.norm(pulled, axis=0), 1.0)
             if bad.any():
@@ -186,12 +179,12 @@ class Equations:
         if not len(t.idle):
             return x
         rows, pushes = self._pushes(rates, column)
-        return np.asarray(x + np.linalg.solve(t.L.T, self.free.T @ (rows.T @ pushes)))
+        return np.asarray(x + t.inverse.T @ (self.free.T @ (rows.T @ pushes)))
 
     def _pushes(self, rates: OptimumRates, column: int) -> tuple[Array, Array]:
         """Rows without load that the other equations leave, and what keeps each from closing."""
         t = self.of
-        rows = np.linalg.solve(t.L, t.rows(t.idle).T).T @ self.free.T
+        rows = t.rows(t.idle) @ t.inverse.T @ self.free.T
         return rows, _complementary(rows, rates.closing[:, column])
 
     def beyond(self, data: DataRates) -> Touching:
@@ -235,13 +228,21 @@ def _complementary(rows: Array, slack: Array) -> Array:
     return np.asarray(u / -residual[n]) if -residual[n] > 0 else np.zeros(k)
 
 
-def _combinations(touching: Touching, j: int) -> Array:
-    """Independent combinations of gap, slips and spin that a contact's strict rows make zero."""
-    own = touching.strict[touching.strict[:, 0] == j, 1]
-    used = np.abs(touching.generators[j]).max(axis=1) > 0
-    rows: Array = touching.table[own] * used
-    _, s, V = np.linalg.svd(rows)
-    return np.asarray(V[: len(s)][s > DEPENDENT * s[0]])
+def _combinations(touching: Touching) -> tuple[Array, Mask]:
+    """Combinations of gap, slips and spin that the strict rows of each contact make zero.
+
+    Returns
+    -------
+    ndarray, shape (n_c, k, 4)
+    ndarray of bool, shape (n_c, k)
+        Which of them these are; they are independent.
+    """
+    strict = np.zeros((len(touching.generators), len(touching.table)))
+    strict[touching.strict[:, 0], touching.strict[:, 1]] = 1.0
+    used = np.any(touching.generators, axis=2)
+    rows = strict[:, :, None] * touching.table * used[:, None]
+    _, s, V = np.linalg.svd(rows, full_matrices=False)
+    return V, s > DEPENDENT * s[:, :1]
 
 
 def parameters(*parts: DataRates) -> DataRates:

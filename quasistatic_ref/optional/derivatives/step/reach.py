@@ -65,12 +65,12 @@ class Reach:
         closing, known = equations.slack_rates(t.open, rates.x, data)
         self.closing = np.where(known, closing, 0.0)
         held = np.concatenate([t.strict, t.idle])
-        rows = np.linalg.solve(t.L, t.rows(held).T).T
+        rows = t.rows(held) @ t.inverse.T
         length = np.linalg.norm(rows, axis=1)
         self.held = held[length > 0]
         self.cone = rows[length > 0] / length[length > 0, None]
         exerted = np.einsum("jiv,ji->v", t.generators, t.multipliers)
-        self.force = np.linalg.solve(t.L, exerted)  # what the rows exert [(N m s)^0.5]
+        self.force: Array = t.inverse @ exerted  # what the rows exert [(N m s)^0.5]
 
     @cached_property
     def loads(self) -> Array:
@@ -87,8 +87,8 @@ class Reach:
     def loaded(self) -> Array:
         """How far at least each parameter may change until a row has no load, shape (P,)."""
         shares = np.linalg.lstsq(self.cone.T, self.rates.exerted, rcond=DEPENDENT)[0]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            left = np.nan_to_num(self.loads[:, None] / np.abs(shares), nan=np.inf)
+        left = np.full(shares.shape, np.inf)
+        np.divide(self.loads[:, None], np.abs(shares), out=left, where=shares != 0)
         return np.asarray(left.min(axis=0, initial=np.inf))
 
     def along(self, one: DataRates) -> Distance:
@@ -135,7 +135,8 @@ class Reach:
                 if not self._goes_on(int(column), sign, float(distance[column])):
                     one = self._unloaded(int(column), sign)
                     found += [one.rows] if one.t < distance[column] else []
-        return np.unique(np.concatenate(found), axis=0)
+        near = np.concatenate(found)
+        return np.unique(near, axis=0) if len(near) else near
 
     def _goes_on(self, column: int, sign: int, distance: float) -> bool:
         """Whether the rows surely bear what they exert beyond a distance: their cone is convex."""

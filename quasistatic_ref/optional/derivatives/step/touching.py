@@ -25,8 +25,8 @@ class Touching:
 
     Parameters
     ----------
-    L : ndarray, shape (n_v, n_v)
-        Cholesky factor of H [(N m s)^0.5 per unit of delta_q].
+    inverse : ndarray, shape (n_v, n_v)
+        Of the Cholesky factor L of H [unit of delta_q per (N m s)^0.5].
     generators : ndarray, shape (n_c, 4, n_v)
         J_n, mu_v J_1, mu_v J_2 and mu_omega J_w, which the rows combine [m].
     table : ndarray, shape (R, 4)
@@ -41,7 +41,7 @@ class Touching:
         Theirs [m].
     """
 
-    L: Array
+    inverse: Array
     generators: Array
     table: Array
     strict: Indices
@@ -97,16 +97,17 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
     generators = np.stack([J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w], axis=1)
     x = solution.delta_q
-    n_c = contacts.n_c
     moved = generators @ x
     moved[:, 0] += contacts.phi
     slack = (moved @ table.T)[step.mask]
     L = np.asarray(np.linalg.cholesky(step.H), dtype=np.float64)
+    inverse = np.asarray(np.linalg.inv(L), dtype=np.float64)
     every = np.argwhere(step.mask)
     rows = np.einsum("ki,kiv->kv", table[every[:, 1]], generators[every[:, 0]])
-    length = np.linalg.norm(np.linalg.solve(L, rows.T), axis=0) if len(every) else np.zeros(0)
+    reached = rows @ inverse.T
+    length = np.linalg.norm(reached, axis=1)
     length = np.where(length > 0, length, 1.0)
-    load_size = np.linalg.norm(np.linalg.solve(L, linear_term(step)))
+    load_size = np.linalg.norm(inverse @ linear_term(step))
     step_size = np.linalg.norm(L.T @ x)
     size = float(max(load_size, step_size))
     if not size and len(every):  # nothing moves: what the nearest contact is away
@@ -117,13 +118,14 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     touches |= solution.lam > 0
     Z = every[touches]
     lam = solution.lam[touches]
-    scaled = rows[touches] / length[touches, None]
-    bears = bearing(np.linalg.solve(L, scaled.T).T, lam * length[touches], size)
-    multipliers = np.zeros((n_c, 4))
-    np.add.at(multipliers, Z[:, 0], lam[:, None] * table[Z[:, 1]])
+    unit = reached[touches] / length[touches, None]
+    bears = bearing(unit, lam * length[touches], size)
+    loads = np.zeros(step.mask.shape)
+    loads[step.mask] = np.where(touches, solution.lam, 0.0)
+    multipliers = loads @ table
     away = ~touches & (contacts.phi[every[:, 0]] < FILLED)
     return Touching(
-        L, generators, table, Z[bears], Z[~bears], multipliers, every[away], slack[away]
+        inverse, generators, table, Z[bears], Z[~bears], multipliers, every[away], slack[away]
     )
 
 

@@ -99,9 +99,10 @@ class _Claim(NamedTuple):
 
 def _numbers(step: StepData, rows: Sequence[int]) -> bytes:
     """A hash of all numbers of which some rows are made, of their shapes and the cone's name."""
-    used = np.unique(places(step, rows)[0])
     contacts = step.contacts
-    used = used[used < contacts.n_c]
+    of_rows = np.zeros(contacts.n_c + 1, dtype=bool)
+    of_rows[places(step, rows)[0]] = True
+    used = np.flatnonzero(of_rows[:-1])
     own = contacts.J, contacts.phi, contacts.n, contacts.d1, contacts.d2, contacts.mu
     shared = (step.offsets, step.extra.A, step.extra.b)
     parts = [array.tobytes() for array in (*(a[used] for a in own), *shared)]
