@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.lab.folders import reality_folder
-from quasistatic_ref.lab.reality.predict import rotation
+from quasistatic_ref.lab.reality.outline import rotation
+from quasistatic_ref.lab.reality.pushes import Pushes
 from validation.make.reality_tripods import (
     TRIANGLE,
     TripodSet,
@@ -32,7 +33,8 @@ def planted():
         own = vertices[k % 3] + rng.uniform(0.2, 0.8) * edges[k % 3] + RADIUS * outward
         origin = pose[:2] + rotation(pose[2]) @ OFFSET
         path[k] = origin + rotation(pose[2] + ANGLE) @ own
-    return TripodSet("planted", np.zeros((3, 2)), after, after, path)
+    pushes = Pushes(np.arange(30), after, after, path, None)
+    return TripodSet("planted", np.zeros((3, 2)), pushes)
 
 
 def test_the_calibration_finds_planted_offsets_and_radius():
@@ -45,13 +47,14 @@ def test_the_calibration_finds_planted_offsets_and_radius():
 def test_three_points_are_predicted_to_a_third_of_their_turn():
     sets = tripods_read(reality_folder())
     frozen = calibration(sets[0])
-    assert [len(own.after) for own in sets] == [50] * 5
+    assert [len(own.pushes.after) for own in sets] == [50] * 5
     off = []
     turned = []
     for own in sets[1:]:
         scene = tripod(own, frozen)
-        for k in range(0, 50, 10):
-            end, _ = tripod_prediction(scene, frozen, own.before[k], own.path[k], "off")
-            off.append(abs(end[2] - own.after[k, 2]))
-            turned.append(abs(own.before[k, 2] - own.after[k, 2]))
+        some = own.pushes.every(10)
+        for before, path, after in zip(some.before, some.path, some.after, strict=True):
+            end, _ = tripod_prediction(scene, frozen, before, path, "off")
+            off.append(abs(end[2] - after[2]))
+            turned.append(abs(before[2] - after[2]))
     assert np.median(off) < np.median(turned) / 3
