@@ -34,6 +34,7 @@ from pathlib import Path
 from textwrap import dedent
 
 from validation.tools.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
+from validation.tools.scripts import environment
 
 ROOT = Path(__file__).parents[2]
 HEAD = (
@@ -88,23 +89,16 @@ def installed(wheel: Path, extra: str, python: str, lowest: bool, folder: Path) 
     home = folder / "environment"
     empty = folder / "empty"
     empty.mkdir()
-    subprocess.run([python, "-m", "venv", str(home)], check=True)
+    if extra == "base" and python == sys.executable and not lowest:
+        environment(home, str(wheel))
+        return Environment(home, empty)
+    own = environment(home, python=python)
+    uv = environment(wheel.parent / "uv", "uv").with_name("uv")
     what = str(wheel) if extra == "base" else f"{wheel}[{extra}]"
-    command = [home / "bin" / "pip", "install", "-q", what]
-    if lowest or extra != "base" or python != sys.executable:
-        command = [_uv(wheel.parent), "pip", "install", "-q", "--python", home / "bin" / "python"]
-        command += [*(LOWEST if lowest else ()), "--compile-bytecode", what]
+    command = [uv, "pip", "install", "-q", "--python", own, *(LOWEST if lowest else ())]
+    command += ["--compile-bytecode", what]
     subprocess.run([str(word) for word in command], check=True)
     return Environment(home, empty)
-
-
-def _uv(folder: Path) -> Path:
-    """The program uv, installed into an environment of its own once a run."""
-    home = folder / "uv"
-    if not home.exists():
-        subprocess.run([sys.executable, "-m", "venv", str(home)], check=True)
-        subprocess.run([str(home / "bin" / "pip"), "install", "-q", "uv"], check=True)
-    return home / "bin" / "uv"
 
 
 def mebibytes(files: Iterable[Path]) -> float:

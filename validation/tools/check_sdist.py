@@ -22,6 +22,8 @@ import tarfile
 import tempfile
 from pathlib import Path
 
+from validation.tools.scripts import environment
+
 ROOT = Path(__file__).parents[2]
 TESTS = (
     *(f"tests/meta/test_{name}.py" for name in (
@@ -52,14 +54,10 @@ def tracked() -> set[str]:
 
 def built(folder: Path) -> list[str]:
     """Sdist and wheel in ``folder/dist``; what twine finds."""
-    python = folder / "tools" / "bin" / "python"
-    for command in (
-        [sys.executable, "-m", "venv", folder / "tools"],
-        [python, "-m", "pip", "install", "-q", "build", "twine"],
-        [python, "-m", "build", "--outdir", folder / "dist", ROOT],
-    ):
-        subprocess.run([str(word) for word in command], check=True, stdout=subprocess.DEVNULL)
-    command = [str(python), "-m", "twine", "check", "--strict", *map(str, folder.glob("dist/*"))]
+    python = str(environment(folder / "tools", "build", "twine"))
+    command = [python, "-m", "build", "--outdir", str(folder / "dist"), str(ROOT)]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    command = [python, "-m", "twine", "check", "--strict", *map(str, folder.glob("dist/*"))]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     print(done.stdout, end="", flush=True)
     return [f"twine: {done.stdout}{done.stderr}"] if done.returncode else []
