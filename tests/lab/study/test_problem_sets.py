@@ -145,8 +145,8 @@ def test_other_problems_under_the_name_of_a_set_are_found_out(tmp_path):
 def test_what_is_asked_for_and_is_not_there_is_refused(tmp_path, capsys):
     export = ["study", "problems", "export", "--to", "npz", "--out", str(tmp_path)]
     for more, words in (
-        (["--families", "wedges"], "is no family of the set"),
-        (["--id", "wedge/9/9"], "is no problem of the set"),
+        (["--families", "wedges"], "is not a family of the set"),
+        (["--id", "wedge/9/9"], "is not a problem of the set"),
         (["--every", "0"], "must be at least 1"),
         (["--families", "limits", "--tag", "nothing"], "holds no problem"),
     ):
