@@ -29,8 +29,7 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
-from quasistatic_ref.cli.verify import refutation
+from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.solve.backends import NONE
@@ -52,7 +51,7 @@ from tests.oracles.solution_truth import (
 )
 from validation.tools.check_verifier import verdicts
 from validation.tools.scripts import asked, shown
-from validation.tools.verifier_files import Case
+from validation.tools.verifier_files import Case, verify_refusal
 
 Json = Any
 BATCH = 50
@@ -108,11 +107,7 @@ class Attack:
         """Why `verify` of the package refuses two texts; None if it verifies them."""
         for path, text in zip(self.paths, (step, solution), strict=True):
             path.write_text(text)
-        try:
-            posed = step_read(self.paths[0])
-            return refutation(posed, solution_read(self.paths[1], posed))
-        except InputError as error:
-            return str(error)
+        return verify_refusal(*self.paths)
 
     def ask(self, step: str, solution: str, begins: str = "every field is proved") -> None:
         """Keep two texts for ``verify.js``, whose reason has to begin so."""
