@@ -17,7 +17,6 @@ command fails.
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import re
@@ -34,7 +33,7 @@ from pathlib import Path
 from textwrap import dedent
 
 from validation.tools.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
-from validation.tools.scripts import environment
+from validation.tools.scripts import asked, environment
 
 ROOT = Path(__file__).parents[2]
 HEAD = (
@@ -200,19 +199,11 @@ def written(path: Path, rows: list[list[str]]) -> None:
 
 def main() -> int:
     """Try what was named; 1 if something is wrong."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("extras", nargs="*", metavar="EXTRA", help=", ".join(COMMANDS))
-    parser.add_argument("--python", default=sys.executable, help="interpreter of the environment")
-    parser.add_argument("--lowest", action="store_true", help="the lowest versions declared")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write the table here")
-    options = parser.parse_args()
-    extras = options.extras or list(COMMANDS)
-    if unknown := set(extras) - set(COMMANDS):
-        parser.error(f"no such extra: {', '.join(sorted(unknown))}")
+    options = asked(__doc__, COMMANDS, python=sys.executable, lowest=False, out=Path)
     wrong: list[str] = []
     with tempfile.TemporaryDirectory() as temporary:
         wheel = built(Path(temporary))
-        for extra in extras:
+        for extra in options.names or COMMANDS:
             cells, faulty = row(wheel, extra, options.python, options.lowest)
             print("| " + " | ".join(cells) + " |", flush=True)
             if options.out is not None:
