@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -82,38 +82,39 @@ ROUND: dict[str, Shape] = {
     "capsule": Capsule(HALF / 2, HALF / 2),
     "ellipsoid": Ellipsoid(np.array([0.04, 0.03, HALF])),
 }
+SIDES = ((1, 0), (0, 1))
+"""Who is alpha and who beta of two bodies."""
 TIPPED = ("hull", "cone")
 """Shapes that lie on their base only: below others they are turned over."""
 
 
 def step_of(
-    bodies: list[tuple[Shape, Array, Array]],
-    fixed: tuple[Shape, Array, Array] | None,
+    bodies: Sequence[tuple[Shape, Array, Array]],
+    free: int,
+    pairs: Iterable[tuple[int, int]],
     k: int,
     mu_v: float,
-    force: list[Array],
-    swapped: bool = False,
-) -> tuple[System, StepResult]:
-    """One step of one free body (shape, R, t) on a fixed one, or of two on each other."""
-    made = [
-        Body.of_shape(f"b{i}", FLAT["box"](HALF), MASS, xyz=t) for i, (_, _, t) in enumerate(bodies)
-    ]
+    forces: Sequence[Array] = (),
+    gravity: Sequence[float] = (0.0, 0.0, 0.0),
+) -> StepResult:
+    """One step of bodies (shape, R, t), of which the first ones are free, in pairs of them."""
+    cube = FLAT["box"](HALF)
+    made = [Body.of_shape(f"b{i}", cube, MASS, xyz=t) for i, (_, _, t) in enumerate(bodies[:free])]
     system = System(made)
-    sides = [
-        PlacedShape(f"b{i}", system.link(f"b{i}/solid"), R, np.zeros(3), shape)
-        for i, (shape, R, _) in enumerate(bodies)
-    ]
-    if fixed is not None:
-        shape, R, t = fixed
-        sides.append(PlacedShape("fixed", 0, R, t, shape))
-    alpha, beta = sides if swapped else sides[::-1]
-    pair = ContactPair("p", alpha, beta, mu_v, 0.0, 4, k)
+    placed = [
+        PlacedShape(f"s{i}", system.link(f"b{i}/solid"), R, np.zeros(3), shape)
+        if i < free else PlacedShape(f"s{i}", 0, R, t, shape)
+        for i, (shape, R, t) in enumerate(bodies)
+    ]  # fmt: skip
+    contacts = [ContactPair(f"{a}-{b}", placed[a], placed[b], mu_v, 0.0, 4, k) for a, b in pairs]
     simulator = Simulator(
-        system, [pair], h=H, K_q=np.zeros((0, 0)), gravity=[0.0, 0.0, 0.0], backend="none"
+        system, contacts, h=H, K_q=np.zeros((0, 0)), gravity=list(gravity), backend="none"
     )
     q = system.q_start
-    load = sum(system.centre_of_mass_force(q, f"b{i}", f[:3], f[3:]) for i, f in enumerate(force))
-    return system, simulator.step(q, np.zeros(0), load)
+    load = np.zeros(system.n_v)
+    for i, force in enumerate(forces):
+        load += system.centre_of_mass_force(q, f"b{i}", force[:3], force[3:])
+    return simulator.step(q, np.zeros(0), load)
 
 
 def world_of(rng: np.random.Generator) -> tuple[Array, Array]:
@@ -140,16 +141,21 @@ def lying(low: str, top: str, inset: float, depth: float, k: int, rng: np.random
     place = W @ [0.0, 0.0, EDGE - depth] + shift
     n = W @ UP
     mu_v = float(rng.choice([0.0, 0.5]))
+    bodies = [(above, W @ quarter, place), (below, W @ turned, shift)]
+    return lifted(bodies, n, depth, k, mu_v, SIDES[rng.integers(2)])
+
+
+def lifted(
+    bodies: Sequence[tuple[Shape, Array, Array]],
+    n: Array,
+    depth: float,
+    k: int,
+    mu_v: float,
+    side: tuple[int, int],
+) -> str:
+    """What differs from a body that is lifted by its depth off the other."""
     weight = np.concatenate([-MASS * G * n, np.zeros(3)])
-    _, result = step_of(
-        [(above, W @ quarter, place)], (below, W @ turned, shift), k, mu_v, [weight],
-        bool(rng.integers(2)),
-    )  # fmt: skip
-    return judged(result, n, depth)
-
-
-def judged(result: StepResult, n: Array, depth: float) -> str:
-    """What differs from a body that is lifted by its depth."""
+    result = step_of(bodies, 1, [side], k, mu_v, [weight])
     c = result.step.contacts
     wrench = result.solution.wrench
     loaded = wrench[:, 2] > FORCE * wrench[:, 2].max(initial=0.0)
@@ -186,12 +192,12 @@ def beside(rng: np.random.Generator) -> str:
     n = W @ UP
     box = FLAT["box"](HALF)
     place = W @ [off, 0.0, EDGE - depth] + shift
-    weight = np.concatenate([-MASS * G * n, np.zeros(3)])
     kind = rng.choice(["box", "hull"])
     below = box if kind == "box" else hull(HALF, HALF)
-    _, result = step_of([(box, W, place)], (below, W, shift), int(rng.choice([4, 8])),
-                        float(rng.choice([0.0, 0.5])), [weight], bool(rng.integers(2)))  # fmt: skip
-    return judged(result, n, depth)
+    k = int(rng.choice([4, 8]))
+    mu_v = float(rng.choice([0.0, 0.5]))
+    bodies = [(box, W, place), (below, W, shift)]
+    return lifted(bodies, n, depth, k, mu_v, SIDES[rng.integers(2)])
 
 
 def on_edge(rng: np.random.Generator) -> str:
@@ -200,15 +206,16 @@ def on_edge(rng: np.random.Generator) -> str:
     depth = float(rng.choice([0.0, 0.0, 1e-6, 1e-3]))
     box = FLAT["box"](HALF)
     place = W @ [EDGE - depth, 0.0, EDGE - depth] + shift
-    swapped = bool(rng.integers(2))
+    side = SIDES[rng.integers(2)]
     try:
-        _, result = step_of([(box, W, place)], (box, W, shift), int(rng.choice([1, 4])), 0.0,
-                            [np.zeros(6)], swapped)  # fmt: skip
+        result = step_of(
+            [(box, W, place), (box, W, shift)], 1, [side], int(rng.choice([1, 4])), 0.0
+        )
     except ContactError as error:
         return "" if depth and "as deep" in str(error) else "refused"
     if depth:
         return "not refused"
-    along = W @ [np.sqrt(0.5), 0.0, np.sqrt(0.5)] * (-1.0 if swapped else 1.0)
+    along = W @ [np.sqrt(0.5), 0.0, np.sqrt(0.5)] * (side[0] - side[1])
     return "" if np.abs(result.points.n - along).max() < 1e-9 else "normal"
 
 
@@ -237,8 +244,9 @@ def alike(rng: np.random.Generator) -> str:
         pair = [(below, W @ R_low, shift), (above, W, W @ at + shift)]
         force = [np.zeros(6), np.concatenate([W @ press[:3], W @ press[3:]])]
         order = [0, 1] if rng.integers(2) else [1, 0]
-        _, result = step_of([pair[i] for i in order], None, 64, 0.0,
-                                 [force[i] for i in order], bool(rng.integers(2)))  # fmt: skip
+        forces = [force[i] for i in order]
+        side = SIDES[rng.integers(2)]
+        result = step_of([pair[i] for i in order], 2, [side], 64, 0.0, forces)
         # The frames of the links stay along the world's axes: twists turn with the world.
         parts = result.solution.delta_q.reshape(2, 2, 3)[np.argsort(order)]
         moves.append(parts @ W)

@@ -6,7 +6,6 @@
 - *Bounds* of backends' own answers to ordinary steps, to steps of subnormal, tiny and huge numbers
   and to steps of nearly singular matrices: what a file claims is compared with the optimum by
   fractions, and `verify` of the package has to verify it.
-- *Forgeries* of files of every kind: what `verify` of the package verifies has to be true.
 - *Nearly singular matrices*: exact pivots say which are positive definite; reading a step and
   ``verify.js`` have to say the same. What is accepted has to end in an answer or in a sentence.
 
@@ -30,8 +29,7 @@ from typing import Any
 import numpy as np
 from tqdm import tqdm
 
-from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
-from quasistatic_ref.cli.verify import refutation
+from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
 from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.solve.backends import NONE
@@ -40,8 +38,6 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_text
 from tests.oracles.attacked_steps import FAMILIES, singular, steps
-from tests.oracles.forged_scenes import scenes
-from tests.oracles.forgeries import at_random, good_file
 from tests.oracles.random_steps import any_step
 from tests.oracles.solution_truth import (
     Judge,
@@ -51,12 +47,11 @@ from tests.oracles.solution_truth import (
     proof,
     proved,
     rounded,
-    truth_of,
     wrenches,
 )
 from validation.tools.check_verifier import verdicts
 from validation.tools.scripts import asked, shown
-from validation.tools.verifier_files import Case
+from validation.tools.verifier_files import Case, verify_refusal
 
 Json = Any
 BATCH = 50
@@ -112,11 +107,7 @@ class Attack:
         """Why `verify` of the package refuses two texts; None if it verifies them."""
         for path, text in zip(self.paths, (step, solution), strict=True):
             path.write_text(text)
-        try:
-            posed = step_read(self.paths[0])
-            return refutation(posed, solution_read(self.paths[1], posed))
-        except InputError as error:
-            return str(error)
+        return verify_refusal(*self.paths)
 
     def ask(self, step: str, solution: str, begins: str = "every field is proved") -> None:
         """Keep two texts for ``verify.js``, whose reason has to begin so."""
@@ -213,24 +204,6 @@ def bounds(attack: Attack, family: str, number: int, first: int = 0) -> None:
         attack.add("bounded", holds and attack.refused(text, file) is None, text)
 
 
-def forgeries(attack: Attack, kind: str, number: int, first: int = 0) -> None:
-    """Files of a kind in which some values are others."""
-    genuine = [step for (name, _), step in scenes(every=True).items() if name == kind]
-    files = [good_file(step, kind) for step in genuine]
-    judges = [truth_of(step, file) for step, file in zip(genuine, files, strict=True)]
-    for seed in range(first, first + number):
-        step = genuine[seed % len(genuine)]
-        file = files[seed % len(genuine)]
-        forged = at_random(np.random.default_rng(seed), step, file)
-        if forged == file:
-            attack.add("the same file")
-        elif attack.refused(step_text(step), json.dumps(forged)) is not None:
-            attack.add("refused")
-        else:
-            true = judges[seed % len(genuine)](forged)
-            attack.add("verified, still true", true, json.dumps(forged))
-
-
 def matrices(attack: Attack, key: str, number: int, first: int = 0) -> None:
     """Nearly singular matrices, through both checkers and all that is made of a step."""
     for seed in range(first, first + number):
@@ -266,7 +239,6 @@ def matrices(attack: Attack, key: str, number: int, first: int = 0) -> None:
 ATTACKS = {
     "exact answers": exact_answers,
     "bounds": bounds,
-    "forgeries": forgeries,
     "nearly singular": matrices,
 }
 
@@ -290,10 +262,8 @@ def main() -> int:
     """Print the table; exit status 1 if anything is wrong."""
     options = asked(__doc__, count=500, out=Path)
     count = options.count
-    kinds = dict.fromkeys(kind for kind, _ in scenes(every=True))
     families = [("bounds", family, 2 * count) for family in FAMILIES]
     families += [("exact answers", family, count) for family in FAMILIES]
-    families += [("forgeries", kind, 10 * count // len(kinds) + 1) for kind in kinds]
     families += [("nearly singular", key, 5 * count // 2) for key in ("K_q", "M_u")]
     rows = []
     wrong = list[str]()
@@ -308,7 +278,7 @@ def main() -> int:
     return int(bool(wrong))
 
 
-HEAD = """# Answers, bounds, files and matrices, attacked
+HEAD = """# Answers, bounds and matrices, attacked
 
 Made by `python -m validation.make.attacks`, whose first lines say what is asked.
 

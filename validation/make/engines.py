@@ -23,7 +23,7 @@ from quasistatic_ref.formats.files import text_written
 from validation.programs.engines.judge import ENGINES, RESULTS, judged, python_of
 from validation.programs.engines.reproduce import missing, reproduced, unlike
 from validation.programs.engines.tables import phenomena_page
-from validation.tools.scripts import asked
+from validation.tools.scripts import asked, record_written
 
 
 def main() -> int:
@@ -39,7 +39,7 @@ def main() -> int:
             path = results / f"{name}.json"
             record = json.loads(path.read_text("utf-8"))
             record["printed"] = reproduced(name, python_of(name, folder))
-            text_written(path, json.dumps(record, indent=1) + "\n")
+            record_written(path, record)
             wrong += sum(text.startswith("status") for text in record["printed"].values())
     records = {
         name: json.loads(path.read_text("utf-8"))

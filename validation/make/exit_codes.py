@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csc_matrix, triu
@@ -40,15 +41,20 @@ Raw = Callable[[StandardForm, dict], object]
 """(program, options) -> the solver's own exit code."""
 
 
+def given(settings: Any, options: dict) -> Any:
+    """Settings with these options."""
+    for name, value in options.items():
+        setattr(settings, name, value)
+    return settings
+
+
 def clarabel(form: StandardForm, options: dict) -> object:
     """Its SolverStatus."""
     import clarabel as package
 
-    settings = package.DefaultSettings()
+    settings = given(package.DefaultSettings(), options)
     settings.verbose = False
     settings.presolve_enable = False
-    for name, value in options.items():
-        setattr(settings, name, value)
     P = csc_matrix(np.triu(form.H))
     A = csc_matrix(-form.A)
     cones = [package.NonnegativeConeT(len(form.b))]
@@ -72,8 +78,7 @@ def piqp(form: StandardForm, options: dict) -> object:
     import piqp as package
 
     solver = package.DenseSolver()
-    for name, value in options.items():
-        setattr(solver.settings, name, value)
+    given(solver.settings, options)
     solver.setup(form.H, -form.g, None, None, form.A, form.b, None)
     return solver.solve()
 
@@ -94,8 +99,7 @@ def proxqp(form: StandardForm, options: dict) -> object:
 
     m, n = form.A.shape
     solver = package.dense.QP(n, 0, m)
-    for name, value in {**options, **INNER}.items():
-        setattr(solver.settings, name, value)
+    given(solver.settings, options | INNER)
     solver.init(form.H, -form.g, None, None, -form.A, np.full(m, -np.inf), -form.b)
     solver.solve()
     return solver.results.info.status
@@ -153,10 +157,8 @@ def qpalm(form: StandardForm, options: dict) -> object:
     data = package.Data(n, m)
     data.Q, data.A = csc_matrix(np.triu(form.H)), csc_matrix(form.A)
     data.q, data.bmin, data.bmax = -form.g, form.b, np.full(m, np.inf)
-    settings = package.Settings()
+    settings = given(package.Settings(), options)
     settings.verbose = False
-    for name, value in options.items():
-        setattr(settings, name, value)
     solver = package.Solver(data, settings)
     solver.solve()
     return solver.info.status_val
@@ -214,20 +216,25 @@ def claims_of(solver: str, interface: str, some: Sequence[Problem]) -> list[str]
     return [one.claim(reply.status) for reply in replies]
 
 
-def compared(solver: str, some: Sequence[Problem]) -> Iterator[tuple[str, ...]]:
-    """The lines of a solver: a code, its meaning, how often, and the study's claims there."""
+def compared(solver: str, some: Sequence[Problem]) -> tuple[list[tuple[str, ...]], str, int]:
+    """What a solver says: of each code its meaning, how often, and the study's claims there.
+
+    Then the interface that says most, and in how many calls code and claim agree through it.
+    """
     options = {} if solver == "quadprog" else options_at(solver, "native", HIGH.accuracy or 0.0)
     codes = [name_of(RAW[solver](p.natural.form, options)) for p in some]
     here = [one for one in INTERFACES if solver in installed_here(one)]
     read = {one: claims_of(solver, one, some) for one in here}
+    rows = []
     for code, count in Counter(codes).most_common():
         own = [i for i, c in enumerate(codes) if c == code]
         feasible = sum(some[i].feasible for i in own)
         cells = (counted(read[one][i] for i in own) if one in read else "-" for one in INTERFACES)
-        yield solver, code, meaning(solver, code), str(count - feasible), str(feasible), *cells
+        means = meaning(solver, code)
+        rows.append((solver, code, means, str(count - feasible), str(feasible), *cells))
     most = next((one for one in here if not hides(one, solver)), here[0])
     agree = sum(meaning(solver, c) == said for c, said in zip(codes, read[most], strict=True))
-    yield solver, f"agree, {most}", "", f"{agree} of {len(some)}", "", "", "", ""
+    return rows, most, agree
 
 
 def counted(claims: Iterator[str]) -> str:
@@ -236,32 +243,39 @@ def counted(claims: Iterator[str]) -> str:
     return ", ".join(f"{n} {words.get(one, one)}" for one, n in Counter(claims).most_common())
 
 
-def lines_of(names: Sequence[str], table: Sequence[Sequence[str]], left: int) -> str:
-    """A table in Markdown."""
-    return "\n".join(markdown_table(names, table, left))
-
-
 def written(count: int) -> tuple[str, int]:
     """The page, and in how many calls code and claim differ."""
     some = problems(count)
-    here = [one for one in RAW if any(one in installed_here(i) for i in INTERFACES)]
-    lines = [line for solver in here for line in compared(solver, some)]
+    rows = []
+    sums = []
+    differ = 0
+    for solver in RAW:
+        if any(solver in installed_here(one) for one in INTERFACES):
+            own, most, agree = compared(solver, some)
+            rows += own
+            sums.append((solver, most, f"{agree} of {len(some)}"))
+            differ += len(some) - agree
     names = ("solver", "raw exit code", "by its manual", "without a solution", "with one",
              *(f"read, {one}" for one in INTERFACES))  # fmt: skip
-    table = [line for line in lines if not line[1].startswith("agree")]
-    sums = [(line[0], line[1].partition(", ")[2], line[3]) for line in lines if line not in table]
-    differ = sum(len(some) - int(agree.partition(" ")[0]) for *_, agree in sums)
-    text = (
-        f"# Exit codes, and what a study reads\n\n{count} problems of contact-qp-1 without a "
-        f"solution and {count} with one, in natural units at the options of `high`. The first "
-        "columns are the solver's own, called without any code of the study; the last are what the "
-        "study reads through each interface. Where an interface has one word for several codes, "
-        "nothing was said.\n\n"
-        f"{lines_of(names, table, 3)}\n\n## Agreement\n\nThrough the interface that says "
-        f"most; {differ} calls differ.\n\n"
-        f"{lines_of(('solver', 'interface', 'code and claim agree'), sums, 2)}"
-    )
-    return text, differ
+    table = "\n".join(markdown_table(names, rows, 3))
+    agreement = "\n".join(markdown_table(("solver", "interface", "code and claim agree"), sums, 2))
+    return PAGE.format(count=count, table=table, differ=differ, agreement=agreement), differ
+
+
+PAGE = """# Exit codes, and what a study reads
+
+{count} problems of contact-qp-1 without a solution and {count} with one, in natural units at the \
+options of `high`. The first columns are the solver's own, called without any code of the study; \
+the last are what the study reads through each interface. Where an interface has one word for \
+several codes, nothing was said.
+
+{table}
+
+## Agreement
+
+Through the interface that says most; {differ} calls differ.
+
+{agreement}"""
 
 
 def main() -> None:

@@ -20,12 +20,9 @@ from typing import NamedTuple
 import numpy as np
 from tqdm import tqdm
 
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.shapes.placed_shape import Box, Cylinder, PlacedShape, Shape
-from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.shapes.placed_shape import Box, Cylinder, Shape
 from quasistatic_ref.tolerances import CLOSED_FORM
 from validation.make.aligned_poses import (
     EDGE,
@@ -40,6 +37,7 @@ from validation.make.aligned_poses import (
     Array,
     G,
     H,
+    step_of,
 )
 
 WEIGHT = np.array([0.0, 0.0, -MASS * G])
@@ -164,25 +162,10 @@ FAMILIES: dict[str, Callable[[float, float], Scene]] = {
 def wrong(scene: Scene, k: int, mu_v: float) -> str:
     """What differs from what is known; nothing if it is empty."""
     count = len(scene.motion)
-    cube = FLAT["box"](HALF)
     places = np.array([t for _, _, t in scene.bodies])
-    system = System(
-        [Body.of_shape(f"b{i}", cube, MASS, xyz=t) for i, t in enumerate(places[:count])]
-    )
-    placed = [
-        PlacedShape(f"s{i}", system.link(f"b{i}/solid"), R, np.zeros(3), shape)
-        if i < count else PlacedShape(f"s{i}", 0, R, t, shape)
-        for i, (shape, R, t) in enumerate(scene.bodies)
-    ]  # fmt: skip
-    pairs = [
-        ContactPair(f"{a}-{b}", placed[a], placed[b], mu_v, 0.0, 4, k) for a, b in scene.normals
-    ]
-    gravity = np.asarray(scene.load) / MASS
-    simulator = Simulator(
-        system, pairs, h=H, K_q=np.zeros((0, 0)), gravity=gravity.tolist(), backend="none"
-    )
+    gravity = (np.asarray(scene.load) / MASS).tolist()
     try:
-        result = simulator.step(system.q_start, np.zeros(0))
+        result = step_of(scene.bodies, count, scene.normals, k, mu_v, gravity=gravity)
     except QuasistaticError as error:
         return f"{type(error).__name__}: {error}"
     c = result.step.contacts

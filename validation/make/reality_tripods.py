@@ -15,10 +15,11 @@ from scipy.optimize import least_squares
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.folders import reality_folder
-from quasistatic_ref.lab.reality.errors import bootstrapped, pose_errors
-from quasistatic_ref.lab.reality.outline import Outline
-from quasistatic_ref.lab.reality.predict import Prediction, predicted, rotation
+from quasistatic_ref.lab.reality.errors import bootstrapped, errors_of
+from quasistatic_ref.lab.reality.outline import Outline, rotation
+from quasistatic_ref.lab.reality.predict import Prediction, predicted
 from quasistatic_ref.lab.reality.push import Pushed
+from quasistatic_ref.lab.reality.pushes import Pushes
 from quasistatic_ref.lab.reality.settings import ADVANCE, Settings
 from quasistatic_ref.lab.reality.tables import table_read
 from quasistatic_ref.step.cones import ELLIPSOID
@@ -60,17 +61,13 @@ class TripodSet:
         Surface and places [mm].
     supports : ndarray, shape (3, 2)
         Object frame [m].
-    before, after : ndarray, shape (n, 3)
-        Measured poses: x, y [m], angle [rad].
-    path : ndarray, shape (n, 40, 2)
-        Of the finger [m].
+    pushes : Pushes
+        Each with a path of 40 places of the finger.
     """
 
     name: str
     supports: Array
-    before: Array
-    after: Array
-    path: Array
+    pushes: Pushes
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +123,8 @@ def tripods_read(folder: Path) -> list[TripodSet]:
         path = table.array(own, *PATH).reshape(-1, PLACES, 2)
         before = table.array(own, "x0", "y0", "theta0")
         after = table.array(own, "x1", "y1", "theta1")
-        found.append(TripodSet(name, places[own[0]].reshape(3, 2), before, after, path))
+        pushes = Pushes(table.numbers["push"][own], before, after, path, None)
+        found.append(TripodSet(name, places[own[0]].reshape(3, 2), pushes))
     return found
 
 
@@ -140,9 +138,10 @@ def calibration(of: TripodSet) -> Calibration:
     InputError
         If the set has fewer pushes than there are unknowns.
     """
-    if len(of.after) < 5:
-        raise InputError("has too few pushes to calibrate on", field=of.name, value=len(of.after))
-    ends = zip(of.after, of.path[:, -1], strict=True)
+    after = of.pushes.after
+    if len(after) < 5:
+        raise InputError("has too few pushes to calibrate on", field=of.name, value=len(after))
+    ends = zip(after, of.pushes.path[:, -1], strict=True)
     tips = np.array([rotation(pose[2]).T @ (tip - pose[:2]) for pose, tip in ends])
 
     def gaps(x: Array) -> Array:
@@ -242,24 +241,22 @@ def main() -> None:
             kinds = Counter[str]()
             ends = []
             certify = "off" if changes else "full"
-            for before, path in zip(own.before, own.path, strict=True):
-                end, found = tripod_prediction(scene, frozen, before, path, certify)
+            for before, path in zip(own.pushes.before, own.pushes.path, strict=True):
+                end, steps = tripod_prediction(scene, frozen, before, path, certify)
                 ends.append(end)
-                kinds.update(found.kinds)
-            units = [1e3, np.degrees(1.0)]
-            errors = units * pose_errors(np.array(ends), own.after)
-            moved = units * pose_errors(own.before, own.after)
-            mean = bootstrapped([errors])
+                kinds.update(steps.kinds)
+            found = errors_of(np.array(ends), own.pushes)
+            mean = bootstrapped([found.model])
             entry[own.name] = {
                 "pushes": len(ends),
                 "steps": kinds,
-                "median error [mm]": medians(errors[:, 0]),
-                "median error [deg]": medians(errors[:, 1]),
+                "median error [mm]": medians(found.model[:, 0]),
+                "median error [deg]": medians(found.model[:, 1]),
                 "mean error": [mean.mean.tolist(), mean.low.tolist(), mean.high.tolist()],
-                "median motion [mm]": float(np.median(moved[:, 0])),
-                "median motion [deg]": float(np.median(moved[:, 1])),
+                "median motion [mm]": float(np.median(found.moved[:, 0])),
+                "median motion [deg]": float(np.median(found.moved[:, 1])),
                 "median error over median turn": float(
-                    np.median(errors[:, 1]) / np.median(moved[:, 1])
+                    np.median(found.model[:, 1]) / np.median(found.moved[:, 1])
                 ),
             }
             print(name, own.name, entry[own.name]["median error over median turn"], flush=True)

@@ -20,7 +20,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import venv
 from collections.abc import Sequence
 from importlib.metadata import requires
 from operator import itemgetter
@@ -33,7 +32,7 @@ from tqdm import tqdm
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.scenario.scenario import load_scenario
-from validation.tools.scripts import asked
+from validation.tools.scripts import asked, environment
 
 ROOT = Path(__file__).parents[2]
 KERNELS = ("SkylakeX", "Haswell", "Nehalem")
@@ -102,29 +101,21 @@ def oldest_numpy(folder: str) -> str:
     (floor,) = (re.match(r"numpy>=([\d.]+)", r) for r in requires("quasistatic-ref") or []
                 if r.startswith("numpy"))  # fmt: skip
     assert floor is not None
-    made = f"{folder}/environment"
-    target = f"{folder}/numpy"
-    venv.create(made, with_pip=True)
-    wanted = f"numpy=={floor[1]}"
-    pip = [f"{made}/bin/python", "-m", "pip", "install", "-q", "--no-deps", "--target", target]
-    subprocess.run([*pip, wanted], check=True)
-    return target
-
-
-def installed(python: str, folder: str) -> str:
-    """The Python of a new environment of another one, with the package and what it needs."""
-    made = f"{folder}/newest"
-    subprocess.run([python, "-m", "venv", made], check=True)
-    subprocess.run([f"{made}/bin/pip", "install", "-q", f"{ROOT}[robots]"], check=True)
-    return f"{made}/bin/python"
+    home = Path(folder) / "oldest"
+    environment(home, "--no-deps", f"numpy=={floor[1]}")
+    (target,) = home.glob("lib/python*/site-packages")
+    return str(target)
 
 
 def environments(python: str | None, folder: str) -> list[Environment]:
     """All in which the runs are taken."""
     every = [Environment(kernel) for kernel in KERNELS]
     every += [Environment("Nehalem", vectors=False), Environment("Haswell", fast=False)]
-    newest = [] if python is None else [{"python": installed(python, folder)}]
-    for other in ({"numpy": oldest_numpy(folder)}, *newest):
+    others = [{"numpy": oldest_numpy(folder)}]
+    if python is not None:
+        newest = environment(Path(folder) / "newest", f"{ROOT}[robots]", python=python)
+        others.append({"python": str(newest)})
+    for other in others:
         every += [Environment(kernel, **other) for kernel in KERNELS]
         every.append(Environment("Nehalem", vectors=False, **other))
     return every

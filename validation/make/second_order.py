@@ -19,6 +19,7 @@ from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.parallel import Log
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from validation.programs.engines.judge import ENGINES, HERE, python_of
+from validation.programs.engines.phenomena import answered
 from validation.programs.engines.second_order import (
     STUDY,
     Motion,
@@ -63,11 +64,8 @@ class Engines:
             command = shlex.join([python_of(run.engine, self.folder), adapter])
             self.programs[run.engine] = Program(command, TIMEOUT).__enter__()
         setting = {"h": run.h, **STUDY["engines"][run.engine][run.setting]}
-        case = {"scene": scene_of(run.scene, run.speed), "setting": setting}
-        reply = self.programs[run.engine].ask("run", "phenomena", case)
-        if reply.kind != "output":
-            raise ValueError(reply.said or reply.kind)
-        return dict(reply.output)
+        program = self.programs[run.engine]
+        return answered(program, scene_of(run.scene, run.speed), setting)
 
     def reference(self, scene: str, speed: float) -> Motion:
         """What a run is compared with."""

@@ -13,10 +13,10 @@ import time
 from pathlib import Path
 
 from quasistatic_ref.cli.main import main as command
+from validation.tools.scripts import asked
 
 FOLDER = Path(__file__).parents[1] / "studies"
 NAMES = ("default", "sequences", "bunny_torsion")
-REPORT = "--report"
 
 
 def made(name: str, run: bool) -> None:
@@ -33,6 +33,6 @@ def made(name: str, run: bool) -> None:
 
 
 if __name__ == "__main__":
-    names = [word for word in sys.argv[1:] if word != REPORT]
-    for name in names or NAMES:
-        made(name, REPORT not in sys.argv)
+    options = asked(__doc__, NAMES, report=False)
+    for name in options.names or NAMES:
+        made(name, not options.report)

@@ -17,7 +17,6 @@ command fails.
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import re
@@ -34,13 +33,9 @@ from pathlib import Path
 from textwrap import dedent
 
 from validation.tools.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
+from validation.tools.scripts import asked, environment
 
 ROOT = Path(__file__).parents[2]
-DEMO_SECONDS = 60.0
-"""Processor time of both runs: on a busy machine the clock says what else it does."""
-DEMO_MEBIBYTES = 1024.0
-STILL, PIVOTED = 2.0, 20.0
-"""Degrees that the bunny turns at most with torsional friction, and at least without."""
 HEAD = (
     "| extra | Python | versions | MB | largest parts [MB] | install [s] | commands [s] | commands "
     "| verdict |"
@@ -93,23 +88,16 @@ def installed(wheel: Path, extra: str, python: str, lowest: bool, folder: Path) 
     home = folder / "environment"
     empty = folder / "empty"
     empty.mkdir()
-    subprocess.run([python, "-m", "venv", str(home)], check=True)
+    if extra == "base" and python == sys.executable and not lowest:
+        environment(home, str(wheel))
+        return Environment(home, empty)
+    own = environment(home, python=python)
+    uv = environment(wheel.parent / "uv", "uv").with_name("uv")
     what = str(wheel) if extra == "base" else f"{wheel}[{extra}]"
-    command = [home / "bin" / "pip", "install", "-q", what]
-    if lowest or extra != "base" or python != sys.executable:
-        command = [_uv(wheel.parent), "pip", "install", "-q", "--python", home / "bin" / "python"]
-        command += [*(LOWEST if lowest else ()), "--compile-bytecode", what]
+    command = [uv, "pip", "install", "-q", "--python", own, *(LOWEST if lowest else ())]
+    command += ["--compile-bytecode", what]
     subprocess.run([str(word) for word in command], check=True)
     return Environment(home, empty)
-
-
-def _uv(folder: Path) -> Path:
-    """The program uv, installed into an environment of its own once a run."""
-    home = folder / "uv"
-    if not home.exists():
-        subprocess.run([sys.executable, "-m", "venv", str(home)], check=True)
-        subprocess.run([str(home / "bin" / "pip"), "install", "-q", "uv"], check=True)
-    return home / "bin" / "uv"
 
 
 def mebibytes(files: Iterable[Path]) -> float:
@@ -145,13 +133,8 @@ def faults(at: Environment, extra: str) -> list[str]:
     wrong = []
     for line in COMMANDS[extra]:
         start = time.perf_counter()
-        before = os.times()
         done = at.run(line)
         fault = f"status {done.returncode}\n{done.stdout}{done.stderr}" if done.returncode else ""
-        if not fault and line.startswith("quasistatic-ref demo"):
-            now = os.times()
-            spent = sum(now[2:4]) - sum(before[2:4])  # of children, in user and system mode
-            fault = demo_fault(json.loads(done.stdout), spent, at.folder)
         if not fault and line.startswith("quasistatic-ref run") and "--json" in line:
             report = json.loads(done.stdout)
             if report["certified"] != f"{report['steps']} of {report['steps']} steps exact":
@@ -167,22 +150,6 @@ def faults(at: Environment, extra: str) -> list[str]:
         if names not in done.stderr or traced:
             wrong.append(f"{line}: does not name {names}: {done.stderr}")
     return wrong
-
-
-def demo_fault(report: dict[str, object], seconds: float, folder: Path) -> str:
-    """What a demo did not keep of its promises."""
-    cases = report["cases"]
-    figures = report["figures"]
-    assert isinstance(cases, dict)
-    assert isinstance(figures, list)
-    kept = (
-        cases["with torsion"]["rotation_deg"] < STILL,
-        cases["without torsion"]["rotation_deg"] > PIVOTED,
-        seconds < DEMO_SECONDS,
-        float(str(report["peak_mebibytes"])) < DEMO_MEBIBYTES,
-        all((folder / "demo" / str(name)).stat().st_size > 0 for name in figures),
-    )
-    return "" if all(kept) else f"{seconds:.0f} s, {report}"
 
 
 def row(wheel: Path, extra: str, python: str, lowest: bool) -> tuple[list[str], list[str]]:
@@ -232,19 +199,11 @@ def written(path: Path, rows: list[list[str]]) -> None:
 
 def main() -> int:
     """Try what was named; 1 if something is wrong."""
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("extras", nargs="*", metavar="EXTRA", help=", ".join(COMMANDS))
-    parser.add_argument("--python", default=sys.executable, help="interpreter of the environment")
-    parser.add_argument("--lowest", action="store_true", help="the lowest versions declared")
-    parser.add_argument("--out", type=Path, metavar="FILE", help="write the table here")
-    options = parser.parse_args()
-    extras = options.extras or list(COMMANDS)
-    if unknown := set(extras) - set(COMMANDS):
-        parser.error(f"no such extra: {', '.join(sorted(unknown))}")
+    options = asked(__doc__, COMMANDS, python=sys.executable, lowest=False, out=Path)
     wrong: list[str] = []
     with tempfile.TemporaryDirectory() as temporary:
         wheel = built(Path(temporary))
-        for extra in extras:
+        for extra in options.names or COMMANDS:
             cells, faulty = row(wheel, extra, options.python, options.lowest)
             print("| " + " | ".join(cells) + " |", flush=True)
             if options.out is not None:

@@ -10,7 +10,6 @@ Exit status 1 if one of them does not hold.
 
 from __future__ import annotations
 
-import argparse
 import shutil
 import subprocess
 import sys
@@ -19,9 +18,10 @@ from pathlib import Path
 
 import numpy as np
 
+from validation.tools.scripts import asked
+
 ROOT = Path(__file__).parents[2]
 SCENARIO = "bunny_grasp"
-STEPS = 40
 PARTS: dict[str, tuple[list[str], str]] = {
     "coulomb": (["--law", "coulomb"], 'law = "coulomb"'),
     "curved": ([], ""),
@@ -95,18 +95,13 @@ def faults(expected: dict[str, bytes], steps: int, *gone: str) -> list[str]:
         return wrong
 
 
-def main(arguments: list[str] | None = None) -> int:
+def main() -> int:
     """Delete and compare; the exit status."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)}")
-    parser.add_argument("--steps", type=int, default=STEPS)
-    options = parser.parse_args(arguments)
-    if unknown := set(options.parts) - set(PARTS):
-        parser.error(f"{unknown.pop()} is not among the parts that can go: {', '.join(PARTS)}")
+    options = asked(__doc__, PARTS, steps=40)
     with tempfile.TemporaryDirectory() as made:
         expected = arrays(package_copied(Path(made)), options.steps)
     status = 0
-    for gone in [*((name,) for name in options.parts or PARTS), tuple(PARTS)]:
+    for gone in [*((name,) for name in options.names or PARTS), tuple(PARTS)]:
         wrong = faults(expected, options.steps, *gone)
         print(f"without {', '.join(gone)}: {'; '.join(wrong) or 'the same bits'}", flush=True)
         status = status or int(bool(wrong))

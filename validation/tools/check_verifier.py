@@ -1,16 +1,15 @@
 """Two checkers of solution files against each other.
 
-Run ``python -m validation.tools.check_verifier [SITE]``, where Node is; ``--all`` takes no sample.
+Run ``python -m validation.tools.check_verifier``, where Node is; ``--all`` takes no sample.
 ``validation/programs/verifier/verify.js`` was written from the documents alone. Here both it and
 `verify` of this package judge the files of :mod:`validation.tools.verifier_files`. They agree if
 the JavaScript refuses nothing that `verify` verifies, and if it refuses what `verify` refuses, or
-says "not checked" of a field that was forged. With SITE, the built documentation, the page in it is
-asked too, in a browser.
+says "not checked" of a field that was forged. With ``--site``, the built documentation, the page in
+it is asked too, in a browser.
 
 Prints a table, and exits with status 1 where the two disagree.
 """
 
-import argparse
 import json
 import shutil
 import subprocess
@@ -27,6 +26,7 @@ from quasistatic_ref.lab.page.markdown import markdown_table
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file
 from validation.tools.browser import Browser
+from validation.tools.scripts import asked
 from validation.tools.verifier_files import Case, Cases, all_cases
 
 HERE = Path(__file__).parents[1]
@@ -105,11 +105,7 @@ def check_page(site: Path) -> None:
 
 def main() -> int:
     """Print the table; exit status 1 if the two checkers disagree."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("site", nargs="?", type=Path, help="the built documentation")
-    parser.add_argument("--all", action="store_true", help="not a sample")
-    parser.add_argument("--out", type=Path, help="write the table here too")
-    options = parser.parse_args()
+    options = asked(__doc__, site=Path, all=False, out=Path)
     if options.site:
         check_page(options.site)
     with TemporaryDirectory() as folder:

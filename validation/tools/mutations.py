@@ -11,7 +11,6 @@ sample of the mutants, all of which they must kill.
 
 from __future__ import annotations
 
-import argparse
 import ast
 import hashlib
 import os
@@ -30,6 +29,7 @@ from quasistatic_ref.lab.parallel import Log, results, workers
 from validation.tools.mutating.mutants import Mutant, mutants
 from validation.tools.mutating.mutated import TESTS
 from validation.tools.mutating.tried import PACKAGE, ROOT, said_of
+from validation.tools.scripts import asked
 
 SURVIVORS = ROOT / "validation" / "results" / "mutation_survivors.md"
 RESULTS = ROOT / "validation" / "results" / "mutations.md"
@@ -115,14 +115,9 @@ def table_written(found: Mapping[str, str]) -> None:
 
 def main() -> int:
     """Try mutants, and list the survivors."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("files", nargs="*", default=list(TESTS), help="certify/exact.py, ...")
-    parser.add_argument("--sample", type=int, help="only so many, chosen at random, always alike")
-    parser.add_argument("--stale", action="store_true", help="only files that the table has not")
-    parser.add_argument("--log", type=Path, help="outcomes, from which the same command goes on")
-    options = parser.parse_args()
+    options = asked(__doc__, TESTS, sample=int, stale=False, log=Path)
     known_rows = tried_files() if options.stale else {}
-    files = [f for f in options.files if known_rows.get(f, ("",))[0] != code_hash(f)]
+    files = [f for f in options.names or TESTS if known_rows.get(f, ("",))[0] != code_hash(f)]
     chosen = all_mutants(files)
     if options.sample is not None:
         chosen = random.Random(1).sample(chosen, min(options.sample, len(chosen)))

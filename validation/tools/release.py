@@ -8,7 +8,6 @@ what a release wants.
 Exit status 1 if a command failed. What changed is for a person to judge, and is printed.
 """
 
-import argparse
 import shlex
 import shutil
 import subprocess
@@ -16,6 +15,8 @@ import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
+
+from validation.tools.scripts import asked
 
 ROOT = Path(__file__).parents[2]
 CLI = "quasistatic_ref.cli.main"
@@ -162,18 +163,12 @@ def made(result: Result) -> bool:
 
 def main() -> None:
     """Make the results that are named, then print what changed."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("names", nargs="*", metavar="NAME", help="all results by default")
-    parser.add_argument("--list", action="store_true", help="name the results and their files")
-    options = parser.parse_args()
     known = {result.name: result for result in RESULTS}
+    options = asked(__doc__, known, list=False)
     if options.list:
         for result in RESULTS:
             print(f"{result.name}: {', '.join(result.writes)}")
         return
-    unknown = [name for name in options.names if name not in known]
-    if unknown:
-        sys.exit(f"{unknown[0]} is no result; there are {', '.join(known)}")
     chosen = [known[name] for name in options.names] or RESULTS
     failed = []
     for result in chosen:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import json
+import subprocess
+import sys
 from collections.abc import Collection
 from pathlib import Path
 from typing import Any
@@ -50,3 +52,22 @@ def shown(text: str, out: Path | None) -> None:
 def record_written(path: Path, record: Any) -> None:
     """Write a record of numbers and arrays as JSON, a field a line."""
     text_written(path, json.dumps(json.loads(json_text(record)), indent=1) + "\n")
+
+
+def environment(home: Path, *wanted: str, python: str = sys.executable) -> Path:
+    """The interpreter of an environment in a folder, made unless it is there.
+
+    Parameters
+    ----------
+    home : Path
+    *wanted : str
+        What pip installs into it.
+    python : str
+        The interpreter that it is made with.
+    """
+    own = home / "bin" / "python"
+    if not own.exists():
+        subprocess.run([python, "-m", "venv", str(home)], check=True)
+        if wanted:
+            subprocess.run([str(own), "-m", "pip", "install", "-q", *wanted], check=True)
+    return own

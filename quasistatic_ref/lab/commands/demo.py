@@ -1,7 +1,6 @@
 """``demo``: the bunny grasped and lifted, with and without torsional friction."""
 
 import argparse
-import sys
 
 import numpy as np
 
@@ -44,12 +43,7 @@ def run(options: argparse.Namespace) -> int:
         report[case] = grasp_report(scenario, runs[case])
     written = _figures(scenarios["with torsion"], runs, options)
     if options.json:
-        import resource  # not on Windows, whose users may still ask for --help
-
-        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (
-            2**20 if sys.platform == "darwin" else 2**10  # bytes there, KiB elsewhere
-        )
-        shared.print_json({"cases": report, "figures": written, "peak_mebibytes": peak})
+        shared.print_json({"cases": report, "figures": written})
         return 0
     shared.print_rows(_table(report))
     for case, turned in spread().items():

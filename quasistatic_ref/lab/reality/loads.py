@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from quasistatic_ref.lab.reality.outline import rotation
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.tables import PAIR, table_read
 from quasistatic_ref.step.data import Array
@@ -49,7 +50,7 @@ class Loads:
     def turned(self, angle: float) -> "Loads":
         """The same in axes that are turned by an angle [rad]."""
         R = np.eye(3)
-        R[:2, :2] = [[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]
+        R[:2, :2] = rotation(-angle)
         return Loads(self.wrench @ R.T, self.twist @ R.T)
 
 

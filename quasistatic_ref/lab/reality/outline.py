@@ -112,10 +112,7 @@ class Outline:
 
     def drawn(self, pose: Array, origin: Array) -> Array:
         """The closed line at a pose, (3,) [m, rad], from an origin, (2,) [m], shape (2, n) [mm]."""
-        cos = np.cos(pose[2])
-        sin = np.sin(pose[2])
-        R = np.array([[cos, -sin], [sin, cos]])
-        points = 1e3 * (self.vertices @ R.T + pose[:2] - origin[:2])
+        points = 1e3 * (self.vertices @ rotation(pose[2]).T + pose[:2] - origin[:2])
         closed: Array = np.vstack([points, points[:1]]).T
         return closed
 
@@ -139,6 +136,13 @@ class Outline:
 
 TOUCHING = 1e-12
 """Distance below which the direction to the outline is rounding [m]."""
+
+
+def rotation(angle: float) -> Array:
+    """The matrix, shape (2, 2), that turns by an angle [rad]."""
+    cos = np.cos(angle)
+    sin = np.sin(angle)
+    return np.array([[cos, -sin], [sin, cos]])
 
 
 def _crosses(vertices: Array) -> Array:

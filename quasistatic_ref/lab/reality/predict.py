@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
+from quasistatic_ref.lab.reality.outline import rotation
 from quasistatic_ref.lab.reality.push import Pushed
 from quasistatic_ref.optional.coulomb.fixed_point import simulated_solution
 from quasistatic_ref.simulate.law import COULOMB
@@ -104,13 +105,6 @@ def grip(step: StepData, found: StepSolution) -> tuple[bool, bool]:
     slip = float(contacts.d1[-1] @ (contacts.J[-1, :3] @ found.delta_q))
     advance = float(np.linalg.norm(found.delta_q[:2]))
     return bool(found.wrench[-1, 2] > 0), abs(slip) > SLIPS * advance
-
-
-def rotation(angle: float) -> Array:
-    """The matrix, shape (2, 2), that turns by an angle [rad]."""
-    cos = np.cos(angle)
-    sin = np.sin(angle)
-    return np.array([[cos, -sin], [sin, cos]])
 
 
 def touching(of: Pushed, pose: Array, path: Array) -> Iterator[Array]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.reality.cloud import support_points
-from quasistatic_ref.lab.reality.outline import Outline
+from quasistatic_ref.lab.reality.outline import Outline, rotation
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, contacts_of
@@ -77,9 +77,7 @@ class Pushed:
         by = self.by
         centre = self.outline.centre
         angle = body[3]
-        cos = np.cos(angle)
-        sin = np.sin(angle)
-        R = np.array([[cos, -sin], [sin, cos]])
+        R = rotation(angle)
         distance, on, normal = self.outline.closest(R.T @ (finger - body[:2]) + centre)
         arm = R @ (on - centre)
         n = R @ normal

@@ -14,13 +14,14 @@ from validation.make.reality_tripods import (
 def test_three_points_are_predicted_to_a_third_of_their_turn():
     sets = tripods_read(reality_folder())
     frozen = calibration(sets[0])
-    assert [len(own.after) for own in sets] == [50] * 5
+    assert [len(own.pushes.after) for own in sets] == [50] * 5
     off = []
     turned = []
     for own in sets[1:]:
         scene = tripod(own, frozen)
-        for k in range(0, 50, 10):
-            end, _ = tripod_prediction(scene, frozen, own.before[k], own.path[k], "off")
-            off.append(abs(end[2] - own.after[k, 2]))
-            turned.append(abs(own.before[k, 2] - own.after[k, 2]))
+        some = own.pushes.every(10)
+        for before, path, after in zip(some.before, some.path, some.after, strict=True):
+            end, _ = tripod_prediction(scene, frozen, before, path, "off")
+            off.append(abs(end[2] - after[2]))
+            turned.append(abs(before[2] - after[2]))
     assert np.median(off) < np.median(turned) / 3

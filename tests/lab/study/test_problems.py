@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.study.problems import making
 from quasistatic_ref.lab.study.problems.families.dials import turned
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, problems_begun, set_read
@@ -62,15 +61,3 @@ def test_the_condition_number_is_that_of_the_hessian_and_no_less_than_the_mass_r
         condition = one.facts["measures"]["condition"]
         np.testing.assert_allclose(condition, largest / least, rtol=1e-3)
         assert condition >= one.facts["mass_ratio"]
-
-
-def test_the_exported_bundle_holds_the_exact_answers(folder, tmp_path):
-    """In natural units as in raw ones, A delta_q >= b and H delta_q - g is in the rows' cone."""
-    export = ["study", "problems", "export", str(folder / FOLDER), "--to", "parquet"]
-    for units, name in (("raw", "problems"), ("natural", "problems_natural")):
-        assert main([*export, "--units", units, "--out", str(tmp_path)]) == 0
-        with np.load(tmp_path / f"{name}.npz") as bundle:
-            for k in range(len(bundle["name"])):
-                A, b, x = (bundle[f"{k}/{key}"] for key in ("A", "b", "delta_q"))
-                scale = np.abs(A) @ np.abs(x) + np.abs(b)
-                assert (A @ x - b >= -1e-14 * scale.max()).all()

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from matplotlib import pyplot as plt
 
-from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.figures.study import profile
 from quasistatic_ref.lab.figures.study_images import KINDS, drawn
 from quasistatic_ref.lab.page.html import html_page, sorting
@@ -214,24 +213,6 @@ def test_the_html_page_shows_the_same_tables_without_network(report, tables):
     assert not re.search("fetch|import|XMLHttp|http|eval|innerHTML", sorting())
     links = re.findall(r'(?:src|href)="(.*?)"', text)
     assert all(link.startswith(("#", "data:image/svg+xml;base64,")) for link in links)
-
-
-@pytest.fixture(scope="module")
-def written(store, tmp_path_factory):
-    """The folder of the report, as the command writes it."""
-    folder = tmp_path_factory.mktemp("written")
-    assert main(["study", "report", str(store), "--out", str(folder)]) == 0
-    return folder
-
-
-def test_a_report_is_written_with_its_figures(written):
-    files = sorted(p.relative_to(written).as_posix() for p in written.rglob("*.*"))
-    figures = ["digits_time", "profiles"]
-    pages = [f"report.{ending}" for ending in ("html", "md")]
-    assert files == [*(f"figures/{f}.png" for f in figures), *pages]
-    text = (written / "report.md").read_text()
-    assert sorted(re.findall(r"\]\((.*?)\)", text)) == files[:2]
-    assert (written / "report.html").read_text().count("data:image/svg+xml;base64,") == 2
 
 
 def test_every_figure_is_legible_on_a_page_and_without_colour(report, tmp_path):

@@ -82,5 +82,6 @@ def test_a_report_and_a_packed_store_stand_next_to_their_store(tmp_path, capsys)
     made_store.sweep_written(folder)
     assert main(["study", "report", str(folder)]) == 0
     assert f"wrote {folder / 'report' / 'report.html'}\n" in capsys.readouterr().out
+    assert (folder / "report" / "figures" / "sweep_1.png").stat().st_size > 1000
     assert main(["study", "pack", str(folder)]) == 0
     assert f"wrote {folder / 'packed' / 'study.json.xz'}\n" in capsys.readouterr().out

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import json
 import shlex
-import subprocess
 import sys
 import tomllib
 from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.challenge.program import Program
-from validation.programs.engines.phenomena import cells
+from validation.programs.engines.phenomena import answered, cells
+from validation.tools.scripts import environment, record_written
 
 HERE = Path(__file__).parent
 RESULTS = HERE.parents[1] / "results" / "engines"
@@ -25,14 +24,7 @@ TIMEOUT = 600.0
 def python_of(name: str, folder: Path) -> str:
     """The interpreter of an engine's environment, made in a folder unless it is there."""
     requires = ENGINES[name]["requires"]
-    if not requires:
-        return sys.executable
-    python = folder / name / "bin" / "python"
-    if not python.exists():
-        print(f"{name}: pip install {' '.join(requires)}", file=sys.stderr, flush=True)
-        subprocess.run([sys.executable, "-m", "venv", str(folder / name)], check=True)
-        subprocess.run([str(python), "-m", "pip", "install", "-q", *requires], check=True)
-    return str(python)
+    return str(environment(folder / name, *requires)) if requires else sys.executable
 
 
 def judged(name: str, folder: Path, results: Path, resume: bool) -> None:
@@ -46,14 +38,14 @@ def judged(name: str, folder: Path, results: Path, resume: bool) -> None:
         for setting, values in engine["settings"].items():
             print(f"{name}: {setting}", file=sys.stderr, flush=True)
             cells = before.get("settings", {}).get(setting)
-            cells = cells or phenomena(program, setting, values, engine)
+            cells = cells or phenomena(program, values, engine)
             record["settings"][setting] = cells
             record["version"] = program.said.implementation or before["version"]
-            text_written(path, json.dumps(record, indent=1) + "\n")
+            record_written(path, record)
         record["tried"] = [
             {**one, **tried(program, one, engine)} for one in engine.get("tried", ())
         ]
-    text_written(path, json.dumps(record, indent=1) + "\n")
+    record_written(path, record)
 
 
 def tried(program: Program, one: dict[str, Any], engine: dict[str, Any]) -> dict[str, Any]:
@@ -63,13 +55,12 @@ def tried(program: Program, one: dict[str, Any], engine: dict[str, Any]) -> dict
         old = setting.get(key)
         setting[key] = {**old, **value} if isinstance(old, dict) else value
     print(f"{one['setting']}, {one['changed']}", file=sys.stderr, flush=True)
-    (cell,) = phenomena(program, one["setting"], setting, engine, (one["phenomenon"],))
+    (cell,) = phenomena(program, setting, engine, (one["phenomenon"],))
     return {"words": cell["words"]}
 
 
 def phenomena(
     program: Program,
-    name: str,
     setting: dict[str, Any],
     engine: dict[str, Any],
     names: Collection[str] = (),
@@ -78,11 +69,7 @@ def phenomena(
     lacks = {*engine.get("lacks", ()), *setting.get("lacks", ())}
 
     def simulate(scene: dict[str, Any]) -> dict[str, Any]:
-        changed = {**scene, **setting.get("scene", {})}
-        reply = program.ask(name, "phenomena", {"scene": changed, "setting": setting})
-        if reply.kind != "output":
-            raise ValueError(reply.said)
-        return reply.output
+        return answered(program, {**scene, **setting.get("scene", {})}, setting)
 
     return [
         {

@@ -179,6 +179,20 @@ MEASURES: dict[str, Callable[[np.ndarray, list[Motion], Any], float]] = {
 }  # fmt: skip
 
 
+def answered(program: Any, scene: dict[str, Any], setting: dict[str, Any]) -> dict[str, Any]:
+    """What a program answers to a scene.
+
+    Raises
+    ------
+    ValueError
+        If that is no output.
+    """
+    reply = program.ask("scene", "phenomena", {"scene": scene, "setting": setting})
+    if reply.kind != "output":
+        raise ValueError(reply.said or reply.kind)
+    return dict(reply.output)
+
+
 def main() -> int:
     """Ask a program, and print what it answered; exit status 1 if a cell differs."""
     from quasistatic_ref.lab.vectors.challenge.program import Program
@@ -192,11 +206,7 @@ def main() -> int:
     with Program(given.command, given.timeout) as program:
 
         def simulate(scene: dict[str, Any]) -> dict[str, Any]:
-            case = {"scene": scene, "setting": {"h": given.h}}
-            reply = program.ask("scene", "phenomena", case)
-            if reply.kind != "output":
-                raise ValueError(reply.said or reply.kind)
-            return dict(reply.output)
+            return answered(program, scene, {"h": given.h})
 
         for cell in cells(simulate, given.h):
             differs += not cell.holds

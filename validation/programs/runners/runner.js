@@ -4,21 +4,15 @@
 "use strict";
 const fs = require("fs");
 const path = require("path");
-const { conicAnswer, qpAnswer } = require("./runner_qp.js");
+const { add, conicAnswer, dot, qpAnswer, range, scale, sub, times } = require("./runner_qp.js");
 
 const ENTRIES = {
   fixed: [0, 0], revolute: [1, 1], prismatic: [1, 1], continuous: [2, 1], floating: [7, 6], planar: [4, 3],
 };
 
-const range = (n) => Array.from({ length: n }, (_, i) => i);
 const zeros = (m, n) => range(m).map(() => new Array(n).fill(0));
-const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
-const add = (a, b) => a.map((x, i) => x + b[i]);
-const sub = (a, b) => a.map((x, i) => x - b[i]);
-const scale = (a, s) => a.map((x) => x * s);
 const unit = (a) => scale(a, 1 / Math.hypot(...a));
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const times = (R, v) => R.map((row) => dot(row, v));
 const product = (A, B) => A.map((row) => B[0].map((_, j) => row.reduce((sum, x, k) => sum + x * B[k][j], 0)));
 const column = (R, j) => R.map((row) => row[j]);
 

@@ -215,4 +215,4 @@ function newton(H, g, blocks, x, impulse) {
   return [x, found];
 }
 
-module.exports = { conicAnswer, qpAnswer };
+module.exports = { add, conicAnswer, dot, qpAnswer, range, scale, sub, times };

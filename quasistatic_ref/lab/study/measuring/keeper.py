@@ -240,10 +240,9 @@ class Keeper:
         return f"killed by signal {-code}" if code < 0 else f"its process ended with status {code}"
 
 
-def exchange(keeper: Keeper, form: StandardForm, setting: Setting) -> float:
-    """Median time of an exchange without a call [s], measured once for each process."""
+def exchange(keeper: Keeper, form: StandardForm, setting: Setting) -> None:
+    """Measure an exchange without a call, once for each process: its median time [s] is kept."""
     if not keeper.exchange:
         nothing = Request(setting, START, 0)
         times = sorted(keeper.answer(form, nothing)[1] for _ in range(PINGS))
         keeper.exchange = times[PINGS // 2]
-    return keeper.exchange

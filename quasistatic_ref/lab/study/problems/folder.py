@@ -46,11 +46,11 @@ DATE = (1980, 1, 1, 0, 0, 0)
 """Of every member of an archive: the same bytes whenever it is written."""
 
 
-def family_written(folder: Path, family: str, problems: Sequence[Problem]) -> list[Path]:
+def family_written(folder: Path, family: str, problems: Sequence[Problem]) -> None:
     """Write the problems that a family has so far: its numbers, and its lines apart."""
     lines = "".join(json_text(_line(one)) + "\n" for one in problems)
-    numbers = bytes_written(folder / NUMBERS / f"{family}.npz", _archive(_flat(problems)))
-    return [numbers, text_written(_begun(folder, family), lines)]
+    bytes_written(folder / NUMBERS / f"{family}.npz", _archive(_flat(problems)))
+    text_written(_begun(folder, family), lines)
 
 
 def problems_begun(folder: Path) -> dict[str, Problem]:
@@ -64,7 +64,7 @@ def problems_begun(folder: Path) -> dict[str, Problem]:
 
 def set_written(
     folder: Path, name: str, every: Mapping[str, Sequence[Problem]], **more: Any
-) -> list[Path]:
+) -> None:
     """Write the lines of all families and the manifest; the numbers are there.
 
     Parameters
@@ -78,7 +78,7 @@ def set_written(
         What else the manifest says.
     """
     lines = "".join(json_text(_line(one)) + "\n" for part in every.values() for one in part)
-    written = [text_written(folder / FACTS, lines)]
+    text_written(folder / FACTS, lines)
     for family in every:
         _begun(folder, family).unlink(missing_ok=True)
     families = {
@@ -96,7 +96,7 @@ def set_written(
             for path in [folder / FACTS, *(folder / NUMBERS / f"{one}.npz" for one in every)]
         ],
     }
-    return [*written, text_written(folder / MANIFEST, json.dumps(head, indent=1) + "\n")]
+    text_written(folder / MANIFEST, json.dumps(head, indent=1) + "\n")
 
 
 def set_read(
