@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.distance import pair_closest_points
-from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.kinks import _not_unique, _switches
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.tolerances import TIED, UNIQUE
-from tests.contact.still import pair, placed
+from tests.optional.derivatives.contact.test_depth_ties import couple_of
 
 HALF = np.sqrt(0.5)
 CUBE = Box(np.array([0.05, 0.05, 0.05]))
@@ -19,16 +17,9 @@ ON_EDGE = Rotation.from_euler("x", np.pi / 4).as_matrix()
 CROSSED = Rotation.from_euler("z", np.pi / 2).as_matrix() @ ON_EDGE
 
 
-def couple(alpha, beta, R, t):
-    """The one contact of two shapes: alpha in the middle of the world, turned or not."""
-    p = pair(placed(alpha, 1), placed(beta, 2))
-    poses = np.array([np.eye(3), *R]), np.array([np.zeros(3), np.zeros(3), t])
-    (found,) = couples([p], pair_closest_points(p, *poses), *poses)
-    return found
-
-
 def test_edges_that_cross_have_no_normal_where_they_touch() -> None:
-    at = couple(CUBE, CUBE, (ON_EDGE, CROSSED), [0.0, 0.0, 0.1 / HALF])
+    apart = np.array([0.0, 0.0, 0.1 / HALF])
+    at = couple_of(CUBE, CUBE, (ON_EDGE, np.zeros(3)), (CROSSED, apart))
     at = at._replace(phi=0.0)
     assert _not_unique(3, at)[:2] == (3, reason.NO_NORMAL)
     # Touching is a share of the reach of 0.1 to 0.2 m.
