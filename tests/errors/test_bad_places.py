@@ -15,7 +15,7 @@ from tests.helpers import planted_step
 from tests.model.urdf.urdf_texts import written
 from tests.scenes import BALL
 
-LEAVES = "leaves the scenario's folder; put the file there, or give the path on the command line"
+LEAVES = "is outside the scenario's folder; move the file there, or give the path on the command"
 
 
 @pytest.fixture

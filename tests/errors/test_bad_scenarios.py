@@ -50,7 +50,7 @@ CAUSES = {
     ),
     "nothing that moves": (
         ("bodies/rail", ...), ("bodies/ball", {"urdf": "ball.urdf"}), ("contacts", {}),
-        "bodies", "nothing here can move",
+        "bodies", "no body can move",
     ),
     "a blank URDF": ((BALL + "urdf", " "), "bodies.ball.urdf", "must name a file (got ' ')"),
     "actuated a number": ((RAIL + "actuated", 1), "bodies.rail.actuated", "a list of joint names"),
@@ -68,22 +68,23 @@ CAUSES = {
     ),
     "gravity for nobody": (
         (BALL + "gravity_compensated", False), "bodies.ball.gravity_compensated",
-        "is for actuated joints; this body has none",
+        "needs an actuated joint, and this body has none",
     ),
     "a target for what is free": (
         (BALL + "targets", [{"t": 0, "base": {}}]),
         "bodies.ball.targets[0].base", "is not an actuated joint of this body; known: none",
     ),
     "a waypoint of nothing": (
-        (RAIL + "targets/0/slide", ...), "bodies.rail.targets[0]", "names no joint (got {'t'",
+        (RAIL + "targets/0/slide", ...), "bodies.rail.targets[0]",
+        "sets no joint; give the position of at least one (got {'t'",
     ),
     "waypoints that stand still": ((RAIL + "targets/1/t", 0.0), "rail/slide", "must increase"),
     "a wrench on what is fixed": (
         (RAIL + "wrenches", [{"t": 0, "force": [1, 0, 0]}]),
-        "bodies.rail.wrenches", 'do nothing to a body with base = "fixed"',
+        "bodies.rail.wrenches", 'have no effect on a body with base = "fixed"; remove them',
     ),
     "a wrench of nothing": (
-        (BALL + "wrenches", [{"t": 0}]), "bodies.ball.wrenches[0]", "neither force nor torque",
+        (BALL + "wrenches", [{"t": 0}]), "bodies.ball.wrenches[0]", "must contain a force",
     ),
     "wrenches backwards": (
         (BALL + "wrenches", [{"t": 1, "force": [0] * 3}, {"t": 0, "force": [0] * 3}]),
@@ -96,7 +97,7 @@ CAUSES = {
         ("shapes/floor/halfspace/normal", [0, 0, 0]), "shapes.floor.halfspace", "must not be zero",
     ),
     "a shape named as a body": (
-        ("shapes/ball", {"sphere": {"radius": 1}}), "shapes.ball", "is the name of a body as well",
+        ("shapes/ball", {"sphere": {"radius": 1}}), "shapes.ball", "is also the name of a body",
     ),
     "an unknown side": (("contacts/push/alpha", "rail/plat"), "push.alpha", "mean 'rail/plate'"),
     "a side without shapes": (
@@ -109,10 +110,10 @@ CAUSES = {
         (RAIL + "urdf", "ball.urdf"), (RAIL + "actuated", []), (RAIL + "K_q", ...),
         (RAIL + "targets", ...), (RAIL + "positions", ...),
         ("contacts/push", {"alpha": "rail", "beta": "floor", "mu_v": 0.5, "rows": 4}),
-        "contacts.push", "cannot move relative to each other, so it can never act",
+        "contacts.push", "cannot move relative to each other, so it has no effect",
     ),
     "torsion without rows": (
-        ("contacts/push/mu_omega", 0.01), "contacts.push.mu_omega", "does nothing with rows = 4",
+        ("contacts/push/mu_omega", 0.01), "contacts.push.mu_omega", "has no effect with rows = 4",
     ),
     "a distance without a unit": (
         ("contacts/push/k", {"within": "5"}), "contacts.push.k.within", "in m, cm, mm, um, as",

@@ -160,7 +160,7 @@ def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):
     with pytest.raises(StepDataError, match=r"rises.masses: must have shape \(1,\)"):
         Rises([1.0], [], [0])
     given = {"h": H, "K_q": np.zeros((0, 0)), "gravity": (0.0, 0.0, -G)}
-    with pytest.raises(InputError, match=r"support: is no body; .*cabinet"):
+    with pytest.raises(InputError, match=r"support: is not a body; .*cabinet"):
         private_rises(system, [], **given, support={"none": (0.5, 0.0)})
 
 
