@@ -22,6 +22,17 @@ def test_a_pushed_block_makes_its_pusher_lag_by_friction_and_drag() -> None:
     np.testing.assert_allclose(height, mu_v * H * v, rtol=SCENARIO, atol=0)
 
 
+def test_on_a_slope_the_rough_block_holds_and_the_smooth_one_slides() -> None:
+    scenario = load_scenario("block_incline", fast=True)
+    q = scenario.run(progress=False)["q"]
+    rough, smooth = (scenario.system.joint(f"{name}/base").q for name in ("rough", "smooth"))
+    np.testing.assert_allclose(q[-1, rough], q[0, rough], rtol=0, atol=SCENARIO)
+    a = np.radians(25)
+    v = G * H * (np.sin(a) - 0.3 * np.cos(a))
+    step = (q[-1] - q[-2])[smooth][:3]
+    np.testing.assert_allclose(step @ [np.cos(a), 0, -np.sin(a)], v * H, rtol=SCENARIO, atol=0)
+
+
 def test_a_stack_stands_and_each_contact_carries_what_is_above() -> None:
     trajectory = load_scenario("stack", fast=True).run(progress=False)
     q = trajectory["q"]
