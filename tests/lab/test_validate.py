@@ -22,7 +22,6 @@ from quasistatic_ref.lab.claims.claim import (
 from quasistatic_ref.lab.claims.registry import BY_NAME, CLAIMS
 from quasistatic_ref.lab.claims.report import claims_page, summary
 from quasistatic_ref.lab.commands import validate as command
-from quasistatic_ref.lab.measures import threshold
 
 DOCS = Path(__file__).parents[2] / "docs"
 
@@ -76,13 +75,6 @@ def test_a_claim_fails_with_its_worst_comparison_or_with_an_error():
 
     broken = finding(claim_of(measure=measure))
     assert (broken.verdict, broken.trouble) == (FAILS, "is wrong")
-
-
-def test_bisection_finds_a_threshold_and_refuses_an_interval_without_one():
-    found = threshold(lambda share: share > 0.3, 0.0, 1.0, 1e-12)
-    np.testing.assert_allclose(found, 0.3, rtol=1e-11, atol=0.0)
-    assert np.isnan(threshold(lambda share: True, 0.0, 1.0, 1e-12))
-    assert np.isnan(threshold(lambda share: False, 0.0, 1.0, 1e-12))
 
 
 def test_closed_forms_and_derivations_cite_each_other():

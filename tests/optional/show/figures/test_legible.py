@@ -98,17 +98,3 @@ def test_an_unknown_style_is_refused_with_the_nearest():
     nearest = pytest.raises(InputError, match="is not a style; did you mean 'slides'")
     with nearest, figure_style("slide"):
         pass
-
-
-def test_panels_are_given_axes_or_take_the_place_of_one():
-    figure, grid = plt.subplots(2, 2, layout="constrained")
-    assert panels(within=grid[0, 0]) == (figure, [grid[0, 0]])
-    whole, two = panels(columns=2, within=grid[0, 1])
-    assert whole is figure
-    assert grid[0, 1] not in figure.axes
-    assert {axes.get_figure(root=False) for axes in two} == set(figure.subfigs)
-    assert len(figure.axes) == 3 + 2
-    alone = figure.add_axes((0, 0, 0.1, 0.1))
-    with pytest.raises(InputError, match="are in no grid"):
-        panels(columns=2, within=alone)
-    plt.close(figure)
