@@ -112,17 +112,6 @@ def test_every_step_is_proved(runs, case):
     assert (runs[case]["worst_residual"] < ROUNDING).all()
 
 
-@pytest.mark.parametrize("case", CASES)
-def test_the_five_nearest_points_of_each_object_are_distinct_and_in_order(runs, case):
-    run = runs[case]
-    for block in (slice(0, 5), slice(5, 10), slice(10, 15)):
-        assert (np.diff(run["phi"][:, block], axis=1) >= 0).all()
-        points = run["point"][:, block]
-        assert all(len(set(row)) == 5 for row in points.tolist())
-        assert points.min() >= 0
-        assert points.max() < 992
-
-
 def test_each_finger_lifts_the_bunny_by_one_point(runs):
     loaded = runs["with_torsion"]["wrench"][100:TOP, 5:, 2] > 0  # five contacts of each finger
     for finger in (loaded[:, :5], loaded[:, 5:]):

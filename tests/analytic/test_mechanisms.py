@@ -64,22 +64,3 @@ def test_a_door_follows_the_tip_that_pushes_it_and_stops_with_it() -> None:
     np.testing.assert_allclose(x[-1], 0.345, rtol=0, atol=SCENARIO)
     np.testing.assert_allclose(theta[-50:], theta[-1], rtol=0, atol=SCENARIO)
     np.testing.assert_allclose(np.degrees(theta[-1]), 33.63, rtol=0, atol=0.005)
-
-
-def test_a_peg_finds_its_hole_and_lags_by_the_friction_of_two_walls() -> None:
-    v = 0.01
-    mu_v = 0.2
-    c = 0.0005
-    K = np.array([500.0, 500.0, 2000.0])
-    e = np.array([0.003, 0.002])
-    trajectory = load_scenario("peg_in_hole", fast=True).run(progress=False)
-    assert certified(trajectory) == "400 of 400 steps exact"
-    b = mu_v * H * v
-    N = K[:2] * (e - c + b)
-    q = trajectory["q"][201:]
-    forces = trajectory["wrench"][200:, :, 2]
-    east_west_north_south = np.array([N[0], 0, N[1], 0])
-    np.testing.assert_allclose(forces - east_west_north_south, 0, rtol=0, atol=SCENARIO)
-    np.testing.assert_allclose(q[:, :2] - (c - b), 0, rtol=0, atol=SCENARIO * c)
-    lag = q[:, 2] - trajectory["q_bar_a"][200:, 2]
-    np.testing.assert_allclose(lag, mu_v * N.sum() / K[2], rtol=SCENARIO, atol=0)

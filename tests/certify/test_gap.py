@@ -17,12 +17,9 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.tolerances import IMPULSES
+from tests.certify.test_rational import fraction
 from tests.oracles.random_steps import any_step
 from tests.oracles.solution_truth import dot, program, solved
-
-
-def plain(x):
-    return Fraction(int(x.p), int(x.q))
 
 
 def steps():
@@ -46,14 +43,14 @@ def test_gap_and_energies_are_those_of_their_formulas(step, rng):
         for v, (row, g_v) in enumerate(zip(H, g, strict=True))
     ]
     slack = [dot(row, X) - b_i for row, b_i in zip(A, b, strict=True)]
-    unit = plain(form.net_unit) * plain(form.x_unit)
+    unit = fraction(form.net_unit) * fraction(form.x_unit)
     expected = dot(off, solved(H, off)) / 2 + dot(Y, slack)
     found = duality_gap(form, x, fractions(lam, form.lam_unit))
-    assert plain(found) * unit == expected
+    assert fraction(found) * unit == expected
     free = dot(g, solved(H, g)) / 2
     taken = dot(X, [dot(row, X) for row in H]) / 2
-    assert plain(free_energy(form)) * unit == free
-    assert plain(energy(form, x)) * unit == taken
+    assert fraction(free_energy(form)) * unit == free
+    assert fraction(energy(form, x)) * unit == taken
     joules = in_joules(form, found)
     assert Fraction(joules) >= expected > Fraction(math.nextafter(joules, -math.inf))
     limit = Fraction(IMPULSES) * (free + taken) / unit

@@ -146,14 +146,3 @@ def test_inspect_says_how_far_a_target_turns_in_a_step(tmp_path, capsys):
     assert record["target_turn"] == pytest.approx(turn, rel=ROUNDING)
     assert record["target_speed"] == pytest.approx(2 * r * np.sin(turn / 2) / 0.002, rel=ROUNDING)
     assert "targets turn by up to 0.9425 rad a step; waypoints are at least 0.01 s apart" in text
-
-
-def test_inspect_is_silent_on_time_steps_where_no_target_moves(capsys):
-    record, text = inspected(capsys, "sphere_spin")
-    assert record == {
-        "target_speed": 0.0,
-        "small_drag_from": None,
-        "target_turn": 0.0,
-        "between_waypoints": None,
-    }
-    assert "targets" not in text.partition("the fields of its file")[0]

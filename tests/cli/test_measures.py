@@ -6,10 +6,8 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.cli.measures import free_body_motions
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.lab.grasp import grasp_scenarios
-from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from tests.tolerances import ROUNDING
 
@@ -30,11 +28,6 @@ def test_a_run_tells_how_far_a_free_body_turned_and_rose(tmp_path, capsys):
     assert 1.0 < turned < 180.0
     np.testing.assert_allclose(said["largest_rotation_deg"], turned, rtol=1e3 * ROUNDING, atol=0.0)
     np.testing.assert_allclose(said["largest_rise_mm"], rise, rtol=ROUNDING, atol=0.0)
-
-
-def test_driven_bodies_are_not_among_the_free_ones():
-    scenario = load_scenario("bunny_grasp", ["steps=1"], fast=True)
-    assert list(free_body_motions(scenario.system, scenario.run(progress=False))) == ["bunny"]
 
 
 def test_settings_of_demo_reach_both_cases_but_not_their_torsion():

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.step.problem import StepProblem
+from tests.equations.test_eq04_contact_rows import at
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
 
@@ -18,13 +18,8 @@ def printed(contacts):
 
 def shares_of_the_problem(step, delta_q):
     """What each CVXPY constraint i adds to the gap phi + J_n delta_q: d~_i' J delta_q by (4)."""
-    problem = StepProblem(step)
-    problem.fill(step)
-    problem.delta_q_a.value = delta_q[: step.n_a]
-    problem.delta_q_u.value = delta_q[step.n_a :]
-    gap = problem.contact_motion[0].value
-    # CVXPY keeps a >= 0 as 0 - a <= 0.
-    return [-constraint.expr.value - gap for constraint in problem.contact_rows]
+    problem, sides = at(step, delta_q)
+    return [side - problem.contact_motion[0].value for side in sides]
 
 
 def shares_by_loops(step, delta_q, directions):

@@ -7,7 +7,6 @@ import pytest
 
 from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.goals import of_all
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.rollout import rollout
 from tests.scenes import written_scenario
@@ -61,16 +60,6 @@ def test_a_function_of_time_may_be_written_in_any_way(run, target):
     times = [0.01 * (k + 1) for k in range(STEPS)]
     expected = np.array([goal(t) for t in times])
     np.testing.assert_allclose(run(target)["q_bar_a"], expected, rtol=EXACT, atol=EXACT)
-
-
-def test_what_has_no_signature_is_a_function_of_time():
-    class NoSignature:
-        __signature__ = "none"
-
-        def __call__(self, *given):
-            return given
-
-    assert of_all(NoSignature(), "target")(0.5, None, None) == (0.5,)
 
 
 def test_a_target_of_t_and_q_is_asked_where_the_step_starts(scenario, run):

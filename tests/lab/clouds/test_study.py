@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.clouds.rows import chosen, held, margin, rows, spread
+from quasistatic_ref.lab.clouds.rows import chosen, margin, rows
 from quasistatic_ref.lab.clouds.study import NONE, Cell, cells, row
 
 NAMES = list(Cell.__dataclass_fields__)
@@ -29,11 +29,3 @@ def test_a_grip_whose_numbers_are_known_has_the_margin_of_r14():
 def test_a_row_is_made_again_to_the_last_digit(change):
     known = chosen(change=change, sampling="random", count=992, seed=3)[-1]
     assert row(Cell(*(known[name] for name in NAMES))) == known
-
-
-def test_a_bunny_that_is_not_lifted_or_turns_is_not_held():
-    good = {"failed": False, "lift": 38.0, "rotation": 0.2}
-    assert held(good)
-    for change in ({"failed": True}, {"lift": 29.0}, {"rotation": 1.1}):
-        assert not held(good | change)
-    assert [len(of) for of in spread().values()] == [120, 120]

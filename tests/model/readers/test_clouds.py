@@ -191,7 +191,7 @@ BAD: dict[str, tuple[str, bytes, str]] = {
     "a nan that signals": (
         ".ply",
         binary_ply("float", "f")[:-12] + b"\x01\x00\xa0\x7f" * 3,
-        "must be finite numbers",
+        "point 1: must be finite numbers",
     ),
     "impossible count": (
         ".ply",

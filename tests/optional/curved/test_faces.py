@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.optional.curved.faces import curvature, face, kinks
+from quasistatic_ref.optional.curved.faces import Face, curvature, face, kinks
 from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder
 from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT, ROUNDING
@@ -104,3 +104,11 @@ def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding() -> None:
     np.testing.assert_allclose(side @ axis, [-0.5, 0.5], rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(side @ x, [1, 1], rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(side @ R[:, 1], [0, 0], rtol=EXACT, atol=CURVED_PAIR)
+
+
+def test_beyond_a_segment_its_end_is_nearest_also_in_line_with_it() -> None:
+    segment = Face(np.array([[0.0, 0, 0], [1, 0, 0]]), 0.0, np.array([0.0, 0.0, 1.0]))
+    for x in (-0.5, 0.25, 2.0):
+        expected = [np.clip(x, 0, 1), 0, 0]
+        found = segment.nearest(np.array([x, 0.0, 0.5]))
+        np.testing.assert_allclose(found, expected, rtol=EXACT, atol=EXACT)

@@ -59,11 +59,9 @@ def test_a_negative_multiplier_is_refused_however_small(place):
         (EXACT.delta_q, None, 0.5, "without a bound"),
         (EXACT.delta_q[:2], EXACT.lam, 0.5, "shape"),
         (EXACT.delta_q, EXACT.lam[:3], 0.5, "shape"),
-        (EXACT.delta_q[:2], EXACT.lam[:3], 0.5, "shape"),
         (np.full(3, math.nan), EXACT.lam, 0.5, "not finite"),
         (EXACT.delta_q, np.full(4, math.inf), 0.5, "not finite"),
         (EXACT.delta_q, EXACT.lam, math.nan, "not finite"),
-        (EXACT.delta_q, EXACT.lam, math.inf, "not finite"),
     ],
 )
 def test_what_is_no_answer_is_refused_in_a_sentence(delta_q, lam, bound, reason):

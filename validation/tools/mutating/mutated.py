@@ -46,7 +46,7 @@ step/problem.py
 step/friction.py
     PAGE cones wrenches
 step/cones.py
-    PAGE JUDGE completion
+    PAGE JUDGE completion standard_form problem
 step/groups.py
     own
 step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
@@ -64,8 +64,10 @@ optional/ellipsoid/forces.py
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
-certify/rounding.py cli/decimals.py certify/exact.py certify/warm.py certify/certificate.py
+certify/rounding.py certify/exact.py certify/warm.py certify/certificate.py
     EXACT
+cli/decimals.py
+    rounding cli/solve
 certify/minimiser.py
     EXACT
 optional/large/bound.py certify/gap.py optional/ellipsoid/impulses.py optional/large/judged.py

@@ -74,21 +74,6 @@ def test_a_planted_fault_is_found(page, plant, says):
     assert all(says in fault for fault in found), found
 
 
-@pytest.mark.parametrize("style", ["slides", "poster"])
-def test_slides_and_posters_have_larger_figures_and_larger_text(style):
-    with figure_style(style):
-        size = plt.rcParams["font.size"]
-        most = plt.rcParams["figure.figsize"][0]
-        figure, (axes,) = panels(4.6, 2.8)
-        text = axes.set_xlabel("time t [s]")
-        axes.set_ylabel("force [N]")
-        assert sized(6.3, 1.0)[0] == most > PAGE
-    np.testing.assert_allclose(figure.get_size_inches(), size / 9 * np.array([4.6, 2.8]))
-    assert text.get_fontsize() == size > 9
-    assert faults(figure, style) == []
-    plt.close(figure)
-
-
 def test_a_style_is_that_of_the_enclosing_block_and_is_left_again():
     before = dict(plt.rcParams)
     with figure_style(), figure_style("slides"), figure_style():
@@ -113,29 +98,3 @@ def test_an_unknown_style_is_refused_with_the_nearest():
     nearest = pytest.raises(InputError, match="is not a style; did you mean 'slides'")
     with nearest, figure_style("slide"):
         pass
-
-
-def test_panels_stand_below_each_other_where_a_row_has_no_room():
-    with figure_style("paper"):
-        wide, row = panels(6.3, 3.0, columns=2)
-    with figure_style("paper"), plt.rc_context({"figure.figsize": (3.4, 2.4)}):
-        narrow, stack = panels(6.3, 3.0, columns=2)
-    assert [axes.get_subplotspec().colspan.start for axes in row] == [0, 1]
-    assert [axes.get_subplotspec().rowspan.start for axes in stack] == [0, 1]
-    np.testing.assert_allclose(narrow.get_size_inches(), [3.4, 6.0])
-    plt.close(wide)
-    plt.close(narrow)
-
-
-def test_panels_are_given_axes_or_take_the_place_of_one():
-    figure, grid = plt.subplots(2, 2, layout="constrained")
-    assert panels(within=grid[0, 0]) == (figure, [grid[0, 0]])
-    whole, two = panels(columns=2, within=grid[0, 1])
-    assert whole is figure
-    assert grid[0, 1] not in figure.axes
-    assert {axes.get_figure(root=False) for axes in two} == set(figure.subfigs)
-    assert len(figure.axes) == 3 + 2
-    alone = figure.add_axes((0, 0, 0.1, 0.1))
-    with pytest.raises(InputError, match="are in no grid"):
-        panels(columns=2, within=alone)
-    plt.close(figure)

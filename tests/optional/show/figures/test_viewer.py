@@ -7,15 +7,14 @@ import sys
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.show.figures import viewer
 from quasistatic_ref.optional.show.figures.draw import force_scale
-from quasistatic_ref.optional.show.figures.looks import ROBOTS, STATES
-from quasistatic_ref.optional.show.figures.moments import SLIP, frames
+from quasistatic_ref.optional.show.figures.looks import ROBOTS
+from quasistatic_ref.optional.show.figures.moments import frames
 from quasistatic_ref.optional.show.figures.surfaces import normals, surface_points, triangles
 from quasistatic_ref.optional.show.figures.viewer import (
     FRAMES_PER_SECOND,
@@ -104,22 +103,6 @@ def test_a_scene_made_in_python_and_one_without_a_run_have_pages(pushed, tmp_pat
         view_written(from_file, tmp_path / "other.html")
     with pytest.raises(InputError, match="path: must be a file; give what is shown, then the file"):
         view_written(scenario, run, tmp_path / "other.html")
-
-
-def test_contacts_have_the_colours_of_their_states(commands, pushed):
-    """A contact that bears no load is apart; one that slides moves along d1 or d2, J delta_q."""
-    moments, sent = commands
-    _, run = pushed
-    for j in range(8):
-        found = tracks(sent, f"/forces/{j}/<object>")[".material.color"]
-        for k, moment in enumerate(moments):
-            slip = run["J"][2 * k, j, :3] @ run["delta_q"][2 * k]
-            along = max(abs(run["d1"][2 * k, j] @ slip), abs(run["d2"][2 * k, j] @ slip))
-            state = "sliding" if along > SLIP else "sticking"
-            state = state if run.forces[2 * k, j, 2] > 1e-3 else "apart"
-            assert moment.states[j] == state
-            assert found[k] == pytest.approx(to_rgb(STATES[state]), abs=NANOMETRE)
-    assert {state for m in moments for state in m.states} == {"sliding", "sticking", "apart"}
 
 
 LOOKS = robot(
