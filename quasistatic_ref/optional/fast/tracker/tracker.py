@@ -6,6 +6,7 @@ included; where the proof fails, the list is made again. docs/distances.md deriv
 """
 
 from collections.abc import Sequence
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -18,11 +19,12 @@ from quasistatic_ref.contact.distance import (
 )
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.tracker.ball_tree import BallTree, ball_tree
-from quasistatic_ref.optional.fast.tracker.cloud_pairs import CloudPairs, sides
+from quasistatic_ref.optional.fast.tracker.cloud_pairs import CloudPairs, sides, starts
 from quasistatic_ref.optional.fast.tracker.tracker_bound import Shortlist, shortlist
 from quasistatic_ref.shapes.placed_shape import PointCloud
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.ordered import rotated
 
 WIDTH = 32
@@ -63,6 +65,8 @@ class ContactTracker:
         One for each of these.
     steps : int
         That were taken.
+    start : ndarray of int, shape (pairs + 1,)
+        Where the contacts of each pair begin among all, and where the last end.
     """
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
@@ -70,6 +74,10 @@ class ContactTracker:
         self.clouds = CloudPairs([pair for pair in pairs if pair.has_cloud])
         self.lists = [CloudList(pair) for pair in self.clouds.pairs]
         self.steps = 0
+        self.start = starts(np.array([pair.n_c for pair in pairs], dtype=np.int64))
+        in_c = compiled("solids")
+        some = len(self.lists) < len(self.pairs)
+        self.solids: Any = in_c.PosedSolids(self.pairs) if in_c is not None and some else None
 
     @property
     def lists_made(self) -> int:
@@ -93,13 +101,21 @@ class ContactTracker:
         of_clouds = self.of_clouds(R, t) if self.lists else joined([])
         if len(self.lists) == len(self.pairs):
             return of_clouds
+        found, decided = self.of_solids(R, t)
         each = iter(self.clouds.by_pair(of_clouds))
-        return joined(
-            [
-                next(each) if pair.has_cloud else pair_closest_points(pair, R, t)
-                for pair in self.pairs
-            ]
-        )
+        for i in np.flatnonzero(~decided).tolist():
+            pair = self.pairs[i]
+            own = next(each) if pair.has_cloud else joined([pair_closest_points(pair, R, t)])
+            for field, values in zip(found, own, strict=True):
+                field[self.start[i] : self.start[i + 1]] = values
+        return found
+
+    def of_solids(self, R: Array, t: Array) -> tuple[ClosestPoints, Mask]:
+        """The contacts of pairs that compiled code decides, and which these are; others are 0."""
+        if self.solids is None:
+            return no_contacts(int(self.start[-1])), np.zeros(len(self.pairs), dtype=bool)
+        found: tuple[ClosestPoints, Mask] = self.solids(R, t)
+        return found
 
     def of_clouds(self, R: Array, t: Array) -> ClosestPoints:
         """The contacts of pairs with a cloud, of which there are some; ContactError as above."""
@@ -192,6 +208,11 @@ class CloudList:
         self.list = shortlist(self.tree, self.solid, R, t, n, phi_k, self.n_c, width)
         self.made += 1
         self.made_at = step
+
+
+def no_contacts(n_c: int) -> ClosestPoints:
+    """Zeros in the place of some contacts."""
+    return ClosestPoints(np.zeros(n_c), *np.zeros((3, n_c, 3)), *np.zeros((2, n_c), np.int64))
 
 
 def cloud_tree(cloud: PointCloud) -> BallTree:
