@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from quasistatic_ref.formats.files import toml_read
-from quasistatic_ref.lab.folders import CONTACT_QP_1, problem_set_folder
+from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.file.study_file import solver_study, study_path
 from quasistatic_ref.lab.study.problems.folder import manifest
@@ -36,14 +36,13 @@ def test_other_reports_are_what_the_rows_beside_them_give(name):
     is_kept(STUDIES / name, study_report(STUDIES / name))
 
 
-def test_the_default_study_selects_from_every_family_with_dense_rows():
-    """310 of contact-qp-1: 15 of its 17 families; those with cones and sparse ones are left out."""
+def test_the_default_study_selects_from_every_family():
+    """310 of contact-qp-2, from each of its 18 families."""
     path = study_path("default")
     study = solver_study(path, toml_read(path))
     own = study.problems
     problems = problems_taken(own.source, own.families, own.most)
-    families = manifest(problem_set_folder(CONTACT_QP_1))["families"].keys()
-    families -= {"ellipsoid", "sparse"}
+    families = manifest(problem_set_folder(CONTACT_QP_2))["families"].keys()
     assert {problem.facts["family"] for problem in problems} == families
     assert len(problems) == sum(study.problems.families.values()) == 310
     assert len({problem.id for problem in problems}) == 310

@@ -32,7 +32,8 @@ TINY = StandardForm(np.eye(1), np.ones(1), np.eye(1), np.zeros(1))
 """min 1/2 x^2 - x, x >= 0."""
 PATIENCE = 10.0
 """Time limit among the options that are tried on it [s]."""
-RAISED = re.compile(r"\w*(Error|Exception|NotFound)\b")
+RAISED = re.compile(r"(?!SolverError: Solver '\w+' failed)\w*(Error|Exception|NotFound)\b")
+"""Exceptions that an option causes; CVXPY raises the one left out where a solver itself fails."""
 GRACE = 2
 """Seconds after which a worker that was forgotten ends itself: its keeper may have been killed."""
 
