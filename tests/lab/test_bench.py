@@ -37,7 +37,7 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     # By brute force the selection is a part of the distances.
     assert all((row["selection"] > 0) == (row["engine"] == "native") for row in found["parts"])
     text = (tmp_path / "bench.md").read_text()
-    for title in ("by every interface", "By part", "certificate"):
+    for title in ("by every interface", "By part", "certificate", "Scenes of solids"):
         assert title in text
     # Distances by brute force, and what a step of this backend takes besides its own.
     brute = found["interfaces"]["microseconds"]["all distances, brute force"]
@@ -80,6 +80,21 @@ def test_each_promise_is_judged_by_its_limit():
         "through CVXPY over native": True,
         "rebuilt each step over native": False,
         "bounded step over the same without": False,
+    }
+    # Of boxes by MuJoCo's step, unless the solver alone takes more than six of that.
+    by_mujoco = {"over_solver": 5.0, "over_mujoco": 5.9, "solver_over_mujoco": 1.2}
+    by_solver = {"over_solver": 2.1, "over_mujoco": 13.0, "solver_over_mujoco": 6.2}
+    proved = {"proved_over_off": 4.1}
+    solids = {
+        "few": by_mujoco | proved,
+        "many": by_solver | proved,
+        "alone": proved | {"over_solver": 5.0},
+    }
+    judged = promises({"interfaces": INTERFACES, "solids": solids})[3:]
+    assert {p["what"]: p["holds"] for p in judged} == {
+        "few, step over MuJoCo's": True,
+        "many, step over the bare solver": False,
+        **{f"{name}, proved over not": False for name in solids},
     }
     rows = promise_rows(promises(tables))
     assert rows[1] == ("step over the bare solver", "16.5", "at most 16 (stretch 8)", "FAILS")

@@ -1,6 +1,5 @@
 """What was promised, with its limit, and what was measured."""
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -60,7 +59,7 @@ def promises(tables: Mapping[str, Any]) -> list[dict[str, Any]]:
     measured += [(what, compiled.get(key), AT_MOST, limit) for what, key, limit in COMPILED]
     for name, costs in tables.get("solids", {}).items():
         if name != HAND:
-            solver_decides = costs.get("solver_over_mujoco", math.inf) > OVER_MUJOCO
+            solver_decides = costs.get("solver_over_mujoco", 0.0) > OVER_MUJOCO
             by_solver = f"{name}, step over the bare solver", costs["over_solver"]
             by_mujoco = f"{name}, step over MuJoCo's", costs.get("over_mujoco")
             measured += [

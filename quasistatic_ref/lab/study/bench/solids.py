@@ -2,7 +2,7 @@
 
 import re
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -27,13 +27,11 @@ from quasistatic_ref.step.data import Array
 
 H, HALF, MASS = 0.01, 0.05, 0.5
 """Time step [s], half of a box's edge [m] and its mass [kg]."""
-PUSH = 3.0
-"""On each box along x [N]; friction holds 2.45 N."""
+PUSH = np.array([2.5, 1.5, 0.0])
+"""On each box [N]; friction holds 2.45 N."""
 GAP = 4 * HALF
 """From the middle of a box to that of the next [m]."""
 MU_V, MU_OMEGA = 0.5, 0.01
-COUNTS = (1, 5, 25)
-"""Of boxes."""
 HAND = "hand with a drum"
 FORCES = "full, forces"
 UNCERTIFIED, PROVED, PLAIN = "off", "full", "full, plain"
@@ -74,7 +72,7 @@ def boxes(count: int) -> Scene:
         for i in range(count)
     ]
     force = np.zeros(system.n_v)
-    force[::6] = PUSH
+    force.reshape(count, 6)[:, :3] = PUSH
 
     def model() -> tuple[Any, Any]:
         mujoco: Any = import_module("mujoco")
@@ -89,7 +87,7 @@ def boxes(count: int) -> Scene:
             f'<worldbody><geom type="plane" size="0 0 1"/>{bodies}</worldbody></mujoco>'
         )
         data = mujoco.MjData(made)
-        data.xfrc_applied[1:, 0] = PUSH
+        data.xfrc_applied[1:, :3] = PUSH
         return made, data
 
     def simulator(certify: str, fast: bool) -> Simulator:
@@ -195,9 +193,18 @@ def costs(scene: Scene, steps: int) -> dict[str, Any]:
     return found
 
 
-def solid_scenes(steps: int) -> dict[str, dict[str, Any]]:
-    """What :func:`costs` gives for each scene by its name; the hand where its model is there."""
-    scenes = {f"{count} box{'es' * (count > 1)}": boxes(count) for count in COUNTS}
-    with suppress(ScenarioError):  # where the robots are not installed
-        scenes[HAND] = hand()
-    return {name: costs(scene, steps) for name, scene in scenes.items()}
+SCENES: dict[str, Callable[[], Scene]] = {
+    "1 box": lambda: boxes(1),
+    "5 boxes": lambda: boxes(5),
+    "25 boxes": lambda: boxes(25),
+    HAND: hand,
+}
+
+
+def solid_scenes(names: Sequence[str], steps: int) -> dict[str, dict[str, Any]]:
+    """What :func:`costs` gives for scenes of these names; the hand where its model is there."""
+    found = {}
+    for name in names:
+        with suppress(ScenarioError):  # the robots are not installed
+            found[name] = costs(SCENES[name](), steps)
+    return found
