@@ -3,14 +3,11 @@
 
 #include "solids.h"
 
-/* shapes: support_value, of any but a half-space and a mesh. */
+/* shapes: support_value, of a sphere, capsule or box. */
 static double support_value(const Solid *solid, const double *n)
 {
-    const double *size = solid->size;
     double way[3] = {fabs(n[0]), fabs(n[1]), fabs(n[2])};
-    if (solid->kind == CYLINDER)
-        return size[0] * planar_norm(n) + size[1] * way[2];
-    return size[3] + dot(way, size);
+    return solid->size[3] + dot(way, solid->size);
 }
 
 /* contact/patch, `_over`. */
@@ -26,16 +23,17 @@ static int is_over(const Solid *solid, const double *x, double height, const dou
 /* contact/patch, `_facing`: of a box. */
 static const double *face_over(const Solid *box, const double *x, const double *n, double near, double within, double *height)
 {
-    double heights[FACES_OF_BOX];
+    double heights[FACES];
     int highest = 0;
-    for (int f = 0; f < FACES_OF_BOX; f++) {
-        double own = (f < 3 ? x[f] : -x[f - 3]) - box->size[f % 3];
-        heights[f] = dot(box->normals + 3 * f, n) >= TURNED ? own : -INFINITY;
+    face_heights(box, x, heights);
+    for (int f = 0; f < FACES; f++) {
+        if (!(dot(box->normals + 3 * f, n) >= TURNED))
+            heights[f] = -INFINITY;
         if (heights[f] > heights[highest])
             highest = f;
     }
     *height = heights[highest];
-    for (int f = 0; f < FACES_OF_BOX; f++)
+    for (int f = 0; f < FACES; f++)
         if (f != highest && heights[f] >= *height - within)
             return 0;
     const double *normal = box->normals + 3 * highest;
@@ -56,8 +54,7 @@ static double corner_surface(const Solid *solid, const double *x, const double *
             phi = gap;
         }
     }
-    for (int i = 0; i < 3; i++)
-        normal[i] = chosen ? chosen[i] : own[i];
+    copied(chosen ? chosen : own, normal);
     *tie = chosen && dot(own, normal) < 1 - SAME_NORMAL ? OF_PAIR : OWN;
     return phi;
 }
@@ -70,8 +67,7 @@ static void towards(const Solid *solid, const double *pose, const double *neares
     turned_back(pose, apart, local);
     turned_back(pose, n, way);
     if (planar_norm(local) >= (1 - ON_RIM) * radius && planar_norm(way) > UPRIGHT)
-        for (int i = 0; i < 3; i++)
-            way[i] = local[i];
+        copied(local, way);
 }
 
 /* shapes/round, `rim_corners`: corner i of a cylinder. */
@@ -106,8 +102,7 @@ static int64_t corners_on(const Solid *other, const double *from, const Solid *s
         if (other->kind == CYLINDER)
             rim_corner(other, i, way, corner);
         else
-            for (int k = 0; k < 3; k++)
-                corner[k] = other->vertices[3 * i + k];
+            copied(other->vertices + 3 * i, corner);
         carried(pose, corner, x);
         double phi = corner_surface(solid, x, out, within, normal, &c->tie);
         turned(at, normal, c->n);

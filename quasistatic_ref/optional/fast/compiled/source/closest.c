@@ -8,25 +8,11 @@ int64_t scene_size(void) { return sizeof(Scene); }
    point touches or is inside. NumPy then says which one the normal is of. */
 static int faces_tie(const Solid *solid, const double *x, double phi, double places)
 {
-    const double *size = solid->size;
-    double within = 4e-12 * (size[0] + size[1] + size[2] + places), height[6];
-    int faces = 0;
-    if (phi > within || (solid->kind != BOX && solid->kind != CYLINDER))
-        return 0;
-    if (solid->kind == BOX)
-        for (int i = 0; i < 3; i++) {
-            height[faces++] = x[i] - size[i];
-            height[faces++] = -x[i] - size[i];
-        }
-    else {
-        height[faces++] = sqrt(x[0] * x[0] + x[1] * x[1]) - size[0];
-        height[faces++] = x[2] - size[1];
-        height[faces++] = -x[2] - size[1];
-    }
+    double within = 4e-12 * (solid->size[0] + solid->size[1] + solid->size[2] + places), height[FACES];
+    int faces = phi > within ? 0 : face_heights(solid, x, height), level = 0;
     double most = -INFINITY;
     for (int i = 0; i < faces; i++)
         most = larger(most, height[i]);
-    int level = 0;
     for (int i = 0; i < faces; i++)
         level += height[i] >= most - within;
     return level > 1;

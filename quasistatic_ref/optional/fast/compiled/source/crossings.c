@@ -37,7 +37,7 @@ static void line(const Solid *capsule, const double *pose, const double *way, Ed
 /* `_of_polytope`: of faces that hold x and face a way; and those that hold x and are as level. */
 static void of_box(const Solid *box, const double *pose, const double *x, const double *way, Edges *edges)
 {
-    int on[FACES_OF_BOX], facing[FACES_OF_BOX];
+    int on[FACES], facing[FACES];
     edges->total = box->edges;
     for (int64_t f = 0; f < box->faces; f++) {
         const double *n = box->normals + 3 * f;

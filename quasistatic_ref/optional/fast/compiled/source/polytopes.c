@@ -5,7 +5,7 @@
 /* Gaps along the normals of all faces of the Minkowski difference. */
 typedef struct {
     int count;
-    double gap[2 * FACES_OF_BOX + LARGEST], normal[3 * (2 * FACES_OF_BOX + LARGEST)];
+    double gap[2 * FACES + LARGEST], normal[3 * (2 * FACES + LARGEST)];
 } Gaps;
 
 /* Two edges, or a corner and a face: how far apart, and the closest points. */
@@ -15,7 +15,7 @@ typedef struct {
 
 /* Room for a solid in another frame. */
 typedef struct {
-    double vertices[3 * CORNERS], normals[3 * FACES_OF_BOX], offsets[FACES_OF_BOX];
+    double vertices[3 * CORNERS], normals[3 * FACES], offsets[FACES];
 } Room;
 
 static Solid moved(const Solid *b, const double *pose, Room *room)
@@ -77,14 +77,12 @@ static void common_normal(const Solid *a, const Solid *b, int64_t i, int64_t j, 
         n[k] = n[k] * (side_a > 0 ? 1.0 : -1.0);
     difference(tail_b, tail_a, apart);
     gaps->gap[gaps->count] = dot(n, apart);
-    for (int k = 0; k < 3; k++)
-        gaps->normal[3 * gaps->count + k] = n[k];
-    gaps->count++;
+    copied(n, gaps->normal + 3 * gaps->count++);
 }
 
 static void crossing_edges(const Solid *a, const Solid *b, Gaps *gaps)
 {
-    double b_on_a[EDGES][FACES_OF_BOX], a_on_b[EDGES][FACES_OF_BOX], way[3], back[3];
+    double b_on_a[EDGES][FACES], a_on_b[EDGES][FACES], way[3], back[3];
     for (int64_t i = 0; i < a->edges; i++) {
         edge(a, i, way);
         negated(way, back);
@@ -121,42 +119,36 @@ static void nearest_on_segments(const double *p, const double *u, const double *
     *s = limited((uv * *r - uw) / uu);
 }
 
-/* The corner of one solid that is nearest to a face of the other. */
-static Feature corner_of_b(const Solid *a, const Solid *b)
+/* The corner, of some in a core's frame, that is nearest to it: its distance, and the normal there. */
+static int64_t nearest_corner(const Solid *core, const double *corners, int64_t count, double *distance, double *normal)
 {
-    Feature found = {.distance = INFINITY};
-    for (int64_t i = 0; i < b->corners; i++) {
-        double normal[3];
-        const double *tip = b->vertices + 3 * i;
-        double phi = rounded_box(a->size, 0.0, tip, normal);
-        if (!(phi < found.distance))
+    int64_t best = -1;
+    for (int64_t i = 0; i < count; i++) {
+        double own[3], phi = rounded_box(core->size, 0.0, corners + 3 * i, own);
+        if (best >= 0 && !(phi < *distance))
             continue;
-        found.distance = phi;
-        moved_by(tip, -phi, normal, found.on_a);
-        for (int k = 0; k < 3; k++)
-            found.on_b[k] = tip[k];
+        best = i;
+        *distance = phi;
+        copied(own, normal);
     }
-    return found;
+    return best;
 }
 
-static Feature corner_of_a(const Solid *a, const Solid *b, const double *pose)
+/* Of a corner of b, which is `there` in a's frame, and of a corner of a. */
+static void corners_on_faces(const Solid *a, const Solid *b, const Solid *there, const double *pose, Feature *of_b, Feature *of_a)
 {
-    Feature found = {.distance = INFINITY};
-    for (int64_t i = 0; i < a->corners; i++) {
-        double apart[3], x[3], own[3], normal[3];
-        const double *tip = a->vertices + 3 * i;
-        from_origin(pose, tip, apart);
-        turned_back(pose, apart, x);
-        double phi = rounded_box(b->size, 0.0, x, own);
-        if (!(phi < found.distance))
-            continue;
-        found.distance = phi;
-        turned(pose, own, normal);
-        moved_by(tip, -phi, normal, found.on_b);
-        for (int k = 0; k < 3; k++)
-            found.on_a[k] = tip[k];
+    double own[3], normal[3], apart[3], x[3 * CORNERS];
+    int64_t i = nearest_corner(a, there->vertices, b->corners, &of_b->distance, normal);
+    copied(there->vertices + 3 * i, of_b->on_b);
+    moved_by(there->vertices + 3 * i, -of_b->distance, normal, of_b->on_a);
+    for (int64_t j = 0; j < a->corners; j++) {
+        from_origin(pose, a->vertices + 3 * j, apart);
+        turned_back(pose, apart, x + 3 * j);
     }
-    return found;
+    i = nearest_corner(b, x, a->corners, &of_a->distance, own);
+    turned(pose, own, normal);
+    copied(a->vertices + 3 * i, of_a->on_a);
+    moved_by(a->vertices + 3 * i, -of_a->distance, normal, of_a->on_b);
 }
 
 /* Of the edges whose surrounding balls come within a bound. */
@@ -187,8 +179,7 @@ static Feature nearest_feature(const Solid *a, const Solid *b, const double *pos
     Room room;
     Feature every[2 + LARGEST];
     Solid there = moved(b, pose, &room);
-    every[0] = corner_of_b(a, &there);
-    every[1] = corner_of_a(a, b, pose);
+    corners_on_faces(a, b, &there, pose, every, every + 1);
     double least = smaller(every[0].distance, every[1].distance), apart[3], off[3];
     int count = 2 + of_edges(a, &there, larger(least, 0.0), every + 2), best = 0, other = -1;
     for (int i = 0; i < count; i++) {
@@ -244,7 +235,8 @@ static int capsules(const Pair *pair, const double *pose, Contact *nearest)
     if (gap <= ON_SURFACE * size)
         return 0;
     if (0 < s && s < 1 && 0 < r && r < 1 && steepness * size > gap) {
-        double side = dot(across, n) >= 0 ? 1.0 : -1.0, apart[3] = {n[0], n[1], n[2]};
+        double side = dot(across, n) >= 0 ? 1.0 : -1.0, apart[3];
+        copied(n, apart);
         for (int i = 0; i < 3; i++)
             n[i] = across[i] * side;
         gap = dot(n, apart) / norm(n);
@@ -302,8 +294,7 @@ int polytopes(const Pair *pair, Contact *nearest)
         return 1;
     for (int i = 0; i < gaps.count; i++) {
         gaps.gap[i] = gaps.gap[i] - a->size[3] - b->size[3];
-        for (int k = 0; k < 3; k++)
-            way[k] = gaps.normal[3 * i + k];
+        copied(gaps.normal + 3 * i, way);
         turned(pair->at_a, way, gaps.normal + 3 * i);
     }
     return one_normal(pair, nearest, gaps.gap, gaps.normal, gaps.count);

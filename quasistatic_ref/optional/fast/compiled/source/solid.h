@@ -18,6 +18,8 @@
 /* The first three are a point, a segment or a cuboid, the core, with a ball about each point. */
 enum { SPHERE, CAPSULE, BOX, HALF_SPACE, CYLINDER, MESH };
 
+enum { FACES = 6 }; /* of a box */
+
 /* One for one the fields of Solid in solid.py. */
 typedef struct {
     int64_t kind, corners, faces, edges;
@@ -49,6 +51,12 @@ static inline void cross(const double *a, const double *b, double *out)
     out[0] = a[1] * b[2] - a[2] * b[1];
     out[1] = a[2] * b[0] - a[0] * b[2];
     out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static inline void copied(const double *v, double *out)
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = v[i];
 }
 
 /* a + s b. */
@@ -182,6 +190,21 @@ static inline double signed_distance(const Solid *solid, const double *x, double
     for (int i = 0; normal && i < 3; i++)
         normal[i] = size[i];
     return along(size, x[0], x[1], x[2]) - size[3];
+}
+
+/* shapes: heights over the faces, of a box or a cylinder; others have none. */
+static inline int face_heights(const Solid *solid, const double *x, double *heights)
+{
+    const double *size = solid->size;
+    if (solid->kind == CYLINDER) {
+        heights[0] = planar_norm(x) - size[0];
+        heights[1] = x[2] - size[1];
+        heights[2] = -x[2] - size[1];
+        return 3;
+    }
+    for (int f = 0; solid->kind == BOX && f < FACES; f++)
+        heights[f] = (f < 3 ? x[f] : -x[f - 3]) - size[f % 3];
+    return solid->kind == BOX ? FACES : 0;
 }
 
 #endif

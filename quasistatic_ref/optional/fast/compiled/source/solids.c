@@ -11,11 +11,9 @@ int64_t solid_pairs_size(void) { return sizeof(SolidPairs); }
 Contact swapped(const Contact *contact)
 {
     Contact other = *contact;
-    for (int i = 0; i < 3; i++) {
-        other.alpha[i] = contact->beta[i];
-        other.beta[i] = contact->alpha[i];
-        other.n[i] = -contact->n[i];
-    }
+    copied(contact->beta, other.alpha);
+    copied(contact->alpha, other.beta);
+    negated(contact->n, other.n);
     return other;
 }
 
@@ -41,8 +39,7 @@ static void support_point(const Solid *solid, const double *way, double *out)
         for (int64_t i = 1; i < solid->corners; i++)
             if (dot(solid->vertices + 3 * i, way) > dot(solid->vertices + 3 * best, way))
                 best = i;
-        for (int i = 0; i < 3; i++)
-            out[i] = solid->vertices[3 * best + i];
+        copied(solid->vertices + 3 * best, out);
     } else if (solid->kind == CYLINDER) {
         double radial = planar_norm(way);
         out[0] = radial != 0.0 ? size[0] * way[0] / radial : 0.0;
@@ -67,29 +64,17 @@ static void solid_on_plane(const Solid *plane, const double *at, const Solid *so
     moved_by(c->beta, -c->phi, c->n, c->alpha);
 }
 
-/* Heights of a sphere's centre over the faces of a solid, less the radius, and their normals in the
-   world, times a sign: contact/separations. */
-static int over_faces(const Solid *solid, const double *at, const double *x, double ball, double side, double *gap, double *normals)
+/* contact/separations: whether a sphere that touches a solid has one normal, as it surely has where no
+   face is as high as its centre is far, or one is and no other is as high. */
+static int one_face(const Solid *solid, const double *x, double phi, double within)
 {
-    const double *size = solid->size;
-    double own[9] = {0};
-    if (solid->kind == CYLINDER) {
-        double r = planar_norm(x);
-        gap[0] = r - size[0], gap[1] = x[2] - size[1], gap[2] = -x[2] - size[1];
-        own[0] = r == 0.0 ? 1.0 : x[0] / r;
-        own[1] = r == 0.0 ? 0.0 : x[1] / r;
-        own[5] = 1.0, own[8] = -1.0;
-    }
-    int count = solid->kind == BOX ? FACES_OF_BOX : solid->kind == CYLINDER ? 3 : 0;
-    for (int f = 0; f < count; f++) {
-        if (solid->kind == BOX)
-            gap[f] = (f < 3 ? x[f] : -x[f - 3]) - size[f % 3];
-        gap[f] -= ball;
-        turned(at, solid->kind == BOX ? solid->normals + 3 * f : own + 3 * f, normals + 3 * f);
-        for (int i = 0; i < 3; i++)
-            normals[3 * f + i] *= side;
-    }
-    return count;
+    double heights[FACES], most = -INFINITY;
+    int count = face_heights(solid, x, heights), level = 0;
+    for (int f = 0; f < count; f++)
+        most = larger(heights[f], most);
+    for (int f = 0; f < count; f++)
+        level += heights[f] >= phi - 2 * within;
+    return level == 0 || (level == 1 && phi == most);
 }
 
 /* contact/solids/solid_pair; `side` is that of the normal in the contact's. */
@@ -98,7 +83,7 @@ static int sphere_on_solid(const Pair *pair, double side, Contact *nearest)
     const Solid *solid = side > 0 ? pair->a : pair->b, *sphere = side > 0 ? pair->b : pair->a;
     const double *at = side > 0 ? pair->at_a : pair->at_b, *pose = side > 0 ? pair->at_b : pair->at_a;
     double centre[3] = {pose[3], pose[7], pose[11]}, above[3], x[3], normal[3];
-    double gap[FACES_OF_BOX], normals[3 * FACES_OF_BOX], radius = sphere->size[3];
+    double radius = sphere->size[3];
     from_origin(at, centre, above);
     turned_back(at, above, x);
     double phi = signed_distance(solid, x, normal);
@@ -108,10 +93,7 @@ static int sphere_on_solid(const Pair *pair, double side, Contact *nearest)
     moved_by(centre, -radius, nearest->n, nearest->beta);
     if (side < 0)
         *nearest = swapped(nearest);
-    if (solid->kind == HALF_SPACE || nearest->phi > pair->within)
-        return 1;
-    int count = over_faces(solid, at, x, radius, side, gap, normals);
-    return one_normal(pair, nearest, gap, normals, count);
+    return nearest->phi > pair->within || one_face(solid, x, phi, pair->within);
 }
 
 /* contact/separations: whether no gap is as large as the pair's along another normal than its own. */
@@ -166,32 +148,13 @@ static void rank_late(const Contact *every, int64_t count, int64_t k, int64_t *l
         late[i] |= !(every[i].point < last->point) && corners >= k;
 }
 
-/* contact/distance, `closest`: the least distances in ascending order, ties by index; late ones last. */
-static int64_t least(const Contact *every, const int64_t *late, int64_t count, int64_t kept, int64_t *order)
-{
-    int64_t held = 0;
-    for (int64_t i = 0; i < count; i++) {
-        double phi = late[i] ? INFINITY : every[i].phi;
-        int64_t j = held < kept ? held++ : kept;
-        for (; j > 0; j--) {
-            int64_t other = order[j - 1];
-            if (!(phi < (late[other] ? INFINITY : every[other].phi)))
-                break;
-            if (j < kept)
-                order[j] = other;
-        }
-        if (j < kept)
-            order[j] = i;
-    }
-    return held;
-}
-
-/* The same in ascending distance, late or not; ties stay in their order. */
-static void by_phi(const Contact *every, int64_t count, int64_t *order)
+/* A stable sort of some candidates by distance; late ones last, where these are named. */
+static void sort(const Contact *every, const int64_t *late, int64_t count, int64_t *order)
 {
     for (int64_t i = 1; i < count; i++) {
         int64_t own = order[i], j = i;
-        for (; j > 0 && every[own].phi < every[order[j - 1]].phi; j--)
+        double phi = late && late[own] ? INFINITY : every[own].phi;
+        for (; j > 0 && phi < (late && late[order[j - 1]] ? INFINITY : every[order[j - 1]].phi); j--)
             order[j] = order[j - 1];
         order[j] = own;
     }
@@ -229,10 +192,13 @@ static int closest_of_pair(SolidPairs *s, int64_t p)
     }
     int64_t found = every_candidate(&pair, &nearest, count, s->candidates);
     rank_late(s->candidates, found, s->k[p], s->late);
-    int64_t kept = least(s->candidates, s->late, found, s->k[p], s->order);
+    int64_t kept = found < s->k[p] ? found : s->k[p];
     if (kept > count)
         return 0;
-    by_phi(s->candidates, kept, s->order);
+    for (int64_t i = 0; i < found; i++)
+        s->order[i] = i;
+    sort(s->candidates, s->late, found, s->order);
+    sort(s->candidates, 0, kept, s->order);
     for (int64_t i = 0; i < kept; i++)
         write(s, s->start[p] + i, s->candidates + s->order[i]);
     for (int64_t i = kept; i < count; i++) {

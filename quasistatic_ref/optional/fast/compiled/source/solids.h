@@ -7,7 +7,7 @@
 
 enum { OWN, OF_PAIR }; /* contact/separations */
 
-enum { CORNERS = 8, FACES_OF_BOX = 6, EDGES = 12, LARGEST = EDGES * EDGES };
+enum { CORNERS = 8, EDGES = 12, LARGEST = EDGES * EDGES };
 
 /* Of ClosestPoints and of Witness: one contact. */
 typedef struct {
