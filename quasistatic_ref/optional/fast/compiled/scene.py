@@ -135,7 +135,7 @@ class Scene(Structure):
                 "link_solid": clouds.link[:P], "link_cloud": clouds.link[P:],
                 "on_solid": clouds.on_link[:P], "on_cloud": clouds.on_link[P:],
                 "solid": np.array([one.address for one in self.solids]), "sign": clouds.sign,
-                "start": tracker.start[:-1][[pair.has_cloud for pair in tracker.pairs]],
+                "start": tracker.start[:-1][tracker.has_cloud],
                 "count": count,
                 "world": np.zeros((P, 24)), "nearest": np.zeros(count.max()),
                 "rank": np.zeros(count.max(), np.int64),

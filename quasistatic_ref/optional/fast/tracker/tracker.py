@@ -67,6 +67,7 @@ class ContactTracker:
         That were taken.
     start : ndarray of int, shape (pairs + 1,)
         Where the contacts of each pair begin among all, and where the last end.
+    has_cloud : ndarray of bool, shape (pairs,)
     """
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
@@ -75,6 +76,8 @@ class ContactTracker:
         self.lists = [CloudList(pair) for pair in self.clouds.pairs]
         self.steps = 0
         self.start = starts(np.array([pair.n_c for pair in pairs], dtype=np.int64))
+        self.has_cloud = np.array([pair.has_cloud for pair in pairs], dtype=bool)
+        self.on_cloud = np.repeat(self.has_cloud, np.diff(self.start))
         in_c = compiled("solids")
         some = len(self.lists) < len(self.pairs)
         self.solids: Any = in_c.PosedSolids(self.pairs) if in_c is not None and some else None
@@ -102,12 +105,10 @@ class ContactTracker:
         if len(self.lists) == len(self.pairs):
             return of_clouds
         found, decided = self.of_solids(R, t)
-        each = iter(self.clouds.by_pair(of_clouds))
-        for i in np.flatnonzero(~decided).tolist():
-            pair = self.pairs[i]
-            own = next(each) if pair.has_cloud else joined([pair_closest_points(pair, R, t)])
-            for field, values in zip(found, own, strict=True):
-                field[self.start[i] : self.start[i + 1]] = values
+        put(of_clouds, found, self.on_cloud)
+        for i in np.flatnonzero(~(decided | self.has_cloud)).tolist():
+            own = joined([pair_closest_points(self.pairs[i], R, t)])
+            put(own, found, slice(self.start[i], self.start[i + 1]))
         return found
 
     def of_solids(self, R: Array, t: Array) -> tuple[ClosestPoints, Mask]:
@@ -208,6 +209,12 @@ class CloudList:
         self.list = shortlist(self.tree, self.solid, R, t, n, phi_k, self.n_c, width)
         self.made += 1
         self.made_at = step
+
+
+def put(some: ClosestPoints, every: ClosestPoints, where: Mask | slice) -> None:
+    """Write some contacts among others, in the places of a mask or a slice of these."""
+    for field, values in zip(every, some, strict=True):
+        field[where] = values
 
 
 def no_contacts(n_c: int) -> ClosestPoints:
