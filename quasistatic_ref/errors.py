@@ -275,7 +275,8 @@ class StepIllPosed(StepNotSolved):
         self.length = length
         self.args = (
             f"the exact optimum is {length:.0e} times longer than the step's forces, targets and "
-            "gaps explain; its contacts almost contradict each other; look for opposite normals",
+            "gaps explain, because its contacts almost contradict each other; look for opposite "
+            "normals",
         )
 
 

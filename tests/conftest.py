@@ -26,7 +26,7 @@ settings.load_profile("ci" if os.environ.get("CI") else "local")
 NEEDS = {
     "robots": (
         "example-robot-data",
-        "test_robots.py panda_push allegro_turn robot_push hand_turns_a_drum joints_of_the_robot "
+        "panda_push allegro_turn robot_push hand_turns_a_drum joints_of_the_robot "
         "finger_rolls_on_the_drum rows_that_daqp_does_not_see",
     ),
     "jax": ("jax", "test_step_jax.py plan_a_push a_planned_push native_guest cannot_be_imported"),
@@ -108,6 +108,14 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> CommandRun:
     with contextlib.redirect_stdout(output), contextlib.redirect_stderr(errors):
         status = main(["demo", "--fast", "--json", "--out", str(folder)])
     return CommandRun(status, output.getvalue(), errors.getvalue(), folder)
+
+
+@pytest.fixture(scope="session")
+def things(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
+    """One of every kind of public data, by name."""
+    from tests.step.public_data import public_data  # here, so that light tests stay light
+
+    return public_data(tmp_path_factory.mktemp("scene"))
 
 
 @pytest.fixture

@@ -1,7 +1,5 @@
 """Steps of tests, and the one definition of error, written without the package's formulas."""
 
-import copy
-
 import numpy as np
 
 from quasistatic_ref.certify.optimality import optimality_residuals
@@ -113,6 +111,13 @@ def contact_row(contacts, j, i):
     return np.array(row)
 
 
+def slacks(step, delta_q):
+    """Phi + [J'(n~ + d~_i)]' delta_q of every row by hand, contact-major."""
+    c = step.contacts
+    rows = [(j, i) for j, count in enumerate(c.rows) for i in range(count)]
+    return np.array([c.phi[j] + contact_row(c, j, i) @ delta_q for j, i in rows])
+
+
 def planted_step(rng, n_a=3, n_u=4, rows=(6, 4, 6)):
     """A step made around its own optimum: the step, delta_q and lam.
 
@@ -190,20 +195,6 @@ def error(step, delta_q, truth):
     free = unconstrained(step)
     gap = np.asarray(delta_q) - np.asarray(truth)
     return float(np.sqrt(gap @ H @ gap) / np.sqrt(free @ H @ free))
-
-
-def record_changed(record, path, value=None):
-    """A copy of a record with the field at a path replaced, or removed if no value is given."""
-    new = copy.deepcopy(record)
-    *way, last = path
-    at = new
-    for key in way:
-        at = at[key]
-    if value is None:
-        del at[last]
-    else:
-        at[last] = value
-    return new
 
 
 def one_sentence(errors):

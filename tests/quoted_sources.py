@@ -33,8 +33,6 @@ LIFTING = 137
 """The step of the grasp that the exercises take."""
 PAPERS = 90
 """The paper's bound of its average step [us]."""
-STUDENT_17 = 2.1098
-"""The 97.5 % quantile of Student's distribution with 17 degrees of freedom."""
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
@@ -89,15 +87,6 @@ def record(name):
     )
 
 
-def ends(values):
-    return min(values), max(values)
-
-
-def in_words(share):
-    """A share in words."""
-    return {3: "a third", 5: "a fifth"}[round(1 / share)]
-
-
 # -- The grasp ------------------------------------------------------------------------------------
 def turned():
     """How far the bunny turns in the lift [deg], by mu_omega."""
@@ -148,24 +137,14 @@ def grasp():
     }
 
 
-def needed():
-    """mu_omega [mm] that (R9) asks for where step 137's load is that of the weight alone."""
-    f_1, f_2, f_n, tau_n = np.abs(forces()).sum(axis=0)
-    share = MASS * G / f_2
-    alone = share * tau_n / (f_n - share * (f_1 + f_2) / 0.6)
-    least = grasp_against_mu_omega.needed(run_of("with torsion")[1])
-    return {"weight alone": 1e3 * alone, "artifact": in_words(1 - alone / least)}
-
-
 def drag():
     """Halfway through the lift [N], and its shares [%]; the run's largest share."""
     _, run = run_of("with torsion")
     force = MASS * SPEED / H
-    largest = run.header["largest_drag_share"]
     friction = run["mu_v"] @ run["wrench"][150, :, 2]
     return {"force": force, "weight": MASS * G, "of weight": 100 * force / (MASS * G),
-            "of friction": 100 * force / friction, "largest": 100 * largest,
-            "largest share": largest}  # fmt: skip
+            "of friction": 100 * force / friction,
+            "largest share": run.header["largest_drag_share"]}  # fmt: skip
 
 
 def demo_lines():
@@ -229,76 +208,8 @@ def problem_set():
     return {"count": count, "families": len(manifest["families"])}
 
 
-def sweep():
-    """Rotations [deg] and the deepest penetration [mm] of the sweep."""
-    report = "../studies/bunny_torsion/report.md"
-    at = {}
-    for row in table(report, "mu_omega and h"):
-        found = float(row["largest rotation [deg]"])
-        at.setdefault(float(row["mu_omega [m]"]), []).append(found)
-
-    def column(section, name):
-        return {next(iter(row.values())): float(row[name]) for row in table(report, section)}
-
-    turns, light = (column(name, "largest rotation [deg]") for name in ("cone", "stiffness"))
-    deepest = column("closest points", "deepest penetration [um]")
-    return {
-        "no torsion": at[0.0],
-        "1 mm": ends(at[1e-3]),
-        "more": max(angle for mu_omega in at if mu_omega >= 2e-3 for angle in at[mu_omega]),
-        "light": min(light["250"], light["500"]),
-        "deepest": max(deepest.values()) / 1e3,
-        "pyramid": turns["pyramid"],
-        "other cones": math.ceil(1e3 * (max(turns.values()) - turns["pyramid"])) / 1e3,
-    }
-
-
-def distances():
-    """Powers of ten above the largest errors of pairs in closed form [m].
-
-    Two capsules; and a sphere or a half-space and anything, and boxes, capsules, meshes.
-    """
-    flat = {"box", "capsule", "mesh"}
-    both = {"closed forms": [], "two capsules": []}
-    for row in table("pair_distances.md"):
-        pair = set(row["pair"].split(" - "))
-        if pair == {"capsule"}:
-            both["two capsules"] += [float(row["phi"]), float(row["normal"])]
-        elif pair & {"sphere", "half-space"} or pair <= flat:
-            both["closed forms"].append(float(row["phi"]))
-    return {name: math.ceil(math.log10(max(found))) for name, found in both.items()}
-
-
-def base():
-    """Size of the base [GB, rounded], the share of its largest part, and the next three."""
-    (row, *_) = table("installs.md")["newest"]
-    parts = [part.rsplit(" ", 1) for part in row["largest parts [MB]"].split(", ")]
-    (boost, size), *more = parts[:4]
-    assert boost == "cmeel-boost"
-    names = {"scs": "SCS", "scipy": "SciPy", "numpy": "NumPy"}
-    whole = float(row["MB"])
-    gigabytes = "a" if round(whole / 1000) == 1 else f"{whole / 1000:.0f}"
-    return {"gigabytes": gigabytes, "Boost": in_words(float(size) / whole),
-            "next": [names[name] for name, _ in more]}  # fmt: skip
-
-
 def bench():
     return table("benchmarks/bench.md")
-
-
-def like_for_like():
-    """Steps with PIQP and with Clarabel, all distances evaluated [us]."""
-    found = re.search(r"takes (\d+) us with piqp .* and (\d+) us with clarabel",
-                      text("benchmarks/bench.md"))  # fmt: skip
-    return [float(us) for us in found.groups()]
-
-
-def native_gains():
-    """The lap `solve` through CVXPY over that of the native engine, least and largest."""
-    laps = table("benchmarks/bench.md", "By part")
-    names = ("clarabel", "osqp", "piqp", "daqp")
-    return ends([float(laps["cvxpy"][b]["solve"]) / float(laps["native"][b]["solve"])
-                 for b in names])  # fmt: skip
 
 
 @cache
@@ -326,19 +237,10 @@ def dense_and_sparse():
 def large():
     """What the page says of large steps."""
     sparse = table("large_steps.md", "Sparse steps")
-    of_piqp = sparse["piqp"]
-    eight = dense_and_sparse()["8"]
-    assert {row["without bound"] for row in of_piqp} == {"0"}
-    assert {row["unsolved"] for row in of_piqp} == {"0"}
-    chains = [float(of_piqp[boxes]["off, ms"]) for boxes in ("10", "20", "40", "80", "160")]
-    return {
-        "chains": ", ".join(f"{ms:.1f}" if ms < 9.95 else f"{ms:.0f}" for ms in chains),
-        "promises": table("large_steps.md", "Promises"),
-        "heap": sparse["5 x 5 x 4"],
-        "bound": max(float(row["largest error bound"]) for row in of_piqp),
-        "clarabel dense": float(eight["clarabel dense"]) / float(eight["clarabel sparse"]),
-        "whole": {bodies: 8e-6 * (6 * bodies) ** 2 for bodies in (100, 300)},  # MB
-    }
+    assert {row["without bound"] for row in sparse["piqp"]} == {"0"}
+    assert {row["unsolved"] for row in sparse["piqp"]} == {"0"}
+    promises = table("large_steps.md", "Promises")
+    return {"promises": promises, "heap": sparse["5 x 5 x 4"]}
 
 
 # -- Measured pushes ------------------------------------------------------------------------------
@@ -347,15 +249,6 @@ def reality():
     labels = {"all": "mean over pairs"}
     return {name: entry | {"label": labels.get(name, name)}
             for name, entry in record("reality")["pairs"].items()}  # fmt: skip
-
-
-def between_pairs():
-    """Student's 95 % intervals of the mean difference over pairs: mm, degrees."""
-    pairs = [entry for name, entry in record("reality")["pairs"].items() if name != "all"]
-    mean = np.array([pair["more"]["mean"] for pair in pairs])
-    half = STUDENT_17 * mean.std(axis=0, ddof=1) / np.sqrt(len(pairs))
-    assert len(pairs) == 17 + 1
-    return np.transpose([mean.mean(axis=0) - half, mean.mean(axis=0) + half])
 
 
 def certified():
@@ -376,43 +269,8 @@ def ratios():
     return found
 
 
-def identified():
-    """Ratios of the ellipsoid [mm], lost dissipation [%], pairs that are not identifiable."""
-    every = record("reality_identified").values()
-    least, most = ends([own["ratio"] for own in ratios().values()])
-    cones = ("ellipsoid", "product", "pyramid", "facets-8", "facets-16")
-    of = {cone: [entry["cones"][cone] for entry in every] for cone in cones}
-    return {
-        "least": least,
-        "most": most,
-        "lost": {cone: 100 * np.mean([own["misfit"] for own in of[cone]]) for cone in cones},
-        "best axes": 100 * np.mean([entry["pyramid, best axes"] for entry in every]),
-        "not": {cone: sum(not own["identifiable"] for own in of[cone]) for cone in cones},
-    }
-
-
 def ablations():
     return record("reality_ablations")["variants"]
-
-
-def ablated():
-    """Errors (mm, degrees) over several variants, and their largest changes."""
-    mean = {name: np.array(own["error"]["mean"]) for name, own in ablations().items()}
-
-    def farthest(names, other):
-        return np.abs([mean[name] - mean[other] for name in names]).max(0)
-
-    cancel = ("mass 10 kg", "h 0.2 s", "mu_v 0.6", "gyration 20 mm", "finger's stiffness 1e5 N/m")
-    upright = "pyramid, axes at 0 degrees"
-    pyramids = [mean[f"pyramid, axes at {angle} degrees"] for angle in ("0", "22.5", "45")]
-    spread = record("reality_ablations")["spread over the pyramid's ties"]
-    return {
-        "pyramids": [ends(errors) for errors in np.transpose(pyramids)],
-        "cancel": farthest(cancel, "ellipsoid") + 0.005,
-        "short steps": farthest(["steps of 0.5 mm"], "ellipsoid"),
-        "tie breaks": farthest([name for name in mean if "tie broken" in name], upright),
-        "ties": [spread["95th percentile, mm"], spread["95th percentile, deg"]],
-    }
 
 
 def tripod():
@@ -423,12 +281,3 @@ def tripods():
     """The sets of the ellipsoid, with the median error over the median turn [%]."""
     return {name: own | {"share": 100 * own["median error over median turn"]}
             for name, own in tripod()["variants"]["ellipsoid"].items()}  # fmt: skip
-
-
-def shares():
-    """Median error over median turn of the sets that calibrated nothing [%], by cone."""
-    found = {}
-    for name, sets in tripod()["variants"].items():
-        own = [100 * entry["median error over median turn"] for entry in list(sets.values())[1:]]
-        found.setdefault(name.partition(", axes")[0], []).extend(own)
-    return {cone: ends(own) for cone, own in found.items()}

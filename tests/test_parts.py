@@ -90,12 +90,15 @@ def test_without_pages_data_show_their_fields_and_objects_their_class(without):
         run.to_pandas()
 
 
-def test_a_solver_and_a_kind_of_file_need_their_parts(without, tmp_path):
+def test_a_solver_a_word_and_a_kind_of_file_need_their_parts(without, tmp_path):
     step = random_step(np.random.default_rng(0))
     without("qpsolvers")
     with pytest.raises(InputError, match=r"^qpsolvers:osqp needs .*/optional/qpsolvers$"):
         solve_step(step, "qpsolvers:osqp")
     assert solve_step(step, "osqp").certificate.kind == "exact"
+    without("fast")
+    with pytest.raises(InputError, match=r"^fast needs quasistatic_ref/optional/fast$"):
+        solve_step(step, fast=True)
     without("readers")
     with pytest.raises(InputError, match=r"a \.ply cloud needs .*/optional/readers$"):
         point_cloud(tmp_path / "cloud.ply")

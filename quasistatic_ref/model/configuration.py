@@ -48,8 +48,8 @@ def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
             raise ModelError(problem, field=field, value=unit.tolist())
         if joint.kind == "floating" and unit.tolist() == W_FIRST:
             problem = (
-                "looks like [w x y z] of no turn; quaternions are [x y z w], so that no turn is "
-                "[0 0 0 1] (and half a turn about x [1 0 0 1e-16])"
+                "looks like the identity as [w x y z]; quaternions are [x y z w], and the identity "
+                "is [0 0 0 1] (half a turn about x is [1 0 0 1e-16])"
             )
             raise ModelError(problem, field=field, value=W_FIRST)
         if abs(size - 1) > UNIT_ROUNDING:

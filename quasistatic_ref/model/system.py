@@ -307,7 +307,7 @@ class System(Shown):
         root = self._root(body_name)
         joint = self._model.frames[self._frames[root - 1]].parentJoint
         if joint == 0:
-            problem = "has a fixed base, on which a wrench does nothing"
+            problem = "has a fixed base, so a wrench has no effect on it"
             raise ModelError(problem, field="body", value=body_name)
         kinematics = self.kinematics(q)
         # The root link's frame is that of the base's joint.
@@ -317,6 +317,6 @@ class System(Shown):
 
     def _root(self, body: str) -> int:
         if body not in self._roots:
-            problem = f"is no body{suggestion(body, self._roots)}"
+            problem = f"is not a body{suggestion(body, self._roots)}"
             raise ModelError(problem, field="body", value=body)
         return self._roots[body]

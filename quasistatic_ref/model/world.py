@@ -117,7 +117,8 @@ def world_of(bodies: Sequence[Body]) -> World:
     urdfs: dict[str, Urdf] = {}
     for body in bodies:
         if body.name in urdfs:
-            raise ModelError("is the name of two bodies", field="body.name", value=body.name)
+            problem = "is the name of two bodies; rename one"
+            raise ModelError(problem, field="body.name", value=body.name)
         urdf = loaded_urdf(
             body.urdf, base=body.base, actuated=body.actuated, package_dirs=body.package_dirs
         )
@@ -232,9 +233,9 @@ def _check_joint_names(body: Body, urdf: Urdf) -> None:
             if joint is not None and joint.mimic is not None:
                 problem = f"mimics {joint.mimic.of!r} and has no coordinate of its own"
             elif name == BASE and moves:
-                problem = "is placed by xyz and rpy"
+                problem = "is positioned by xyz and rpy"
             elif name == BASE:
-                problem = 'is fixed; say base = "floating" or "planar" to move it'
+                problem = 'is fixed; set base = "floating" or "planar" to move it'
             raise ModelError(problem, field=f"{body.name}.{key}", value=name)
         if len(set(names)) != len(names):
             raise ModelError("names a joint twice", field=f"{body.name}.{key}", value=names)

@@ -113,7 +113,7 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     if urdf is None and mjcf is None:
         raise table.fail("urdf", "is missing")
     if urdf is not None and mjcf is not None:
-        raise table.fail("mjcf", "takes the place of urdf; give one of them")
+        raise table.fail("mjcf", "cannot be combined with urdf; remove one of them")
     base = value(table, BODY, "base")
     actuated = value(table, BODY, "actuated")
     if actuated != "all":
@@ -126,7 +126,7 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     folders = [folder / folder_name for folder_name in value(table, BODY, "package_dirs")]
     moved = "gravity_compensated" in table
     if moved and not actuated:
-        raise table.fail("gravity_compensated", "is for actuated joints; this body has none")
+        raise table.fail("gravity_compensated", "needs an actuated joint, and this body has none")
     robot: str | Path
     if urdf is not None:
         robot = urdf
@@ -153,7 +153,7 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
         support=table.table("support") if "support" in table else None,
     )
     if entry.wrenches is not None and base == "fixed":
-        raise table.fail("wrenches", 'do nothing to a body with base = "fixed"')
+        raise table.fail("wrenches", 'have no effect on a body with base = "fixed"; remove them')
     return entry
 
 
@@ -206,7 +206,8 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
                 raise waypoint.fail(name, f"is not an actuated joint of this body{hint}")
         t = value(waypoint, WAYPOINT, "t")
         if not waypoint.names():
-            raise entry.table.fail(f"targets[{i}]", "names no joint", record)
+            problem = "sets no joint; give the position of at least one"
+            raise entry.table.fail(f"targets[{i}]", problem, record)
         for name in waypoint.names():
             kind = joints[name].kind
             if kind == "floating":
@@ -257,8 +258,8 @@ def _check_turn(waypoint: Fields, name: str, before: Array, after: Array) -> Non
     turn = float(after[most] - before[most])
     if abs(turn) > np.pi:
         problem = (
-            f"turns by {turn:.4g} rad from where it was, but a spring turns the shorter way: add "
-            "waypoints less than half a turn apart, or take away whole turns"
+            f"turns by {turn:.4g} rad from the pose before, but a spring takes the shorter way: "
+            "add waypoints less than half a turn apart, or subtract whole turns"
         )
         raise waypoint.fail(name, problem, after.tolist())
 
@@ -268,7 +269,10 @@ def _planar(waypoint: Fields, name: str, body: Body) -> tuple[Array, Array]:
     xyz, rpy = pose(waypoint.table(name), np.asarray(body.xyz))
     height = float(np.asarray(body.xyz)[2])
     if xyz[2] != height or rpy[:2].any():
-        problem = f"must keep the height {height:g} and turn about the vertical: the base is planar"
+        problem = (
+            f"must keep the height {height:g} and turn only about the vertical, because the base "
+            "is planar"
+        )
         raise waypoint.fail(name, problem, [*xyz.tolist(), *rpy.tolist()])
     return xyz, rpy
 
@@ -281,7 +285,7 @@ def _wrenches(name: str, table: Fields) -> Wrenches | None:
         check_names(entry, WRENCH)
         times.append(value(entry, WRENCH, "t"))
         if not {"force", "torque"} & set(entry.names()):
-            raise table.fail(f"wrenches[{i}]", "holds neither force nor torque", record)
+            raise table.fail(f"wrenches[{i}]", "must contain a force, a torque or both", record)
         values.append(np.concatenate([value(entry, WRENCH, key) for key in ("force", "torque")]))
     if not times:
         return None

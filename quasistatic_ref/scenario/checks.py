@@ -109,7 +109,7 @@ def check_motion(system: System, pairs: Sequence[ContactPair]) -> None:
         other, so that its rows are zero.
     """
     if not system.n_v:
-        problem = 'nothing here can move; give a body base = "floating", or a URDF with joints'
+        problem = 'no body can move; give one of them base = "floating", or a URDF with joints'
         raise ScenarioError(problem, field="bodies")
     kinematics = system.kinematics(system.q_start)
     for pair in pairs:
@@ -124,7 +124,7 @@ def check_motion(system: System, pairs: Sequence[ContactPair]) -> None:
         nu_at_b = nu_a + np.cross(omega_a, arm, axis=0)
         scale = 1 + np.abs(arm).max()
         if max(np.abs(nu_b - nu_at_b).max(), np.abs(omega_b - omega_a).max()) <= WELDED * scale:
-            problem = "its two sides cannot move relative to each other, so it can never act"
+            problem = "its two sides cannot move relative to each other, so it has no effect"
             names = {system.links[link].partition("/")[0] for link in (a, b)}
             still = [body.name for body in system.bodies if body.base == "fixed"]
             if fixed := [name for name in still if name in names]:

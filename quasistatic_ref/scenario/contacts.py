@@ -50,7 +50,8 @@ def placed_shapes(
     named |= {shape.name: [shape] for shape in system.shapes}
     for name, entry in entries.items():
         if name in named:
-            raise ScenarioError("is the name of a body as well", field=f"shapes.{name}")
+            problem = "is also the name of a body; choose another name"
+            raise ScenarioError(problem, field=f"shapes.{name}")
         root = system.link(name)
         if entry.cloud is None:
             named[name] = named[system.links[root]]
@@ -106,7 +107,8 @@ def contact_pairs(tables: Fields, shapes: Shapes, start: Kinematics) -> tuple[Co
         mu_v = value(table, CONTACT, "mu_v")
         mu_omega = value(table, CONTACT, "mu_omega", 0.0 if rows == 4 else REQUIRED)
         if rows == 4 and mu_omega > 0:
-            raise table.fail("mu_omega", "does nothing with rows = 4; use 6, or leave it", mu_omega)
+            problem = "has no effect with rows = 4; set rows = 6, or remove it"
+            raise table.fail("mu_omega", problem, mu_omega)
         k_given = value(table, CONTACT, "k")
         within = _within(k_given, table.name("k"))
         k = 1
@@ -150,7 +152,8 @@ def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
             placed += _matching(table, key, name, shapes)
             continue
         if name not in shapes:
-            raise table.fail(key, f"names nothing here{suggestion(name, shapes)}", name)
+            problem = f"is not a body, link or shape of this scenario{suggestion(name, shapes)}"
+            raise table.fail(key, problem, name)
         if not shapes[name]:
             raise table.fail(key, "has no collision shape; add one, or give a cloud", name)
         placed += shapes[name]
@@ -159,7 +162,7 @@ def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
     names = [shape.name for shape in placed]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
-        raise table.fail(key, f"names {twice} twice: its friction would count twice", given)
+        raise table.fail(key, f"names {twice} twice, so its friction would count twice", given)
     return placed
 
 

@@ -46,7 +46,7 @@ def apply_settings(
         for setting in settings:
             key, equals, text = str(setting).partition("=")
             if not equals:
-                problem = "must have the form dotted.key=value"
+                problem = "must be table.field=value, such as contacts.floor.mu_v=0.5"
                 raise ScenarioError(problem, field="--set", value=setting)
             _put(tables, key, parsed(text), "--set", setting)
     made = _second_level(tables) - before
@@ -63,7 +63,8 @@ def _second_level(tables: Mapping[str, Any]) -> set[tuple[str, str]]:
 def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object) -> None:
     parts = [part.strip() for part in key.split(".")]
     if not all(parts):
-        raise ScenarioError("must have the form dotted.key=value", field=field, value=given)
+        problem = "must be table.field=value, such as contacts.floor.mu_v=0.5"
+        raise ScenarioError(problem, field=field, value=given)
     if len(parts) > MOST_PARTS:
         problem = f"names a key of more than {MOST_PARTS} parts"
         raise ScenarioError(problem, field=field, value=given)

@@ -46,9 +46,9 @@ def path_in(folder: Path, table: Fields, field: str) -> Path | None:
     except (ValueError, RuntimeError, OSError) as error:  # a NUL character; links in a circle
         raise table.fail(field, f"cannot be a path: {error}", text) from None
     if not inside:
-        remedy = "put the file there, or give the path on the command line, as --set "
+        remedy = "move the file there, or give the path on the command line, as --set "
         remedy += f"{table.name(field)}=PATH"
-        raise table.fail(field, f"leaves the scenario's folder; {remedy}", text)
+        raise table.fail(field, f"is outside the scenario's folder; {remedy}", text)
     return path
 
 
@@ -69,6 +69,6 @@ def _installed(table: Fields, field: str, text: str) -> Path:
         if path.is_file() and package.parent == shared.resolve():
             if path.resolve().is_relative_to(package):
                 return path
-            raise table.fail(field, "leads out of the package", text)
-    remedy = "robots come with pip install 'quasistatic-ref[robots]'"
-    raise table.fail(field, f"is no file of an installed package; {remedy}", text)
+            raise table.fail(field, "must be a path inside the package", text)
+    remedy = "to install the robots, run pip install 'quasistatic-ref[robots]'"
+    raise table.fail(field, f"is not a file of an installed package; {remedy}", text)

@@ -178,7 +178,7 @@ class Scenario(Plain, Shown):
         for name in saving:
             if name not in SAVING:
                 problem = (
-                    f"is no argument of run ({known_names(SAVING)}); a field is set where the "
+                    f"is not an argument of run ({known_names(SAVING)}); set fields when the "
                     "scenario is loaded, as in load_scenario(path, record='light')"
                 )
                 raise InputError(problem, field=name)
@@ -237,7 +237,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     named = cone(value(top, TOP, "cone")).name
     solver = value(top, TOP, "solver")
     if "engine" in solver.names():
-        problem = "is not a field any more; use fast = true, next to h and steps"
+        problem = "is no longer a field; write fast = true, next to h and steps"
         raise solver.fail("engine", problem)
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")

@@ -94,7 +94,7 @@ class Trajectory(Plain, Shown):
     def __getitem__(self, name: str) -> NDArray[Any]:
         if name not in self.arrays:
             near = nearest_name(str(name), self.arrays)
-            raise InputError(f"is no array of this trajectory{near}", field=str(name))
+            raise InputError(f"is not an array of this trajectory{near}", field=str(name))
         return self.arrays[name]
 
     def __getattr__(self, name: str) -> NDArray[Any]:

@@ -251,7 +251,7 @@ def backend(name: str) -> Backend:
         if other not in known:
             remedy += f"; {entry.to_install_it}"
         choices = ", ".join(known)
-        raise BackendError(f"{remedy}; choices here: {choices}", field="backend", value=name)
+        raise BackendError(f"{remedy}; installed here: {choices}", field="backend", value=name)
     return entry
 
 
@@ -273,7 +273,7 @@ def cone_backend(name: str, what: str) -> None:
         return
     if not backend(name).cones or name.startswith(QPSOLVERS):
         able = ", ".join(b.name for b in BACKENDS.values() if b.cones)
-        raise BackendError(f"takes only linear rows; {what} needs one of {able}", field="backend",
+        raise BackendError(f"accepts only linear rows; {what} needs one of {able}", field="backend",
                            value=name)  # fmt: skip
 
 

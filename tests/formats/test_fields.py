@@ -38,19 +38,6 @@ def test_a_field_is_refused_by_its_full_name(table, read, says):
     assert str(caught.value).startswith(says)
 
 
-def test_good_fields_come_back_as_they_are():
-    fields = Fields({"a": 1, "b": 2, "c": True, "d": "x", "e": [1], "f": {"g": 0.5}})
-    assert fields.number("a") == 1.0
-    assert isinstance(fields.take("b"), int)
-    assert fields.boolean("c") is True
-    assert fields.text("d", choices=("x",)) == "x"
-    assert fields.sequence("e") == [1]
-    inner = fields.table("f")
-    assert inner.number("g") == 0.5
-    inner.close()
-    fields.close()
-
-
 def test_arrays_become_float64_of_the_asked_shape():
     fields = Fields({"a": [[1, 2], [3, 4]], "b": [], "c": [1, 2, 3]})
     a = fields.array("a", (2, None))
@@ -68,14 +55,6 @@ def test_a_missing_field_is_its_default_whatever_that_is():
     assert fields.array("c", (2,), default).tolist() == [0.0, 0.0]
     assert fields.integer("d", 3) == 3
     assert fields.boolean("e", False) is False
-
-
-@pytest.mark.parametrize("kind", ["integer", "boolean", "sequence"])
-def test_a_default_of_none_is_allowed_for_every_kind(kind):
-    try:
-        assert getattr(Fields({}), kind)("x", None) is None
-    except InputError as refused:
-        raise AssertionError(refused) from refused
 
 
 def test_zero_is_a_value_and_not_a_missing_one():

@@ -1,7 +1,6 @@
 """Phenomena for engines: committed results are those that reproductions and the page show."""
 
 import json
-import math
 import re
 import subprocess
 import sys
@@ -67,33 +66,3 @@ def test_a_run_of_the_study_of_second_order_simulators_is_the_committed_one(scen
         found = engines.row(run)
     (committed,) = second_order_page.chosen(**run._asdict())
     assert found | {"cost": 0.0} == committed | {"cost": 0.0}
-
-
-@pytest.mark.parametrize("implicit", [False, True])
-def test_a_servo_of_mujoco_is_a_spring_and_a_damper_with_the_stated_rule(implicit):
-    # m (v' - v) / h = K (r - x) + d (w - v'), x and r at the start of the step, w = dr/dt; with
-    # an implicit spring x' = x + h v' and the end's r stand in their place.
-    h = 0.02
-    m = 0.1
-    K = 2000.0
-    w = 0.05
-    steps = 10
-    d = 2 * math.sqrt(K * m)
-    x = 0.0
-    v = 0.0
-    expected = []
-    for k in range(steps):
-        r = w * h * (k + implicit)
-        v = (m * v + h * (K * (r - x) + d * w)) / (m + h * d + implicit * h**2 * K)
-        x += h * v
-        expected.append(x)
-    finger = {"name": "finger", "joint": "servo", "K": K, "mass": m, "inertia": [1e-4] * 3,
-              "xyz": [0.0, 0.0, 0.0], "shapes": []}  # fmt: skip
-    scene = {"gravity": [0, 0, -9.81], "mu_v": 0.5, "mu_omega": 0.0, "floor": False, "loads": [],
-             "bodies": [finger], "times": [h * (k + 1) for k in range(steps)],
-             "targets": {"finger": [[0, 0, 0, 0], [1, 0, w, 0]]}}  # fmt: skip
-    setting = {"h": h, "option": {"integrator": "implicitfast"}, "implicit_spring": implicit}
-    with Program(f"{sys.executable} {HERE / 'mujoco_adapter.py'}", 60.0) as mujoco:
-        reply = mujoco.ask("run", "phenomena", {"scene": scene, "setting": setting})
-    found = np.array(reply.output["poses"]["finger"])[:, :3]
-    assert np.allclose(found, np.outer(expected, [0, 1, 0]), rtol=0, atol=1e-12)

@@ -49,9 +49,9 @@ def test_unknown_names_are_answered_with_the_nearest(scene: System) -> None:
         scene.joint("arm/slid")
     with pytest.raises(ModelError, match="link: is not a link; did you mean 'desk/upper'"):
         scene.link("desk/uper")
-    with pytest.raises(ModelError, match="body: is no body; did you mean 'desk'"):
+    with pytest.raises(ModelError, match="body: is not a body; did you mean 'desk'"):
         scene.mass("dessk")
-    with pytest.raises(ModelError, match="body: has a fixed base, on which a wrench does nothing"):
+    with pytest.raises(ModelError, match="body: has a fixed base, so a wrench has no effect on it"):
         scene.centre_of_mass_force(scene.q_start, "desk", np.ones(3), np.ones(3))
 
 
@@ -64,13 +64,13 @@ BAD_BODY: dict[str, tuple[dict[str, Any], str]] = {
     "bare string": ({"actuated": "swing"}, 'c.actuated: must be "all" or a sequence'),
     "unknown joint": ({"actuated": ("swong",)}, "c.actuated: has no such joint; did you mean 'swi"),
     "mimic joint": ({"actuated": ("swing_mimic",)}, "c.actuated: mimics 'swing' and has no coord"),
-    "fixed base": ({"actuated": ("base",)}, 'c.actuated: is fixed; say base = "floating"'),
+    "fixed base": ({"actuated": ("base",)}, 'c.actuated: is fixed; set base = "floating"'),
     "twice": ({"actuated": ("swing", "swing")}, "c.actuated: names a joint twice"),
     "rpy": ({"rpy": (0, np.nan, 0)}, "c.rpy: must contain finite numbers only"),
     "unknown position": ({"positions": {"swin": 1}}, "c.positions: has no such joint; did you"),
     "base position": (
         {"base": "floating", "positions": {"base": 1}},
-        "c.positions: is placed by xyz and rpy",
+        "c.positions: is positioned by xyz and rpy",
     ),
     "no file": ({"urdf": "nowhere.urdf"}, "nowhere.urdf: no such file"),
 }  # fmt: skip
@@ -88,7 +88,7 @@ def test_a_body_that_cannot_be_is_refused(
 
 def test_two_bodies_of_one_name_are_refused(tmp_path: Path) -> None:
     body = Body("box", written(tmp_path, BOX))
-    with pytest.raises(ModelError, match=r"body.name: is the name of two bodies \(got 'box'\)"):
+    with pytest.raises(ModelError, match=r"body\.name: is the name of two bodies; rename one"):
         System([body, body])
 
 

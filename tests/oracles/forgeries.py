@@ -15,7 +15,6 @@ alone.
 
 from __future__ import annotations
 
-import copy
 import json
 import math
 from collections.abc import Iterator
@@ -30,11 +29,10 @@ from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
-from tests.oracles.records import Place, places, value_at
+from tests.oracles.records import places, put, value_at
 from tests.oracles.solution_truth import least_bound, truth_of, wrenches
 
 Json = Any
-MISSING: Json = object()
 NO_NUMBER: tuple[Json, ...] = (None, "1", True, [], {}, [0.0], math.nan, math.inf, -math.inf)
 HUGE = (1e308, -1e308, 1e9, -1.0, 5.0)
 NO_WORD: tuple[Json, ...] = (None, 1, True, [], {}, "", "x", "residual", "exact", "infeasible")
@@ -55,19 +53,6 @@ def good_file(step: StepData, kind: str) -> Json:
     if kind == "residual":
         good["certificate"]["error_bound"] = least_bound(step, good)
     return good
-
-
-def put(record: Json, where: Place, value: Json) -> Json:
-    """A copy of a record with something else there, or nothing."""
-    if not where:
-        return value
-    forged = copy.deepcopy(record)
-    owner = value_at(forged, where[:-1])
-    if value is MISSING:
-        del owner[where[-1]]
-    else:
-        owner[where[-1]] = value
-    return forged
 
 
 def replacements(value: Json) -> Iterator[Json]:
@@ -104,7 +89,7 @@ def forgeries(step: StepData, record: Json) -> Iterator[tuple[str, Json]]:
     for where in ((), *places(record)):
         value = value_at(record, where)
         name = ".".join(key for key in where if isinstance(key, str)) or "the file"
-        for new in (*replacements(value), *([MISSING] if where else [])):
+        for new in (*replacements(value), *([...] if where else [])):
             if new is value or (type(new) is type(value) and repr(new) == repr(value)):
                 continue
             forged = put(record, where, new)

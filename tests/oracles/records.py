@@ -45,6 +45,19 @@ def value_at(record: Any, place: Place) -> Any:
     return record
 
 
+def put(record: Any, place: Place, value: Any) -> Any:
+    """A copy of a record with something else at a place, or nothing there, by `...`."""
+    if not place:
+        return value
+    new = copy.deepcopy(record)
+    owner = value_at(new, place[:-1])
+    if value is ...:
+        del owner[place[-1]]
+    else:
+        owner[place[-1]] = value
+    return new
+
+
 def spoilt_record(rng: Rng, good: Any) -> Any:
     """A copy with one to three values replaced, removed, renamed, doubled or exchanged."""
     record = copy.deepcopy(good)

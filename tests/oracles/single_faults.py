@@ -22,7 +22,8 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_sha256, step_text
 from tests.oracles.forged_scenes import facing, scenes
-from tests.oracles.forgeries import MISSING, good_file, put, with_its_wrenches
+from tests.oracles.forgeries import good_file, with_its_wrenches
+from tests.oracles.records import put
 
 Fault = tuple[str, str, str]
 """Texts of a step and of a solution, and what the second checker says first."""
@@ -64,7 +65,7 @@ def in_the_files() -> Iterator[Fault]:
     record = json.loads(text)
     solution = json.dumps(good)
     for where, value, reason in (
-        (("h",), MISSING, "the step has no field h"),
+        (("h",), ..., "the step has no field h"),
         (("h",), 0.0, "h is not greater than 0"),
         (("cone",), "facets-5", "the cone is unknown"),
         (("contacts", 0, "d1"), [-1.0, 0.0, 0.0], "d1, d2, n are not orthonormal and right-handed"),

@@ -14,6 +14,7 @@ import numpy as np
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import exact_optimum
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
+from tests.oracles.solution_truth import dot, exact
 
 PROBLEMS = 320
 
@@ -31,10 +32,6 @@ def eliminated(M, right):
             if k != i and rows[k][i]:
                 rows[k] = [a - rows[k][i] * b for a, b in zip(rows[k], rows[i], strict=True)]
     return [row[len(M) :] for row in rows]
-
-
-def dot(a, b):
-    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
 
 
 class Enumeration:
@@ -131,14 +128,8 @@ def small_problem(seed):
     return H, g, np.array(A).reshape(m, n), np.array(b)
 
 
-def fractions_of(array):
-    return [Fraction(float(v)) for v in array]
-
-
 def enumeration_of(H, g, A, b):
-    return Enumeration(
-        [fractions_of(r) for r in H], fractions_of(g), [fractions_of(r) for r in A], fractions_of(b)
-    )
+    return Enumeration([exact(r) for r in H], exact(g), [exact(r) for r in A], exact(b))
 
 
 def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
@@ -160,13 +151,13 @@ def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
                 for i, v in found.y.items():
                     y[i] = Fraction(int(v.p), int(v.q))
                 assert all(v >= 0 for v in y), seed
-                assert all(dot(y, fractions_of(column)) == 0 for column in A.T), seed
-                assert dot(y, fractions_of(b)) > 0, seed
+                assert all(dot(y, exact(column)) == 0 for column in A.T), seed
+                assert dot(y, exact(b)) > 0, seed
                 continue
             assert not isinstance(found, Farkas), seed
             assert found.delta_q.tolist() == [float(v) for v in truth.x], seed
             assert found.slack.tolist() == [float(v) for v in truth.slack], seed
-            net = [dot(truth.vertices[0], fractions_of(column)) for column in A.T]
+            net = [dot(truth.vertices[0], exact(column)) for column in A.T]
             assert found.net.tolist() == [float(v) for v in net], seed
             vertices = [[float(v) for v in lam] for lam in truth.vertices]
             assert found.lam.tolist() in vertices, seed

@@ -14,7 +14,7 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import StepData
 from tests.model.urdf.urdf_texts import joint, link, robot, written
-from tests.scenes import BALL, written_scenario
+from tests.scenes import written_scenario
 from tests.tolerances import EXACT, ROUNDING, STICKING
 
 GRAVITY = 9.81
@@ -135,22 +135,6 @@ def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):
         rollout(scenario.simulator(), q, scenario.targets, 3, force=force, progress=False)
     assert caught.value.trajectory.steps == 1
     assert isinstance(caught.value.__cause__, StepDataError)
-
-
-@pytest.mark.parametrize("h", [0.005, 0.02])
-def test_free_fall_is_h_squared_g_per_step_without_acceleration(tmp_path, h):
-    system = System([Body("ball", written(tmp_path, BALL), "floating", xyz=(0, 0, 1))])
-    simulator = Simulator(system, [], h=h, K_q=np.zeros((0, 0)))
-    run = rollout(simulator, system.q_start, np.zeros(0), 10, progress=False)
-    expected = [1 - k * h**2 * GRAVITY for k in range(11)]
-    np.testing.assert_allclose(run["q"][:, 2], expected, rtol=ROUNDING)
-    np.testing.assert_allclose(run["q"][:, :2], np.zeros((11, 2)), rtol=EXACT, atol=ROUNDING)
-
-
-def test_a_compensated_joint_does_not_feel_gravity(lift):
-    simulator = Simulator(lift, [], h=0.01, K_q=np.array([[400.0]]))
-    run = rollout(simulator, lift.q_start, lift.q_start, 3, progress=False)
-    np.testing.assert_allclose(run["q"], np.zeros((4, 1)), rtol=EXACT, atol=ROUNDING)
 
 
 def test_an_uncompensated_joint_sags_by_its_weight_over_its_stiffness(lift):

@@ -8,7 +8,6 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.target import JointTrack, Targets, piecewise_linear
-from tests.scenes import chain_scene
 from tests.tolerances import DIFFERENCE, EXACT, ROUNDING
 
 TIMES = np.array([1.0, 2.0, 4.0])
@@ -24,11 +23,6 @@ BETWEEN = {
 }
 
 
-@pytest.fixture
-def system(tmp_path):
-    return chain_scene(tmp_path)
-
-
 @pytest.mark.parametrize(("t", "expected"), BETWEEN.values(), ids=BETWEEN)
 def test_waypoints_are_joined_by_lines_and_held_at_both_ends(t, expected):
     np.testing.assert_allclose(
@@ -36,9 +30,9 @@ def test_waypoints_are_joined_by_lines_and_held_at_both_ends(t, expected):
     )
 
 
-def test_a_continuous_joint_may_turn_beyond_pi(system):
+def test_a_continuous_joint_may_turn_beyond_pi(scene):
     angles = np.array([[0.0], [7.0]])
-    track = JointTrack(system, system.joint("arm/spin"), np.array([0.0, 1.0]), angles)
+    track = JointTrack(scene, scene.joint("arm/spin"), np.array([0.0, 1.0]), angles)
     for t, angle in ((0.0, 0.0), (0.5, 3.5), (0.9, 6.3), (1.0, 7.0), (2.0, 7.0)):
         np.testing.assert_allclose(
             track.at(t), [np.cos(angle), np.sin(angle)], rtol=ROUNDING, atol=ROUNDING
@@ -56,9 +50,9 @@ def placed(rng):
     return np.concatenate([rng.normal(size=3), turned.as_quat()])
 
 
-def test_a_base_follows_the_screw_between_its_waypoints(system, rng):
+def test_a_base_follows_the_screw_between_its_waypoints(scene, rng):
     values = np.array([placed(rng), placed(rng), placed(rng)])
-    track = JointTrack(system, system.joint("arm/base"), TIMES, values)
+    track = JointTrack(scene, scene.joint("arm/base"), TIMES, values)
     for t, i, s in ((1.25, 0, 0.25), (1.9, 0, 0.9), (3.0, 1, 0.5)):
         start = transform(values[i])
         end = transform(values[i + 1])
@@ -69,22 +63,22 @@ def test_a_base_follows_the_screw_between_its_waypoints(system, rng):
         )
 
 
-def test_joints_without_a_track_keep_their_start(system):
-    start = system.q_start[: system.n_q_a]
-    slide = system.joint("desk/slide")
-    track = JointTrack(system, slide, np.array([0.0, 1.0]), np.array([[0.0], [0.4]]))
+def test_joints_without_a_track_keep_their_start(scene):
+    start = scene.q_start[: scene.n_q_a]
+    slide = scene.joint("desk/slide")
+    track = JointTrack(scene, slide, np.array([0.0, 1.0]), np.array([[0.0], [0.4]]))
     q_bar_a = Targets(start, [track])(0.5)
     expected = start.copy()
     expected[slide.q] = 0.2
     np.testing.assert_allclose(q_bar_a, expected, rtol=ROUNDING)
-    np.testing.assert_allclose(start, system.q_start[: system.n_q_a], rtol=EXACT)
+    np.testing.assert_allclose(start, scene.q_start[: scene.n_q_a], rtol=EXACT)
 
 
 @pytest.mark.parametrize("times", [[0.0, 0.0], [1.0, 0.5]])
-def test_times_that_do_not_increase_are_refused(system, times):
-    joint = system.joint("desk/slide")
+def test_times_that_do_not_increase_are_refused(scene, times):
+    joint = scene.joint("desk/slide")
     with pytest.raises(ScenarioError, match="targets of desk/slide: waypoint times must increase"):
-        JointTrack(system, joint, np.array(times), np.zeros((2, 1)))
+        JointTrack(scene, joint, np.array(times), np.zeros((2, 1)))
 
 
 TURNS = {

@@ -13,11 +13,17 @@ from quasistatic_ref.step.files import step_read, step_written
 from tests.scenes import SWING, written_scenario
 from tests.tolerances import EXACT
 
-LIGHT = {
-    "q", "t", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "d1", "d2", "point", "lam",
-    "wrench", "worst_residual", "certificate", "digits", "mu_v", "mu_omega", "rows",
+SHAPES = {
+    "q": (6, 10), "t": (5,), "delta_q": (5, 8), "q_bar_a": (5, 3), "phi": (5, 2),
+    "alpha": (5, 2, 3), "beta": (5, 2, 3), "n": (5, 2, 3), "d1": (5, 2, 3), "d2": (5, 2, 3),
+    "point": (5, 2), "lam": (5, 10), "wrench": (5, 2, 4), "worst_residual": (5,),
+    "certificate": (5,), "digits": (5,),
+    "H": (5, 8, 8), "g": (5, 8), "A": (5, 10, 8), "b": (5, 10), "J": (5, 2, 4, 8),
+    "K_q": (5, 2, 2), "M_u": (5, 6, 6), "tau_a": (5, 2), "tau_u": (5, 6),
+    "delta_q_bar_a": (5, 2), "mu_v": (2,), "mu_omega": (2,), "rows": (2,),
 }  # fmt: skip
-FULL = LIGHT | {"H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"}
+"""Of the arrays of the run."""
+PROGRAMS = {"H", "g", "A", "b", "J", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a"}
 
 
 @pytest.fixture(scope="module")
@@ -44,16 +50,7 @@ def failure(folder):
 
 
 def test_the_first_axis_is_the_step_and_q_has_the_start_as_well(scenario, run):
-    shapes = {
-        "q": (6, 10), "t": (5,), "delta_q": (5, 8), "q_bar_a": (5, 3), "phi": (5, 2),
-        "alpha": (5, 2, 3), "beta": (5, 2, 3), "n": (5, 2, 3), "d1": (5, 2, 3), "d2": (5, 2, 3),
-        "point": (5, 2), "lam": (5, 10), "wrench": (5, 2, 4), "worst_residual": (5,),
-        "certificate": (5,), "digits": (5,),
-        "H": (5, 8, 8), "g": (5, 8), "A": (5, 10, 8), "b": (5, 10), "J": (5, 2, 4, 8),
-        "K_q": (5, 2, 2), "M_u": (5, 6, 6), "tau_a": (5, 2), "tau_u": (5, 6),
-        "delta_q_bar_a": (5, 2), "mu_v": (2,), "mu_omega": (2,), "rows": (2,),
-    }  # fmt: skip
-    assert {name: array.shape for name, array in run.arrays.items()} == shapes
+    assert {name: array.shape for name, array in run.arrays.items()} == SHAPES
     np.testing.assert_allclose(run["q"][0], scenario.system.q_start, rtol=EXACT)
     np.testing.assert_allclose(run["t"], [(k + 1) * 0.01 for k in range(5)], rtol=EXACT)
 
@@ -73,7 +70,7 @@ def test_a_recorded_step_is_the_one_that_was_solved(scenario, run):
 def test_a_file_read_back_is_the_same_bits(tmp_path, run):
     back = trajectory_read(run.save(tmp_path / "run.npz"))
     assert back == run
-    assert set(back.arrays) == FULL
+    assert set(back.arrays) == SHAPES.keys()
     for name, array in run.arrays.items():
         assert back[name].dtype == array.dtype
         np.testing.assert_array_equal(back[name], array)
@@ -122,7 +119,7 @@ def test_wall_times_are_kept_in_memory_only(tmp_path, run):
 
 def test_a_light_record_has_no_programs_and_says_so(tmp_path, folder, run):
     light = load_scenario(folder / "scene.toml", ["record=light"], fast=True).run(progress=False)
-    assert set(light.arrays) == LIGHT
+    assert set(light.arrays) == SHAPES.keys() - PROGRAMS
     back = trajectory_read(light.save(tmp_path / "run.npz"))
     np.testing.assert_allclose(back["q"], run["q"], rtol=EXACT, atol=EXACT)
     with pytest.raises(InputError, match="a light record has no quadratic programs"):

@@ -6,15 +6,11 @@ import sys
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.optional.fast.simulator import FastSimulator
-from quasistatic_ref.parts import part
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import pinch
 from tests.tolerances import EXACT
 
 STEPS = {"bunny_grasp": 60}  # its gripper has closed after 50; of the others 6 are taken
@@ -61,24 +57,3 @@ print(run.steps, [name for name in sys.modules if name.startswith("quasistatic_r
 def test_the_plain_path_imports_nothing_of_fast():
     done = subprocess.run([sys.executable, "-c", PLAIN], capture_output=True, text=True, check=True)
     assert done.stdout == "1 []\n"
-
-
-def test_without_the_folder_of_fast_the_word_gets_one_sentence(monkeypatch):
-    missing = "quasistatic_ref.optional.fast"
-
-    class Absent:
-        @staticmethod
-        def find_spec(name, *_):
-            if name == missing:
-                raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-
-    for name in [name for name in sys.modules if name.startswith(missing)]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.setattr(sys, "meta_path", [Absent, *sys.meta_path])
-    part.cache_clear()
-    try:
-        with pytest.raises(InputError, match=r"^fast needs quasistatic_ref/optional/fast$"):
-            solve_step(pinch(), fast=True)
-        assert solve_step(pinch()).certificate.kind == "exact"
-    finally:
-        part.cache_clear()

@@ -16,7 +16,8 @@ from quasistatic_ref.step.files import (
     step_text,
     step_written,
 )
-from tests.helpers import point_on_floor, random_step, record_changed
+from tests.errors.scene import changed
+from tests.helpers import point_on_floor, random_step
 
 RNG = np.random.default_rng(11)
 PLAIN = random_step(RNG, n_a=2, n_u=3, rows=(6, 4))
@@ -80,7 +81,7 @@ def test_a_step_is_written_as_by_hand_and_hashed_by_its_text():
 
 
 def test_cone_and_extra_may_be_left_out():
-    record = record_changed(record_of(PLAIN), ["cone"])
+    record = changed(record_of(PLAIN), ("cone", ...))
     assert step_from_record(record) == PLAIN
 
 
@@ -92,7 +93,7 @@ def test_what_is_no_table_is_no_step(record):
 
 def test_an_error_in_a_file_names_the_file(tmp_path):
     path = tmp_path / "step.json"
-    path.write_text(json.dumps(record_changed(record_of(PLAIN), ["h"], -1.0)))
+    path.write_text(json.dumps(changed(record_of(PLAIN), ("h", -1.0))))
     with pytest.raises(InputError) as caught:
         step_read(path)
     assert str(caught.value) == f"{path}: h: must be greater than 0 (got -1.0)"

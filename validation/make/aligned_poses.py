@@ -4,8 +4,7 @@ What is expected is written here by hand, and none of it is computed by the pack
 is lifted by d and nothing else, under m g + m d / h^2 along the normal of the surface it lies on;
 edges of a flush grid touch along the bisector, and are refused where they are equally deep; two
 bodies move alike whichever is alpha, whatever comes first, wherever they are and however turned.
-Writes validation/results/aligned_poses.md; ``--count N`` tries that many in all, and writes
-nothing.
+``--count`` is that of all scenes.
 """
 
 from __future__ import annotations
@@ -40,8 +39,6 @@ from quasistatic_ref.simulate.simulator import Simulator
 from validation.tools.scripts import asked, shown
 
 Array = np.ndarray
-PAGE = Path(__file__).parents[1] / "results" / "aligned_poses.md"
-COUNT = 10_500
 H = 0.01
 G = 9.81
 MASS = 1.0
@@ -285,13 +282,13 @@ def tries(scenes: Iterable[int]) -> tuple[Counter[str], list[tuple[str, str]]]:
 
 def main() -> None:
     """Try all families and write the page."""
-    count = asked(__doc__, count=int).count
-    tried, wrong = tries(range(count or COUNT))
+    options = asked(__doc__, count=10_500, out=Path)
+    tried, wrong = tries(range(options.count))
     broke = Counter(name for name, _ in wrong)
     rows = [(name, tried[name], broke[name]) for name in sorted(tried)]
     total = ("all", sum(tried.values()), len(wrong))
     table = markdown_table(("family", "scenes", "wrong"), [*rows, total])
-    shown("\n".join([INTRODUCTION, *table]), PAGE if count is None else None)
+    shown("\n".join([INTRODUCTION, *table]), options.out)
 
 
 if __name__ == "__main__":

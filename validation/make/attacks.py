@@ -13,21 +13,16 @@
 Nothing that is expected comes from the package: see :mod:`tests.oracles.solution_truth`. Its exact
 method only names working sets, whose optimality is proved here. Prints a table, and exits with
 status 1 if anything is wrong. ``--count`` is that of exact answers of each family, 500 unless it is
-said, with the others in proportion; ``--jobs`` that of processes. With ``--log FILE`` each batch
-is kept as it ends, and the same command goes on from there. All counts take some 15 minutes of one
-core; with ``--seconds`` the table has what was tried by then, of all families alike.
+said, with the others in proportion. All counts take some 15 minutes of one core.
 """
 
 from __future__ import annotations
 
 import json
 import sys
-import time
 from collections import Counter
-from collections.abc import Iterator
 from fractions import Fraction
 from itertools import cycle, islice, pairwise
-from operator import itemgetter
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -39,7 +34,6 @@ from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, s
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.errors import InputError, QuasistaticError, StepInfeasible
 from quasistatic_ref.lab.page.markdown import markdown_table
-from quasistatic_ref.lab.parallel import Log, Record, results, workers
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
@@ -66,7 +60,7 @@ from validation.tools.verifier_files import Case
 
 Json = Any
 BATCH = 50
-"""Cases of a record of the log."""
+"""Cases that ``verify.js`` is asked about at once."""
 BACKENDS = "daqp", "clarabel", "osqp", "piqp", "quadprog"
 SHARE = Fraction(1e-14)
 """Of its diagonal entry, what a pivot has to be above."""
@@ -277,53 +271,38 @@ ATTACKS = {
 }
 
 
-def attacked(kind: str, family: str, number: int, first: int) -> Record:
-    """What came of a batch of a family, from this seed on."""
-    with TemporaryDirectory() as folder:
-        attack = Attack(f"{kind}, {family}", folder)
-        ATTACKS[kind](attack, family, number, first)
-        attack.by_javascript()
-    counts = dict(attack.counts)
-    return {"family": attack.name, "first": first, "counts": counts, "wrong": attack.wrong}
-
-
-def batches(kind: str, family: str, number: int) -> Iterator[tuple[str, str, int, int]]:
-    """The calls of :func:`attacked` for so many cases of a family."""
-    room = 100 * BATCH  # seeds of a batch: not each of them is a case
+def attacked(kind: str, family: str, number: int) -> tuple[Counter[str], list[str]]:
+    """What came of so many cases of a family, and those that went wrong."""
+    counts = Counter[str]()
+    wrong: list[str] = []
     for k, start in enumerate(range(0, number, BATCH)):
-        yield kind, family, min(BATCH, number - start), k * room
+        with TemporaryDirectory() as folder:
+            attack = Attack(f"{kind}, {family}", folder)
+            first = 100 * BATCH * k  # not each seed is a case
+            ATTACKS[kind](attack, family, min(BATCH, number - start), first)
+            attack.by_javascript()
+        counts += attack.counts
+        wrong += attack.wrong
+    return counts, wrong
 
 
 def main() -> int:
     """Print the table; exit status 1 if anything is wrong."""
-    options = asked(__doc__, count=500, seconds=float("inf"), jobs=1, log=Path, out=Path)
+    options = asked(__doc__, count=500, out=Path)
     count = options.count
     kinds = dict.fromkeys(kind for kind, _ in scenes(every=True))
-    families = [("exact answers", family, count) for family in FAMILIES]
-    families += [("bounds", family, 2 * count) for family in FAMILIES]
+    families = [("bounds", family, 2 * count) for family in FAMILIES]
+    families += [("exact answers", family, count) for family in FAMILIES]
     families += [("forgeries", kind, 10 * count // len(kinds) + 1) for kind in kinds]
     families += [("nearly singular", key, 5 * count // 2) for key in ("K_q", "M_u")]
-    log = Log(options.log, itemgetter("family", "first"), {"count": count})
-    tasks = sorted((b for family in families for b in batches(*family)), key=itemgetter(3))
-    left = [task for task in tasks if (f"{task[0]}, {task[1]}", task[3]) not in log.found]
-    begun = time.monotonic()
-    with workers(options.jobs) as pool:
-        made = results(pool, options.jobs, attacked, left)
-        for record in tqdm(made, "batches", len(tasks), initial=len(tasks) - len(left)):
-            log.add(record)
-            if time.monotonic() - begun > options.seconds:
-                break
-    sums = dict[str, Counter[str]]()
+    rows = []
     wrong = list[str]()
-    for record in sorted(log.found.values(), key=itemgetter("family", "first")):
-        sums.setdefault(record["family"], Counter()).update(record["counts"])
-        wrong += record["wrong"]
-    rows = [(family, *cells) for family in sums for cells in sorted(sums[family].items())]
-    lines = markdown_table(
-        ("what", "what came of it", "cases"), [(*row[:2], f"{row[2]:,}") for row in rows], left=2
-    )
-    tried = f"{len(log.found)} of the {len(tasks)} batches of {BATCH} that were asked for"
-    lines.append(f"\nTried were {tried}; {len(wrong)} cases are wrong.")
+    for kind, family, number in tqdm(sorted(families), "families"):
+        counts, own = attacked(kind, family, number)
+        rows += [(f"{kind}, {family}", what, f"{n:,}") for what, n in sorted(counts.items())]
+        wrong += own
+    lines = markdown_table(("what", "what came of it", "cases"), rows, left=2)
+    lines += ["", f"{len(wrong)} cases are wrong."]
     shown(HEAD + "\n".join(lines), options.out)
     print(*wrong[:20], sep="\n")
     return int(bool(wrong))

@@ -8,7 +8,6 @@ are correct digits and iterations. Two minutes; ``--every N`` takes each N-th pr
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 from pathlib import Path
@@ -17,7 +16,6 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.certify.digits import relative_digits
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.calling.calls import tried
@@ -26,8 +24,8 @@ from quasistatic_ref.lab.study.calling.options import options_at
 from quasistatic_ref.lab.study.problems.families.dials import ends
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.problem import Problem
+from validation.tools.scripts import asked, shown
 
-RESULTS = Path(__file__).parents[1] / "results" / "contact_qp.md"
 SOLVERS = ("daqp", "piqp", "clarabel", "osqp")
 ACCURACY = 1e-9
 PARTS = 5
@@ -88,13 +86,9 @@ def lines(every: Sequence[Problem]) -> Iterator[tuple[str, ...]]:
 
 def main() -> None:
     """Write the table."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--every", type=int, default=1, metavar="N")
-    parser.add_argument("--out", type=Path, default=RESULTS)
-    options = parser.parse_args()
+    options = asked(__doc__, every=1, out=Path)
     every = set_read(problem_set_folder(CONTACT_QP_2))[:: options.every]
-    table = markdown_table(HEAD, list(lines(every)), left=3)
-    print(text_written(options.out, "\n".join(table) + "\n"))
+    shown("\n".join(markdown_table(HEAD, list(lines(every)), left=3)), options.out)
 
 
 if __name__ == "__main__":

@@ -1,18 +1,15 @@
 """What surrounds a proof, made hostile: ``python -m validation.make.environments --out FILE``.
 
-Modes of the processor, threads, compilers and caches, each tried in a process of its own. Every
-call must end with the bits that it has in an ordinary process, or be refused in a sentence. Takes a
-quarter of an hour, most of it in compilers; ``--count`` is that of steps, or trials, of each, and
-``--one`` tries one alone, in this process. The compilers and caches that are tried stand in
-``validation/make/broken_compilers.py``.
+Modes of the processor, threads, compilers and caches. Every call must end with the bits that it has
+in an ordinary thread, or be refused in a sentence. Takes a quarter of an hour, most of it in
+compilers; ``--count`` is that of steps, or trials, of each. The compilers and caches that are tried
+stand in ``validation/make/broken_compilers.py``.
 """
 
 from __future__ import annotations
 
 import ctypes
-import json
 import platform
-import subprocess
 import sys
 import threading
 from collections import Counter
@@ -37,15 +34,13 @@ from tests.oracles.random_steps import mixed_step
 from validation.make.broken_compilers import compiler_lines
 from validation.tools.scripts import asked, shown
 
-ROOT = Path(__file__).parents[2]
 PAGE = """# What surrounds a proof, made hostile
 
-Written by `python -m validation.make.environments --out FILE`. Each line was tried in a process of
-its own.
+Written by `python -m validation.make.environments --out FILE`.
 
 ## Modes of the processor, and threads
 
-`same`: the call had the result of an ordinary process, to the last bit. `refused`: one sentence
+`same`: the call had the result of an ordinary thread, to the last bit. `refused`: one sentence
 named the cause, and nothing was claimed. `unclaimed`: an answer with `certify = "off"`, which says
 that nothing is claimed, or a backend that gave up. `broke`: anything else, such as other bits or a
 traceback.
@@ -56,18 +51,17 @@ traceback.
 
 ## Compilers and caches
 
-A few certified steps, the closest points and rows of which are compiled where there is a library.
-`compiled`: the library passed its self-test, and the steps had the bits that NumPy gives them.
-Otherwise they were NumPy's, with the same bits, for the reason that is quoted.
+A few certified steps in a process of its own, the closest points and rows of which are compiled
+where there is a library. `compiled`: the library passed its self-test, and the steps had the bits
+that NumPy gives them. Otherwise they were NumPy's, with the same bits, for the reason that is
+quoted.
 
 | environment | outcome |
 |---|---|
 {compilers}
 """
-COUNT = 20
-"""Steps of each environment, or runs by two threads."""
 LONG = 20
-"""Steps of such a run."""
+"""Steps of a run by two threads."""
 
 # Words of the processor's control register, by architecture: where fegetenv puts it, in 32 bits.
 REGISTER = {"x86_64": 7, "aarch64": 0}
@@ -275,26 +269,12 @@ def count_line(name: str, words: Counter[str]) -> str:
     return f"| {' | '.join(map(str, cells))} |"
 
 
-def tried(name: str, count: int) -> Counter[str]:
-    """One environment in a process of its own."""
-    command = [sys.executable, "-m", "validation.make.environments", "--one", name]
-    done = subprocess.run(
-        [*command, "--count", str(count)], cwd=ROOT, capture_output=True, text=True, check=False
-    )
-    if done.returncode:
-        return Counter({f"broke: status {done.returncode}: {done.stderr[-300:]}": 1})
-    return Counter(json.loads(done.stdout))
-
-
 def main() -> int:
-    """Try all, or one; exit status 1 if anything broke."""
-    options = asked(__doc__, count=COUNT, one=str, out=Path)
-    if options.one:
-        print(json.dumps(TRIED[options.one](options.count)))
-        return 0
+    """Try all; exit status 1 if anything broke."""
+    options = asked(__doc__, count=20, out=Path)
     counts = {}
-    for name in TRIED:
-        counts[name] = tried(name, options.count)
+    for name, trial in TRIED.items():
+        counts[name] = trial(options.count)
         print(name, dict(counts[name]), file=sys.stderr, flush=True)
     lines = [count_line(*one) for one in counts.items()]
     page = PAGE.format(counts="\n".join(lines), compilers="\n".join(compiler_lines()))

@@ -1,15 +1,14 @@
 """Raw exit codes of solvers next to what a study reads from them.
 
 ``python -m validation.make.exit_codes`` (about four minutes) gives every installed solver 40
-problems without a solution and 40 with one, through its own interface in the plainest way. It
-prints its codes, what the solver's manual says that they mean, and what the study takes them for
-through each of the interfaces. The options are those of the setting ``high``. Only the matrices are
-shared with the study: neither its adapters nor its table of exit codes.
+problems without a solution and 40 with one (``--count``), through its own interface in the plainest
+way. It prints its codes, what the solver's manual says that they mean, and what the study takes
+them for through each of the interfaces. The options are those of the setting ``high``. Only the
+matrices are shared with the study: neither its adapters nor its table of exit codes.
 """
 
 from __future__ import annotations
 
-import argparse
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
@@ -17,7 +16,6 @@ from pathlib import Path
 import numpy as np
 from scipy.sparse import csc_matrix, triu
 
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.folders import CONTACT_QP_1, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.calling.calls import call_of, tried
@@ -28,13 +26,12 @@ from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.step.standard_form import StandardForm
+from validation.tools.scripts import asked, shown
 
-RESULTS = Path(__file__).parents[1] / "results" / "exit_codes.md"
 HIGH = next(setting for setting in SETTINGS if setting.name == "high")
 INTERFACES = ("native", "qpsolvers", "cvxpy")
 FAMILIES = ("infeasible", "wedge", "contacts")
 """Without a solution; with one, hard to tell from none; with one, and easy."""
-COUNT = 40
 SECONDS = 5.0
 """Of a call through an interface [s]."""
 INNER = {"max_iter_in": 50}
@@ -262,19 +259,16 @@ def written(count: int) -> tuple[str, int]:
         "nothing was said.\n\n"
         f"{lines_of(names, table, 3)}\n\n## Agreement\n\nThrough the interface that says "
         f"most; {differ} calls differ.\n\n"
-        f"{lines_of(('solver', 'interface', 'code and claim agree'), sums, 2)}\n"
+        f"{lines_of(('solver', 'interface', 'code and claim agree'), sums, 2)}"
     )
     return text, differ
 
 
 def main() -> None:
     """Write the page; exit status 1 if a code and a claim differ."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=COUNT, help="problems of each kind")
-    parser.add_argument("--out", type=Path, default=RESULTS)
-    options = parser.parse_args()
+    options = asked(__doc__, count=40, out=Path)
     text, differ = written(options.count)
-    print(text_written(options.out, text))
+    shown(text, options.out)
     raise SystemExit(int(differ > 0))
 
 

@@ -15,7 +15,6 @@ Exit status 1 if anything of this fails.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -27,7 +26,6 @@ from quasistatic_ref.certify.compliance.forces import WRENCH, contact_forces, de
 from quasistatic_ref.certify.exact import exact_step
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import QuasistaticError
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.parallel import Log
 from quasistatic_ref.lab.scenes.contacts import repeated
@@ -40,10 +38,10 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import COMPLIANCE
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
+from validation.tools.scripts import asked, shown
 
 ROOT = Path(__file__).parents[2]
 VECTORS = ROOT / "validation" / "vectors"
-RESULT = ROOT / "validation" / "results" / "forces.md"
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", "scs", "none")
 CONES = (PYRAMID, "product", "facets-6", "frictionless")
 CHECKS = ("backends", "fast", "cold", "permuted", "definition", "independent", "noise")
@@ -126,17 +124,9 @@ def scenario_steps(every: int) -> Iterator[tuple[str, StepData]]:
             yield f"{folder.name} {k}", run.step_data(k)
 
 
-def main(arguments: list[str] | None = None) -> int:
+def main() -> int:
     """Write the table; exit status 1 if anything fails."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--random", type=int, default=2000, help="random steps")
-    parser.add_argument("--oracle", type=int, default=300, help="of them in 60 digits")
-    parser.add_argument(
-        "--every", type=int, default=1, help="every so many of the scenarios' steps"
-    )
-    parser.add_argument("--log", type=Path, help="where records are kept")
-    parser.add_argument("--out", type=Path, default=RESULT, help="the table")
-    given = parser.parse_args(arguments)
+    given = asked(__doc__, random=2000, oracle=300, every=1, log=Path, out=Path)
     log = Log(given.log, lambda record: record["step"])
     families = {
         "random": random_steps(given.random),
@@ -165,10 +155,8 @@ def main(arguments: list[str] | None = None) -> int:
         f"says which checks these are. Backends: {', '.join(BACKENDS)}.",
         "",
         *markdown_table(["steps", "number", *CHECKS], rows, 1),
-        "",
     ]
-    text_written(given.out, "\n".join(lines))
-    print("\n".join(lines))
+    shown("\n".join(lines), given.out)
     return int(failed > 0)
 
 

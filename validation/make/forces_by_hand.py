@@ -79,9 +79,9 @@ class Scene(NamedTuple):
     load: Array = WEIGHT
 
 
-def slab(half: float = 1.0) -> tuple[Shape, Array, Array]:
+def slab() -> tuple[Shape, Array, Array]:
     """What the lowest bodies stand on."""
-    return Box(np.array([half, HALF, HALF])), np.eye(3), -HALF * UP
+    return Box(np.array([1.0, HALF, HALF])), np.eye(3), -HALF * UP
 
 
 def column(kind: str, count: int, tall: float, inset: float, depth: float) -> Scene:

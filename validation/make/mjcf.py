@@ -1,13 +1,11 @@
-"""MJCF models of others against MuJoCo: ``python -m validation.make.mjcf [FOLDER] [--count N]``.
+"""MJCF models of others against MuJoCo: ``python -m validation.make.mjcf [--count N]``.
 
-FOLDER is one into which pip has installed ``PACKAGES``, without what they need: of them only the
-models are read. Where it is not given, that is done in a temporary one. At N random configurations,
-each body's mass, pose and Jacobian, the mass matrix and signed distances of shapes are compared
-with MuJoCo's; the result is validation/results/mjcf.md. Exit status 1 if a difference exceeds its
+At N random configurations, each body's mass, pose and Jacobian, the mass matrix and signed
+distances of shapes are compared with MuJoCo's. pip installs ``PACKAGES`` into a temporary folder,
+without what they need: of them only the models are read. Exit status 1 if a difference exceeds its
 tolerance.
 """
 
-import argparse
 import subprocess
 import sys
 import tempfile
@@ -20,12 +18,12 @@ import numpy as np
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.step.data import Array
+from validation.tools.scripts import asked, shown
 
 PACKAGES = ("gymnasium==1.4.0", "dm_control==1.0.50")
 GYMNASIUM = "gymnasium/envs/mujoco/assets"
@@ -36,7 +34,6 @@ MODELS = (
     f"{SUITE}/finger.xml", f"{SUITE}/humanoid.xml", f"{SUITE}/reacher.xml", f"{SUITE}/walker.xml",
 )  # fmt: skip
 mujoco: Any = import_module("mujoco")
-OUT = Path(__file__).parents[1] / "results" / "mjcf.md"
 SAME, CURVED = 1e-12, 1e-6
 """Tolerances: relative to the largest entry; of distances to cylinders and boxes, which MuJoCo and
 coal find by iteration [m]."""
@@ -175,37 +172,25 @@ def shape_pairs(
     ]
 
 
-def main(arguments: list[str] | None = None) -> int:
+def main() -> int:
     """Compare, write the page, and return the exit status."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=Path, nargs="?")
-    parser.add_argument("--count", type=int, default=100)
-    parser.add_argument("--out", type=Path, default=OUT)
-    options = parser.parse_args(arguments)
-    if options.folder is not None:
-        return compared(options.folder, options.count, options.out)
-    with tempfile.TemporaryDirectory() as made:
-        pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target", made]
-        subprocess.run([*pip, *PACKAGES], check=True)
-        return compared(Path(made), options.count, options.out)
-
-
-def compared(folder: Path, count: int, out: Path) -> int:
-    """Compare the models in a folder and write the page; the exit status."""
+    options = asked(__doc__, count=100, out=Path)
     rows = []
     status = 0
-    for name in MODELS:
-        found = differences(folder / name, count)
-        good = max(found[3:8]) <= SAME and found.curved <= CURVED
-        status = status or int(not good)
-        rows.append((name, *map(str, found[:3]), *(f"{x:.1e}" for x in found[3:])))
-        print(*rows[-1], flush=True)
+    with tempfile.TemporaryDirectory() as folder:
+        pip = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--target", folder]
+        subprocess.run([*pip, *PACKAGES], check=True)
+        for name in MODELS:
+            found = differences(Path(folder) / name, options.count)
+            good = max(found[3:8]) <= SAME and found.curved <= CURVED
+            status = status or int(not good)
+            rows.append((name, *map(str, found[:3]), *(f"{x:.1e}" for x in found[3:])))
     head = ("model", "n_v", "shapes", "ignored", "masses", "poses", "Jacobians", "mass matrix",
             "spheres and capsules", "other shapes")  # fmt: skip
     table = "\n".join(markdown_table(head, rows, 1))
-    text_written(
-        out, PAGE.format(count=count, version=mujoco.__version__, pairs=PAIRS, table=table)
-    )
+    version = mujoco.__version__
+    page = PAGE.format(count=options.count, version=version, pairs=PAIRS, table=table)
+    shown(page, options.out)
     return status
 
 

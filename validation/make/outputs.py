@@ -1,8 +1,7 @@
 """What commands write: streams, full disks, results that are there, runs that cannot be.
 
 ``python -m validation.make.outputs`` runs the command line as a user does, in folders of its own,
-and looks at bytes alone: it shares no code with the package. It writes
-``validation/results/outputs.md``, and ends with status 1 if anything was lost.
+and looks at bytes alone: it shares no code with the package. Exit status 1 if anything was lost.
 """
 
 import itertools
@@ -16,9 +15,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from validation.tools.scripts import asked
+from validation.tools.scripts import asked, shown
 
-RESULT = Path(__file__).parents[1] / "results" / "outputs.md"
 PAGE = """# What commands write
 
 Written by `python -m validation.make.outputs --count {count}`. Each line is a kind of output, how
@@ -291,9 +289,9 @@ def page(tried: list[Found], count: int) -> str:
 
 def main() -> int:
     """Write the page; 1 if something was lost."""
-    count = asked(__doc__, count=COUNT).count
-    tried = list(found(count))
-    RESULT.write_text(page(tried, count), encoding="utf-8")
+    options = asked(__doc__, count=COUNT, out=Path)
+    tried = list(found(options.count))
+    shown(page(tried, options.count), options.out)
     return int(any(lost for _, _, lost in tried))
 
 

@@ -1,28 +1,27 @@
 """Every answer of ``contact-qp-2`` proved again, and a tenth of them by fractions alone.
 
-Run ``python -m validation.make.proved_problems``; some minutes. The first proof is that of
-``study problems check --exact``. The second shares no code with it, nor with the package: the files
-are read by the lines of the set's README, and the optimality conditions are solved in integers.
+Run ``python -m validation.make.proved_problems``; some minutes. ``--every N`` takes each N-th
+problem only. The first proof is that of ``study problems check --exact``. The second shares no code
+with it, nor with the package: the files are read by the lines of the set's README, and the
+optimality conditions are solved in integers.
 Exit status 1 if an answer is refuted.
 """
 
 from __future__ import annotations
 
-import argparse
 import re
 import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.problems.checking import refutation
 from quasistatic_ref.lab.study.problems.folder import manifest, set_read
 from tests.oracles import rational_kkt
+from validation.tools.scripts import asked, shown
 
-RESULTS = Path(__file__).parents[1] / "results" / "proved_problems.md"
 SHARE = 9
 """One of so many problems of a family, from its first on, is proved in fractions: a tenth and more.
 Scenes of a family alternate, so that the number is odd."""
@@ -79,10 +78,7 @@ def lines(every: int) -> Iterator[tuple[str, ...]]:
 
 def main() -> None:
     """Write the page; exit status 1 if an answer is refuted."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
-    parser.add_argument("--out", type=Path, default=RESULTS)
-    options = parser.parse_args()
+    options = asked(__doc__, every=1, out=Path)
     found = list(lines(options.every))
     proved, refuted, again, refuted_again = (
         sum(int(line[i]) for line in found) for i in (1, 3, 5, 7)
@@ -92,9 +88,9 @@ def main() -> None:
         f"from the rows that the files name: {refuted} refuted. {again} of them, one in {SHARE} "
         f"of up to {LARGEST} coordinates in each family, by Python's integers alone, read by the "
         f"lines of the set's README: {refuted_again} refuted. Processor time; the number of "
-        "coordinates is the largest.\n\n" + "\n".join(markdown_table(HEAD, found)) + "\n"
+        "coordinates is the largest.\n\n" + "\n".join(markdown_table(HEAD, found))
     )
-    print(text_written(options.out, text))
+    shown(text, options.out)
     raise SystemExit(int(refuted + refuted_again > 0))
 
 

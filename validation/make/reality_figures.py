@@ -37,9 +37,9 @@ def _spans(axes: Axes, entries: Sequence[Record], k: int, aside: float, **pen: A
                   markersize=scaled(3.5), elinewidth=scaled(0.8), **pen)  # fmt: skip
 
 
-def identified_ratios(record: Record, within: Any = None) -> Figure:
+def identified_ratios(record: Record) -> Figure:
     """mu_omega / mu_v of each pair: interval, the reverse, published, uniform pressure."""
-    figure, (axes,) = panels(5.2, 4.6, within=within)
+    figure, (axes,) = panels(5.2, 4.6)
     rows = np.arange(len(record))
     own = [entry["cones"]["ellipsoid"] for entry in record.values()]
     ratio = 1e3 * np.array([e["ratio"] for e in own])
@@ -57,9 +57,9 @@ def identified_ratios(record: Record, within: Any = None) -> Figure:
     return figure
 
 
-def lost_shares(record: Record, within: Any = None) -> Figure:
+def lost_shares(record: Record) -> Figure:
     """The share of dissipation that each cone loses on measured loads and motions, each pair."""
-    figure, (axes,) = panels(4.6, 2.4, within=within)
+    figure, (axes,) = panels(4.6, 2.4)
     cones = list(next(iter(record.values()))["cones"])
     for row, cone in enumerate(cones):
         lost = 100 * np.array([entry["cones"][cone]["misfit"] for entry in record.values()])
@@ -72,9 +72,9 @@ def lost_shares(record: Record, within: Any = None) -> Figure:
     return figure
 
 
-def errors_by_pair(record: Record, within: Any = None) -> Figure:
+def errors_by_pair(record: Record) -> Figure:
     """Errors of each pair with intervals: this package, and the published simulator."""
-    figure, both = panels(6.3, 4.8, columns=2, within=within)
+    figure, both = panels(6.3, 4.8, columns=2)
     names = list(record["pairs"])
     entries = [record["pairs"][name] for name in names]
     for k, (axes, unit) in enumerate(zip(both, ("place [mm]", "angle [deg]"), strict=True)):
@@ -89,9 +89,9 @@ def errors_by_pair(record: Record, within: Any = None) -> Figure:
     return figure
 
 
-def ablations(record: Record, names: Sequence[str], within: Any = None) -> Figure:
+def ablations(record: Record, names: Sequence[str]) -> Figure:
     """Mean errors over pairs of some variants, with intervals."""
-    figure, both = panels(6.3, 0.9 + 0.24 * len(names), columns=2, within=within)
+    figure, both = panels(6.3, 0.9 + 0.24 * len(names), columns=2)
     entries = [record["variants"][name]["error"] for name in names]
     for k, (axes, unit) in enumerate(zip(both, ("place [mm]", "angle [deg]"), strict=True)):
         _spans(axes, entries, k, 0.0, marker="o")
@@ -101,9 +101,9 @@ def ablations(record: Record, names: Sequence[str], within: Any = None) -> Figur
     return figure
 
 
-def tripods(record: Record, within: Any = None) -> Figure:
+def tripods(record: Record) -> Figure:
     """Median error of the turn over the median turn, by set of supports and by cone."""
-    figure, (axes,) = panels(6.3, 2.8, within=within)
+    figure, (axes,) = panels(6.3, 2.8)
     variants = {
         "ellipsoid": ["ellipsoid"],
         "facets-16": ["facets-16"],

@@ -1,7 +1,8 @@
-"""A headless Chromium, spoken to through a pipe: no package, no port, no network."""
+"""A headless Chromium without network, spoken to through a pipe: no package, no port."""
 
 from __future__ import annotations
 
+import base64
 import fcntl
 import json
 import os
@@ -69,6 +70,10 @@ class Browser:
         self._session = attached["sessionId"]
         for domain in ("Page", "Runtime", "Network", "Log"):
             self.ask(f"{domain}.enable")
+        self.ask(
+            "Network.emulateNetworkConditions", offline=True, latency=0,
+            downloadThroughput=-1, uploadThroughput=-1,
+        )  # fmt: skip
 
     def __enter__(self) -> Browser:
         return self
@@ -120,6 +125,24 @@ class Browser:
             if time.monotonic() > end:
                 sys.exit(f"in vain waited for {condition}")
             time.sleep(0.05)
+
+    def faults(self) -> list[str]:
+        """What was asked of the network, and errors, in the pages and in the console."""
+        found = []
+        for event in self.events:
+            params = event.get("params", {})
+            url = params.get("request", {}).get("url", "file:")
+            level = params.get("entry", {}).get("level") or params.get("type")
+            if not url.startswith(("file:", "data:", "blob:")):
+                found.append(f"it asks for {url}")
+            elif event.get("method") == "Runtime.exceptionThrown" or level == "error":
+                found.append(f"an error: {params}")
+        return found
+
+    def screenshot(self, whole: bool = False) -> bytes:
+        """The window as a PNG, or the whole page."""
+        shot = self.ask("Page.captureScreenshot", format="png", captureBeyondViewport=whole)
+        return base64.b64decode(shot["data"])
 
     def _next(self, until: float) -> dict[str, Any]:
         while b"\0" not in self._left:

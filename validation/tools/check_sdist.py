@@ -5,7 +5,6 @@ into an environment of their own for that. Then these must hold:
 
 - ``twine check --strict`` finds nothing;
 - the sdist has every file that git knows in this checkout, and none that it does not know;
-- the wheel that was built from the sdist has the files of the one that the checkout makes;
 - the tests pass in the unpacked sdist, where any connection would fail: those that are named (files
   or folders of ``tests/``; ``tests`` is all of them), else ``TESTS``. They run with the interpreter
   that runs this, hence with its packages, and import the unpacked sdist.
@@ -21,7 +20,6 @@ import subprocess
 import sys
 import tarfile
 import tempfile
-import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -46,34 +44,19 @@ def members(sdist: Path) -> set[str]:
         return {member.name.partition("/")[2] for member in archive if not member.isdir()}
 
 
-def differences(these: set[str], those: set[str], lack: str, more: str) -> list[str]:
-    """One sentence for each file that only one of two sets has."""
-    return [f"{name} {lack}" for name in sorted(these - those)] + [
-        f"{name} {more}" for name in sorted(those - these)
-    ]
-
-
 def tracked() -> set[str]:
     """The files of the checkout that git knows, and that are there."""
     said = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True)
     return {name for name in said.stdout.decode().split("\0") if name and (ROOT / name).exists()}
 
 
-def wheel_files(folder: Path) -> set[str]:
-    """The files of the only wheel in a folder."""
-    (wheel,) = folder.glob("*.whl")
-    with zipfile.ZipFile(wheel) as archive:
-        return set(archive.namelist())
-
-
 def built(folder: Path) -> list[str]:
-    """Sdist and wheel in ``folder/dist``, another wheel in ``folder/wheel``; what twine finds."""
+    """Sdist and wheel in ``folder/dist``; what twine finds."""
     python = folder / "tools" / "bin" / "python"
     for command in (
         [sys.executable, "-m", "venv", folder / "tools"],
         [python, "-m", "pip", "install", "-q", "build", "twine"],
         [python, "-m", "build", "--outdir", folder / "dist", ROOT],
-        [python, "-m", "build", "--wheel", "--outdir", folder / "wheel", ROOT],
     ):
         subprocess.run([str(word) for word in command], check=True, stdout=subprocess.DEVNULL)
     command = [str(python), "-m", "twine", "check", "--strict", *map(str, folder.glob("dist/*"))]
@@ -105,15 +88,9 @@ def main() -> int:
         folder = Path(temporary)
         wrong = built(folder)
         (sdist,) = folder.glob("dist/*.tar.gz")
-        wrong += differences(
-            tracked(), members(sdist) - MADE, "is not in the sdist", "is in the sdist, not in git"
-        )
-        wrong += differences(
-            wheel_files(folder / "wheel"),
-            wheel_files(folder / "dist"),
-            "is not in the wheel from the sdist",
-            "is only in the wheel from the sdist",
-        )
+        files = members(sdist) - MADE
+        wrong += [f"{name} is not in the sdist" for name in sorted(tracked() - files)]
+        wrong += [f"{name} is in the sdist, not in git" for name in sorted(files - tracked())]
         wrong += tested(sdist, options.tests or list(TESTS), folder / "unpacked")
     print("\n".join(wrong), file=sys.stderr, end="\n" if wrong else "")
     return 1 if wrong else 0

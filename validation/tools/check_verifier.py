@@ -40,14 +40,14 @@ BATCH = 2000
 """Files in one process of Node: its input is one string."""
 
 
-def verdicts(cases: list[Case], verifier: Path = VERIFIER) -> list[dict[str, Any]]:
+def verdicts(cases: list[Case]) -> list[dict[str, Any]]:
     """What ``verify.js`` says of each case; many in one process."""
     node = shutil.which("node") or sys.exit("no Node on this machine: install Debian's nodejs")
     found = []
     for k in range(0, len(cases), BATCH):
         given = json.dumps([[case.step, case.solution] for case in cases[k : k + BATCH]])
         done = subprocess.run(
-            [node, "-e", NODE, str(verifier)],
+            [node, "-e", NODE, str(VERIFIER)],
             input=given,
             stdout=subprocess.PIPE,
             text=True,
@@ -71,10 +71,6 @@ def page_verdicts(site: Path, cases: list[Case]) -> list[str]:
     """What the page of a built site says of each case, in a browser without network."""
     found = []
     with Browser() as browser, TemporaryDirectory() as folder:
-        browser.ask(
-            "Network.emulateNetworkConditions", offline=True, latency=0,
-            downloadThroughput=-1, uploadThroughput=-1,
-        )  # fmt: skip
         paths = [Path(folder) / "step.json", Path(folder) / "solution.json"]
         for case in cases:
             paths[0].write_text(case.step)
@@ -85,9 +81,8 @@ def page_verdicts(site: Path, cases: list[Case]) -> list[str]:
             browser.ask("DOM.setFileInputFiles", nodeId=node, files=[str(path) for path in paths])
             browser.until("document.getElementById('said').textContent !== ''")
             found.append(browser.value("document.getElementById('said').textContent"))
-        for event in browser.events:
-            if event.get("method") in ("Runtime.exceptionThrown", "Log.entryAdded"):
-                sys.exit(f"an error in the page: {event['params']}")
+        if faults := browser.faults():
+            sys.exit(f"the page is wrong: {faults}")
     return found
 
 

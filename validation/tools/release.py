@@ -52,28 +52,22 @@ class Result:
     printed: bool = False
 
 
-def script(name: str, *endings: str, extra: str = "") -> Result:
-    """What ``validation/make/NAME.py`` writes by default: ``results/NAME.*``."""
-    files = (f"validation/results/{name}.{ending}" for ending in endings)
-    return Result(name, f"validation.make.{name} {extra}", tuple(files))
-
-
-def to_file(name: str, file: str, command: str = "") -> Result:
-    """What a command writes to the file that it is given."""
-    path = f"validation/results/{file}"
+def to_file(name: str, ending: str = "md", command: str = "") -> Result:
+    """What a command, else the script of that name, writes to the file that it is given."""
+    path = f"validation/results/{name}.{ending}"
     return Result(name, f"{command or f'validation.make.{name}'} --out {path}", (path,))
 
 
-def printed(name: str, file: str, command: str = "") -> Result:
-    """What a command prints, kept in a file."""
-    path = f"validation/results/{file}"
-    return Result(name, command or f"validation.make.{name}", (path,), printed=True)
+def printed(name: str) -> Result:
+    """What the script of that name prints, kept in a file."""
+    path = f"validation/results/{name}.md"
+    return Result(name, f"validation.make.{name}", (path,), printed=True)
 
 
 RESULTS = (
     Result("vectors", f"{CLI} vectors generate --out validation/vectors", ("validation/vectors",)),
-    to_file("planted_bugs", "planted_bugs.md"),
-    to_file("challenges", "challenges.md"),
+    to_file("planted_bugs"),
+    to_file("challenges"),
     Result("engines", "validation.make.engines", ("validation/results/engines",)),
     Result(
         "claims",
@@ -87,38 +81,45 @@ RESULTS = (
         ("docs/figures",),
         (("*.png", "docs/figures"),),
     ),
-    printed("large_steps", "large_steps.md"),
-    printed("grouped_proofs", "grouped_proofs.md"),
-    to_file("contact_qp", "contact_qp.md"),
-    to_file("proved_problems", "proved_problems.md"),
-    printed("pair_distances", "pair_distances.md"),
-    printed("step_profile", "step_profile.md"),
-    printed("random_mechanisms", "random_mechanisms.md"),
-    printed("run_hashes", "run_hashes.md"),
-    to_file("attacks", "attacks.md"),
-    to_file("verifier", "verifier.md", "validation.tools.check_verifier --all"),
-    to_file("confirmed_bits", "confirmed_bits.txt"),
-    to_file("same_bits", "same_bits.json"),
-    to_file("derivatives", "derivatives.md"),
-    script("clouds", "jsonl"),
-    script("second_order", "jsonl", "md"),
-    to_file("reach", "reach.md"),
-    script("mjcf", "md"),
-    to_file("environments", "environments.md"),
-    script("aligned_poses", "md"),
-    printed("forces_by_hand", "forces_by_hand.md"),
-    to_file("forces", "forces.md"),
-    script("outputs", "md"),
+    printed("large_steps"),
+    printed("grouped_proofs"),
+    to_file("contact_qp"),
+    to_file("proved_problems"),
+    printed("pair_distances"),
+    printed("step_profile"),
+    printed("random_mechanisms"),
+    printed("run_hashes"),
+    to_file("attacks"),
+    to_file("verifier", command="validation.tools.check_verifier --all"),
+    to_file("confirmed_bits", "txt"),
+    to_file("same_bits", "json"),
+    to_file("derivatives"),
+    Result("clouds", "validation.make.clouds", ("validation/results/clouds.jsonl",)),
+    Result(
+        "second_order",
+        "validation.make.second_order",
+        ("validation/results/second_order.jsonl", "validation/results/second_order.md"),
+    ),
+    to_file("mjcf"),
+    to_file("environments"),
+    to_file("aligned_poses"),
+    printed("forces_by_hand"),
+    to_file("forces"),
+    to_file("outputs"),
     Result("mutations", "validation.tools.mutations --stale", ("validation/results/mutations.md",)),
-    script("reality_identified", "json"),
+    to_file("reality_identified", "json"),
     Result(
         "reality",
         f"{CLI} validate reality --out {{temporary}}",
         ("validation/results/reality.json", "validation/results/reality.csv"),
         (("reality.json", "validation/results"), ("reality.csv", "validation/results")),
     ),
-    script("reality_ablations", "json", extra="--every 30 --work {temporary}"),
-    script("reality_tripods", "json"),
+    to_file(
+        "reality_ablations",
+        "json",
+        "validation.make.reality_ablations --every 30 --work {temporary}",
+    ),
+    to_file("reality_tripods", "json"),
     Result(
         "reality_figures",
         "validation.make.reality_figures --out {temporary}",
@@ -130,8 +131,8 @@ RESULTS = (
         f"{CLI} bench --out validation/results/benchmarks",
         ("validation/results/benchmarks",),
     ),
-    to_file("installs", "installs.md", "validation.tools.check_installs"),
-    script("exit_codes", "md"),
+    to_file("installs", command="validation.tools.check_installs"),
+    to_file("exit_codes"),
     *(
         Result(
             f"study_{name}",

@@ -4,8 +4,8 @@ Run ``python -m validation.tools.restyled [NAME ...] [--out FOLDER]`` (some thre
 are the figures of the examples, of the tour and of the claims, in the style of paper. Those of
 examples and the tour are also drawn in ``docs/styles/two_columns.mplstyle`` (3.4 inches, 8 pt), in
 slides, on a poster, and into one cell of a user's own grid of 2 x 2 axes, a page wide. Exit status
-1 if any of them has a fault; with --out each is kept as a PNG, and those on paper stand on one
-sheet, in colour and in grey: look at it for what no program sees.
+1 if any of them has a fault; with --out each is kept as a PNG: look at them for what no program
+sees.
 """
 
 import sys
@@ -14,7 +14,6 @@ from pathlib import Path
 
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
-from PIL import Image
 
 from docs.six_figures import corner_loads, the_program
 from quasistatic_ref.lab.claims.claim import finding
@@ -30,8 +29,6 @@ ROOT = Path(__file__).parents[2]
 COLUMN = ROOT / "docs" / "styles" / "two_columns.mplstyle"
 GRID = (PAGE, 6.3)
 """Size of the grid [in]."""
-COLUMNS, CELL = 4, (640, 480)
-"""Of the sheet [pixels]."""
 
 FIGURES: dict[str, Callable[..., Figure]] = {
     "corner_loads": corner_loads.figure,
@@ -85,34 +82,17 @@ def every_figure(names: Collection[str]) -> Iterator[tuple[str, str, Figure, lis
                 yield name, "paper", page, faults(page, "paper")
 
 
-def sheet(files: list[Path]) -> Image.Image:
-    """Pictures next to each other, each in a cell."""
-    rows = -(-len(files) // COLUMNS)
-    made = Image.new("RGB", (COLUMNS * CELL[0], rows * CELL[1]), "white")
-    for k, file in enumerate(files):
-        picture = Image.open(file).convert("RGB")
-        picture.thumbnail(CELL)
-        made.paste(picture, (k % COLUMNS * CELL[0], k // COLUMNS * CELL[1]))
-    return made
-
-
 def main() -> int:
     """Draw, read, keep."""
     options = asked(__doc__, (*EXAMPLES, *FIGURES), out=Path)
     wrong = []
-    kept = []
     for name, style, page, found in every_figure(options.names):
         wrong += [f"{name}, {style}: {fault}" for fault in found]
         if options.out:
             options.out.mkdir(parents=True, exist_ok=True)
-            kept.append(options.out / f"{name}_{style}.png")
-            page.savefig(kept[-1], bbox_inches=None, dpi=110)
+            page.savefig(options.out / f"{name}_{style}.png", bbox_inches=None, dpi=110)
         plt.close(page)
         print(f"{name}, {style}", flush=True)
-    if kept:
-        printed = sheet([file for file in kept if file.stem.endswith("_paper")])
-        printed.save(options.out / "sheet.png")
-        printed.convert("L").save(options.out / "sheet_grey.png")
     print("\n".join(wrong) or "every figure is legible in every style")
     return 1 if wrong else 0
 

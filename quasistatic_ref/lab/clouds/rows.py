@@ -1,6 +1,6 @@
 """The committed rows of the study of clouds."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
@@ -18,20 +18,15 @@ def rows() -> tuple[Record, ...]:
     return tuple(records_read(clouds_file())[1:])
 
 
-def chosen(where: Callable[[Record], bool] = lambda row: True, **fields: Any) -> list[Record]:
-    """Rows with these values of their fields, for which a condition holds.
+def chosen(**fields: Any) -> list[Record]:
+    """Rows with these values of their fields.
 
     Parameters
     ----------
-    where : callable
-        Row -> whether it is taken.
     fields : object
         ``sampling="random"``, ``count=992``, ``change="none"``, ...
     """
-    return [
-        row for row in rows()
-        if all(row[name] == value for name, value in fields.items()) and where(row)
-    ]  # fmt: skip
+    return [row for row in rows() if all(row[name] == value for name, value in fields.items())]
 
 
 def with_torsion(row: Record) -> bool:
@@ -52,9 +47,7 @@ def predicted(row: Record) -> bool:
 
     A finger that bears nothing, or a squeeze too weak for the weight, says that it will not.
     """
-    if row.get("needed") is None:
-        return False
-    return bool(row["mu_omega"] + row["spread"] >= row["needed"])
+    return margin(row) >= 1.0
 
 
 def margin(row: Record) -> float:
@@ -69,19 +62,14 @@ def rotations(found: Sequence[Record]) -> Array:
     return np.array([row["rotation"] for row in found])
 
 
-def spread(count: int = 992) -> dict[str, Array]:
-    """Rotations of all clouds of so many points in the scene as it is [deg], by its two cases.
-
-    Parameters
-    ----------
-    count : int
-        200, 992, 10,000 or 100,000.
+def spread() -> dict[str, Array]:
+    """Rotations of all clouds of 992 points in the scene as it is [deg], by its two cases.
 
     Returns
     -------
     dict of str to ndarray, shape (120,)
     """
-    own = chosen(count=count, change=NONE)
+    own = chosen(count=992, change=NONE)
     return {
         case: rotations([row for row in own if with_torsion(row) == bool(mu_omega)])
         for case, mu_omega in (("with torsion", TORSION), ("without torsion", 0.0))

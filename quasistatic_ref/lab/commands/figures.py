@@ -47,7 +47,7 @@ def run(options: argparse.Namespace) -> int:
 
     for name in options.names:
         if name not in EXAMPLES:
-            problem = f"is no figure{suggestion(name, EXAMPLES)}"
+            problem = f"is not a figure{suggestion(name, EXAMPLES)}"
             raise InputError(problem, field="NAME", value=name)
     with figure_style(options.style):
         writable_folder(options.out)

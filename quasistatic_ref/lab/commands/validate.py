@@ -44,7 +44,7 @@ def run(options: argparse.Namespace) -> int:
     reality.refuse(options)
     for name in options.names:
         if name not in BY_NAME:
-            raise InputError(f"is no claim{suggestion(name, BY_NAME)}", field="NAME", value=name)
+            raise InputError(f"is not a claim{suggestion(name, BY_NAME)}", field="NAME", value=name)
     chosen = options.names or list(BY_NAME)
     findings: dict[str, Finding] = {}
     for k, name in enumerate(chosen, start=1):

@@ -12,8 +12,7 @@ import numpy as np
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.systems import body_text, system_of
-from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.step.data import Array
 
 AHEAD, TURN = 0.1, 120.0
@@ -73,12 +72,12 @@ def figure(ax: Any = None, *, ahead: float = AHEAD, turn: float = TURN, count: i
     for k, (R_k, t_k) in enumerate(zip(R, t, strict=True)):
         x, y, _ = 1e3 * (outline @ R_k.T + t_k).T
         axes.fill(x, y, facecolor="0.85", edgecolor="black", linewidth=scaled(0.8),
-                  linestyle="-", label="parts of one twist" if k == 0 else None)  # fmt: skip
+                  linestyle="-", label="fractions of one twist" if k == 0 else None)  # fmt: skip
     x, y, _ = 1e3 * (outline @ R[-1].T + [ahead, 0, 0]).T
     axes.fill(x, y, facecolor="none", edgecolor="black", linestyle=":", linewidth=scaled(1.2),
-              label="ahead, then turned")  # fmt: skip
+              label="straight first, then turned")  # fmt: skip
     path = poses(ahead, turn, 60)[1]
-    axes.plot(1e3 * path[:, 0], 1e3 * path[:, 1], label="way of the origin")
+    axes.plot(1e3 * path[:, 0], 1e3 * path[:, 1], label="path of the origin")
     axes.set_aspect("equal")
     labelled(axes, "x [mm]", "y [mm]", f"twist: {1e3 * ahead:g} mm along x, {turn:g} deg about z")
     return page

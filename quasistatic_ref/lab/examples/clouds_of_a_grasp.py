@@ -20,8 +20,7 @@ from quasistatic_ref.lab.clouds.rows import (
 from quasistatic_ref.lab.clouds.study import NONE, grid
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
-from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 
 LEAST = 0.01
 """Smaller rotations are drawn there [deg]."""

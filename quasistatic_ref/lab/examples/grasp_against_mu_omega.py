@@ -15,8 +15,7 @@ from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled
 from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP, grasp_report
 from quasistatic_ref.lab.runs import grasp, ran
-from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array

@@ -15,8 +15,7 @@ from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.study.measuring.many import simulate_many
-from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.step.data import Array, Mask
 
 M, D, N = 0.2, 0.055, 5.0

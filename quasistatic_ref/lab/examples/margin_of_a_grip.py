@@ -12,8 +12,7 @@ from quasistatic_ref.lab.clouds.rows import held, margin, rotations, rows, with_
 from quasistatic_ref.lab.clouds.study import NONE
 from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import labelled
-from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 
 LEAST, WEAKEST = 0.01, 0.1
 """Smaller rotations [deg] and margins [-] are drawn there."""

@@ -17,8 +17,7 @@ from quasistatic_ref.lab.measures import slope
 from quasistatic_ref.lab.scenes.free_pair import geometry
 from quasistatic_ref.lab.scenes.systems import body_text, cloud_on, system_of
 from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape
 from quasistatic_ref.step.data import Array
 

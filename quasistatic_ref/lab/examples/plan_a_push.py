@@ -15,8 +15,7 @@ from quasistatic_ref.lab.examples.shared import Numbers
 from quasistatic_ref.lab.figures.labels import caption, labelled, legend_below
 from quasistatic_ref.lab.scenes.pushed_block import MU_OMEGA, OFFSET, RADIUS, SIDE, pushed_block
 from quasistatic_ref.optional.derivatives.step_jax import jax_package, smoothed_jax
-from quasistatic_ref.optional.show.figures import Figure, panels
-from quasistatic_ref.optional.show.figures.style import scaled
+from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.step.data import Array
 
 jax = jax_package()

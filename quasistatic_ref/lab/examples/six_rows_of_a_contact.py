@@ -1,10 +1,10 @@
-"""The six rows of one contact, and which of them hold back a ball that slides and spins.
+"""The six rows of one contact, and which of them are tight when a ball slides or spins.
 
-Each row i of Eq. (4) is an opening that must not become negative: how far the ball has risen, plus
-mu_v times its slip along +d1, +d2, -d1 or -d2, or plus mu_omega times its turn about n, one way or
-the other. So the row named -d1 closes when the ball slides along +d1, and pushes it back along -d1.
-A ball that only slides along d1 stands on one of the six; one that slides and spins so that both
-cost the same stands on two. The rows that it stands on push back, all others are open.
+The slack of row i of Eq. (4) must not be negative. It is how far the ball has risen, plus mu_v
+times its slip along +d1, +d2, -d1 or -d2, or plus mu_omega times its turn about n, in one direction
+or the other. So the row named -d1 becomes tight when the ball slides along +d1, and pushes it along
+-d1. A ball that only slides along d1 has one tight row. A ball that slides and spins so that both
+cost the same has two. The tight rows push; all others do not.
 """
 
 from typing import Any
@@ -27,8 +27,8 @@ MU_V = 0.5
 MU_OMEGA = 0.01
 H = 0.01
 ROWS = ("+d1", "+d2", "-d1", "-d2", "+spin", "-spin")
-CLOSED = 1e-12
-"""Opening up to which a row is closed [m]: rounding of slips of 1e-6 m."""
+TIGHT = 1e-12
+"""Slack up to which a row is tight [m]: rounding of slips of 1e-6 m."""
 LOADS = {"at rest": (0.0, 0.0), "pushed along d1": (2.0, 0.0), "turned about n": (0.0, 2.0)}
 """Push over mu_v m g, torque over mu_omega m g [-]."""
 
@@ -52,17 +52,17 @@ def loaded(
     return sphere_step(M, inertia, RADIUS, wrench, mu_v=mu_v, mu_omega=mu_omega, phi=0.0, h=h)
 
 
-def opening(step: StepData) -> Array:
-    """Opening A delta_q - b of the six rows [m], shape (6,); 0 where a row is closed."""
+def slacks(step: StepData) -> Array:
+    """Slacks A delta_q - b of the six rows [m], shape (6,); 0 where a row is tight."""
     form = standard_form(step)
-    gap = form.A @ solve_step(step).delta_q - form.b
-    return np.where(np.abs(gap) < CLOSED, 0.0, gap)
+    slack = form.A @ solve_step(step).delta_q - form.b
+    return np.where(np.abs(slack) < TIGHT, 0.0, slack)
 
 
 def main() -> Numbers:
-    """How many rows are closed under each load: these push, and all others do not."""
+    """How many rows are tight under each load: these push, and all others do not."""
     return {
-        f"closed rows, {name} [-]": float(np.sum(opening(loaded(*load)) == 0))
+        f"tight rows, {name} [-]": float(np.sum(slacks(loaded(*load)) == 0))
         for name, load in LOADS.items()
     }
 
@@ -70,7 +70,7 @@ def main() -> Numbers:
 def figure(
     ax: Any = None, *, mu_v: float = MU_V, mu_omega: float = MU_OMEGA, h: float = H
 ) -> Figure:
-    """The opening of each row under each load.
+    """The slack of each row under each load.
 
     Parameters
     ----------
@@ -82,15 +82,15 @@ def figure(
     columns = len(LOADS)
     page, grid = panels(6.3, 2.6, columns=columns, within=ax, narrow=12, sharey=True)
     for axes, (name, load) in zip(grid, LOADS.items(), strict=True):
-        gaps = opening(loaded(*load, mu_v, mu_omega, h))
+        slack = slacks(loaded(*load, mu_v, mu_omega, h))
         axes.grid(visible=False)
-        axes.bar(ROWS, 1e6 * gaps, color="white", edgecolor="black")
-        pushing = np.flatnonzero(gaps == 0)
-        label = "closed rows, which push" if axes is grid[0] else None
+        axes.bar(ROWS, 1e6 * slack, color="white", edgecolor="black")
+        pushing = np.flatnonzero(slack == 0)
+        label = "tight rows, which push" if axes is grid[0] else None
         axes.plot(pushing, 0 * pushing, "^", color=FORCE, clip_on=False, zorder=5, label=label)
         axes.tick_params(axis="x", rotation=60)
         axes.set_title(name)
-        labelled(axes, y=r"opening [$\mu$m]", key=False)
+        labelled(axes, y=r"slack [$\mu$m]", key=False)
         axes.label_outer(remove_inner_ticks=True)
     grid[0].get_figure(root=False).legend(loc="outside upper center", title=caption(h))
     return page

@@ -139,15 +139,15 @@ def figure(ax: Any = None, *, phi: float = PHI, turn: float = TURN) -> Figure:
     of_alpha = 1e3 * J_alpha @ DELTA_Q[:6]
     of_beta = 1e3 * J_beta @ DELTA_Q[6:]
     for start, motion, name, colour, pattern in (
-        (alpha, of_alpha, "of alpha", "#0072B2", "--"),
-        (beta, of_beta, "of beta", "black", "-"),
-        (beta, of_beta - of_alpha, r"J $\delta q$, their difference", "#D55E00", "-."),
+        (alpha, of_alpha, "motion of alpha", "#0072B2", "--"),
+        (beta, of_beta, "motion of beta", "black", "-"),
+        (beta, of_beta - of_alpha, r"difference, J $\delta q$", "#D55E00", "-."),
     ):
         end = start + motion[[0, 2]]
         head = {"arrowstyle": "-|>", "color": colour, "linestyle": "none", "shrinkB": 0}
         left.plot(*np.transpose([start, end]), pattern, color=colour, gid=DRAWING, label=name)
         left.annotate("", end, (start + 9 * end) / 10, arrowprops=head, annotation_clip=False)
-    left.plot(*np.transpose([alpha, beta]), "ko", markersize=scaled(3), label="alpha, beta")
+    left.plot(*np.transpose([alpha, beta]), "ko", markersize=scaled(3), label="alpha and beta")
     x, z, reach = *(alpha + beta) / 2, 2.4e3 * RADIUS
     left.set(aspect="equal", xlim=(x - reach, x + 0.8 * reach), ylim=(z - 0.8 * reach, z + reach))
     labelled(left, "x [mm]", "z [mm]")
@@ -168,8 +168,10 @@ def _columns(axes: Any) -> None:
     palm = column < finger.shape[1] - 6
     style: dict[str, Any] = {"linestyle": "", "markersize": scaled(5)}
     axes.plot(column[palm], row[palm], "s", color="black", markerfacecolor="white",
-              label="of alpha's body, minus", **style)  # fmt: skip
-    axes.plot(column[~palm], row[~palm], "D", color="#0072B2", label="of beta's body", **style)
+              label="columns of alpha's body", **style)  # fmt: skip
+    axes.plot(
+        column[~palm], row[~palm], "D", color="#0072B2", label="columns of beta's body", **style
+    )
     axes.axhline(3.5, color="0.3", linestyle="-", gid=DRAWING)
     for edge in (5.5, 6.5):
         axes.axvline(edge, color="0.7", linestyle="-", gid=DRAWING)

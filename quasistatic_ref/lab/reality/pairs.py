@@ -67,7 +67,7 @@ def pairs_read(folder: Path, only: Sequence[str] = ()) -> list[Pair]:
     table = table_read(path, COLUMNS, OPTIONAL, tuple(PAIR))
     for name in only:
         if name not in table.pairs:
-            problem = f"is no pair of {path}{suggestion(name, table.pairs)}"
+            problem = f"is not a pair of {path}{suggestion(name, table.pairs)}"
             raise InputError(problem, field="--sets", value=name)
     shapes = outlines_read(folder / "shapes.json")
     found = []

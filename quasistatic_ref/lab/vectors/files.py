@@ -5,8 +5,10 @@ A shape that several cases use, such as a cloud of 992 points, stands once in th
 """
 
 import json
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -16,12 +18,15 @@ from quasistatic_ref.formats.files import json_read, plain, text_written
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
+from quasistatic_ref.lab.vectors.trees import nodes, tables_replaced
 
 VERSION: Final = 1
 INPUTS, EXPECTED, ANSWERS = (
     f"quasistatic-ref/vectors-{k}" for k in ("inputs", "expected", "answers")
 )
 SHARED: Final = "shared"
+LARGE: Final = ("cloud", "convex")
+"""Shapes that may be shared."""
 
 
 @dataclass(frozen=True)
@@ -68,11 +73,12 @@ def line(value: Any) -> str:
 def inputs_text(layer: str, cases: Sequence[Case]) -> str:
     """The file of a layer's inputs; shapes that are met twice are moved to its table."""
     shapes = _shapes_met_twice([case.input for case in cases])
+    named = partial(_named, shapes)
     record: dict[str, Json] = {
         "format": INPUTS,
         "version": VERSION,
         "layer": layer,
-        "cases": [{**case.json, "input": _named(case.input, shapes)} for case in cases],
+        "cases": [{**case.json, "input": tables_replaced(case.input, named)} for case in cases],
     }
     if shapes:
         record["shapes"] = {name: json.loads(text) for text, name in shapes.items()}
@@ -90,13 +96,13 @@ def inputs_read(folder: str | Path, layer: str) -> list[Case]:
     path = Path(folder) / "inputs" / f"{layer}.json"
     try:
         top = opened(path, INPUTS, layer)
-        shapes = top.take("shapes", {})
+        placed = partial(_placed, top.take("shapes", {}))
         cases = []
         for i, entry in enumerate(top.sequence("cases")):
             one = Fields(entry, f"cases[{i}]")
-            case = Case(one.text("id"), one.text("provenance"), _placed(one.take("input"), shapes))
+            given = tables_replaced(one.take("input"), placed)
+            cases.append(Case(one.text("id"), one.text("provenance"), given))
             one.close()
-            cases.append(case)
         top.close()
         _check_ids([case.id for case in cases])
     except InputError as error:
@@ -136,7 +142,7 @@ def answers_written(
 def check_layer(name: str) -> str:
     """Return a layer's name; InputError if it is none."""
     if name not in LAYERS:
-        raise InputError(f"is no layer{suggestion(name, LAYERS)}", field="layer", value=name)
+        raise InputError(f"is not a layer{suggestion(name, LAYERS)}", field="layer", value=name)
     return name
 
 
@@ -156,41 +162,23 @@ def _check_ids(ids: Sequence[str]) -> None:
 
 def _shapes_met_twice(inputs: Sequence[Json]) -> dict[str, str]:
     """Names of the large shapes that occur more than once, by their text."""
-    counts: dict[str, int] = {}
-    for value in inputs:
-        for shape in _large_shapes(value):
-            counts[line(shape)] = counts.get(line(shape), 0) + 1
+    tables = (table for given in inputs for _, table in nodes(given) if isinstance(table, dict))
+    counts = Counter(line(table) for table in tables if table.get("kind") in LARGE)
     often = [text for text, count in counts.items() if count > 1]
     return {text: f"{json.loads(text)['kind']}_{i}" for i, text in enumerate(often)}
 
 
-def _large_shapes(value: Json) -> list[Json]:
-    if isinstance(value, dict):
-        if value.get("kind") in ("cloud", "convex"):
-            return [value]
-        return [shape for v in value.values() for shape in _large_shapes(v)]
-    if isinstance(value, list) and value and isinstance(value[0], dict):
-        return [shape for v in value for shape in _large_shapes(v)]
-    return []
+def _named(names: dict[str, str], table: Json) -> Json:
+    """A reference in the place of a shape that has a name."""
+    name = names.get(line(table)) if table.get("kind") in LARGE else None
+    return None if name is None else {"kind": SHARED, "name": name}
 
 
-def _named(value: Json, names: dict[str, str]) -> Json:
-    """The same with every shape of `names` replaced by a reference to it."""
-    if isinstance(value, dict):
-        if value.get("kind") in ("cloud", "convex"):
-            name = names.get(line(value))
-            return value if name is None else {"kind": SHARED, "name": name}
-        return {key: _named(v, names) for key, v in value.items()}
-    return [_named(v, names) for v in value] if isinstance(value, list) else value
-
-
-def _placed(value: Json, shapes: Json) -> Json:
-    """The same with every reference replaced by its shape."""
-    if isinstance(value, dict):
-        if value.get("kind") == SHARED:
-            name = Fields(value).text("name")
-            if name not in shapes:
-                raise InputError("is no shape of this file", field="shapes", value=name)
-            return shapes[name]
-        return {key: _placed(v, shapes) for key, v in value.items()}
-    return [_placed(v, shapes) for v in value] if isinstance(value, list) else value
+def _placed(shapes: Json, table: Json) -> Json:
+    """The shape in the place of a reference."""
+    if table.get("kind") != SHARED:
+        return None
+    name = Fields(table).text("name")
+    if name not in shapes:
+        raise InputError("is not a shape of this file", field="shapes", value=name)
+    return shapes[name]

@@ -12,7 +12,7 @@ from typing import Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read, bytes_written, text_written, writable_folder
-from quasistatic_ref.lab.vectors.versions import MANIFEST, edition, listed, release_of
+from quasistatic_ref.lab.vectors.versions import MANIFEST, edition, manifest
 
 EPOCH: Final = (1980, 1, 1, 0, 0, 0)
 """The time of every member: the earliest that a zip file knows."""
@@ -33,14 +33,14 @@ def packed(vectors: Path, out: Path) -> tuple[Path, str]:
     InputError
         If a file is not as the manifest has it, or a layer not as the version froze it.
     """
-    release = release_of(vectors)
+    release, listed = manifest(vectors)
     found = edition(vectors)
     if found.changed:
         problem = f"is not as version {release} has it; other cases are another version"
         raise InputError(problem, file=vectors, field=found.changed[0])
     name = found.name.replace(" ", "-")
     files = {MANIFEST: bytes_read(vectors / MANIFEST)}
-    for path, code in listed(vectors).items():
+    for path, code in listed.items():
         files[path] = bytes_read(vectors / path)
         if _hash(files[path]) != code:
             raise InputError("is another file than its manifest says", file=vectors / path)

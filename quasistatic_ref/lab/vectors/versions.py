@@ -5,7 +5,6 @@ followed by that of its expected outputs. A version that stands there is never e
 """
 
 import hashlib
-import json
 import re
 import tomllib
 from dataclasses import dataclass
@@ -75,36 +74,21 @@ def edition(folder: Path) -> Edition:
     """
     known = [name for name in LAYERS if (folder / "expected" / f"{name}.json").exists()]
     hashes = {name: layer_hash(folder, name) for name in known}
-    release = release_of(folder) if (folder / MANIFEST).exists() else None
+    release = manifest(folder)[0] if (folder / MANIFEST).exists() else None
     wanted = frozen(release)
     return Edition(
         release, hashes, tuple(name for name in known if hashes[name] != wanted.get(name))
     )
 
 
-def release_of(folder: Path) -> int:
-    """The version that the manifest of a folder of vectors names.
+def manifest(folder: Path) -> tuple[int, dict[str, str]]:
+    """The version that a folder of vectors names, and SHA-256 of its files by their paths inside.
 
     Raises
     ------
     InputError
-        If it is missing, or is none.
+        If its manifest is missing, or is none.
     """
-    return _manifest(folder)[0]
-
-
-def listed(folder: Path) -> dict[str, str]:
-    """SHA-256 of each file that the manifest of a folder lists, by its path inside.
-
-    Raises
-    ------
-    InputError
-        As `release_of` does.
-    """
-    return _manifest(folder)[1]
-
-
-def _manifest(folder: Path) -> tuple[int, dict[str, str]]:
     path = folder / MANIFEST
     files = {}
     try:
@@ -120,9 +104,3 @@ def _manifest(folder: Path) -> tuple[int, dict[str, str]]:
     except InputError as error:
         raise error.in_file(path) from None
     return release, files
-
-
-def frozen_lines(folder: Path) -> str:
-    """What ``versions.toml`` would say of a folder, when a new version is made."""
-    lines = [f"{name} = {json.dumps(layer_hash(folder, name))}" for name in LAYERS]
-    return "\n".join([f"[{release_of(folder)}]", *lines, ""])

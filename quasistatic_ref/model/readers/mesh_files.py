@@ -42,7 +42,7 @@ def mesh_path(uri: str, folder: Path, package_dirs: Sequence[str | Path]) -> Pat
     packages = [Path(given) for given in package_dirs]
     if uri.startswith(PACKAGE):
         if not packages:
-            problem = "is looked for in the folders of package_dirs, and the body has none"
+            problem = "needs package_dirs, the folders that contain package:// files"
             raise ModelError(problem, value=uri)
         inside = uri.removeprefix(PACKAGE).lstrip("/")
         places = [package / inside for package in packages]
@@ -99,7 +99,7 @@ def triangles_of(geometry: Any) -> Indices:
 def hull_of_loaded(geometry: Any) -> ConvexMesh:
     """Convex hull of a mesh as coal loaded it; ModelError if it is too small."""
     if geometry.num_vertices < 4 or geometry.num_tris < 1:
-        problem = "must be at least four vertices, and triangles"
+        problem = "must be at least four, with at least one triangle"
         raise ModelError(problem, field="vertices", value=int(geometry.num_vertices))
     return hull_of_mesh(np.array(geometry.vertices()), triangles_of(geometry))
 

@@ -138,7 +138,7 @@ def _content(path: Path, text: str) -> UrdfFile:
     for element in robot.findall("link"):
         link = _link(element, ignored)
         if link.name in links:
-            raise ModelError("is the name of two links", field=f"link[{link.name}]")
+            raise ModelError("is the name of two links; rename one", field=f"link[{link.name}]")
         links[link.name] = link
     joints = [_joint(element, ignored) for element in robot.findall("joint")]
     root, ordered = checked_tree(links, joints)
@@ -188,7 +188,7 @@ def inertia_defect(inertia: Array) -> Defect | None:
     if not principal[0] > 0:
         return "inertia", f"must be positive definite {order}", written
     if principal[2] > (principal[0] + principal[1]) * (1 + INERTIA_TRIANGLE):
-        problem = "is that of no body: the largest principal moment exceeds the sum of the others"
+        problem = "is impossible: the largest principal moment exceeds the sum of the others"
         return "inertia", f"{problem} {order}", written
     return None
 
@@ -264,7 +264,7 @@ def _check_limit(joint: Tag, *, needed: bool) -> None:
     """Limits are no part of the model, but urdfdom refuses a joint without good ones."""
     limit = joint.perhaps("limit")
     if limit is None and needed:
-        problem = "is missing: URDF asks for effort and velocity, though the model has no limits"
+        problem = "is missing: URDF requires effort and velocity, although they are not used"
         raise ModelError(problem, field=f"{joint.where}.limit")
     if limit is not None:
         for name in ("effort", "velocity", "lower", "upper"):

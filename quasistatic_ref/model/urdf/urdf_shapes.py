@@ -61,7 +61,7 @@ def checked_shapes(
             capsules = any(type(shape).__name__ == "Capsule" for shape, _, _ in collisions)
             hint = '; <capsule> needs <robot version="1.1"> or 1.2' if capsules else ""
             problem = (
-                f"only {len(loaded)} of the shapes written were loaded, "
+                f"only {len(loaded)} of its shapes were loaded, "
                 f"for the reason printed on standard error{hint}"
             )
             raise ModelError(problem, field=where, value=len(collisions))

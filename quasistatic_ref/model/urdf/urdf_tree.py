@@ -65,7 +65,7 @@ def checked_tree(
     for joint in joints:
         where = f"joint[{joint.name}]"
         if joint.name in named:
-            raise ModelError("is the name of two joints", field=where)
+            raise ModelError("is the name of two joints; rename one", field=where)
         for field, link in (("parent", joint.parent), ("child", joint.child)):
             if link not in links:
                 problem = f"is not a link{suggestion(link, links)}"
@@ -76,7 +76,7 @@ def checked_tree(
         named[joint.name] = parent_of[joint.child] = joint
     roots = [link for link in links if link not in parent_of]
     if len(roots) != 1:
-        problem = "exactly one link must not be the child of a joint"
+        problem = "exactly one link must have no parent joint"
         raise ModelError(problem, field="root link", value=roots)
     children: dict[str, list[FileJoint]] = {}
     for joint in joints:
@@ -89,7 +89,8 @@ def checked_tree(
         front += [joint.child for joint in here]
     if len(ordered) != len(joints):
         loose = sorted(set(named) - {joint.name for joint in ordered})
-        raise ModelError(f"joints not reached from {roots[0]!r}", field="tree", value=loose)
+        problem = f"these joints are not connected to the root link {roots[0]!r}"
+        raise ModelError(problem, field="tree", value=loose)
     for joint in joints:
         _check_mimic(joint, named)
     return roots[0], tuple(ordered)

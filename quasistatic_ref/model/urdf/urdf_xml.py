@@ -36,7 +36,7 @@ def xml_root(text: str) -> Element:
     parser.buffer_text = True
 
     def refusal(*_: object) -> None:
-        problem = "a DOCTYPE is not allowed: no entity is ever expanded"
+        problem = "a DOCTYPE is not allowed, because entities are not expanded"
         raise ModelError(problem, field=f"line {parser.CurrentLineNumber}")
 
     parser.StartDoctypeDeclHandler = refusal
@@ -149,7 +149,7 @@ class Tag:
         children = self.element.findall(tag)
         where = f"{self.where}.{tag}"
         if len(children) > 1:
-            raise ModelError("is given more than once", field=where, value=len(children))
+            raise ModelError("must occur only once", field=where, value=len(children))
         child = Tag(children[0], where) if children else None
         if child is not None and attributes:
             child.only(*attributes)

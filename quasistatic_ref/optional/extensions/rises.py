@@ -94,7 +94,7 @@ def private_rises(
     for name in friction:
         if name not in numbers:
             known = suggestion(name, numbers)
-            raise InputError(f"is no coordinate{known}", field="joint_friction", value=name)
+            raise InputError(f"is not a coordinate{known}", field="joint_friction", value=name)
     coordinates = [numbers[name] for name in friction]
     heavy = np.concatenate([h**2 * np.diag(K_q), np.diag(whole(system.M_u(system.q_start)))])
     supports = tuple(_support(system, name, *rubs) for name, rubs in support.items())
@@ -117,7 +117,7 @@ def _support(system: System, name: str, mu_v: float, mu_omega: float) -> Contact
     """The contact of a planar base with the horizontal plane through its origin."""
     bases = {body.name: body.base for body in system.bodies}
     if name not in bases:
-        raise InputError(f"is no body{suggestion(name, bases)}", field="support", value=name)
+        raise InputError(f"is not a body{suggestion(name, bases)}", field="support", value=name)
     if bases[name] != "planar":
         problem = 'is for a body with base = "planar"'
         raise InputError(problem, field="support", value=name)

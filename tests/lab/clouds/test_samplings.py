@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy.spatial import ConvexHull, cKDTree
+from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.lab.clouds.samplings import (
@@ -16,6 +16,7 @@ from quasistatic_ref.lab.clouds.samplings import (
     scan,
     some_vertices,
 )
+from quasistatic_ref.shapes.convex_mesh import convex_hull
 
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=np.float64)
 FACES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
@@ -79,18 +80,16 @@ def test_a_scan_misses_what_no_view_sees():
     noise turns a point by.
     """
     directions = Rotation.random(400, random_state=0).as_matrix()[:, 0]
-    hull = ConvexHull(directions)
-    outwards = np.einsum("ti,ti->t", hull.equations[:, :3], np.cross(
-        *np.diff(directions[hull.simplices], axis=1).transpose(1, 0, 2)
-    ))  # fmt: skip
-    faces = np.where(outwards[:, None] > 0, hull.simplices, hull.simplices[:, ::-1])
-    sphere = Mesh(directions, faces)
+    hull = convex_hull(directions)
+    sphere = Mesh(hull.vertices, hull.triangles)
     points = scan(sphere, 500, np.random.default_rng(3))
     views = np.random.default_rng(3).normal(size=(VIEWS, 3))
     views /= np.linalg.norm(views, axis=1, keepdims=True)
     lengths = np.linalg.norm(points, axis=1)
     seen = (points @ views.T).max(axis=1) / lengths
-    off = np.arccos(np.einsum("ti,tci->tc", sphere.normals, directions[faces])).max()
+    off = np.arccos(
+        np.einsum("ti,tci->tc", sphere.normals, sphere.vertices[sphere.triangles])
+    ).max()
     turned = 5 * NOISE / lengths.min()
     assert seen.min() > np.cos(np.arccos(GRAZING) + off + turned)
     assert (directions @ views.T).max(axis=1).min() < 0.0

@@ -8,8 +8,8 @@ from matplotlib import pyplot as plt
 from quasistatic_ref.lab.examples.gallery import EXAMPLES
 from validation.tools.restyled import FIGURES, GRID, drawer, in_styles
 
-QUICK = ("block_on_an_incline", "corner_loads")
-"""Three panels each: drawings, lines, a legend for all. The others take minutes."""
+QUICK = ("six_rows_of_a_contact", "corner_loads")
+"""Three panels each: bars, drawings, a legend for all. The others take minutes."""
 
 
 @pytest.mark.parametrize("name", QUICK)

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.parallel import records_read
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted
@@ -63,20 +62,6 @@ def test_pushes_that_the_model_made_are_predicted_from_planted_loads(folder, tmp
     assert set(record["steps"]) <= {"exact", "enclosure"}
     assert record["mu_omega_over_mu_v"]["glass/tile"] == pytest.approx(RATIO, rel=1e-6)
     assert json.loads((tmp_path / "reality.json").read_text()) == record
-
-
-def test_a_run_that_was_ended_goes_on_and_one_of_other_settings_does_not(folder, tmp_path, capsys):
-    assert command(folder, tmp_path) == 0
-    assert "glass/tile" in capsys.readouterr().out
-    (path,) = tmp_path.glob("*.jsonl")
-    whole = path.read_bytes()
-    path.write_bytes(whole[: len(whole) * 2 // 3])  # the last line is torn
-    assert command(folder, tmp_path) == 0
-    assert path.read_bytes() == whole
-    assert len(records_read(path)) == 1 + 3  # the settings, and a line a push
-    path.write_text(path.read_text().replace('"advance": 0.001', '"advance": 0.002'))
-    assert command(folder, tmp_path) == 2
-    assert "other settings" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -3,23 +3,14 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.predict import predicted, touching
 from quasistatic_ref.lab.reality.push import pushed
 from quasistatic_ref.lab.reality.settings import Settings
-from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.lab.scenes.slider import sliding_motion, sticking_motion
-from quasistatic_ref.model.body import Body
-from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.extensions.rises import private_rises
-from quasistatic_ref.shapes.placed_shape import Box
-from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.extension import Extension
-from tests.model.urdf.urdf_texts import collision, joint, link, robot, written
 from tests.tolerances import QUASI_STATIC
 
 RATIO = 0.03
@@ -95,38 +86,3 @@ def test_steps_in_polyhedral_cones_are_exact(cone):
 def test_a_push_whose_steps_have_no_bound_has_none():
     found = predicted(pushed(Settings(), PAIR, RATIO), START, PATH, certify="off")
     assert found.error_bound == np.inf
-
-
-FINGER = robot(
-    link("post"),
-    link("carriage"),
-    link("tip", collision(f'<sphere radius="{RADIUS}"/>')),
-    joint("x", "post", "carriage", "prismatic", "1 0 0"),
-    joint("y", "carriage", "tip", "prismatic", "0 1 0"),
-)
-
-
-def test_a_planar_base_on_its_support_moves_as_where_a_rise_weighs_nothing(tmp_path):
-    """The first step of a push of a box of 1 kg that comes from the right, so that it turns."""
-    settings = Settings(gyration=np.sqrt(2 * 0.08**2 / 12), rise=1e-6)
-    scene = pushed(settings, PAIR, RATIO)
-    aside = {"base": "planar", "xyz": (*START[:2], 0)}
-    body = Body.of_shape("box", Box(size=(0.08, 0.08, 0.02)), settings.m, **aside)
-    finger = Body("finger", written(tmp_path, FINGER, "finger.urdf"), actuated="all",
-                  positions={"x": BELOW[0], "y": BELOW[1]})  # fmt: skip
-    system = System([finger, body])
-    tip, box = sorted(system.shapes, key=lambda shape: shape.link)
-    K_q = settings.stiffness * np.eye(2)
-    pairs, rises = private_rises(
-        system, [ContactPair("push(tip, box)", tip, box, scene.mu_finger, 0.0, 4, 1)],
-        h=settings.h, K_q=K_q, gravity=(0, 0, -GRAVITY),
-        support={"box": (settings.mu_v, settings.mu_v * RATIO)},
-    )  # fmt: skip
-    simulator = Simulator(system, pairs, h=settings.h, K_q=K_q, cone="ellipsoid", fast=True,
-                          extension=lambda q: Extension(rises=rises))  # fmt: skip
-    target = BELOW + np.array([-5e-4, 1e-3])
-    found = simulator.step(system.q_start, target).solution.delta_q[:5]
-    level = solve_step(scene.step(BELOW, np.append(START[:2], [0.0, 0.0]), target))
-    expected = level.delta_q[[0, 1, 2, 3, 5]]  # without the rise, which is nobody's
-    assert abs(expected[4]) > 1e-3
-    np.testing.assert_allclose(found, expected, rtol=1e-5)

@@ -86,7 +86,7 @@ BAD = {
     "a value": ({"contacts.rough.mu_v": np.array([0.5, -1.0])}, "mu_v: must be at least 0"),
     "a cone that the backend does not take": (
         {"solver.backend": ["daqp"], "cone": ["pyramid", "ellipsoid"]},
-        "takes only linear rows",
+        "accepts only linear rows",
     ),
 }
 

@@ -65,7 +65,7 @@ def test_families_that_studies_have_no_place_for_are_refused(family):
     ("families = { sequences = 12 }", "is a family of sets; say set"),
     ("families = { scenarios = { count = 3, most = 0.01 } }", "has no dial to be turned"),
     ('set = "contact-qp-3"\nfamilies = { wedge = 3 }', "is neither a folder nor a set"),
-    ('set = "contact-qp-2"\nfamilies = { wedge = 3 }', "is no family of the set"),
+    ('set = "contact-qp-2"\nfamilies = { wedge = 3 }', "is not a family of the set"),
     ('set = "contact-qp-1"\nfamilies = { wedges = 3 }', "wedges"),
     ("families = { contacts = { most = 3 } }", "count"),
     ('set = "contact-qp-1"\nfamilies = { wedge = { count = 3, most = -1 } }', "must be greater"),

@@ -56,7 +56,7 @@ def test_each_command_runs_the_same_again_and_finds_the_same(whole, monkeypatch,
     monkeypatch.chdir(whole.parent)  # of the planted solvers
     rows = [row for row in contents(whole).rows if row["repetition"] == 0]
     tables = worst(plain_report.parsed(markdown_page(study_report(whole))))
-    with pytest.raises(InputError, match="is no solver of the study"):
+    with pytest.raises(InputError, match="is not a solver of the study"):
         question("mass_ratio/1/0", "qpsolvers:osqp", "default", store=whole)
     labels = {re.search(r"label = (\S+?)[,.]?$", where)[1] for _, where, *_ in tables}
     assert labels == {"qpsolvers:daqp", "callable:mine"}
@@ -87,7 +87,7 @@ def test_a_problem_of_the_set_is_run_without_any_store(capsys):
     ((WEDGE, "daqp", "default"), "neither interface:name nor module:function"),
     ((WEDGE, "qpsolvers:daqp", "tunde"), "did you mean 'tuned'"),
     ((WEDGE, "qpsolvers:clarabel", "default", "natural", True), "takes no start"),
-    (("wedge/0.1/x", "qpsolvers:daqp", "default"), "is no problem of contact-qp-1"),
+    (("wedge/0.1/x", "qpsolvers:daqp", "default"), "is not a problem of contact-qp-1"),
 ])  # fmt: skip
 def test_what_cannot_be_run_is_refused_in_a_sentence(words, problem):
     with pytest.raises(InputError, match=problem):

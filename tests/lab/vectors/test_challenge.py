@@ -13,8 +13,7 @@ from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.challenge.fresh import EASY, HARD, PLAIN, fresh_case, record_of
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.challenge.serve import served
-from quasistatic_ref.lab.vectors.challenge.shrink import shrunk
-from quasistatic_ref.lab.vectors.challenge.simpler import MOVES
+from quasistatic_ref.lab.vectors.challenge.simpler import MOVES, shrunk
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from tests.lab.vectors.material import ROOT

@@ -68,7 +68,7 @@ def test_programs_are_exported_with_their_exact_answers(few, tmp_path):
         ({"cases": [{"id": "a", "input": {}}]}, "provenance: is missing"),
         (
             {"cases": [{"id": "a", "provenance": "b", "input": {"kind": "shared", "name": "c"}}]},
-            "is no shape of this file",
+            "is not a shape of this file",
         ),
     ],
 )

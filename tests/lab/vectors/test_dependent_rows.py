@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from flint import fmpq, fmpz_mat
 
-from quasistatic_ref.lab.vectors.exact.algebra import vector
+from quasistatic_ref.lab.vectors.exact.precision import vector
 from quasistatic_ref.lab.vectors.families.step_scenes import FLOOR
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.lab.vectors.unrounded.dependent import dependence_breaks

@@ -9,7 +9,6 @@ from quasistatic_ref.lab.program.step import step
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.check.table import PATCHES as TABLE
-from quasistatic_ref.lab.vectors.converters import tangent_map
 from quasistatic_ref.lab.vectors.layers import layer
 from tests.lab.vectors.material import cases, expected, report_on
 
@@ -135,18 +134,6 @@ def test_a_planted_mistake_is_found_and_named(mistake, patch):
     report = report_on("derivative", answers)
     assert report.count("failed") == len(answers)
     assert [named.name for named in report.mistakes] == [mistake]
-
-
-def test_a_derivative_along_the_world_s_axes_is_found_and_named():
-    answers = {}
-    for case in map(case_of, CURVED):
-        mechanism = case.input["mechanism"]
-        q = case.input["q"]
-        B, after = (tangent_map(mechanism, at, "world") for at in (q, q_next(case.input)))
-        turned = after.T @ np.array(derivative(case.input)["dq_dq"]) @ B
-        answers[case.id] = {"differentiable": True, "dq_dq": turned.tolist()}
-    (named,) = report_on("derivative", answers).mistakes
-    assert named.name == "derivative in the world instead of the body frame"
 
 
 @pytest.mark.parametrize(

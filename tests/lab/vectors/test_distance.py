@@ -9,27 +9,18 @@ from flint import fmpq
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.rotation import turn
-from quasistatic_ref.lab.vectors.challenge import fresh
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
-from quasistatic_ref.lab.vectors.exact.algebra import vector
-from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number
+from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number, vector
+from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
+from quasistatic_ref.lab.vectors.families.step_scenes import FLOOR
 from quasistatic_ref.lab.vectors.layers import distance
 from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
 from tests.lab.vectors.material import cases, expected
-from tests.lab.vectors.solids import (
-    FLOOR,
-    ORIGIN,
-    at,
-    box,
-    cone,
-    convex,
-    cylinder,
-    ellipsoid,
-    sphere,
-)
 
-SHAPES = {kind: {"kind": kind, **sizes} for kind, sizes in fresh.SHAPES.items()}
+CUBE = {"kind": "box", "size": [1.0, 1.0, 1.0]}
+BALL = {"kind": "sphere", "radius": 1.0}
+CAN = {"kind": "cylinder", "radius": 1.0, "length": 1.0}
 CASES = {case.id: case.input for case in cases("distance")[:171]}
 """Those of no scenario."""
 BY_ROUNDING = 13
@@ -40,6 +31,14 @@ NINETY_DIGITS = fmpq(1, 10**90)
 
 def case(alpha, pose_alpha, beta, pose_beta):
     return {"alpha": alpha, "beta": beta, "pose_alpha": pose_alpha, "pose_beta": pose_beta}
+
+
+def ellipsoid(*half_axes):
+    return {"kind": "ellipsoid", "half_axes": list(half_axes)}
+
+
+def convex(vertices):
+    return {"kind": "convex", "vertices": vertices}
 
 
 def answer(*args):
@@ -71,7 +70,7 @@ def test_a_pose_rounded_in_its_hundredth_digit_still_has_flat_faces(axis):
         tips = [[0.0, 0.0, -0.25], [0.2, 0.1, 0.2], [-0.1, 0.2, 0.25], [-0.15, -0.2, 0.3]]
         solids = [
             replace(placed(shape, ORIGIN), R=R, t=R @ vector([0, 0, z]))
-            for shape, z in ((box(1, 1, 1), fmpq(0)), (convex(tips), number(0.65)))
+            for shape, z in ((CUBE, fmpq(0)), (convex(tips), number(0.65)))
         ]
         found = pair_witness(*solids)
         up = R[:, 2]
@@ -107,8 +106,8 @@ def test_exchanging_the_sides_exchanges_the_answer(id_):
 
 def test_a_corner_that_rounding_chooses_is_not_called_unique():
     # Tilted by 1e-17 rad a cube stands on one corner, and by four units of rounding on another.
-    tilted = at(0.0, 0.0, 0.5, [5e-18, 3e-18, 0.0, 1.0])
-    given = case(FLOOR, ORIGIN, box(1, 1, 1), tilted)
+    tilted = {"xyz": [0.0, 0.0, 0.5], "quaternion": [5e-18, 3e-18, 0.0, 1.0]}
+    given = case(FLOOR, ORIGIN, CUBE, tilted)
     _, _, unique = distance.answer(given)
     found = distance.expected(given)
     assert unique == [True]
@@ -126,12 +125,12 @@ def test_near_contact_a_difference_has_no_normal_and_the_tolerance_says_so():
 @pytest.mark.parametrize(
     ("alpha", "beta", "match"),
     [
-        (cylinder(1.0, 1.0), cylinder(1.0, 1.0), "meet"),
-        (cone(1.0, 1.0), ellipsoid(1.0, 1.0, 1.0), "no closed form"),
-        (SHAPES["halfspace"], SHAPES["halfspace"], "two halfspaces"),
-        ({"kind": "ball"}, sphere(1.0), "kind of shape"),
-        ({"kind": "sphere", "length": 1.0}, sphere(1.0), "has the fields"),
-        (convex([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]), sphere(1.0), "plane"),
+        (CAN, CAN, "meet"),
+        ({**CAN, "kind": "cone"}, ellipsoid(1.0, 1.0, 1.0), "no closed form"),
+        (FLOOR, FLOOR, "two halfspaces"),
+        ({"kind": "ball"}, BALL, "kind of shape"),
+        ({"kind": "sphere", "length": 1.0}, BALL, "has the fields"),
+        (convex([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]), BALL, "plane"),
     ],
 )
 def test_what_has_no_exact_answer_is_refused(alpha, beta, match):

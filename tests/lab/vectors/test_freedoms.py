@@ -5,6 +5,7 @@ import copy
 import pytest
 
 from quasistatic_ref.lab.vectors.check.case import case_verdict
+from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
 from tests.lab.vectors.material import cases, expected, right_answers
 
 SQUARE = {"H": [[1.0, 0.0], [0.0, 1.0]], "g": [0.0, 0.0], "A": [], "b": []}
@@ -124,17 +125,14 @@ def test_a_tie_may_be_broken_otherwise(chosen, verdict):
     assert case_verdict("selection", case, wanted, {"indices": [chosen]}).verdict == verdict
 
 
-UNTURNED = [0.0, 0.0, 0.0, 1.0]
-
-
 def boxes_face_to_face():
     """Unit cubes 1 m apart along x: any point of the facing squares is a witness."""
     box = {"kind": "box", "size": [1.0, 1.0, 1.0]}
     case = {
         "alpha": box,
         "beta": box,
-        "pose_alpha": {"xyz": [0.0, 0.0, 0.0], "quaternion": UNTURNED},
-        "pose_beta": {"xyz": [2.0, 0.25, 0.0], "quaternion": UNTURNED},
+        "pose_alpha": ORIGIN,
+        "pose_beta": at(2.0, 0.25, 0.0),
     }
     output = {"phi": 1.0, "alpha": [0.5, 0.0, 0.0], "beta": [1.5, 0.0, 0.0], "n": [1.0, 0.0, 0.0]}
     fields = dict.fromkeys(("phi", "alpha", "beta", "n"), 1e-14)

@@ -8,9 +8,8 @@ from flint import fmpq
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.optimum import is_optimum
-from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds
+from quasistatic_ref.lab.vectors.exact.conditioning import Errors, bounds, floors
 from quasistatic_ref.lab.vectors.exact.entered import entered
-from quasistatic_ref.lab.vectors.exact.floor import floors
 from quasistatic_ref.lab.vectors.exact.precision import short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.layers import qp

@@ -10,9 +10,8 @@ import pytest
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.compare import difference, parts, tolerance_of
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
-from quasistatic_ref.lab.vectors.check.mistakes import MISTAKES
 from quasistatic_ref.lab.vectors.check.patched import patched_texts, program
-from quasistatic_ref.lab.vectors.check.table import FACTOR
+from quasistatic_ref.lab.vectors.check.table import FACTOR, MISTAKES
 from quasistatic_ref.lab.vectors.check.table import PATCHES as TABLE
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from tests.lab.vectors.material import cases, expected, report_on, right_answers, small_cases

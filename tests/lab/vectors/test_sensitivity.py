@@ -1,4 +1,4 @@
-"""What is expected passes, and any one number changed beyond its tolerance does not."""
+"""Any one number changed beyond its tolerance is found."""
 
 import pytest
 
@@ -6,14 +6,7 @@ from quasistatic_ref.lab.vectors.challenge.removals import replaced
 from quasistatic_ref.lab.vectors.check.case import case_verdict
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import nodes
-from tests.lab.vectors.material import cases, expected, report_on, right_answers
-
-
-@pytest.mark.parametrize("layer", LAYERS)
-def test_the_expected_outputs_pass_as_answers(layer):
-    report = report_on(layer, right_answers(layer))
-    assert report.ok
-    assert report.count("passed") == len(cases(layer)) > 0
+from tests.lab.vectors.material import cases, expected, right_answers
 
 
 def numbers_in(value):

@@ -118,21 +118,6 @@ BAD: dict[str, tuple[str, bytes, str]] = {
     "pcd that is compressed": (".pcd", pcd("binary_compressed", b""), "DATA: must be ascii or bin"),
     "pcd without an end": (".pcd", PCD_HEADER.encode(), "header: must end with a line DATA"),
     "pcd of other words": (".pcd", b"solid thing\n", "line 1: must begin with one of VERSION, FI"),
-    "pcd cut off": (
-        ".pcd",
-        pcd("binary", binary_body("<B3d")[:-1]),
-        "must contain 2 points .got 1",
-    ),
-    "pcd of too few lines": (".pcd", pcd("ascii", b"0 1 2 3\n"), "must contain 2 points .got 1"),
-    "pcd of more points than memory": (
-        ".pcd",
-        pcd(
-            "binary",
-            b"",
-            PCD_HEADER.replace("TH 2", "TH 999999999999999").replace("TS 2", "TS 999999999999999"),
-        ),
-        "must contain 9+ points .got 0",
-    ),
     "pcd that contradicts itself": (
         ".pcd",
         pcd("binary", b"", PCD_HEADER.replace("TH 2", "TH 3")),
@@ -153,7 +138,6 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         npy(np.array([{}], dtype=object)),
         "is a pickle",
     ),
-    "npy of nothing": (".npy", b"", "is not an array of NumPy"),
     "npy cut off": (".npy", npy(POINTS)[:-1], "does not have the size that it says"),
     "npy of a size that is not there": (
         ".npy",
@@ -170,14 +154,12 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         npz(a=POINTS, b=POINTS),
         "must contain one array, or one that is",
     ),
-    "npz of a pickle": (".npz", npz(points=np.array([{}], dtype=object)), "points.npy is a pickle"),
     "unknown extension": (".stl", b"", "extension: is not a known kind of point cloud.*'.stl'"),
     "empty xyz": (".xyz", b"\n# nothing\n", "points: must contain at least one point"),
     "two numbers": (".xyz", b"0 0 0\n1 2\n", r"line 2: must be three numbers, x y z.*'1 2'"),
     "nan": (".xyz", b"0 0 0\n\n0 nan 1\n", r"line 3: must be a finite decimal number \(got 'nan'"),
     "overflow": (".xyz", b"0 1e999 0\n", "line 1:.*overflows.*'1e999'"),
     "not text": (".xyz", b"0 0 0\n\xff\xfe 0 0\n", "line 2: is not UTF-8 text"),
-    "decimal comma": (".csv", b"0,1;0,2;0,3\n", "line 1: must have 3 columns"),
     "no column z": (".csv", b"x,y,u\n1,2,3\n", "line 1: must name the column z once"),
     "obj without z": (".obj", b"v 1 2\n", "line 1: must be v x y z"),
     "not ply": (".ply", b"hello\n", "line 1: must be the word ply.*'hello'"),
@@ -206,7 +188,6 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         b"ply\nformat ascii 1.0\nelement face 1\nend_header\n",
         "line 3: must be element vertex.*'face'",
     ),
-    "nan binary ply": (".ply", binary_ply("double", "d", NAN), "point 1: must be finite numbers"),
     "a nan that signals": (
         ".ply",
         binary_ply("float", "f")[:-12] + b"\x01\x00\xa0\x7f" * 3,

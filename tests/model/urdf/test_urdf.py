@@ -108,7 +108,7 @@ def test_a_defect_of_a_part_of_a_body_is_noted(tmp_path: Path) -> None:
     needle = inertial(moments=("0.1", "0.1", "1"))  # 1 > 0.1 + 0.1
     welded = robot(link("a"), link("b", inertial=needle), joint("j", "a", "b", "fixed"))
     (note,) = loaded_urdf(written(tmp_path, welded)).notes
-    assert note.startswith("link[b].inertial.inertia: is that of no body")
+    assert note.startswith("link[b].inertial.inertia: is impossible")
     assert note.endswith("; accepted, because no un-actuated joint moves this link")
     massless = robot(
         link("a"), link("b", inertial=inertial(mass="0")), joint("j", "a", "b", "fixed")
@@ -169,7 +169,7 @@ TAMPERED = {
     _other_weld: r"link\[tool\]: its joint's origin, axis or mimic was not loaded as written",
     _other_mass: r"link\[lower\].inertial: .* was not loaded as written \(2 kg\) \(got 2\.0",
     _other_centre: r"link\[follower\].inertial: mass, centre or inertia was not loaded",
-    _no_shape: r"link\[base_link\].collision: only 0 of the shapes written were loaded",
+    _no_shape: r"link\[base_link\].collision: only 0 of its shapes were loaded",
     _other_shape: r"link\[upper\].collision\[0\]: was not loaded as written",
     _moved_shape: r"link\[upper\].collision\[0\]: was not loaded as written",
     _other_name: r"joints: differ from those loaded.*swung",

@@ -35,7 +35,7 @@ REFUSED: dict[str, tuple[str, str, str, str]] = {
         CHAIN,
         ' version="1.1"',
         "",
-        r'link\[tool\].collision: only 0 of the shapes.*<capsule> needs <robot version="1.1">',
+        r'link\[tool\].collision: only 0 of its shapes.*<capsule> needs <robot version="1.1">',
     ),
     "mesh": (
         TWO,
@@ -70,13 +70,13 @@ REFUSED: dict[str, tuple[str, str, str, str]] = {
     ),
     "no ixy": (TWO, 'ixy="0.001"', "", r"inertia.ixy: is missing"),
     "indefinite": (TWO, 'ixx="0.02"', 'ixx="-0.02"', "inertia: must be positive definite"),
-    "no body": (TWO, 'izz="0.04"', 'izz="0.4"', "inertia: is that of no body: the largest"),
+    "no body": (TWO, 'izz="0.04"', 'izz="0.4"', "inertia: is impossible: the largest"),
     "zero axis": (TWO, '"0 0 1"', '"0 0 0"', r"joint\[j\].axis.xyz: must not be zero"),
     "two numbers": (TWO, '"0 0 1"', '"0 1"', r"axis.xyz: must be 3 numbers \(got '0 1'\)"),
     "degrees": (TWO, "<limit", '<origin rpy_deg="0 0 90"/><limit', "origin.rpy_deg: is unknown"),
     "floating": (TWO, "revolute", "floating", 'not supported.*base = "floating"'),
     "no type": (TWO, 'type="revolute"', "", r"joint\[j\].type: is missing"),
-    "no limit": (TWO, "<limit", "<bound", r"joint\[j\].limit: is missing: URDF asks for effort"),
+    "no limit": (TWO, "<limit", "<bound", r"joint\[j\].limit: is missing: URDF requires effort"),
     "bad upper": (TWO, 'upper="1"', 'upper="one"', r"\[j\].limit.upper: must be a finite.*'one'"),
     "bad damping": (
         TWO,
@@ -98,7 +98,7 @@ REFUSED: dict[str, tuple[str, str, str, str]] = {
         TWO,
         "</robot>",
         link("c") + link("d") + joint("l", "c", "d") + joint("m", "d", "c") + "</robot>",
-        r"tree: joints not reached from 'a' \(got \['l', 'm'\]\)",
+        r"tree: these joints are not connected to the root link 'a' \(got \['l', 'm'\]\)",
     ),
     "mimics nothing": (THREE, 'mimic joint="j"', 'mimic joint="x"', r"\[k\].mimic: is not a joint"),
     "continuous mimic": (

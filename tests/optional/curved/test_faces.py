@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.optional.curved.faces import Face, curvature, face, kinks
+from quasistatic_ref.optional.curved.faces import curvature, face, kinks
 from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder
 from tests.oracles import closest
 from tests.tolerances import CURVED_PAIR, DIFFERENCE, DIFFERENCE_STEP, EXACT, ROUNDING
@@ -85,14 +85,6 @@ def test_both_caps_of_a_cylinder_are_faces_and_the_base_of_a_cone(end) -> None:
     np.testing.assert_allclose(base.corners, [0.25 * way], rtol=EXACT, atol=EXACT)
 
 
-def test_a_square_s_nearest_points_are_those_of_its_clipped_coordinates() -> None:
-    corners = np.array([[1.0, 1, 0], [-1, 1, 0], [-1, -1, 0], [1, -1, 0]])
-    square = Face(corners, 0.0, np.array([0.0, 0.0, 1.0]))
-    for x in np.random.default_rng(8).normal(size=(50, 3)) * 2:
-        expected = [*np.clip(x[:2], -1, 1), 0.0]
-        np.testing.assert_allclose(square.nearest(x), expected, rtol=EXACT, atol=CURVED_PAIR)
-
-
 def test_a_normal_that_is_off_by_a_millionth_is_not_that_of_a_face() -> None:
     n = np.array([np.sin(1e-6), 0, np.cos(1e-6)])
     cap = face(ShapeInWorld(Cylinder(0.1, 0.25), *HERE), n)
@@ -112,11 +104,3 @@ def test_a_side_ends_at_the_caps_though_the_normal_is_off_by_rounding() -> None:
     np.testing.assert_allclose(side @ axis, [-0.5, 0.5], rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(side @ x, [1, 1], rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(side @ R[:, 1], [0, 0], rtol=EXACT, atol=CURVED_PAIR)
-
-
-def test_beyond_a_segment_its_end_is_nearest_also_in_line_with_it() -> None:
-    segment = Face(np.array([[0.0, 0, 0], [1, 0, 0]]), 0.0, np.array([0.0, 0.0, 1.0]))
-    for x in (-0.5, 0.25, 2.0):
-        expected = [np.clip(x, 0, 1), 0, 0]
-        found = segment.nearest(np.array([x, 0.0, 0.5]))
-        np.testing.assert_allclose(found, expected, rtol=EXACT, atol=EXACT)

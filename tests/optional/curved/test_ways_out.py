@@ -9,7 +9,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.optional.curved.ways_out import APART, REACH, STARTS, rival_directions
 from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box, Cylinder, Ellipsoid
+from quasistatic_ref.shapes.placed_shape import Box, Ellipsoid
 from tests.tolerances import EXACT, ROUNDING
 
 R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix()
@@ -52,31 +52,3 @@ def test_ways_out_of_a_polytope_are_its_normals_the_shortest_first(name, turned_
         cosines = np.vstack([found, first]) @ found.T
         assert (cosines[~np.eye(*cosines.shape, dtype=bool)] < APART).all()
         assert len(found) <= STARTS
-
-
-def test_a_way_out_along_an_axis_of_an_ellipsoid_is_that_axis() -> None:
-    x = R[:, 0]
-    wide = ShapeInWorld(Ellipsoid(np.array([0.1, 0.3, 0.35])), R, AT)
-    inside = ShapeInWorld(Ellipsoid(HALF_AXES), S, AT + 0.01 * x)
-    (found,) = rival_directions(wide, inside, x, gaps(wide, inside, x[None])[0], 0.5)
-    np.testing.assert_allclose(found, -x, rtol=EXACT, atol=ROUNDING)
-
-
-def test_a_way_out_through_a_side_is_found_between_the_axes() -> None:
-    # A small ellipsoid off the axis of a cylinder, by 1 rad from its x axis; the cap is known.
-    way = R @ [np.cos(1), np.sin(1), 0]
-    cylinder = ShapeInWorld(Cylinder(0.1, 0.12), R, AT)
-    inside = ShapeInWorld(Ellipsoid(HALF_AXES), S, AT + 0.05 * way)
-    found = rival_directions(cylinder, inside, R[:, 2], -0.14, 0.1)
-    # On the ridge of such ways the widest sampled gap need not be the nearest one.
-    assert np.arccos(found[0] @ way) <= 2 * REACH
-
-
-def test_no_more_ways_out_are_followed_than_starts() -> None:
-    # From the middle of a hull of twelve points, evenly spread, all faces are as near.
-    g = (1 + np.sqrt(5)) / 2
-    plane = np.array([[0, s, u * g] for s in (-1, 1) for u in (-1, 1)])
-    hull = convex_hull(np.concatenate([np.roll(plane, k, axis=1) for k in range(3)]))
-    a = ShapeInWorld(hull, R, AT)
-    b = ShapeInWorld(Ellipsoid(HALF_AXES), S, AT)
-    assert len(rival_directions(a, b, R[:, 0], -10.0, 1.0)) == STARTS

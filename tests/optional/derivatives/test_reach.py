@@ -1,4 +1,4 @@
-"""How far derivatives hold: closed forms, verdicts next to kinks, a sample of the comparison."""
+"""How far derivatives hold: closed forms, verdicts next to kinks, the rows that touch there."""
 
 import numpy as np
 import pytest
@@ -6,9 +6,12 @@ import pytest
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
+from quasistatic_ref.optional.derivatives.step.touching import touching_rows
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.solve.units import natural_units
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import BEARING, NEARLY
+from tests.lab.vectors.material import cases
 from tests.optional.derivatives.free_bodies import (
     BOX,
     FLOOR,
@@ -17,10 +20,10 @@ from tests.optional.derivatives.free_bodies import (
     H,
     free,
     reaching,
+    vector_scene,
     verdict,
 )
 from tests.tolerances import ROUNDING
-from validation.make.reach import ERROR, kink, state
 
 W = 0.3 * G
 X, _, Z = np.eye(6)[:3]
@@ -85,7 +88,38 @@ def test_at_a_kink_the_reach_is_zero_and_a_smoothed_step_has_none():
     assert named == (0.0, "tie of points: c0/0, c0/1")
 
 
-def test_a_few_of_the_states_and_kinks_of_the_long_comparison():
-    assert state("state door 20")["error"] <= ERROR
-    for what in ("block", "pair"):
-        assert kink(f"kink {what} 3")["named"]
+def touching(simulator, q, target, force):
+    """The rows that touch in a step."""
+    result = simulator.step(q, target, force)
+    far = np.abs(np.stack([result.points.alpha, result.points.beta])).max(axis=(0, 2))
+    found = touching_rows(result.solution, far)
+    rows = np.concatenate([found.strict, found.idle])
+    names = cone(result.step.cone).row_names
+    return {f"row {names[i]} of {result.step.contacts.name[j]}" for j, i in rows}
+
+
+ASIDE = 1e-3
+"""How far the steps on both sides of a kink are from it, over its distance."""
+PAIRS = [case.id.partition("/")[2] for case in cases("derivative") if "/pair/" in case.id]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_rows_that_are_named_change_where_a_random_force_has_grown_so_far(seed):
+    """Of a block on its corners, and of a pair of the vectors: steps linear piece by piece."""
+    rng = np.random.default_rng(seed)
+    block = free(BOX, (0, 0, 0.05), (FLOOR, (0, 0, 0)), k=4, mu=(0.4, 0.01))
+    ahead = 0
+    for simulator, q, target in ((*block, NONE), vector_scene(str(rng.choice(PAIRS)))):
+        arms = np.resize([1.0, 1.0, 1.0, 0.05, 0.05, 0.05], simulator.system.n_v)
+        force, way = 0.1 * arms * rng.normal(size=(2, len(arms)))
+        here = derivatives(simulator, q, target, force)
+        kink = here.reach_along(tau=way)
+        if not (here.differentiable and np.isfinite(kink.distance)):
+            continue
+        ahead += 1
+        before, beyond = (
+            touching(simulator, q, target, force + (1 + side) * kink.distance * way)
+            for side in (-ASIDE, ASIDE)
+        )
+        assert before ^ beyond == set(kink.where.split(", "))
+    assert ahead

@@ -14,9 +14,8 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
     _impulses,
     _net,
 )
-from quasistatic_ref.optional.ellipsoid.interior import Pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
-from tests.helpers import point_on_floor, sphere_on_floor
+from tests.helpers import point_on_floor
 from tests.tolerances import ROUNDING
 
 M, MU, PHI, H_STEP = 0.3, 0.5, 2e-3, 0.01
@@ -75,19 +74,3 @@ def test_impulses_of_a_contact_without_load_are_zeros_without_a_sign():
     assert none.tobytes() == np.zeros(4).tobytes()
     some = _impulses(step, form, frame, found, SimpleNamespace(loaded=[True]))
     np.testing.assert_allclose(some, lam, rtol=ROUNDING, atol=0.0)
-
-
-def test_an_answer_as_a_start_is_the_same_answer_again():
-    step = sphere_on_floor(radius=0.04, phi=PHI, wrench=(1.0, 2.0, -3.0, 0.1, 0.2, 0.3))
-    _, form, _, frame = posed(step)
-    delta_q = np.array([1e-3, -2e-3, 3e-3, 0.01, 0.02, -0.03])
-    lam = np.array([0.02, -3e-3, 4e-3, 1e-4])
-    at, multipliers = frame.start(form, delta_q, lam)
-    x, (y,) = frame.pair(Pair(at, [], multipliers))
-    mu = [1.0, 0.5, 0.5, 0.02]
-    for unit, values, expected in (
-        (form.x_unit, x.entries(), delta_q),
-        (form.lam_unit, y, lam / mu),
-    ):
-        found = [float(v * unit) for v in values]
-        np.testing.assert_allclose(found, expected, rtol=ROUNDING, atol=0.0)

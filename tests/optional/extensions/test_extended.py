@@ -93,5 +93,5 @@ def test_only_backends_with_cones_take_what_is_no_row():
     for name in ("clarabel", "scs", "none"):
         cone_backend(name, "the ellipsoid")
     for name in ("osqp", "daqp", "qpsolvers:clarabel"):
-        with pytest.raises(BackendError, match="takes only linear rows; the ellipsoid needs one"):
+        with pytest.raises(BackendError, match="accepts only linear rows; the ellipsoid needs one"):
             cone_backend(name, "the ellipsoid")

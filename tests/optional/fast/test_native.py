@@ -14,7 +14,6 @@ from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.scaled import DenseStep
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
@@ -76,11 +75,6 @@ REFUSED = {
 def test_a_backend_without_an_interface_of_its_own_is_refused(name, rng):
     with pytest.raises(BackendError, match=r"has no interface of its own .* clarabel, .* have"):
         NativeSolver(random_step(rng), name)
-
-
-def test_the_ellipsoid_is_refused_natively_by_backends_of_rows(rng):
-    with pytest.raises(BackendError, match="takes only linear rows; the ellipsoid needs one of"):
-        solver_for(random_step(rng).replace(cone="ellipsoid"), "daqp", fast=True)
 
 
 def test_extensions_that_are_more_than_rows_need_cvxpy(rng):

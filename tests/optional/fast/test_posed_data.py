@@ -13,16 +13,9 @@ from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
 from tests.helpers import changed_blocks, random_step
 from tests.scenes import chain_scene
-from tests.step.public_data import public_data
 from tests.tolerances import EXACT
 
 NAN = np.nan
-
-
-@pytest.fixture(scope="module")
-def things(tmp_path_factory):
-    """Every kind of public data, by name."""
-    return public_data(tmp_path_factory.mktemp("scene"))
 
 
 def test_a_posed_step_is_equal_to_the_checked_one_and_to_the_one_of_a_file(things):

@@ -13,7 +13,7 @@ from scipy.sparse import csc_matrix
 from quasistatic_ref.optional.large import least_eigenvalues as eigenvalues
 from quasistatic_ref.optional.large import rounded_bound, sparse_bound
 from quasistatic_ref.optional.large.bound import opening_direction
-from quasistatic_ref.optional.large.opening import RIDGE, opening
+from quasistatic_ref.optional.large.opening import opening
 from quasistatic_ref.optional.large.sparse_bound import (
     ENOUGH,
     LargeForm,
@@ -144,24 +144,3 @@ def test_eigenvalues_are_bounded_by_their_formula(monkeypatch):
     expected = 0.5 - (off + 3 * U * off)
     found = eigenvalues.least_eigenvalues(csc_matrix([[2.0, 1.0], [1.0, 2.0]]))
     np.testing.assert_allclose(found, expected, rtol=ROUNDING)
-
-
-def test_a_row_of_bodies_is_opened_by_accelerated_least_squares():
-    """Each of 160 bodies has to move farther than the last; B has lines of length one.
-
-    u_(k+1) = d_k + N^-1 B'(1 - B d_k)_+ with N = B'B + RIDGE, d_k = u_k + (k - 1) / (k + 2)
-    (u_k - u_(k-1)), till no row is short of 1 by half.
-    """
-    n = 160
-    A = np.eye(n) - np.eye(n, k=-1)
-    B = A / np.linalg.norm(A, axis=1)[:, None]
-    inverse = np.linalg.inv(B.T @ B + RIDGE * np.eye(n))
-    rounds = 0
-    d = last = np.zeros(n)
-    while (1 - B @ d).max() >= 0.5:
-        u = d + inverse @ B.T @ np.maximum(1 - B @ d, 0)
-        rounds += 1
-        d = u + (rounds - 1) / (rounds + 2) * (u - last)
-        last = u
-    assert rounds > 5
-    np.testing.assert_allclose(opening(csc_matrix(A), np.zeros(n)), d, rtol=ROUNDING)

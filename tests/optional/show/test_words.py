@@ -190,17 +190,6 @@ def test_a_step_that_was_taken_shows_forces_and_active_rows():
     assert {row[7] for row in rows} != {"none"}
 
 
-def test_a_trajectory_shows_its_last_step():
-    run = load_scenario("block_push", steps=3, fast=True).run(progress=False)
-    header, *rows = Page(run._repr_html_()).rows
-    assert header[0] == "contact, last step"
-    assert [row[0] for row in rows] == list(run.header["contacts"][-1])
-    f_n = [float(row[5]) for row in rows]
-    assert f_n == pytest.approx(run["wrench"][-1, :, 2], rel=1e-3, abs=0)
-    assert "3 steps of 0.01 s, complete; 8 entries of q, 8 contacts" in repr(run)
-    assert "3 of 3 steps exact" in repr(run)
-
-
 STRANGE = {
     "a backend that is markup": ({"backend": HOSTILE}, {}),
     "names that are numbers": ({"contacts": [list(range(8))] * 3}, {}),

@@ -90,7 +90,10 @@ def tables(found: list[Record]) -> str:
             right = span(own, "right")
             cells.setdefault(names[engine, setting], []).append(f"{held}; **{right}**")
         head = ("setting", *(f"{1e3 * speed:g} mm/s" for speed in STUDY["speeds"]))
-        lines += [f"{title[0].upper()}{title[1:]}:", ""]
+        lines += [
+            f"{title[0].upper()}{title[1:]}: time steps [ms] that hold; **that are right**",
+            "",
+        ]
         lines += [*markdown_table(head, [(name, *words) for name, words in cells.items()]), ""]
     return "\n".join(lines)
 

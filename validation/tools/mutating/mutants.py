@@ -11,7 +11,7 @@ from __future__ import annotations
 import ast
 from collections import Counter
 from collections.abc import Iterator
-from copy import deepcopy
+from copy import copy
 from dataclasses import dataclass
 
 OPERATORS: dict[type[ast.operator], type[ast.operator]] = {
@@ -50,37 +50,30 @@ class Mutant:
         Inside the package.
     key : str
         File, function, what it was and what it is: the same while the function is.
-    line : int
     source : str
         The whole file, comments lost.
     """
 
     file: str
     key: str
-    line: int
     source: str
 
 
 def mutants(file: str, source: str) -> Iterator[Mutant]:
     """All mutants of a file, in the order of its text."""
     seen = Counter[str]()
-    for number, (node, where) in enumerate(_expressions(ast.parse(source))):
+    tree = ast.parse(source)
+    for node, where in list(_expressions(tree)):
         before = ast.unparse(node)
-        for k in range(len(list(_changed(node)))):
-            tree = ast.parse(source)
-            again = _nth(tree, number)
-            new = list(_changed(again))[k]
+        for new in _changed(node):
             if ast.unparse(new) == before:  # two equal indices change places
                 continue
-            if isinstance(again, ast.AugAssign):
-                again.op = new.op
-            else:
-                _Replaced(again, new).visit(tree)
             key = f"{file} {where}: {before} -> {ast.unparse(new)}"
             seen[key] += 1
             key += f" ({seen[key]})" if seen[key] > 1 else ""
-            text = ast.unparse(ast.fix_missing_locations(tree)) + "\n"
-            yield Mutant(file, key, node.lineno, text)
+            text = ast.unparse(_Replaced(node, new).visit(tree)) + "\n"
+            _Replaced(new, node).visit(tree)
+            yield Mutant(file, key, text)
 
 
 class _Replaced(ast.NodeTransformer):
@@ -90,10 +83,6 @@ class _Replaced(ast.NodeTransformer):
 
     def visit(self, node: ast.AST) -> ast.AST:
         return self.new if node is self.old else self.generic_visit(node)
-
-
-def _nth(tree: ast.Module, number: int) -> ast.AST:
-    return [node for node, _ in _expressions(tree)][number]
 
 
 def _expressions(tree: ast.AST, where: str = "module") -> Iterator[tuple[ast.AST, str]]:
@@ -121,7 +110,7 @@ def _runs_not(node: ast.AST) -> bool:
 
 
 def _changed(node: ast.AST) -> Iterator[ast.AST]:
-    """Copies of a node with one change each."""
+    """What may stand in the place of a node: copies of it with one change each."""
     if isinstance(node, ast.BinOp | ast.AugAssign) and type(node.op) in OPERATORS:
         yield _with(node, op=OPERATORS[type(node.op)]())
     elif isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.Not):
@@ -165,7 +154,7 @@ def _number(node: ast.expr) -> bool:
 
 
 def _with(node: ast.AST, **changes: object) -> ast.AST:
-    copy = deepcopy(node)
+    changed = copy(node)
     for name, value in changes.items():
-        setattr(copy, name, value)
-    return copy
+        setattr(changed, name, value)
+    return changed

@@ -4,22 +4,16 @@ A finger on a rail pushes a sphere along a floor, with torsion at both contacts.
 of the plain program of the reference vectors.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.program.step import step
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
-from quasistatic_ref.lab.scenes.systems import (
-    RAIL,
-    body_text,
-    on_link,
-    simulator_of,
-    system_of,
-    world_plane,
-)
-from quasistatic_ref.shapes.placed_shape import Box, Sphere
+from quasistatic_ref.lab.vectors.families.mechanisms import at
+from quasistatic_ref.lab.vectors.own.step import posed_case, wrench_force
 from quasistatic_ref.step.data import Array
 
 M = 0.3
@@ -35,25 +29,19 @@ FLOOR, FINGER = (0.3, 0.004), (0.6, 0.01)
 TIP = (0.02, 0.4, 0.4)
 """Sides of the finger, whose face starts at x = 0 [m]."""
 
-START = np.array([RADIUS + 0.002, 0.01, RADIUS])
-"""Centre of the sphere [m]."""
+START = np.array([0.0, RADIUS + 0.002, 0.01, RADIUS, 0.0, 0.0, 0.0, 1.0])
+"""The finger, and the pose of the sphere [m]."""
 
-TORQUE = np.array([0.0, 0.0, 0.02])
+TORQUE = [0.0, 0.0, 0.02]
 """On the sphere, about the vertical, so that it spins as well [N m]."""
 
 DRIFT = 1e-12
 """Of positions after 60 steps, over the way: what both round in a step adds up; measured 2e-15."""
 
-
-def pose(*xyz: float) -> dict[str, list[float]]:
-    """A pose without a turn, at x, y, z [m]."""
-    return {"xyz": list(xyz), "quaternion": [0.0, 0.0, 0.0, 1.0]}
-
-
 BODIES = [
-    {"name": "finger", "parent": None, "placement": pose(-TIP[0] / 2, 0, RADIUS),
+    {"name": "finger", "parent": None, "placement": at(-TIP[0] / 2, 0, RADIUS),
      "joint": "prismatic", "axis": [1, 0, 0], "actuated": True},
-    {"name": "ball", "parent": None, "placement": pose(0, 0, 0), "joint": "floating",
+    {"name": "ball", "parent": None, "placement": at(0, 0, 0), "joint": "floating",
      "mass": M, "com": [0, 0, 0], "inertia": (INERTIA * np.eye(3)).tolist()},
 ]  # fmt: skip
 SHAPES = {
@@ -65,7 +53,7 @@ SCENE = {
     "h": H, "cone": "pyramid", "gravity": [0, 0, -GRAVITY], "K_q": [[STIFFNESS]],
     "mechanism": {"bodies": BODIES},
     "shapes": {
-        name: {"body": body, "pose": pose(0, 0, 0), "shape": shape}
+        name: {"body": body, "pose": at(0, 0, 0), "shape": shape}
         for name, (body, shape) in SHAPES.items()
     },
     "pairs": [
@@ -73,51 +61,51 @@ SCENE = {
          "mu_v": mu_v, "mu_omega": mu_omega}
         for name, (mu_v, mu_omega) in (("floor", FLOOR), ("finger", FINGER))
     ],
-    "wrenches": [{"body": "ball", "force": [0, 0, 0], "torque": TORQUE.tolist()}],
+    "wrenches": [{"body": "ball", "force": [0, 0, 0], "torque": TORQUE}],
 }  # fmt: skip
 """The scene as a case of the vectors' layer ``step``."""
 
 
-def by_the_program() -> Array:
-    """Finger, centre and rotation matrix after each step, shape (STEPS, 13)."""
-    q = np.array([0.0, *START, 0.0, 0.0, 0.0, 1.0])
+def configurations(after: Callable[[Array, Array], Array]) -> Array:
+    """Finger, centre and rotation matrix after each step, shape (STEPS, 13).
+
+    Parameters
+    ----------
+    after : callable
+        From q and the target of the finger, shape (1,) [m], to the q after a step.
+    """
+    q = START
     states = []
     for k in range(STEPS):
-        q = step(SCENE | {"q": q, "q_bar_a": [SPEED * H * (k + 1)]})["q_next"]
+        q = after(q, np.array([SPEED * H * (k + 1)]))
         states.append(np.concatenate([q[:4], rotation(q[4:]).ravel()]))
     return np.array(states)
 
 
-def by_us() -> Array:
-    """The same from a URDF, through System and Simulator, shape (STEPS, 13)."""
-    system = system_of(
-        {"rail": RAIL, "ball": body_text(M, (INERTIA,) * 3)},
-        rail={"base": "fixed", "actuated": "all", "xyz": (-TIP[0] / 2, 0.0, RADIUS)},
-        ball={"xyz": tuple(START)},
-    )
-    tip = on_link(system, "rail/finger", Box(np.array(TIP) / 2))
-    sphere = on_link(system, "ball", Sphere(RADIUS))
-    pairs = (
-        ContactPair("floor", world_plane(), sphere, *FLOOR, 6, 1),
-        ContactPair("finger", tip, sphere, *FINGER, 6, 1),
-    )
-    simulator = simulator_of(system, pairs, H, [[STIFFNESS]])
-    q = system.q_start
-    states = []
-    link = system.link("ball")
-    for k in range(STEPS):
-        torque = system.centre_of_mass_force(q, "ball", np.zeros(3), TORQUE)
-        q = simulator.step(q, np.array([SPEED * H * (k + 1)]), torque).q
-        at = system.kinematics(q)
-        states.append(np.concatenate([q[:1], at.t[link], at.R[link].ravel()]))
-    return np.array(states)
+def _by_the_program(q: Array, target: Array) -> Array:
+    """The q after a step."""
+    found: Array = step(SCENE | {"q": q, "q_bar_a": target})["q_next"]
+    return found
+
+
+def _by_us() -> Callable[[Array, Array], Array]:
+    """The same from URDFs, through System and Simulator."""
+    posed = posed_case(SCENE | {"q": START, "q_bar_a": START[:1]})
+    mine = posed.mine
+
+    def after(q: Array, target: Array) -> Array:
+        own = mine.model_q(q.tolist())
+        force = wrench_force(SCENE, mine, own)
+        return posed.simulator.step(own, target, force).q[mine.q]
+
+    return after
 
 
 def evidence() -> Evidence:
     """Sixty steps from touching nothing to rolling, sliding and spinning."""
-    hand = by_the_program()
-    ours = by_us()
-    way = np.linalg.norm(ours[-1, 1:4] - START)
+    hand = configurations(_by_the_program)
+    ours = configurations(_by_us())
+    way = np.linalg.norm(ours[-1, 1:4] - START[1:4])
     return Evidence.of(
         comparison("finger and centre of the sphere [m]", ours[:, :4], hand[:, :4], DRIFT, way),
         comparison("rotation matrix [-]", ours[:, 4:], hand[:, 4:], DRIFT),

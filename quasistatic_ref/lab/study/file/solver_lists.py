@@ -119,7 +119,7 @@ def _options(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, dict[
     options = {}
     for name in tables.names():
         if name not in settings:
-            raise tables.fail(name, f"is no setting{suggestion(name, settings)}")
+            raise tables.fail(name, f"is not a setting{suggestion(name, settings)}")
         value = tables.take(name)
         if not isinstance(value, dict):
             raise tables.fail(name, "must be a table of options", value)

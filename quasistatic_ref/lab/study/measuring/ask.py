@@ -94,7 +94,7 @@ def question(
     known = {one.name: one for one in settings if own.takes(one)}
     if setting not in known:
         hint = suggestion(setting, known)
-        raise InputError(f"is no setting that {own.label} takes{hint}", value=setting)
+        raise InputError(f"is not a setting that {own.label} takes{hint}", value=setting)
     if warm and not own.warm:
         raise InputError(f"cannot be used with {own.label}, which takes no start", field="--warm")
     return Question(found, own, known[setting], units, warm, limits, memory)
@@ -138,7 +138,7 @@ def _of_an_edition(name: str) -> Problem:
             continue
         return found
     words = (
-        f"is no problem of {' or '.join(EDITIONS)}; others need --store, the folder of a study "
+        f"is not a problem of {' or '.join(EDITIONS)}; others need --store, the folder of a study "
         "that holds its problems"
     )
     raise InputError(words, value=name)
@@ -166,7 +166,7 @@ def _of_store(label: str, study: Mapping[str, Any]) -> Solver:
     entries: Sequence[Mapping[str, Any]] = study["solvers"]
     labels = {f"{one['interface']}:{one['name']}": one for one in entries}
     if label not in labels:
-        raise InputError(f"is no solver of the study{suggestion(label, labels)}", value=label)
+        raise InputError(f"is not a solver of the study{suggestion(label, labels)}", value=label)
     one = labels[label]
     target = one["target"]
     command = tuple(target) if isinstance(target, list) else target

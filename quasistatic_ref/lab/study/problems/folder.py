@@ -114,14 +114,14 @@ def set_read(
     known = head["families"]
     for name in families or ():
         if name not in known:
-            raise InputError(f"is no family of the set; it has {', '.join(known)}", value=name)
+            raise InputError(f"is not a family of the set; it has {', '.join(known)}", value=name)
     found: list[Problem] = []
     with readable(folder):
         lines = _lines(folder / FACTS)
         names = {line["id"] for line in lines}
         for name in ids or ():
             if name not in names:
-                raise InputError("is no problem of the set", field="id", value=name)
+                raise InputError("is not a problem of the set", field="id", value=name)
         for family in known:
             part = [line for line in lines if line["family"] == family]
             wanted = ids is None or any(line["id"] in ids for line in part)

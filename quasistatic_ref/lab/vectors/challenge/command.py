@@ -40,7 +40,7 @@ def challenged(options: argparse.Namespace) -> int:
     if options.again is not None:
         record = json_read(options.again)
         if not isinstance(record, dict) or record.get("format") != FORMAT:
-            raise InputError("is no counterexample", file=options.again)
+            raise InputError("is not a counterexample", file=options.again)
         outcome = sent_again(program, record, options.digits)
     else:
         outcome = challenge(

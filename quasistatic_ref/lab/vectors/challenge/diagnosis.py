@@ -17,7 +17,7 @@ from quasistatic_ref.lab.vectors.challenge.fresh import HARD, PLAIN, record_of
 from quasistatic_ref.lab.vectors.challenge.function import Function
 from quasistatic_ref.lab.vectors.challenge.outcome import Outcome
 from quasistatic_ref.lab.vectors.challenge.program import FLOOD, Program, Reply
-from quasistatic_ref.lab.vectors.challenge.shrink import shrunk
+from quasistatic_ref.lab.vectors.challenge.simpler import shrunk
 from quasistatic_ref.lab.vectors.check.folder import answer_judged
 from quasistatic_ref.lab.vectors.check.mistakes import Failed, mistakes_of, predicted
 from quasistatic_ref.lab.vectors.check.report import Named

@@ -31,7 +31,7 @@ def served(lines: IO[str], out: IO[str], kind: str = "exact") -> None:
             case = json.loads(line)
             head = {"id": case["id"]}
         except (ValueError, TypeError, KeyError) as error:
-            _say(out, {"id": None, "error": f"is no case: {error}"})
+            _say(out, {"id": None, "error": f"is not a case: {error}"})
             continue
         try:
             _say(out, {**head, "output": _output(case["layer"], case["input"], kind)})
@@ -42,7 +42,7 @@ def served(lines: IO[str], out: IO[str], kind: str = "exact") -> None:
 def _output(name: str, case: Json, kind: str) -> Json:
     """What is answered to a case."""
     if name not in LAYERS:
-        raise ValueError(f"{name!r} is no layer")
+        raise ValueError(f"{name!r} is not a layer")
     if kind == "own":
         return layer(name).own(case)
     output = layer(name).expected(case).output

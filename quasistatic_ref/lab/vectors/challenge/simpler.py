@@ -1,6 +1,7 @@
-"""Inputs that are simpler than one: fewer contacts and bodies, poses that are none, fewer digits.
+"""A failing case made smaller, by moves after each of which it fails in the same way.
 
-A move need not give a valid input; an invalid one is not sent.
+Moves give inputs that are simpler than one: fewer contacts and bodies, poses that are none, fewer
+digits. They need not be valid; an invalid one is not sent.
 """
 
 from collections.abc import Callable, Iterator
@@ -22,6 +23,8 @@ KEPT: Final = ("rows", "k", "n", "d1", "d2", "actuated", "joint")
 """Fields whose numbers are no lengths, or that change together."""
 FRAME: Final = ("n", "d1", "d2")
 ONES: Final = ("mu_v", "mu_omega", "mass", "h", "radius", "multiplier")
+BUDGET: Final = 250
+"""At most so many inputs are tried."""
 
 
 def few(value: Json, digits: int) -> Json:
@@ -99,3 +102,38 @@ MOVES: Final[tuple[Callable[[Json], Iterator[Json]], ...]] = (
     simpler_numbers,
 )
 """The greatest first."""
+
+
+def shrunk(case: Json, fails: Callable[[Json], bool], budget: int = BUDGET) -> Json:
+    """The smallest input that is found: no single move makes it smaller, or the budget is spent.
+
+    Parameters
+    ----------
+    case : dict
+        An input that fails.
+    fails : callable
+        Whether an input is valid and fails in the same way.
+    budget : int
+        How often `fails` may be called.
+    """
+    tried: set[str] = {repr(case)}
+    again = True
+    while again:
+        again = False
+        for move in MOVES:
+            found = True
+            while found:
+                found = False
+                for other in move(case):
+                    key = repr(other)
+                    if key in tried:
+                        continue
+                    if len(tried) > budget:
+                        return case
+                    tried.add(key)
+                    if fails(other):
+                        case = other
+                        found = True
+                        again = True
+                        break
+    return case

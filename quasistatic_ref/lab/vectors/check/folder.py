@@ -59,7 +59,7 @@ def check_answers(
         raise InputError(f"must be from 0 to {DIGITS:g}", field="digits", value=digits)
     folder = Path(answers)
     if not folder.is_dir():
-        raise InputError("is no folder of answers", file=folder)
+        raise InputError("is not a folder of answers", file=folder)
     digits = scope.digits if digits is None else digits
     if only and layers is None:
         layers = list(dict.fromkeys(one.partition("/")[0] for one in only))

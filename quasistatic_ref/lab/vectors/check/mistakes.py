@@ -15,13 +15,10 @@ from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.vectors.check.compare import difference, leaves, parts, tolerance_of
 from quasistatic_ref.lab.vectors.check.multipliers import program_rows
 from quasistatic_ref.lab.vectors.check.report import Named
-from quasistatic_ref.lab.vectors.check.table import TABLED, Mistake
+from quasistatic_ref.lab.vectors.check.table import MISTAKES, Mistake
 from quasistatic_ref.lab.vectors.check.verdict import Verdict
-from quasistatic_ref.lab.vectors.check.wrong_derivatives import DERIVATIVES
 from quasistatic_ref.lab.vectors.expected import Json
 
-MISTAKES: Final = (*TABLED, *DERIVATIVES)
-"""Tried in this order; of equally good explanations all are named."""
 SAMPLE: Final = 12
 """Failing cases that are tried, and right ones: mistakes are systematic, some predictions slow."""
 SAME: Final = 1e-9

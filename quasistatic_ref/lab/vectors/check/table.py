@@ -63,6 +63,16 @@ def _predictions(patches: list[str], layer: str) -> Prediction:
     return predicted
 
 
+def _at_kinks(kinds: list[str]) -> Prediction:
+    """Any numbers where there is no derivative for a reason of one of these kinds."""
+
+    def predicted(case: Json, output: Json) -> Iterable[Json]:
+        if {reason["kind"] for reason in output["reasons"]} & set(kinds):
+            yield {"differentiable": True}
+
+    return predicted
+
+
 def _variants(lines: str) -> list[str]:
     """A patch with each factor in the place of FACTOR."""
     if FACTOR not in lines:
@@ -79,16 +89,19 @@ def _patches(entry: Json) -> dict[str, list[str]]:
     return found
 
 
-def _mistake(name: str, sentence: str) -> Mistake:
+def _mistake(entry: Json) -> Mistake:
+    name = entry["name"]
     by_layer = {
         layer: _predictions([one for patch in patches for one in _variants(patch)], layer)
-        for layer, patches in PATCHES[name].items()
+        for layer, patches in PATCHES.get(name, {}).items()
     }
-    return Mistake(name, sentence, by_layer)
+    if "kinks" in entry:
+        by_layer["derivative"] = _at_kinks(entry["kinks"])
+    return Mistake(name, entry["sentence"], by_layer)
 
 
 _ENTRIES = tomllib.loads((files(check) / TABLE).read_text(encoding="utf-8"))["mistake"]
-PATCHES: Final = {entry["name"]: _patches(entry) for entry in _ENTRIES}
-"""Of each mistake by layer: lines as ``patched_texts`` takes them, one or several ways."""
-TABLED: Final = tuple(_mistake(entry["name"], entry["sentence"]) for entry in _ENTRIES)
-"""The mistakes of mistakes.toml."""
+PATCHES: Final = {entry["name"]: _patches(entry) for entry in _ENTRIES if "patches" in entry}
+"""By mistake and layer: lines as ``patched_texts`` takes them, one or several ways."""
+MISTAKES: Final = tuple(map(_mistake, _ENTRIES))
+"""Tried in this order; of equally good explanations all are named."""

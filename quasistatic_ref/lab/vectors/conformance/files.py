@@ -20,7 +20,6 @@ from quasistatic_ref.lab.vectors.check.folder import check_answers
 from quasistatic_ref.lab.vectors.check.scope import WHOLE, Scope
 from quasistatic_ref.lab.vectors.conformance.badge import badge
 from quasistatic_ref.lab.vectors.conformance.conformance import Conformance
-from quasistatic_ref.lab.vectors.conformance.histogram import histogram
 from quasistatic_ref.lab.vectors.conformance.page import page
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.versions import edition
@@ -66,7 +65,7 @@ def conformance(
 
 
 def written(found: Conformance, answers: Path, out: Path) -> list[Path]:
-    """Write ``report.html``, ``report.md``, ``badge.svg``, ``digits.svg`` and ``report.json``.
+    """Write ``report.html``, ``report.md``, ``badge.svg`` and ``report.json``.
 
     Parameters
     ----------
@@ -78,13 +77,13 @@ def written(found: Conformance, answers: Path, out: Path) -> list[Path]:
     declared = {one.layer: answers_read(answers, one.layer) for one in found.answered}
     contents = {name: bytes_read(answers / f"{name}.json") for name in declared}
     hashes = {name: hashlib.sha256(content).hexdigest() for name, content in contents.items()}
-    images = {"badge": badge(found), "digits": histogram(found.answered)}
+    image = badge(found)
     content = page(found, declared, _versions(found, declared, hashes))
     record = json.dumps(record_of(found, hashes), indent=1) + "\n"
     files = {
-        "report.html": html_page(content, {k: v.encode() for k, v in images.items()}),
+        "report.html": html_page(content, {"badge": image.encode()}),
         "report.md": markdown_page(content),
-        **{f"{name}.svg": text for name, text in images.items()},
+        "badge.svg": image,
         "report.json": record,
     }
     return [text_written(out / name, text) for name, text in files.items()]

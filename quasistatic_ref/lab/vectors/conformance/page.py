@@ -3,6 +3,9 @@
 import statistics
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+
+import numpy as np
 
 from quasistatic_ref.lab.page.parts import Block, Picture, Report, Section, Table
 from quasistatic_ref.lab.vectors.check.answers import Answers
@@ -14,11 +17,12 @@ WHOLE = (
     "Passed is within the case's own tolerance, acceptable is right by a documented freedom or to "
     "the digits that were asked for; in part are those of both that leave fields out."
 )
-DIGITS_CAPTION = (
-    "How many digits of each answer are right: -log10 of the largest error over the size of its "
-    "field, of its worst field; bars of a layer have a scale of their own. Fields that may be "
-    "others, such as multipliers that are not unique, are left out; answers of which no number is "
-    "compared, such as Farkas vectors, have no digits."
+DIGITS = (0, 6, 9, 12, 15, 16)
+"""Bounds of the columns that count answers by their correct digits [-]."""
+COUNTED = (
+    "How many answers have so many digits: -log10 of the largest error over the size of its field, "
+    "of its worst field. Fields that may be others, such as multipliers that are not unique, are "
+    "left out; answers of which no number is compared, such as Farkas vectors, have no digits."
 )
 
 
@@ -61,15 +65,17 @@ def _passed(conformance: Conformance) -> Iterator[Block]:
 
 
 def _digits(layers: Sequence[LayerReport]) -> Iterator[Block]:
-    yield Picture("digits", "", {}, DIGITS_CAPTION, "", folder="", ending="svg")
     rows = []
     for layer in layers:
         known = [v.digits for v in layer.verdicts if v.digits is not None]
         if known and layer.worst is not None:
             worst = f"{min(known):.1f}", f"{statistics.median(known):.1f}"
-            rows.append((layer.layer, layer.worst.id, str(len(known)), *worst))
-    columns = ("layer", "its worst case", "compared", "fewest digits", "median")
+            counts = map(str, np.histogram(known, DIGITS)[0])
+            rows.append((layer.layer, layer.worst.id, str(len(known)), *worst, *counts))
+    counted = (f"{low} to {high}" for low, high in pairwise(DIGITS))
+    columns = ("layer", "its worst case", "compared", "fewest digits", "median", *counted)
     yield Table("Correct digits", "", columns, tuple(rows), 2)
+    yield COUNTED
 
 
 def _freedoms(layers: Sequence[LayerReport], answers: Mapping[str, Answers]) -> Iterator[Block]:

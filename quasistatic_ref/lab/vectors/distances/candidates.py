@@ -24,8 +24,7 @@ from quasistatic_ref.lab.program.candidates import (
 from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, vector
-from quasistatic_ref.lab.vectors.exact.precision import rounded
+from quasistatic_ref.lab.vectors.exact.precision import Vector, rounded, vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.tolerances import REPEATED

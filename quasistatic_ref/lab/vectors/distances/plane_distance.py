@@ -9,8 +9,7 @@ from flint import fmpq
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.shapes import Placed, core
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, ZERO, Vector, length
-from quasistatic_ref.lab.vectors.exact.precision import Real, sign
+from quasistatic_ref.lab.vectors.exact.precision import IDENTITY, ZERO, Real, Vector, length, sign
 
 
 def solid_on_plane(plane: Placed, solid: Placed) -> Witness:

@@ -3,19 +3,20 @@
 Apart, the shortest vector between them is the point of least norm of their difference, found by
 P. Wolfe's method ("Finding the nearest point in a polytope", 1976), which ends in rational
 arithmetic. Otherwise the signed distance is the widest gap s(n) over the faces of the difference:
-normals of faces of either, and common normals of an edge of each.
+normals of faces of either, and common normals of an edge of each. What the two faces along it have
+in common, points, segments and polygons of one plane, are its witnesses.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from flint import fmpq, fmpq_mat
 
-from quasistatic_ref.lab.vectors.distances.planar import common_points
 from quasistatic_ref.lab.vectors.distances.shapes import Core
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, Vector, length
-from quasistatic_ref.lab.vectors.exact.precision import Real, sign
+from quasistatic_ref.lab.vectors.exact.precision import IDENTITY, Real, Vector, length, sign
+
+Edge = tuple[Vector, Vector]
 
 
 def polytope_pair(a: Core, b: Core) -> Witness:
@@ -31,7 +32,7 @@ def polytope_pair(a: Core, b: Core) -> Witness:
     # Both faces lie in one plane after b's is moved by -between; what they share are witnesses.
     face_a = _extreme(a.vertices, normal)
     face_b = [x - between for x in _extreme(b.vertices, -normal)]
-    shared = common_points(face_a, face_b, normal)
+    shared = _common_points(face_a, face_b, normal)
     phi = gap(a, b, normal) / length(normal)
     alpha = shared[0]
     beta = shared[0] + between
@@ -120,3 +121,67 @@ def _signed_square(value: Real, normal: Vector) -> Real:
 
 def _parallel(a: Vector, b: Vector) -> bool:
     return not any(np.cross(a, b)) and a @ b > 0
+
+
+def _common_points(a: Sequence[Vector], b: Sequence[Vector], normal: Vector) -> list[Vector]:
+    """Extreme points of the intersection of two convex hulls in a plane, each once.
+
+    Parameters
+    ----------
+    a, b : sequence of vector
+        Points of one plane; their hulls meet.
+    normal : vector
+        Of that plane.
+
+    Returns
+    -------
+    list of vector
+        Of a in b's hull, then of b in a's, then where edges cross; the order of what is given.
+    """
+    edges_a = list(_edges(a, normal))
+    edges_b = list(_edges(b, normal))
+    found: list[Vector] = []
+    for points, others, edges in ((a, b, edges_b), (b, a, edges_a)):
+        found += [x for x in points if _inside(x, others, edges, normal)]
+    for one in edges_a:
+        for other in edges_b:
+            found += _crossing(one, other, normal)
+    once = dict.fromkeys(tuple(x) for x in found)
+    return [np.array(x) for x in once]
+
+
+def _edges(points: Sequence[Vector], normal: Vector) -> Iterator[Edge]:
+    """Pairs of points with all others on their left, or between them."""
+    for k, p in enumerate(points):
+        for j, q in enumerate(points):
+            if j == k or all(p == q):
+                continue
+            inward = np.cross(normal, q - p)
+            if all(inward @ (x - p) >= 0 for x in points):
+                yield p, q
+
+
+def _inside(x: Vector, points: Sequence[Vector], edges: Sequence[Edge], normal: Vector) -> bool:
+    if len(points) == 1:
+        return all(x == points[0])
+    # A segment is two edges, there and back: between both lies its line alone.
+    left = all(np.cross(normal, q - p) @ (x - p) >= 0 for p, q in edges)
+    if not left:
+        return False
+    flat = all(np.cross(normal, q - p) @ (y - p) == 0 for p, q in edges for y in points)
+    return not flat or any((p - x) @ (q - x) <= 0 for p, q in edges)
+
+
+def _crossing(one: Edge, other: Edge, normal: Vector) -> list[Vector]:
+    """Where two segments that are not parallel meet."""
+    p, q = one
+    r, s = other
+    way = q - p
+    across = s - r
+    turn = normal @ np.cross(way, across)
+    if turn == 0:
+        return []
+    apart = r - p
+    at = normal @ np.cross(apart, across) / turn
+    on_other = normal @ np.cross(apart, way) / turn
+    return [p + at * way] if 0 <= at <= 1 and 0 <= on_other <= 1 else []

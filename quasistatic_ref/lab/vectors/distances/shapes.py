@@ -11,8 +11,16 @@ from flint import fmpq
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.program.rotation import rotation
-from quasistatic_ref.lab.vectors.exact.algebra import IDENTITY, ZERO, Matrix, Vector, vector
-from quasistatic_ref.lab.vectors.exact.precision import Real, number, sign
+from quasistatic_ref.lab.vectors.exact.precision import (
+    IDENTITY,
+    ZERO,
+    Matrix,
+    Real,
+    Vector,
+    number,
+    sign,
+    vector,
+)
 
 SHAPES = {
     "sphere": ("radius",),

@@ -3,14 +3,16 @@
 from flint import fmpq
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors.distances.curved_pair import polytope_and_curved
-from quasistatic_ref.lab.vectors.distances.cylinder_pair import cylinder_and_curved
+from quasistatic_ref.lab.vectors.distances.curved_pair import (
+    cylinder_and_curved,
+    polytope_and_curved,
+)
 from quasistatic_ref.lab.vectors.distances.plane_distance import solid_on_plane
 from quasistatic_ref.lab.vectors.distances.point_distance import point_on_solid
 from quasistatic_ref.lab.vectors.distances.polytope_pair import polytope_pair
 from quasistatic_ref.lab.vectors.distances.shapes import Core, Placed, core, placed
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import Vector
+from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Json
 
 CLOSED_FORMS = ("box", "cylinder", "cone", "ellipsoid", "halfspace")

@@ -3,8 +3,7 @@
 from dataclasses import dataclass, replace
 from typing import Any
 
-from quasistatic_ref.lab.vectors.exact.algebra import Vector
-from quasistatic_ref.lab.vectors.exact.precision import Real
+from quasistatic_ref.lab.vectors.exact.precision import Real, Vector
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,13 +6,23 @@ r = [g; b_w]. Data and elimination that are rounded componentwise leave
 .. math:: |z - z^*| \le c\,2^{-53}\,|K^{-1}|\,(|K|\,|z^*| + |r|),
 
 the bound of Oettli and Prager (1964) with the condition of Skeel (1979): scaling rows or columns
-does not change it. c counts the roundings of one entry of an elimination, generously. No answer is
-required to be nearer than :mod:`quasistatic_ref.lab.vectors.exact.floor` says.
+does not change it. c counts the roundings of one entry of an elimination, generously.
+
+Where contacts hold a body fast, delta_q is a small number or 0, and that bound is next to nothing:
+yet it is what is left of the unconstrained step H^-1 g when the contacts have taken theirs, and a
+solver that does not know that beforehand rounds both. So no answer is required to be nearer than a
+few roundings of it, in the norm in which the package measures every error,
+
+.. math:: \|x - x^*\|_H \le 8 \cdot 2^{-53}\,\|H^{-1} g\|_H,
+
+which moves an entry of x by as many sqrt((H^-1)_vv) at most, one of A'lam = H x - g by sqrt(H_vv),
+and a slack by sqrt((A H^-1 A')_ii).
 """
 
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 from fractions import Fraction
+from math import isqrt
 from typing import Any, Final
 
 import numpy as np
@@ -20,11 +30,12 @@ from flint import fmpq
 
 from quasistatic_ref.certify.point import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
-from quasistatic_ref.lab.vectors.exact.floor import floors
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, inverse, largest, rationals
 
 ROUNDINGS: Final = 8
-"""c is that many times the size of K."""
+"""c is that many times the size of K; of the unconstrained step: an answer of 15 digits."""
+BITS: Final = 64
+"""Of a square root, which is rounded up."""
 
 
 @dataclass(frozen=True)
@@ -104,3 +115,30 @@ def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) 
         net=net,
         slack=max(largest(image(A, b) + shift, form.slack_unit), slack_floor),
     )
+
+
+def floors(form: ExactForm) -> tuple[Fraction, Fraction, Fraction]:
+    """Errors of the largest entry of x [m, rad], of A'lam [N s, N m s] and of the slacks [m].
+
+    Parameters
+    ----------
+    form : ExactForm
+    """
+    H, A, g = (rationals(M) for M in (form.H, form.A, form.g.entries()))
+    H_inverse = inverse(H)
+    energy = ROUNDINGS**2 * (g @ H_inverse @ g)
+    slacks = np.sum((A @ H_inverse) * A, axis=1)
+    squares = (
+        (np.diag(H_inverse), form.x_unit),
+        (np.diag(H), form.net_unit),
+        (slacks, form.slack_unit),
+    )
+    x, net, slack = (UNIT * _root(largest(v * energy, unit * unit)) for v, unit in squares)
+    return x, net, slack
+
+
+def _root(value: Fraction) -> Fraction:
+    """A square root, rounded up; 0 of 0."""
+    p = value.numerator
+    q = value.denominator
+    return Fraction(isqrt((p * q << 2 * BITS) - 1) + 1, q << BITS) if p else Fraction(0)

@@ -37,7 +37,7 @@ def entered(case: Json) -> Json:
         known = [None, *(body["name"] for body in bodies)]
         for name in named:
             if name not in known:
-                problem = f"is no body{suggestion(str(name), known[1:])}"
+                problem = f"is not a body{suggestion(str(name), known[1:])}"
                 raise InputError(problem, field="body", value=name)
     found: Json = exact(case)
     return found

@@ -8,7 +8,7 @@ is 0, and one of relative radius < 2^-200 that contains a midpoint is that midpo
 rational answers on the way to which a root or a sine cancelled.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import lru_cache
 from math import inf, isqrt, nextafter
@@ -24,6 +24,9 @@ from quasistatic_ref.lab.vectors.trees import mapped
 
 Real: TypeAlias = Any
 """An fmpq or an arb. They mix freely, which their type hints cannot say."""
+Vector: TypeAlias = Any
+"""An array of such numbers, shape (n,): NumPy's operators work entry by entry."""
+Matrix: TypeAlias = Any
 
 PRECISION: Final = 320
 """Bits of a ball's midpoint at first."""
@@ -77,6 +80,26 @@ def sign(x: Real) -> int:
     if isinstance(x, fmpq) or x.rad() < _threshold():
         return 0
     raise Undecided
+
+
+def vector(values: Iterable[float | Real]) -> Vector:
+    """Numbers as a vector, each exactly.
+
+    Parameters
+    ----------
+    values : iterable of float or number
+        [any unit].
+    """
+    return np.array([number(x) for x in values], dtype=object)
+
+
+def length(x: Vector) -> Real:
+    """Length of a vector."""
+    return root(x @ x)
+
+
+ZERO: Final[Vector] = vector([0, 0, 0])
+IDENTITY: Final[Matrix] = np.array([vector(row) for row in np.eye(3)])
 
 
 def cos_sin(angle: Real) -> tuple[Real, Real]:

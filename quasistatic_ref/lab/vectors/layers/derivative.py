@@ -9,7 +9,7 @@ from typing import Final
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.rounding import nearest_fraction
-from quasistatic_ref.lab.vectors.exact.algebra import Vector
+from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.unrounded.derivatives import Derivatives, derivatives
 from quasistatic_ref.lab.vectors.unrounded.differences import Base, base

@@ -65,7 +65,7 @@ def posed_case(case_input: Json) -> PosedCase:
     # Pairs keep their order; within one the contacts stand by index here, by distance there.
     order = np.lexsort((points.point, np.repeat(np.arange(len(pairs)), [p.n_c for p in pairs])))
     points = points.chosen(order)
-    force = _force(case_input, mine, q)
+    force = wrench_force(case_input, mine, q)
     q_bar_a = target[: system.n_q_a]
     step = simulator.step_data(q, q_bar_a, force, points, kinematics)
     return PosedCase(mine, simulator, q, q_bar_a, force, points, step)
@@ -114,8 +114,8 @@ def _pair(pair: Json, shapes: Json, mine: OwnSystem) -> ContactPair:
     return ContactPair(pair["name"], sides[0], sides[1], mu_v, mu_omega, rows, k)
 
 
-def _force(case: Json, mine: OwnSystem, q: Array) -> Array:
-    """Generalised force of the wrenches, each at its body's own centre of mass."""
+def wrench_force(case: Json, mine: OwnSystem, q: Array) -> Array:
+    """Generalised force of the wrenches, each at its body's own centre of mass, shape (n_v,)."""
     bodies = {body["name"]: body for body in case["mechanism"]["bodies"]}
     kinematics = mine.system.kinematics(q)
     force = np.zeros(mine.system.n_v)

@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from flint import fmpq, fmpz_mat
 
-from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
+from quasistatic_ref.lab.vectors.exact.precision import Matrix, Vector
 from quasistatic_ref.lab.vectors.exact.rational import rationals
 from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP

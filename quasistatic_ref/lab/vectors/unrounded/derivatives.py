@@ -16,7 +16,7 @@ from flint import fmpq
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.mechanism import slices
-from quasistatic_ref.lab.vectors.exact.algebra import Vector
+from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded import moved_inputs
 from quasistatic_ref.lab.vectors.unrounded.dependent import dependence_breaks
@@ -47,14 +47,11 @@ class Derivatives:
         Why there is none.
     switch : bool
         Whether some part changes its branch although q+ has a derivative.
-    digits : float
-        How far the proof reached: relative difference of the two ways to the same number.
     """
 
     columns: dict[str, list[Vector]]
     reasons: list[Json]
     switch: bool
-    digits: fmpq
 
 
 def moves(one: Base) -> dict[str, list[Move]]:
@@ -98,13 +95,13 @@ def derivatives(one: Base) -> Derivatives:
     smooth = all(q.bend < BEND for each in found.values() for q in each)
     of_rows = [q for name in MOVE_ROWS for q in found.get(name, [])]
     if not smooth or dependence_breaks(one, of_rows):
-        return Derivatives({}, reasons(one, found["q"]), True, fmpq(0))
+        return Derivatives({}, reasons(one, found["q"]), True)
     columns = {name: [q.column for q in each] for name, each in found.items()}
     off = max((_off(one, listed, columns, turn) for turn in (0, 5)), default=fmpq(0))
     if off > PROVED:
         problem = f"two ways to the same derivative differ by {float(off):.2g} of it"
         raise InputError(problem, field="q")
-    return Derivatives(columns, [], switches(one, found["q"]), off)
+    return Derivatives(columns, [], switches(one, found["q"]))
 
 
 def _off(

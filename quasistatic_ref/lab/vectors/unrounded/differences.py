@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from flint import fmpq
 
 from quasistatic_ref.lab.program.integration import way
-from quasistatic_ref.lab.vectors.exact.algebra import Vector
+from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP, on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, kept, pool
@@ -103,14 +103,11 @@ class Quotient:
         the jump of the derivative where it is not.
     sides : tuple of (Solved, list of Contact)
         What the two steps were.
-    one_sided : tuple of vector
-        The quotients forward and backward.
     """
 
     column: Vector
     bend: fmpq
     sides: tuple[tuple[Solved, list[Contact]], ...]
-    one_sided: tuple[Vector, Vector]
 
 
 def quotient(one: Base, inputs: Callable[[fmpq], Json], eps: fmpq = STEP) -> Quotient:
@@ -128,4 +125,4 @@ def quotient(one: Base, inputs: Callable[[fmpq], Json], eps: fmpq = STEP) -> Quo
     backward, behind, down = one.step_at(inputs(-eps))
     bend = max(abs(up + down) / eps, default=fmpq(0))
     sides = ((forward, ahead), (backward, behind))
-    return Quotient((up - down) / (2 * eps), bend, sides, (up / eps, -down / eps))
+    return Quotient((up - down) / (2 * eps), bend, sides)

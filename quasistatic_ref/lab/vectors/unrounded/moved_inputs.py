@@ -7,8 +7,7 @@ import numpy as np
 from flint import fmpq
 
 from quasistatic_ref.lab.program.integration import joined, moved
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, vector
-from quasistatic_ref.lab.vectors.exact.precision import Real, number
+from quasistatic_ref.lab.vectors.exact.precision import Real, Vector, number, vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.world import world

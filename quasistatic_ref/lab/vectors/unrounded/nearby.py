@@ -18,8 +18,7 @@ from quasistatic_ref.lab.vectors.distances.candidates import parts
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness, point_witness
 from quasistatic_ref.lab.vectors.distances.witness import Witness
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, vector
-from quasistatic_ref.lab.vectors.exact.precision import number
+from quasistatic_ref.lab.vectors.exact.precision import Vector, number, vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded.grid import is_small, on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.world import World

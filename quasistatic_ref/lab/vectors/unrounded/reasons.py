@@ -13,7 +13,7 @@ from typing import Final
 
 from flint import fmpq
 
-from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
+from quasistatic_ref.lab.vectors.exact.precision import Matrix, Vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import row_count
 from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, are_solids
@@ -22,7 +22,6 @@ from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, tied
 from quasistatic_ref.lab.vectors.unrounded.step import Contact, rows
 from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
 
-KINDS: Final = ("row", "selection", "feature", "tangents", "touching", "multipliers")
 BEND: Final = fmpq(1, 10**12)
 """A second difference over eps that is larger is a jump of the derivative: that of a smooth q+ is
 its second derivative times 8e-31."""

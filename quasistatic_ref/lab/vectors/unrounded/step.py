@@ -21,8 +21,7 @@ from quasistatic_ref.lab.program.mechanism import contact_jacobian
 from quasistatic_ref.lab.program.rotation import AXES
 from quasistatic_ref.lab.program.rows import contact_rows
 from quasistatic_ref.lab.program.step import objective
-from quasistatic_ref.lab.vectors.exact.algebra import Matrix, Vector
-from quasistatic_ref.lab.vectors.exact.precision import Real
+from quasistatic_ref.lab.vectors.exact.precision import Matrix, Real, Vector
 from quasistatic_ref.lab.vectors.exact.rational import rationals
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working

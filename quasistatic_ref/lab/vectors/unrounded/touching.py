@@ -10,7 +10,7 @@ from flint import fmpq
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.distances.shapes import Placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
-from quasistatic_ref.lab.vectors.exact.algebra import Vector, vector
+from quasistatic_ref.lab.vectors.exact.precision import Vector, vector
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.nearby import Touching, candidates

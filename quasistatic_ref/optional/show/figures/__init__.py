@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from quasistatic_ref.optional.show.figures.style import figure_style as figure_style
     from quasistatic_ref.optional.show.figures.style import figure_written as figure_written
     from quasistatic_ref.optional.show.figures.style import panels as panels
+    from quasistatic_ref.optional.show.figures.style import scaled as scaled
     from quasistatic_ref.optional.show.figures.style import style_file as style_file
     from quasistatic_ref.optional.show.figures.viewer import view_written as view_written
 
@@ -26,7 +27,7 @@ _HOMES = {
     "draw": "draw_scene",
     "looks": "CAMERA",
     "moments": "moment",
-    "style": "Figure figure_style figure_written panels style_file",
+    "style": "Figure figure_style figure_written panels scaled style_file",
     "viewer": "view_written",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}

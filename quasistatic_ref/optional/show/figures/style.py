@@ -82,7 +82,8 @@ def style_file(name: str | Path) -> str | Path:
         return Path(__file__).parent / f"{name}.mplstyle"
     if name in plt.style.available or name == "default" or Path(name).is_file():
         return name
-    raise InputError(f"is no style{suggestion(str(name), STYLES)}", field="style", value=str(name))
+    problem = f"is not a style{suggestion(str(name), STYLES)}"
+    raise InputError(problem, field="style", value=str(name))
 
 
 def sized(width: float, height: float) -> tuple[float, float]:

@@ -5,15 +5,13 @@ import pytest
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.contact.contact_rates import (
     contact_rates,
     merged_features,
-    nearly_level,
 )
-from quasistatic_ref.optional.derivatives.contact.couples import Rim, couples, rim_velocity
+from quasistatic_ref.optional.derivatives.contact.couples import Rim, couples
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.shapes.placed_shape import (
@@ -105,30 +103,6 @@ def test_the_ball_about_a_capsule_s_corner_is_its_own():
         other, centre, radius = couple.centre
         assert (other, radius) == (0, 0.03)
         np.testing.assert_allclose(centre, end, atol=ROUNDING)
-
-
-def test_a_level_rim_whose_body_turns_has_no_lowest_point():
-    z = np.array([0.0, 0.0, 1.0])
-    cylinder = ShapeInWorld(Cylinder(0.04, 0.06), np.eye(3), np.zeros(3))
-    about_z = np.cross(z[:, None], z[:, None], axis=0)  # z x z: it does not tilt
-    about_x = np.cross(np.array([[1.0], [0], [0]]), z[:, None], axis=0)
-    rim = Rim(0, 1, 0.04)
-    assert np.array_equal(rim_velocity(rim, cylinder, z, about_z), np.zeros((3, 1)))
-    assert rim_velocity(rim, cylinder, z, about_x) is None
-
-
-@pytest.mark.parametrize("away", [0.0, 5.0])
-def test_nearly_level_is_a_matter_of_the_rim_and_of_a_slight_tilt(away):
-    # Of a tilt between rounding and LEVEL, 1e-5, the lowest point of a rim is not well known.
-    slight = (0.0, 3e-6, 0.0)
-    much = (0.0, 1e-3, 0.0)
-    for rpy, expected in ((slight, True), (much, False), ((0.0, 0.0, 0.0), False)):
-        system = body((away, away, 0.06), rpy)
-        _, (couple,) = kept(system, pair_of(system, FLOOR, Cylinder(0.04, 0.06), "fixed", 1))
-        end = couple.of.bodies[1].t + couple.of.bodies[1].R @ np.array([0.04, 0.0, -0.06])
-        assert nearly_level(couple._replace(points=(end, end))) == expected
-        middle = couple.of.bodies[1].t + couple.of.bodies[1].R @ np.array([0.01, 0.0, -0.06])
-        assert not nearly_level(couple._replace(points=(middle, middle)))
 
 
 def test_merged_features_are_those_of_either_side_with_their_ends_free():

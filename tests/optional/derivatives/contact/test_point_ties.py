@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.contact.distance import pair_closest_points
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
-from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Sphere
 from quasistatic_ref.tolerances import TIED
 from tests.contact.still import pair, placed
 
@@ -70,14 +70,3 @@ def test_points_are_tied_within_a_share_of_the_size(solid) -> None:
         kept, out = both(solid, higher, 3)
         assert out in ([2], [3])
         assert kept == [0] * with_0 + [5 - out[0]]
-
-
-def test_corners_of_a_box_on_the_floor_are_tied_but_not_of_a_tilted_one() -> None:
-    box = Box(np.array([0.1, 0.1, 0.1]))
-    floor = (np.eye(3), np.zeros(3))
-    lying = np.eye(3), np.array([0.0, 0.0, 0.1])
-    kept, out = ties(FLOOR, box, 3, (floor, lying))
-    assert sorted(kept + [i for i in out if i < 4]) == [0, 1, 2, 3]
-    tilted = Rotation.from_euler("xy", [0.1, 0.25]).as_matrix(), np.array([0.0, 0.0, 0.2])
-    assert ties(FLOOR, box, 3, (floor, tilted)) == ([], [])
-    assert ties(FLOOR, box, 1, (floor, lying)) == ([], [])

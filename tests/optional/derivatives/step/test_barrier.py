@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.optional.derivatives.step import barrier
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
-from tests.helpers import changed, hessian, point_on_floor, random_step
-from tests.tolerances import ACTIVE_SET, CLOSED_FORM
+from tests.helpers import changed, point_on_floor, random_step
+from tests.tolerances import CLOSED_FORM
 
 H_OF_POINT = 0.01
 """h [s]."""
@@ -32,34 +30,6 @@ def test_a_pressed_point_hovers_at_the_root_of_its_balance_at_any_size(scale):
     found = barrier_step(step, kappa)
     np.testing.assert_allclose(found.x, z, rtol=CLOSED_FORM, atol=0.0)
     np.testing.assert_allclose(found.lam, kappa / found.slack, rtol=CLOSED_FORM)
-
-
-@pytest.mark.parametrize("scale", [1.0, 1e-12])
-def test_newton_s_method_cut_short_gives_the_minimiser_or_nothing(scale, monkeypatch):
-    kappa = 1e-4 * scale
-    answers = 0
-    step, z = pressed(0.3 * scale, 2.0 * scale, kappa)
-    for steps in range(30):
-        monkeypatch.setattr(barrier, "STEPS", steps)
-        try:
-            found = barrier_step(step, kappa)
-        except StepNotSolved:
-            assert not answers
-            continue
-        np.testing.assert_allclose(found.x, z, rtol=ACTIVE_SET, atol=0.0)
-        answers += 1
-    assert 0 < answers < 29
-
-
-def test_a_method_that_rounding_keeps_from_settling_gives_its_best_point(rng, monkeypatch):
-    # The minimiser is unique: what is best of steps without an end is the answer that settled.
-    step = random_step(rng)
-    settled = barrier_step(step, 1e-6)
-    monkeypatch.setattr(barrier, "SETTLED", 1e-18)
-    monkeypatch.setattr(barrier, "NOTHING", 0.0)
-    off = barrier_step(step, 1e-6).x - settled.x
-    energy = settled.x @ hessian(step) @ settled.x
-    assert off @ hessian(step) @ off <= CLOSED_FORM**2 * energy
 
 
 def test_rows_that_are_far_push_as_little_as_kappa_says(rng):

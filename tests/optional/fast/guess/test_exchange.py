@@ -12,7 +12,7 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.guess import exchange
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
-from quasistatic_ref.optional.fast.guess.exchange import GUESSES, Refuted, proved_nearby, walked
+from quasistatic_ref.optional.fast.guess.exchange import GUESSES, Refuted, proved_nearby
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import StandardForm
@@ -104,54 +104,6 @@ def refuted(form, working, lam):
     """A guess and the slacks of its minimiser, H being 1: x = g + A'lam."""
     x = form.g + form.A[working].T @ np.array(lam)
     return Refuted(np.array(working, dtype=np.int64), np.array(lam), form.A @ x - form.b)
-
-
-def test_a_walk_adds_the_row_and_drops_what_stops_pressing():
-    form = line(1.0, 2.0)
-    assert walked(line(1.0), np.eye(1), refuted(line(1.0), [], [])).tolist() == [0]
-    # x >= 1 holds with lam = 1; x >= 2 depends on it, takes its place, and is left alone.
-    assert walked(form, np.eye(1), refuted(form, [0], [1.0])).tolist() == [1]
-    # x <= -1 against x >= 1: nothing gives way.
-    form = StandardForm(np.eye(1), np.zeros(1), np.array([[1.0], [-1.0]]), np.ones(2))
-    assert walked(form, np.eye(1), refuted(form, [0], [1.0])) is None
-
-
-@pytest.mark.parametrize(
-    ("short", "left"),
-    [(0.5, [0, 1, 2]), (2.5, [1, 2]), (3.5, [2])],
-)
-def test_a_walk_drops_one_row_after_the_other(short, left):
-    """X >= 1 and y >= 2 hold with lam = (1, 2); x + y + z >= 3 + s takes one of each as it grows.
-
-    At the rate 1 it closes s up to 1, where x >= 1 bears nothing; then at the rate 2 up to 3, where
-    the next unit of y >= 2 is used up.
-    """
-    form = StandardForm(
-        np.eye(3), np.zeros(3), np.array([[1.0, 0, 0], [0, 1.0, 0], [1.0, 1, 1]]),
-        np.array([1.0, 2.0, 3.0 + short]),
-    )  # fmt: skip
-    assert walked(form, np.eye(3), refuted(form, [0, 1], [1.0, 2.0])).tolist() == left
-
-
-def test_what_pulls_is_dropped_one_row_at_a_time():
-    """X <= 1 and x + y >= 0 at g = (2, 2): the second pulls; without it, the first bears 1.
-
-    On both, x = 1 and y = -1: A'lam = x - g = (-1, -3) = lam_0 (-1, 0) + lam_1 (1, 1).
-    """
-    form = StandardForm(
-        np.eye(2), np.array([2.0, 2.0]), np.array([[-1.0, 0.0], [1.0, 1.0]]), np.array([-1.0, 0.0])
-    )
-    assert walked(form, np.eye(2), refuted(form, [0, 1], [-2.0, -3.0])).tolist() == [0]
-
-
-def test_small_violations_are_seen_next_to_large_numbers():
-    """1 - x >= 0 bears 1e3; y >= 1e-30 m is all that is violated, and a copy of it is not."""
-    form = StandardForm(
-        np.eye(2), np.array([1e3, 0.0]), np.array([[-1.0, 0.0], [0.0, 1.0], [0.0, 1.0]]),
-        np.array([-1.0, 1e-30, 1e-30]),
-    )  # fmt: skip
-    found = refuted(form, [0], [1e3 - 1])
-    assert walked(form, np.eye(2), found).tolist() == [0, 1]
 
 
 def test_a_guess_is_given_up_after_some_walks():

@@ -1,16 +1,11 @@
 """What is promised of the points that a short list leaves out, with points at the very bounds."""
 
-import itertools
-
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.optional.fast.tracker import ball_tree
-from quasistatic_ref.optional.fast.tracker.tracker import SHORT, ContactTracker
 from quasistatic_ref.optional.fast.tracker.tracker_bound import (
-    Shortlist,
     reach,
     shortlist,
     size,
@@ -18,14 +13,12 @@ from quasistatic_ref.optional.fast.tracker.tracker_bound import (
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     HalfSpace,
-    PlacedShape,
-    PointCloud,
 )
 from quasistatic_ref.step.ordered import rotated
 from quasistatic_ref.tolerances import UNSEEN
 from tests.properties.test_tracker import SHAPES as EVERY
 from tests.properties.test_tracker import WEDGE
-from tests.tolerances import EXACT, ROUNDING
+from tests.tolerances import ROUNDING
 
 X, _, Z = np.eye(3)
 SHAPES = {name: shape for name, shape in EVERY.items() if name != "tilted half-space"}
@@ -127,31 +120,3 @@ def test_the_limit_of_a_falling_cloud_is_the_next_height_less_the_room():
         assert (
             least - ROUNDING <= 1e-3 * WIDTH - down - limit <= least + 2 * UNSEEN * down + ROUNDING
         )
-
-
-def test_a_limit_by_distance_falls_by_the_motion_and_the_room_for_that():
-    # The box about a cloud, moved along an axis by 1 m: |u| <= sqrt(3) max |u_i|, for all ways.
-    box = np.array(list(itertools.product((-0.1, 0.1), repeat=3)))
-    made = Shortlist(np.arange(2), 3.0, np.inf, Z, box, box)
-    for u in (X, -X, Z):
-        limit = made.limit(np.column_stack([np.eye(3), u]))
-        expected = 3.0 - np.sqrt(3) * (1 + UNSEEN)
-        np.testing.assert_allclose(limit, expected, rtol=EXACT, atol=ROUNDING)
-
-
-def test_a_list_that_suffices_for_few_steps_is_made_twice_as_long(rng):
-    # Twice the cloud is turned upside down: after as many steps as is worth it, and one fewer.
-    k = 12
-    points = PointCloud(rng.uniform(-0.1, 0.1, size=(500, 3)))
-    floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(Z, 0.0))
-    cloud = PlacedShape("cloud", 1, np.eye(3), np.zeros(3), points)
-    tracker = ContactTracker([ContactPair("p", floor, cloud, 0.5, 0.0, 4, k)])
-    upright = np.eye(3)
-    upside_down = np.diag([1.0, -1.0, -1.0])
-    widths = []
-    for R, steps in ((upright, SHORT), (upside_down, SHORT - 1), (upright, 1)):
-        for _ in range(steps):
-            tracker.closest_points(np.stack([np.eye(3), R]), np.zeros((2, 3)))
-        widths.append(tracker.lists[0].width)
-    assert tracker.lists_made == 3
-    assert widths == [4 * k, 4 * k, 8 * k]

@@ -8,15 +8,11 @@ from PIL import Image
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.show.figures import animate, draw_scene, moment, panels
-from quasistatic_ref.optional.show.figures.draw import LONGEST, force_scale, round_scale
 from quasistatic_ref.optional.show.figures.looks import CAMERA
-from quasistatic_ref.optional.show.figures.moments import DrawnContact, Moment
 from quasistatic_ref.optional.show.figures.surfaces import (
     AROUND,
     UP,
-    faces,
     surface_points,
-    triangles,
 )
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import (
@@ -171,47 +167,12 @@ def test_what_is_drawn_of_a_shape_is_on_it_and_reaches_as_far(shape):
     assert ((points @ axes.T).max(axis=0) >= least).all()
 
 
-def test_faces_and_triangles_of_a_cube_and_their_direction():
-    cube = surface_points(Box(np.ones(3)))
-    assert sorted(len(face) for face in faces(cube)) == [4] * 6
-    corners = triangles(cube).reshape(-1, 3, 3)
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    assert len(corners) == 12
-    assert (np.einsum("ti,ti->t", normal, corners.mean(axis=1)) > 0).all()
-
-
-@pytest.mark.parametrize(
-    ("scale", "rounded"), [(0.0123, 0.01), (0.9, 0.5), (1.0, 1.0), (4.9, 2.0), (50.0, 50.0)]
-)
-def test_scales_are_rounded_down_to_one_two_or_five(scale, rounded):
-    np.testing.assert_allclose(round_scale(scale), rounded, rtol=ROUNDING)
-
-
 def test_a_film_has_a_frame_for_every_twentieth_of_a_second(incline, tmp_path):
     path = animate(*incline, tmp_path / "blocks.gif", fps=10)
     assert [p.name for p in tmp_path.iterdir()] == ["blocks.gif"]
     with Image.open(path) as film:
         assert film.n_frames == 3  # 30 steps of 10 ms
         assert film.info["duration"] == 100
-
-
-def test_forces_are_scaled_by_what_of_them_is_in_view():
-    # A force of 12 N along y and one of 1.5 N along z: seen along y, 1.5 N is the largest.
-    frame = np.eye(3)
-    rim = np.zeros((0, 3))
-    contacts = [
-        DrawnContact(np.zeros(3), frame, np.array(force), 0.0, 1.0, 0.0, 0.0, rim)
-        for force in ([0, 12.0, 0], [0, 0, 1.5])
-    ]
-    of = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts), {})
-    half = 0.1
-    expected = {"xz": 2 * LONGEST * half / 1.5, "yz": 2 * LONGEST * half / 12, None: 0.08 / 12}
-    for view, scale in expected.items():
-        found = force_scale([of], view, half)
-        np.testing.assert_allclose(found, round_scale(scale), rtol=ROUNDING)
-    # What is only along the view is scaled as in space.
-    lone = Moment(0.0, (), np.zeros((0, 3, 3)), np.zeros((0, 3)), tuple(contacts[:1]), {})
-    assert force_scale([lone], "xz", half) == force_scale([lone], None, half) > 0
 
 
 def test_films_that_cannot_be_written_are_refused(incline, tmp_path, monkeypatch):

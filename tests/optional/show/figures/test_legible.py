@@ -110,7 +110,7 @@ def test_a_style_is_a_file_that_pyplot_reads(name):
 
 
 def test_an_unknown_style_is_refused_with_the_nearest():
-    nearest = pytest.raises(InputError, match="is no style; did you mean 'slides'")
+    nearest = pytest.raises(InputError, match="is not a style; did you mean 'slides'")
     with nearest, figure_style("slide"):
         pass
 

@@ -14,8 +14,8 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.show.figures import viewer
 from quasistatic_ref.optional.show.figures.draw import force_scale
-from quasistatic_ref.optional.show.figures.looks import OBJECTS, ROBOTS, STATES, body_colours
-from quasistatic_ref.optional.show.figures.moments import SLIP, focus, frames, still
+from quasistatic_ref.optional.show.figures.looks import ROBOTS, STATES
+from quasistatic_ref.optional.show.figures.moments import SLIP, frames
 from quasistatic_ref.optional.show.figures.surfaces import normals, surface_points, triangles
 from quasistatic_ref.optional.show.figures.viewer import (
     FRAMES_PER_SECOND,
@@ -52,23 +52,6 @@ def animations(commands):
 def tracks(commands, path):
     (clip,) = [c["clip"] for c in animations(commands) if c["path"] == path]
     return {t["name"]: np.array([key["value"] for key in t["keys"]]) for t in clip["tracks"]}
-
-
-def test_frames_come_thirty_a_second_or_one_a_step(pushed):
-    scenario, run = pushed
-    moments, fps = frames(scenario, run, FRAMES_PER_SECOND)
-    assert (len(moments), fps) == (20, 25.0)  # every second step of 20 ms
-    assert [round(m.t / scenario.h) for m in moments] == list(range(0, 40, 2))
-
-
-def test_every_shape_and_every_contact_has_an_object(commands, pushed):
-    moments, sent = commands
-    made = [c["path"] for c in sent if c["type"] == "set_object"]
-    assert len([p for p in made if p.startswith("/links/")]) == len(moments[0].shapes) == 3
-    for kind in ("contacts", "forces"):
-        assert [p for p in made if p.startswith(f"/{kind}/")] == [f"/{kind}/{j}" for j in range(8)]
-    uuids = [c["object"]["object"]["uuid"] for c in sent if c["type"] == "set_object"]
-    assert len(set(uuids)) == len(uuids)  # three.js keeps what it animates by them
 
 
 def test_links_move_as_in_the_trajectory(commands, pushed):
@@ -160,21 +143,6 @@ def test_visual_elements_are_drawn_in_their_colours_and_missing_meshes_are_not()
     assert (hat.link, hat.colour) == (system.link("crate/hat"), ROBOTS[0])
     np.testing.assert_allclose(found.corners.min(axis=0), [-0.1, -0.2, 0.2], atol=ROUNDING)
     np.testing.assert_allclose(found.corners.max(axis=0), [0.1, 0.2, 0.8], atol=ROUNDING)
-
-
-def test_robots_are_grey_and_what_they_act_on_is_not(pushed):
-    colours = body_colours(pushed[0].system)
-    assert colours == {"pusher": ROBOTS[0], "block": OBJECTS[0]}
-
-
-def test_a_link_that_only_looks_moves_and_is_looked_at():
-    scene = Scene(System([Body("crate", LOOKS, base="floating", actuated=["neck"])]), ())
-    looks = visuals(scene)
-    start = still(scene)
-    sent = scene_commands(scene, [start], 1.0, 0.1, 0.0, looks)
-    assert {f"/links/{look.link}" for look in looks} == {c["path"] for c in animations(sent)}
-    assert focus([start])[1, 2] == pytest.approx(0.05)  # the collision box
-    assert focus([start], looks)[1, 2] == pytest.approx(0.8)
 
 
 def test_surfaces_are_lit_as_round_where_they_are():
