@@ -48,8 +48,8 @@ class Scene:
     ----------
     simulator : callable
         Makes a simulator: of `certify` and `fast`.
-    goal : callable
-        The targets of step k, shape (n_q_a,) [m, rad].
+    goals : list of ndarray, shape (n_q_a,)
+        The targets of the steps, of which the last is that of all further steps, too [m, rad].
     force : float or ndarray, shape (n_v,)
         [N, N m].
     model : callable
@@ -57,7 +57,7 @@ class Scene:
     """
 
     simulator: Callable[..., Simulator]
-    goal: Callable[[int], Array]
+    goals: list[Array]
     force: Array | float
     model: Callable[[], tuple[Any, Any]]
 
@@ -95,7 +95,7 @@ def boxes(count: int) -> Scene:
         K_q = np.zeros((0, 0))
         return Simulator(system, pairs, h=H, K_q=K_q, certify=certify, fast=fast)
 
-    return Scene(simulator, lambda _: np.zeros(0), force, model)
+    return Scene(simulator, [np.zeros(0)], force, model)
 
 
 def hand() -> Scene:
@@ -106,10 +106,8 @@ def hand() -> Scene:
         settings = [f"solver.certify={certify}", "record=light"]
         return load_scenario("allegro_turn", settings, fast=fast).simulator()
 
-    def goal(k: int) -> Array:
-        return scenario.targets(scenario.h * (k + 1))
-
-    return Scene(simulator, goal, 0.0, partial(hand_model, scenario.system, goal(50)))
+    goals = [scenario.targets(scenario.h * (k + 1)) for k in range(scenario.steps)]
+    return Scene(simulator, goals, 0.0, partial(hand_model, scenario.system, goals[50]))
 
 
 def hand_model(system: System, goal: Array) -> tuple[Any, Any]:
@@ -155,7 +153,8 @@ class _Run:
         self.step()
 
     def step(self) -> None:
-        result = self.simulator.step(self.q, self.scene.goal(self.k), self.scene.force)
+        goal = self.scene.goals[min(self.k, len(self.scene.goals) - 1)]
+        result = self.simulator.step(self.q, goal, self.scene.force)
         self.q = result.q
         self.k += 1
         if self.forces:
