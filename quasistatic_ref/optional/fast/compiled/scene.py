@@ -109,7 +109,7 @@ class Scene(Structure):
     def relist(self) -> None:
         """Take over the tracker's short lists, where it has made new ones."""
         tracker = self.tracker
-        if tracker is None or tracker.lists_made == self.lists_made:
+        if tracker is None or not tracker.lists or tracker.lists_made == self.lists_made:
             return
         self.lists_made = tracker.lists_made
         clouds = tracker.clouds
