@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from operator import itemgetter
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -22,7 +21,7 @@ from quasistatic_ref.optional.fast.compiled.solids import measured
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.kept_step import KeptStep
 from quasistatic_ref.optional.fast.native import native_backends
-from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep
+from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep, posed
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
@@ -78,21 +77,6 @@ def measured_by_numpy(simulator: FastSimulator) -> list[str]:
 def compiled_step(simulator: FastSimulator) -> CompiledStep | None:
     """What takes a simulator's steps, or None: :func:`unknown` says why."""
     return CompiledStep(simulator) if unknown(simulator) is None else None
-
-
-T = TypeVar("T", PosedContacts, PosedStep)
-
-
-def posed(kind: type[T], same: Mapping[str, Any], own: Mapping[str, Any]) -> T:
-    """Posed data of a `kind`: of fields that are the `same` at each step, and of their `own`.
-
-    The arrays must be read-only.
-    """
-    made = kind.__new__(kind)
-    fields = vars(made)
-    fields.update(same)
-    fields.update(own)
-    return made
 
 
 class CompiledStep:
