@@ -33,7 +33,13 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     assert {("native", "daqp"), ("cvxpy", "clarabel"), ("native", "quadprog")} <= measured
     assert {STEP, MAPPED, "derivatives", "step_jax"} == set(found["derivatives"])
     text = (tmp_path / "bench.md").read_text()
-    for title in ("by every interface", "By part", "certificate", "Derivatives"):
+    for title in (
+        "by every interface",
+        "By part",
+        "certificate",
+        "Derivatives",
+        "Scenes of solids",
+    ):
         assert title in text
     # Distances by brute force, and what a step of this backend takes besides its own.
     brute = found["interfaces"]["microseconds"]["all distances, brute force"]
@@ -74,6 +80,21 @@ def test_each_promise_is_judged_by_its_limit():
         "step over the bare solver": False,
         "through CVXPY over native": False,
         "bounded step over the same without": True,
+    }
+    # Of boxes by MuJoCo's step, unless the solver alone takes more than six of that.
+    by_mujoco = {"over_solver": 5.0, "over_mujoco": 5.9, "solver_over_mujoco": 1.2}
+    by_solver = {"over_solver": 2.1, "over_mujoco": 13.0, "solver_over_mujoco": 6.2}
+    proved = {"proved_over_off": 4.1}
+    solids = {
+        "few": by_mujoco | proved,
+        "many": by_solver | proved,
+        "alone": proved | {"over_solver": 5.0},
+    }
+    judged = promises({"interfaces": INTERFACES, "solids": solids})[3:]
+    assert {p["what"]: p["holds"] for p in judged} == {
+        "few, step over MuJoCo's": True,
+        "many, step over the bare solver": False,
+        **{f"{name}, proved over not": False for name in solids},
     }
     rows = promise_rows(promises(tables))
     assert rows[1] == ("step over the bare solver", "16.5", "at most 16", "FAILS")

@@ -87,6 +87,7 @@ RESULTS = (
     to_file("contact_qp"),
     to_file("proved_problems"),
     printed("pair_distances"),
+    to_file("solid_pairs"),
     printed("step_profile"),
     printed("random_mechanisms"),
     printed("run_hashes"),

@@ -5,7 +5,8 @@ the same numbers. A step that a user makes of their parts, also through ``replac
 """
 
 import math
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -31,6 +32,8 @@ from quasistatic_ref.step.data import (
     row_layout,
     seconds,
 )
+
+T = TypeVar("T")
 
 
 class Constants(NamedTuple):
@@ -201,6 +204,18 @@ class BlockStep(PosedStep):
         blocks = vars(self)["M_u"]
         momentum: Array = blocks @ delta_q[self.n_a :].reshape(*blocks.shape[:-1], 1)
         return momentum.ravel()
+
+
+def posed(kind: type[T], same: Mapping[str, Any], own: Mapping[str, Any]) -> T:
+    """Data of a `kind`, unchecked: of fields that are the `same` at each step, and of their `own`.
+
+    The arrays must be read-only.
+    """
+    made = kind.__new__(kind)
+    fields = vars(made)
+    fields.update(same)
+    fields.update(own)
+    return made
 
 
 NAMES = (*Constants._fields, "tau_a", "tau_u", "delta_q_bar_a", "contacts")

@@ -7,8 +7,13 @@ from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.bench.acceptance import PAPER
 from quasistatic_ref.lab.study.bench.derived import SCENE, STEP
 from quasistatic_ref.lab.study.bench.grasp import PARTS, PLAIN
+from quasistatic_ref.lab.study.bench.solids import COLUMNS
 
 Rows = list[tuple[str, ...]]
+
+SOLIDS = """Boxes lie apart on a floor, which each touches at four corners with six rows, and are
+pushed; three finger tips turn the drum. With `fast`, by what it certifies; and on the plain path.
+MuJoCo's is `mj_step` of the same scene (`pip install "quasistatic-ref[engines]"`)."""
 
 BY_PART = {
     "engine": "{engine}",
@@ -97,6 +102,9 @@ def page(tables: Mapping[str, Any]) -> str:
             certified,
         ),
         *_section(f"Derivatives of a step of {SCENE}", _over(tables["derivatives"], STEP)),
+        *_section("Scenes of solids [us]", _solids(tables["solids"])),
+        "",
+        SOLIDS,
     ]
     return "\n".join(lines) + "\n"
 
@@ -105,6 +113,18 @@ def _over(times: Mapping[str, float], base: str) -> Rows:
     """Times, and how many times that of the row `base` each is."""
     rows: Rows = [("what", "median [us]", f"over {base}")]
     rows += [(name, f"{us:.1f}", f"{us / times[base]:.2f}") for name, us in times.items()]
+    return rows
+
+
+def _solids(scenes: Mapping[str, Mapping[str, float]]) -> Rows:
+    """What a step of each scene takes, and over what."""
+    ratios = {"over_solver": "off over DAQP", "over_mujoco": "off over MuJoCo"}
+    ratios["proved_over_off"] = "full over off"
+    rows: Rows = [("scene", *COLUMNS, *ratios.values())]
+    for name, costs in scenes.items():
+        us = (f"{costs[key]:.0f}" if key in costs else "not installed" for key in COLUMNS)
+        over = (f"{costs[key]:.2f}" if key in costs else "" for key in ratios)
+        rows.append((name, *us, *over))
     return rows
 
 

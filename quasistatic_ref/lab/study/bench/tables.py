@@ -18,6 +18,7 @@ from quasistatic_ref.lab.study.bench.grasp import (
     places,
     residual_over_off,
 )
+from quasistatic_ref.lab.study.bench.solids import SCENES, solid_scenes
 from quasistatic_ref.lab.study.measuring import environment
 from quasistatic_ref.solve.backends import installed
 
@@ -56,6 +57,8 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     found["residual_over_off"] = residual_over_off(some, 1 if quick else 2)
     tell("derivatives")
     found["derivatives"] = of_derivatives(2 if quick else 100, 1 if quick else 2)
+    tell("solids")
+    found["solids"] = solid_scenes([*SCENES][:1] if quick else [*SCENES], 3 if quick else 200)
     found["machine"]["load"] = f"{load}, after it {_load()}"
     found["promises"] = promises(found)
     return found

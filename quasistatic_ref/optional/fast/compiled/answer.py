@@ -3,14 +3,18 @@
 import numpy as np
 
 from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
+from quasistatic_ref.optional.fast.posed import posed
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.solve import NOTHING_CLAIMED
 from quasistatic_ref.solve.units import Units, from_natural
-from quasistatic_ref.step.arrays import finite, without_warnings
+from quasistatic_ref.step.arrays import finite, read_only, without_warnings
 from quasistatic_ref.step.data import StepData
 
-NONE_OF_OWN = np.zeros(0)
-"""Multipliers of rows of a user's own."""
+SAME = {
+    "lam_extra": read_only(np.zeros(0)), "certificate": NOTHING_CLAIMED, "net_impulse": None,
+    "alone": True,
+}  # fmt: skip
+"""What all these solutions have in common."""
 
 
 def as_said(
@@ -55,5 +59,5 @@ def _as_said(
     solver.written = None
     cost = reply.iterations, reply.seconds, attempt.accuracy
     statistics = SolverStatistics(solver.name, "optimal", *cost, None, solver.engine)
-    of_step = step, solver.name, NOTHING_CLAIMED, statistics
-    return StepSolution(delta_q, lam, NONE_OF_OWN, *of_step)
+    own = {"delta_q": read_only(delta_q), "lam": read_only(lam), "step": step}
+    return posed(StepSolution, SAME, {**own, "backend": solver.name, "statistics": statistics})

@@ -24,24 +24,42 @@ from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
+from quasistatic_ref import tolerances
+from quasistatic_ref.contact.crossings import LEVEL
+from quasistatic_ref.contact.tied_faces import TURNED
 from quasistatic_ref.formats.quoting import clipped, one_line
 
 VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
 SOURCE = Path(__file__).parent / "source"
 SOURCES = (
-    "closest.c", "rows.c", "screws.c", "natural.c", "certificate.c", "kkt.c", "contraction.c",
-    "span.c", "rounding.c", "arithmetic.c",
+    "closest.c", "solids.c", "candidates.c", "polytopes.c", "crossings.c", "rows.c", "screws.c",
+    "natural.c", "certificate.c", "kkt.c", "contraction.c", "span.c", "rounding.c", "arithmetic.c",
 )  # fmt: skip
-HEADERS = ("scene.h", "proof.h", "fixed_point.h")
+HEADERS = ("solid.h", "solids.h", "scene.h", "proof.h", "fixed_point.h")
 SELFTEST = "selftest.py"
-FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC")
+CONSTANTS = {
+    **{
+        name: getattr(tolerances, name)
+        for name in (
+            "FILLED", "ON_RIM", "ON_SURFACE", "OUTSIDE_FACE", "OVER_FACE", "REPEATED",
+            "SAME_NORMAL", "SKEW", "TIED_FACES", "UPRIGHT",
+        )
+    },
+    "ON_SURFACE_SQUARED": tolerances.ON_SURFACE**2, "TURNED": TURNED, "LEVEL": LEVEL,
+}  # fmt: skip
+"""Numbers of Python that C reads by the same names."""
+FLAGS = (
+    "-std=c11", "-O3", "-ffp-contract=off", "-shared", "-fPIC",
+    *(f"-D{name}={value.hex()}" for name, value in CONSTANTS.items()),
+)  # fmt: skip
 """The third: no compiler may join a product and a sum that the source keeps apart."""
 PATIENCE = 120.0
 """Time that a compiler, or the self-test, is given [s]. Compilers take 0.4 to 4 s."""
 
 FUNCTIONS = {
     "closest_points": ctypes.c_int,
+    "solid_pairs": ctypes.c_int,
     "step_data": ctypes.c_double,
     "reach": ctypes.c_double,
     "half_turns": ctypes.c_int,

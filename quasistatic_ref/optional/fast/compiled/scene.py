@@ -5,38 +5,29 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.poses import Poses
+from quasistatic_ref.optional.fast.compiled.solids import SolidPairs, solid
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import Constants
-from quasistatic_ref.optional.fast.tracker.cloud_pairs import CloudPairs, starts
+from quasistatic_ref.optional.fast.tracker.cloud_pairs import starts
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
-from quasistatic_ref.shapes import placed_shape as shapes
-from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices
-
-ROUNDED_BOX, HALF_SPACE, CYLINDER = range(3)
-"""Kinds of solids, as scene.h counts them."""
 
 NUMBERS = ("pairs", "n_c", "n_v", "n_a", "n_x", "links", "mimics")
 ARRAYS = (
     "R", "t", "column",
     "link_solid", "link_cloud", "on_solid", "on_cloud",
-    "kind", "size", "sign",
+    "solid", "sign",
     "first", "length", "index", "x", "y", "z", "bounds", "slope", "offset",
     "start", "count",
     "owner", "moves_alpha", "moves_beta", "mu_v", "mu_omega", "rows",
     "coefficient", "has",
-    "world", "nearest", "rank", "point",
+    "world", "nearest", "rank", "point", "tie",
     "phi", "n", "alpha", "beta", "d1", "d2", "J", "A", "b", "work",
-    "h", "weighs", "gravity", "force", "K_q", "delta_q_bar_a", "tau", "g",
+    "h", "weighs", "gravity", "force", "K_q", "delta_q_bar_a", "tau", "g", "solids",
 )  # fmt: skip
 """The fields of ``Scene`` in scene.h, one for one."""
-
-
-def known(shape: shapes.Shape) -> bool:
-    """Whether compiled code knows the distance to a solid."""
-    return isinstance(shape, Rounded | shapes.HalfSpace | shapes.Cylinder)
 
 
 class Scene(Structure):
@@ -52,7 +43,7 @@ class Scene(Structure):
     weighs : ndarray, shape (n_v,)
         1.0 for each coordinate that feels gravity, else 0.0 [-].
     tracker : ContactTracker or None
-        Of all pairs, where each has a cloud and a solid that is :func:`known`.
+        Of all pairs, where compiled code measures each.
     """
 
     def __init__(
@@ -73,7 +64,8 @@ class Scene(Structure):
         super().__init__(NUMBERS, ARRAYS, library().scene_size)
         self.given = given = np.dtype(
             [
-                ("point", np.int64, (n_c,)), ("phi", np.float64, (n_c,)),
+                *((name, np.int64, (n_c,)) for name in ("point", "tie")),
+                ("phi", np.float64, (n_c,)),
                 *((name, np.float64, (n_c, 3)) for name in ("n", "alpha", "beta", "d1", "d2")),
                 ("J", np.float64, (n_c, 4, n_v)), ("tau", np.float64, (n_v,)),
                 ("g", np.float64, (n_v,)),
@@ -99,7 +91,10 @@ class Scene(Structure):
             },
         )  # fmt: skip
         if tracker is not None:
-            self._put_pairs(tracker.clouds)
+            self.pairs = SolidPairs(tracker.pairs, poses.R, poses.t, self._arrays)
+            self.put({"solids": self.pairs.address})
+            if tracker.lists:
+                self._put_clouds(tracker)
 
     def taken(self) -> NDArray[np.void]:
         """What C has written of a step, of shape (): its arrays by their names."""
@@ -108,13 +103,13 @@ class Scene(Structure):
 
     @property
     def listed(self) -> bool:
-        """Whether there are short lists of all pairs."""
-        return self.lists_made > 0
+        """Whether there are short lists of all clouds."""
+        return self.tracker is not None and (self.lists_made > 0 or not self.tracker.lists)
 
     def relist(self) -> None:
         """Take over the tracker's short lists, where it has made new ones."""
         tracker = self.tracker
-        if tracker is None or tracker.lists_made == self.lists_made:
+        if tracker is None or not tracker.lists or tracker.lists_made == self.lists_made:
             return
         self.lists_made = tracker.lists_made
         clouds = tracker.clouds
@@ -128,35 +123,24 @@ class Scene(Structure):
             },
         )  # fmt: skip
 
-    def _put_pairs(self, clouds: CloudPairs) -> None:
-        """What does not change of the pairs, in their order."""
+    def _put_clouds(self, tracker: ContactTracker) -> None:
+        """What does not change of the pairs with a cloud, in their order."""
+        clouds = tracker.clouds
         P = clouds.P
         count = clouds.last - clouds.first + 1
-        kinds, sizes = zip(*(solid_numbers(solid.shape) for solid in clouds.solids), strict=True)
+        self.solids = [solid(side.shape) for side in clouds.solids]
         self.put(
             {
                 "pairs": P,
                 "link_solid": clouds.link[:P], "link_cloud": clouds.link[P:],
                 "on_solid": clouds.on_link[:P], "on_cloud": clouds.on_link[P:],
-                "kind": np.array(kinds), "size": np.array(sizes), "sign": clouds.sign,
-                "start": clouds.first, "count": count,
+                "solid": np.array([one.address for one in self.solids]), "sign": clouds.sign,
+                "start": tracker.start[:-1][tracker.has_cloud],
+                "count": count,
                 "world": np.zeros((P, 24)), "nearest": np.zeros(count.max()),
                 "rank": np.zeros(count.max(), np.int64),
             },
         )  # fmt: skip
-
-
-def solid_numbers(shape: shapes.Shape) -> tuple[int, list[float]]:
-    """The kind of a solid, and the four numbers [m] that scene.h wants of that kind."""
-    match shape:
-        case shapes.HalfSpace():
-            return HALF_SPACE, [*shape.normal.tolist(), shape.offset]
-        case shapes.Cylinder():
-            return CYLINDER, [shape.radius, shape.half_length, 0.0, 0.0]
-        case _:
-            assert isinstance(shape, Rounded)
-            half_extents, ball = shape.core
-            return ROUNDED_BOX, [*half_extents.tolist(), ball]
 
 
 def cone_terms(name: str) -> dict[str, Array | Indices]:

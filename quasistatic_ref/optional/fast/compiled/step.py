@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from operator import itemgetter
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from quasistatic_ref.certify.solution import StepSolution
-from quasistatic_ref.contact.distance import ClosestPoints
+from quasistatic_ref.contact.distance import ClosestPoints, closest_points
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled.answer import as_said
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.natural import NaturalProgram, natural_program
 from quasistatic_ref.optional.fast.compiled.poses import Poses
-from quasistatic_ref.optional.fast.compiled.scene import Scene, known
+from quasistatic_ref.optional.fast.compiled.scene import Scene
 from quasistatic_ref.optional.fast.compiled.screws import Screws
+from quasistatic_ref.optional.fast.compiled.solids import measured
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.kept_step import KeptStep
 from quasistatic_ref.optional.fast.native import native_backends
-from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep
+from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep, posed
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
@@ -36,7 +36,7 @@ from quasistatic_ref.step.standard_form import StandardForm, standard_form
 if TYPE_CHECKING:
     from quasistatic_ref.optional.fast.simulator import FastSimulator
 
-WRITTEN = ClosestPoints._fields[:-1]
+WRITTEN = ClosestPoints._fields
 TAKEN = itemgetter(*WRITTEN, "d1", "d2", "J", "tau", "g")
 """The fields of a step among those that C has written."""
 
@@ -71,31 +71,12 @@ def unknown(simulator: FastSimulator) -> str | None:
 
 def measured_by_numpy(simulator: FastSimulator) -> list[str]:
     """Names of the pairs whose closest points compiled code does not know."""
-    return [
-        pair.name
-        for pair in simulator.pairs
-        if not (pair.has_cloud and (known(pair.alpha.shape) or known(pair.beta.shape)))
-    ]
+    return [pair.name for pair in simulator.pairs if not measured(pair)]
 
 
 def compiled_step(simulator: FastSimulator) -> CompiledStep | None:
     """What takes a simulator's steps, or None: :func:`unknown` says why."""
     return CompiledStep(simulator) if unknown(simulator) is None else None
-
-
-T = TypeVar("T", PosedContacts, PosedStep)
-
-
-def posed(kind: type[T], same: Mapping[str, Any], own: Mapping[str, Any]) -> T:
-    """Posed data of a `kind`: of fields that are the `same` at each step, and of their `own`.
-
-    The arrays must be read-only.
-    """
-    made = kind.__new__(kind)
-    fields = vars(made)
-    fields.update(same)
-    fields.update(own)
-    return made
 
 
 class CompiledStep:
@@ -130,7 +111,6 @@ class CompiledStep:
         self.of_contacts = {
             "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
         }  # fmt: skip
-        self.tie = self.no_tie = np.zeros(len(layout.rows), dtype=np.int64)
         self.constant: Constants | None = None
         self.of_steps: dict[str, Any] = {}
         self.solver: FastSolver | None = None
@@ -159,7 +139,7 @@ class CompiledStep:
         if self.equal is None:
             self.equal = bits(form) == bits(self.by_numpy(simulator, q, q_bar_a, force))
             if not self.equal:
-                simulator.compiled = None
+                simulator.compiled = simulator.tracker.solids = None
                 return None
         lap("rows")
         try:
@@ -178,18 +158,16 @@ class CompiledStep:
         return StepResult(q_next, step, solution, points, lap.seconds, q, simulator.scene)
 
     def find_points(self, simulator: FastSimulator, q: Array) -> None:
-        """Write the closest points at q: from the short lists; NumPy's where these prove none."""
+        """Write the closest points at q; the tracker's where C does not decide them."""
         scene = self.scene
         scene.relist()
-        if scene.tracker is not None and scene.listed and self.find(scene.address):
-            scene.tracker.steps += 1
-            self.tie = self.no_tie
+        if scene.listed and self.find(scene.address):
+            simulator.tracker.steps += 1
             return
         kinematics = simulator.system.kinematics(q)
         points = simulator.closest_points(kinematics)
         for name in WRITTEN:
             scene[name][:] = getattr(points, name)
-        self.tie = points.tie
 
     def step_data(
         self, simulator: FastSimulator, q: Array, q_bar_a: Array, force: Array | float
@@ -206,8 +184,9 @@ class CompiledStep:
         self.poses.weigh(simulator.gravity)
         self.force[:] = force
         gap = self.form(scene.address)
-        phi, alpha, beta, n, point, d1, d2, J, tau, g = TAKEN(scene.taken())
-        points = ClosestPoints(phi, alpha, beta, n, point, self.tie)
+        *found, d1, d2, J, tau, g = TAKEN(scene.taken())
+        points = ClosestPoints(*found)
+        phi, point, n = points.phi, points.point, points.n
         own = {"name": self.geometry.names(point), "phi": phi, "n": n, "d1": d1, "d2": d2, "J": J}
         contacts = posed(PosedContacts, self.of_contacts, own)
         if constant is not self.constant:
@@ -247,5 +226,5 @@ class CompiledStep:
     ) -> StandardForm:
         """The matrices of the same step without compiled code."""
         kinematics = simulator.system.kinematics(q)
-        points = simulator.closest_points(kinematics)
+        points = closest_points(simulator.pairs, kinematics)
         return standard_form(simulator.step_data(q, q_bar_a, force, points, kinematics))

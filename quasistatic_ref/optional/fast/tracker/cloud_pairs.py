@@ -214,11 +214,6 @@ class CloudPairs:
             touching[self.on_box] &= heights[:, -2] >= heights[:, -1] - within
         return np.unique(self.pair_of[touching]).tolist() if touching.any() else []
 
-    def by_pair(self, contacts: ClosestPoints) -> list[ClosestPoints]:
-        """The contacts of each pair."""
-        each = zip(self.first.tolist(), self.last.tolist(), strict=True)
-        return [contacts.chosen(np.arange(first, last + 1)) for first, last in each]
-
 
 def sides(pair: ContactPair) -> tuple[PlacedShape, PlacedShape]:
     """The solid and the cloud of a pair."""

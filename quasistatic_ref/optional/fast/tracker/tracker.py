@@ -6,6 +6,7 @@ included; where the proof fails, the list is made again. docs/distances.md deriv
 """
 
 from collections.abc import Sequence
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -18,11 +19,12 @@ from quasistatic_ref.contact.distance import (
 )
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.tracker.ball_tree import BallTree, ball_tree
-from quasistatic_ref.optional.fast.tracker.cloud_pairs import CloudPairs, sides
+from quasistatic_ref.optional.fast.tracker.cloud_pairs import CloudPairs, sides, starts
 from quasistatic_ref.optional.fast.tracker.tracker_bound import Shortlist, shortlist
 from quasistatic_ref.shapes.placed_shape import PointCloud
-from quasistatic_ref.step.data import Array
+from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.ordered import rotated
 
 WIDTH = 32
@@ -63,6 +65,9 @@ class ContactTracker:
         One for each of these.
     steps : int
         That were taken.
+    start : ndarray of int, shape (pairs + 1,)
+        Where the contacts of each pair begin among all, and where the last end.
+    has_cloud : ndarray of bool, shape (pairs,)
     """
 
     def __init__(self, pairs: Sequence[ContactPair]) -> None:
@@ -70,6 +75,12 @@ class ContactTracker:
         self.clouds = CloudPairs([pair for pair in pairs if pair.has_cloud])
         self.lists = [CloudList(pair) for pair in self.clouds.pairs]
         self.steps = 0
+        self.start = starts(np.array([pair.n_c for pair in pairs], dtype=np.int64))
+        self.has_cloud = np.array([pair.has_cloud for pair in pairs], dtype=bool)
+        self.on_cloud = np.repeat(self.has_cloud, np.diff(self.start))
+        in_c = compiled("solids")
+        some = len(self.lists) < len(self.pairs)
+        self.solids: Any = in_c.PosedSolids(self.pairs) if in_c is not None and some else None
 
     @property
     def lists_made(self) -> int:
@@ -93,13 +104,19 @@ class ContactTracker:
         of_clouds = self.of_clouds(R, t) if self.lists else joined([])
         if len(self.lists) == len(self.pairs):
             return of_clouds
-        each = iter(self.clouds.by_pair(of_clouds))
-        return joined(
-            [
-                next(each) if pair.has_cloud else pair_closest_points(pair, R, t)
-                for pair in self.pairs
-            ]
-        )
+        found, decided = self.of_solids(R, t)
+        put(of_clouds, found, self.on_cloud)
+        for i in np.flatnonzero(~(decided | self.has_cloud)).tolist():
+            own = joined([pair_closest_points(self.pairs[i], R, t)])
+            put(own, found, slice(self.start[i], self.start[i + 1]))
+        return found
+
+    def of_solids(self, R: Array, t: Array) -> tuple[ClosestPoints, Mask]:
+        """The contacts of pairs that compiled code decides, and which these are; others are 0."""
+        if self.solids is None:
+            return no_contacts(int(self.start[-1])), np.zeros(len(self.pairs), dtype=bool)
+        found: tuple[ClosestPoints, Mask] = self.solids(R, t)
+        return found
 
     def of_clouds(self, R: Array, t: Array) -> ClosestPoints:
         """The contacts of pairs with a cloud, of which there are some; ContactError as above."""
@@ -192,6 +209,17 @@ class CloudList:
         self.list = shortlist(self.tree, self.solid, R, t, n, phi_k, self.n_c, width)
         self.made += 1
         self.made_at = step
+
+
+def put(some: ClosestPoints, every: ClosestPoints, where: Mask | slice) -> None:
+    """Write some contacts among others, in the places of a mask or a slice of these."""
+    for field, values in zip(every, some, strict=True):
+        field[where] = values
+
+
+def no_contacts(n_c: int) -> ClosestPoints:
+    """Zeros in the place of some contacts."""
+    return ClosestPoints(np.zeros(n_c), *np.zeros((3, n_c, 3)), *np.zeros((2, n_c), np.int64))
 
 
 def cloud_tree(cloud: PointCloud) -> BallTree:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.fast.compiled import compiled, why_not
@@ -72,6 +73,19 @@ def shapes_and_clouds(system, names, rng):
     return pairs
 
 
+def solids(system, rng):
+    """Pairs of solids on some links, of which each keeps another number of contacts."""
+    links = np.arange(1, len(system.links))
+    pairs = []
+    for k, names in enumerate((("box", "half-space"), ("sphere", "box"), ("box", "capsule"))):
+        sides = []
+        for name, at in zip(names, rng.permutation(links), strict=False):
+            place = Rotation.random(rng=rng).as_matrix(), rng.uniform(-0.1, 0.1, size=3)
+            sides.append(PlacedShape(name, int(at), *place, SHAPES[name]))
+        pairs.append(ContactPair(f"s{k}", *sides, 0.5, 0.0, 4, 1 + 3 * k))
+    return pairs
+
+
 def places(system, rng):
     """Configurations: a start, small moves, jumps, and turns by exact halves."""
     q = system.q_start
@@ -83,7 +97,7 @@ def places(system, rng):
 
 def of_numpy(simulator, q, q_bar_a, force):
     kinematics = simulator.system.kinematics(q)
-    points = simulator.tracker.closest_points(kinematics.R, kinematics.t)
+    points = closest_points(simulator.pairs, kinematics)
     step = simulator.step_data(q, q_bar_a, force, points, kinematics)
     return points, step, standard_form(step)
 
@@ -125,7 +139,8 @@ def compared(system, pairs, cone, rng):
 def test_known_shapes_and_all_polyhedral_cones_have_the_bits_of_numpy(tmp_path, cone):
     rng = np.random.default_rng(CONES.index(cone))
     system = bodies(tmp_path)
-    assert compared(system, shapes_and_clouds(system, KNOWN, rng), cone, rng) == []
+    pairs = [*shapes_and_clouds(system, KNOWN, rng), *solids(system, rng)]
+    assert compared(system, pairs[::-1], cone, rng) == []
 
 
 @needs_compiler
@@ -133,17 +148,17 @@ def test_shapes_that_compiled_code_does_not_know_are_measured_by_numpy(tmp_path)
     rng = np.random.default_rng(11)
     system = bodies(tmp_path)
     pairs = shapes_and_clouds(system, [*KNOWN, "cone", "ellipsoid", "hull"], rng)
+    pairs += solids(system, rng)
     assert compared(system, pairs, "pyramid", rng) == []
     simulator = Simulator(system, pairs, h=0.01, K_q=np.eye(system.n_a), fast=True)
     said = compiled("step").taken_by(simulator)
     assert said == "compiled code; closest points by NumPy, which p6, p7, p8 need"
 
 
-@pytest.mark.parametrize("kind", ["solid", "cloud"])
-def test_bodies_along_the_axes_of_the_world_have_the_zeros_of_the_plain_path(kind):
+def test_clouds_along_the_axes_of_the_world_have_the_zeros_of_the_plain_path():
     """Products with the zeros of a normal are zeros of either sign; the plain path has 0.0."""
     box = SHAPES["box"]
-    shape = box if kind == "solid" else PointCloud(box.corners(np.ones(3))[0])
+    shape = PointCloud(box.corners(np.ones(3))[0])
     for W in Rotation.create_group("O").as_matrix().round():
         system = System([Body.of_shape("top", box, 1.0, xyz=W @ [0.0, 0.0, 0.5])])
         low = PlacedShape("low", 0, W, np.zeros(3), box)

@@ -4,113 +4,15 @@
 
 int64_t scene_size(void) { return sizeof(Scene); }
 
-/* contact/distance: R times on_link, then + t. */
-static void placed(const double *R, const double *t, const double *on_link, double *world)
-{
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 4; j++) {
-            double sum = R[i] * on_link[j];
-            for (int k = 1; k < 3; k++)
-                sum += R[i + 3 * k] * on_link[4 * k + j];
-            world[4 * i + j] = sum;
-        }
-        world[4 * i + 3] += t[i];
-    }
-}
-
-/* contact/distance: R_solid' times [R_cloud, t_cloud - t_solid]. */
-static void relative(const double *solid, const double *cloud, double *pose)
-{
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++) {
-            double terms[3];
-            for (int k = 0; k < 3; k++) {
-                double at = j < 3 ? cloud[4 * k + j] : cloud[4 * k + 3] - solid[4 * k + 3];
-                terms[k] = solid[4 * k + i] * at;
-            }
-            pose[4 * i + j] = (terms[0] + terms[1]) + terms[2];
-        }
-}
-
-static inline double larger(double a, double b) { return a > b ? a : b; }
-
-static inline double along(const double *row, double x, double y, double z)
-{
-    return (row[0] * x + row[1] * y) + row[2] * z;
-}
-
-/* shapes: signed_distance, and its normal where one is asked for. */
-static double rounded_box(const double *size, const double *x, double *normal)
-{
-    double excess[3], beyond[3], inside;
-    for (int i = 0; i < 3; i++) {
-        excess[i] = fabs(x[i]) - size[i];
-        beyond[i] = larger(excess[i], 0.0);
-    }
-    double outside = sqrt((beyond[0] * beyond[0] + beyond[1] * beyond[1]) + beyond[2] * beyond[2]);
-    inside = larger(larger(excess[0], excess[1]), excess[2]);
-    if (normal) {
-        int face = excess[1] > excess[0] ? 1 : 0;
-        if (excess[2] > excess[face])
-            face = 2;
-        for (int i = 0; i < 3; i++) {
-            double away = outside == 0.0 ? (i == face) : beyond[i] / outside;
-            normal[i] = copysign(away, x[i] + 0.0);
-        }
-    }
-    return outside + (inside < 0.0 ? inside : 0.0) - size[3];
-}
-
-static double cylinder(const double *size, const double *x, double *normal)
-{
-    double r = sqrt((x[0] * x[0] + x[1] * x[1]) + 0.0);
-    double side = r - size[0], end = fabs(x[2]) - size[1];
-    double beyond_side = larger(side, 0.0), beyond_end = larger(end, 0.0);
-    double outside = sqrt(beyond_side * beyond_side + beyond_end * beyond_end);
-    int is_outside = outside > 0.0;
-    if (normal) {
-        double of_side = is_outside ? beyond_side / outside : side >= end;
-        double of_end = is_outside ? beyond_end / outside : !(side >= end);
-        normal[0] = of_side * (r == 0.0 ? 1.0 : x[0] / r);
-        normal[1] = of_side * (r == 0.0 ? 0.0 : x[1] / r);
-        normal[2] = of_end * (x[2] < 0.0 ? -1.0 : 1.0);
-    }
-    return is_outside ? outside : larger(side, end);
-}
-
-static double distance(int64_t kind, const double *size, const double *x, double *normal)
-{
-    if (kind == ROUNDED_BOX)
-        return rounded_box(size, x, normal);
-    if (kind == CYLINDER)
-        return cylinder(size, x, normal);
-    for (int i = 0; normal && i < 3; i++)
-        normal[i] = size[i];
-    return along(size, x[0], x[1], x[2]) - size[3];
-}
-
 /* contact/tied_faces: whether two faces of a solid are as high, within twice what counts there, where a
    point touches or is inside. NumPy then says which one the normal is of. */
-static int faces_tie(int64_t kind, const double *size, const double *x, double phi, double places)
+static int faces_tie(const Solid *solid, const double *x, double phi, double places)
 {
-    double within = 4e-12 * (size[0] + size[1] + size[2] + places), height[6];
-    int faces = 0;
-    if (phi > within || kind == HALF_SPACE || (kind == ROUNDED_BOX && size[3] > 0.0))
-        return 0;
-    if (kind == ROUNDED_BOX)
-        for (int i = 0; i < 3; i++) {
-            height[faces++] = x[i] - size[i];
-            height[faces++] = -x[i] - size[i];
-        }
-    else {
-        height[faces++] = sqrt(x[0] * x[0] + x[1] * x[1]) - size[0];
-        height[faces++] = x[2] - size[1];
-        height[faces++] = -x[2] - size[1];
-    }
+    double within = 4e-12 * (solid->size[0] + solid->size[1] + solid->size[2] + places), height[FACES];
+    int faces = phi > within ? 0 : face_heights(solid, x, height), level = 0;
     double most = -INFINITY;
     for (int i = 0; i < faces; i++)
         most = larger(most, height[i]);
-    int level = 0;
     for (int i = 0; i < faces; i++)
         level += height[i] >= most - within;
     return level > 1;
@@ -145,7 +47,7 @@ static int selected(const Scene *s, int64_t pair, const double *pose)
         double at[3];
         int64_t p = s->first[pair] + w;
         in_solid(pose, s->x[p], s->y[p], s->z[p], at);
-        double phi = distance(s->kind[pair], s->size + 4 * pair, at, 0);
+        double phi = signed_distance(s->solid[pair], at, 0);
         if (phi != phi)
             return 0;
         if (kept == count && !(phi < s->nearest[kept - 1]))
@@ -167,12 +69,13 @@ static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, 
     const double *solid = s->world + 24 * pair, *cloud = solid + 12;
     double at[3], normal[3];
     in_solid(pose, s->x[p], s->y[p], s->z[p], at);
-    s->phi[c] = distance(s->kind[pair], s->size + 4 * pair, at, normal) + 0.0;
+    s->phi[c] = signed_distance(s->solid[pair], at, normal) + 0.0;
     s->point[c] = s->index[p];
+    s->tie[c] = OWN;
     double places = 0.0;
     for (int i = 0; i < 3; i++)
         places += fabs(solid[4 * i + 3]) + fabs(cloud[4 * i + 3]);
-    if (faces_tie(s->kind[pair], s->size + 4 * pair, at, s->phi[c], places))
+    if (faces_tie(s->solid[pair], at, s->phi[c], places))
         return 0;
     for (int i = 0; i < 3; i++) {
         double n = along(solid + 4 * i, normal[0], normal[1], normal[2]);
@@ -186,7 +89,7 @@ static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, 
     return 1;
 }
 
-/* The closest points of all pairs; 0 where the lists do not prove them, or a normal is tied. */
+/* The closest points of all pairs; 0 where the lists do not prove them, or Python measures a pair. */
 int closest_points(Scene *s)
 {
     for (int64_t pair = 0; pair < s->pairs; pair++) {
@@ -201,7 +104,7 @@ int closest_points(Scene *s)
             if (!witness(s, pair, pose, s->start[pair] + j, s->rank[j]))
                 return 0;
     }
-    return 1;
+    return solid_pairs(s->solids);
 }
 
 /* The squared distances of all links' origins from that of the world, added up. */

@@ -1,33 +1,19 @@
-/* What the files of a step's data have in common.
-
-   Each function does what a Python function of the same task does, in the same order of operations,
-   so that the bits are the same; the comments name it. Sums of products are those of step/ordered:
-   over rising indices, from the first, each product and each sum rounded. */
+/* What the files of a step's data have in common. */
 
 #ifndef SCENE_H
 #define SCENE_H
 
-#include <float.h>
-#include <math.h>
-#include <stdint.h>
-
-#if FLT_EVAL_METHOD != 0
-#error "float64 operations must be rounded to float64"
-#endif
-
-enum { ROUNDED_BOX, HALF_SPACE, CYLINDER };
+#include "solids.h"
 
 /* One for one the fields of Scene in scene.py. */
 typedef struct {
     int64_t pairs, n_c, n_v, n_a, n_x, links, mimics;
     /* Poses of the links: R by columns, as pinocchio keeps it; columns of the Jacobian. */
     const double *const *R, *const *t, *const *column;
-    /* Of each pair: the two shapes' links and places on them (3 x 4), solid first. */
+    /* Of each pair with a cloud: the shapes' links and places on them (3 x 4), solid first. */
     const int64_t *link_solid, *link_cloud;
     const double *on_solid, *on_cloud;
-    /* The solid: its kind, and numbers that belong to the kind. */
-    const int64_t *kind;
-    const double *size; /* 4 of each: half extents and ball; normal and offset; radius, half length */
+    const Solid *const *solid;
     const double *sign; /* of the solid's normal in the contact's */
     /* The short list: points x, y, z apart, their numbers, and the bounds of all others. */
     const int64_t *first, *length, *index;
@@ -46,13 +32,14 @@ typedef struct {
     const int64_t *has;
     /* Written at each step. */
     double *world, *nearest; /* 24 for each pair; as many as the largest count */
-    int64_t *rank, *point;
+    int64_t *rank, *point, *tie;
     double *phi, *n, *alpha, *beta, *d1, *d2, *J, *A, *b;
     double *work; /* 14 n_x + 4 n_v */
     /* The load: h; which coordinates weigh; gravity on the left of M dv + g = tau, as pinocchio
        keeps it; other forces; K_q and delta_q_bar_a. Then tau and g, which are written. */
     const double *h, *weighs, *const *gravity, *force, *K_q, *delta_q_bar_a;
     double *tau, *g;
+    SolidPairs *solids; /* all pairs without a cloud */
 } Scene;
 
 #endif

@@ -1,0 +1,114 @@
+/* Where edges of two boxes, or lines of capsules, cross along the pair's normal: contact/crossings. */
+
+#include "solids.h"
+
+enum { CURVES_OF_ROUND = 3 };
+
+typedef struct {
+    int64_t count, total, number[EDGES];
+    double tail[3 * EDGES], way[3 * EDGES];
+} Edges;
+
+static void add(Edges *edges, int64_t number, const double *pose, const double *tail, const double *head)
+{
+    double *from = edges->tail + 3 * edges->count, to[3];
+    carried(pose, tail, from);
+    carried(pose, head, to);
+    difference(to, from, edges->way + 3 * edges->count);
+    edges->number[edges->count++] = number;
+}
+
+/* `line`: on the side of a capsule that faces a way. */
+static void line(const Solid *capsule, const double *pose, const double *way, Edges *edges)
+{
+    double half = capsule->size[2], radius = capsule->size[3], tail[3], head[3];
+    double side[3] = {2 * half, 0.0, 0.0}, radial = planar_norm(way);
+    edges->total = CURVES_OF_ROUND;
+    if (side[0] * radial + 0.0 * way[2] < TURNED * norm(side))
+        return;
+    for (int i = 0; i < 3; i++) {
+        double outward = way[i] * (i < 2 ? 1.0 : 0.0) / radial, tip = half * (i < 2 ? 0.0 : 1.0);
+        tail[i] = radius * outward - tip;
+        head[i] = radius * outward + tip;
+    }
+    add(edges, 0, pose, tail, head);
+}
+
+/* `_of_polytope`: of faces that hold x and face a way; and those that hold x and are as level. */
+static void of_box(const Solid *box, const double *pose, const double *x, const double *way, Edges *edges)
+{
+    int on[FACES], facing[FACES];
+    edges->total = box->edges;
+    for (int64_t f = 0; f < box->faces; f++) {
+        const double *n = box->normals + 3 * f;
+        on[f] = dot(n, x) >= box->offsets[f] - OVER_FACE * *box->extent;
+        facing[f] = on[f] && dot(n, way) >= TURNED;
+    }
+    for (int64_t e = 0; e < box->edges; e++) {
+        const double *tail = box->vertices + 3 * box->ends[2 * e];
+        const double *head = box->vertices + 3 * box->ends[2 * e + 1];
+        int64_t one = box->sides[2 * e], other = box->sides[2 * e + 1];
+        double along[3];
+        difference(head, tail, along);
+        int level = on[one] && on[other] && fabs(dot(along, way)) <= LEVEL * norm(along);
+        if (facing[one] || facing[other] || level)
+            add(edges, e, pose, tail, head);
+    }
+}
+
+/* `edges`: those that may bear, in the world; n is out of the body. */
+static void of_body(const Solid *solid, const double *pose, const double *tip, const double *n, Edges *edges)
+{
+    double way[3], apart[3], x[3];
+    edges->count = 0;
+    turned_back(pose, n, way);
+    from_origin(pose, tip, apart);
+    turned_back(pose, apart, x);
+    if (solid->kind == CAPSULE)
+        line(solid, pose, way, edges);
+    else
+        of_box(solid, pose, x, way, edges);
+}
+
+static double triple(const double *a, const double *b, const double *n)
+{
+    double product[3];
+    cross(a, b, product);
+    return dot(product, n);
+}
+
+/* All crossings, with the pair's normal; their number. The first would have the number `first`. */
+int64_t crossings(const Pair *pair, const Contact *nearest, int64_t first, Contact *found)
+{
+    Edges on_a, on_b;
+    int64_t count = 0;
+    const double *n = nearest->n;
+    int flat_a = pair->a->kind == BOX || pair->a->kind == CAPSULE;
+    int flat_b = pair->b->kind == BOX || pair->b->kind == CAPSULE;
+    double back[3], w[3], apart[3];
+    if (!(flat_a && flat_b))
+        return 0;
+    negated(n, back);
+    of_body(pair->a, pair->at_a, nearest->alpha, n, &on_a);
+    of_body(pair->b, pair->at_b, nearest->beta, back, &on_b);
+    for (int64_t i = 0; i < on_a.count; i++)
+        for (int64_t j = 0; j < on_b.count; j++) {
+            const double *tail = on_a.tail + 3 * i, *u = on_a.way + 3 * i;
+            const double *start = on_b.tail + 3 * j, *v = on_b.way + 3 * j;
+            double steep = triple(u, v, n);
+            if (!(fabs(steep) > SKEW * norm(u) * norm(v)))
+                continue;
+            difference(start, tail, w);
+            double s = triple(w, v, n) / steep, t = triple(w, u, n) / steep;
+            if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1))
+                continue;
+            Contact *c = found + count++;
+            *c = *nearest;
+            moved_by(tail, s, u, c->alpha);
+            moved_by(start, t, v, c->beta);
+            difference(c->beta, c->alpha, apart);
+            c->phi = dot(apart, n);
+            c->point = first + 2 * (on_a.number[i] * on_b.total + on_b.number[j]);
+        }
+    return count;
+}
