@@ -72,8 +72,9 @@ def thresholds(
     step : callable
         From what is bisected, and a row of the sweep.
     sweep : ndarray, shape (N, k)
+        What varies, a row for each threshold [SI].
     limits : ndarray, shape (N,)
-        About where it is.
+        About where each threshold is [unit of what is bisected].
     within : (float, float)
         Between which multiples of that it is looked for [-].
     part : slice

@@ -90,7 +90,7 @@ def test_each_promise_is_judged_by_its_limit():
         "many": by_solver | proved,
         "alone": proved | {"over_solver": 5.0},
     }
-    judged = promises({"interfaces": INTERFACES, "solids": solids})[3:]
+    judged = promises({"interfaces": INTERFACES, "solids": solids})[2:]
     assert {p["what"]: p["holds"] for p in judged} == {
         "few, step over MuJoCo's": True,
         "many, step over the bare solver": False,

@@ -122,4 +122,6 @@ def test_more_than_half_a_turn_at_once_is_refused(load, tmp_path, changes, says,
         return
     with pytest.raises(ScenarioError) as caught:
         load_scenario(tmp_path / "scene.toml", changes)
-    assert str(caught.value).startswith(f"{tmp_path / 'scene.toml'}: bodies.{says} from where")
+    assert str(caught.value).startswith(
+        f"{tmp_path / 'scene.toml'}: bodies.{says} from the pose before"
+    )

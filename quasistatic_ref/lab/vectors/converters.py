@@ -69,7 +69,13 @@ def converted(layer: str, case: Json, output: Json, tangent: str, quaternion: st
 
 
 def xyzw(mechanism: Json, q: Json) -> Json:
-    """A configuration whose quaternions are [w, x, y, z], with [x, y, z, w]."""
+    """A configuration whose quaternions are [w, x, y, z], with [x, y, z, w].
+
+    Raises
+    ------
+    TypeError
+        If q is not a list.
+    """
     if not isinstance(q, list):
         raise TypeError("q must be a list")
     q = list(q)

@@ -11,7 +11,7 @@ CHALLENGE = ["challenge", "--command", "x"]
 BAD = [
     (["own", "--layer", "row", "--out", "out"], "did you mean 'rows'?"),
     (["generate", "--vectors", "nowhere", "--out", "out"], "no such file"),
-    (["check", "nowhere"], "no folder of answers"),
+    (["check", "nowhere"], "is not a folder of answers"),
     (["check", "."], "answers no layer"),
     ([*CHECK, "--layer", "row"], "did you mean 'rows'?"),
     ([*CHECK, "--vectors", "nowhere"], "expected"),

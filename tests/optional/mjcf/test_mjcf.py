@@ -190,7 +190,7 @@ def test_a_scenario_takes_mjcf_where_it_takes_a_urdf(arm):
     assert scenario.rises.loads.tolist() == [0.3]
     assert set(scenario.run(progress=False)["certificate"].tolist()) == {"exact"}
     for change, says in (
-        ({"bodies.arm.urdf": "arm.urdf"}, r"bodies.arm.mjcf: takes the place of urdf"),
+        ({"bodies.arm.urdf": "arm.urdf"}, r"bodies.arm.mjcf: cannot be combined with urdf"),
         ({"bodies.arm.mjcf": "none.xml"}, r"none.xml: MuJoCo refuses it"),
     ):
         with pytest.raises(InputError, match=says):
