@@ -39,16 +39,8 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_text
 from tests.oracles.attacked_steps import FAMILIES, singular, steps
 from tests.oracles.random_steps import any_step
-from tests.oracles.solution_truth import (
-    Judge,
-    combinations,
-    exact,
-    program,
-    proof,
-    proved,
-    rounded,
-    wrenches,
-)
+from tests.oracles.rational_kkt import exact, proved
+from tests.oracles.solution_truth import Judge, combinations, program, proof, rounded, wrenches
 from validation.tools.check_verifier import verdicts
 from validation.tools.scripts import asked, shown
 from validation.tools.verifier_files import Case, verify_refusal
