@@ -8,7 +8,6 @@ validation/results/second_order.jsonl, one a line, each engine in an environment
 
 from __future__ import annotations
 
-import shlex
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,7 @@ from tqdm import tqdm
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.parallel import Log
 from quasistatic_ref.lab.vectors.challenge.program import Program
-from validation.programs.engines.judge import ENGINES, HERE, python_of
+from validation.programs.engines.judge import program_of
 from validation.programs.engines.phenomena import answered
 from validation.programs.engines.second_order import (
     STUDY,
@@ -60,9 +59,8 @@ class Engines:
     def answer(self, run: Run) -> dict[str, Any]:
         """Poses and processor time of a run."""
         if run.engine not in self.programs:
-            adapter = str(HERE / ENGINES[run.engine]["adapter"])
-            command = shlex.join([python_of(run.engine, self.folder), adapter])
-            self.programs[run.engine] = Program(command, TIMEOUT).__enter__()
+            program = program_of(run.engine, self.folder, TIMEOUT)
+            self.programs[run.engine] = program.__enter__()
         setting = {"h": run.h, **STUDY["engines"][run.engine][run.setting]}
         program = self.programs[run.engine]
         return answered(program, scene_of(run.scene, run.speed), setting)

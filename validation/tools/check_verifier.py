@@ -23,6 +23,7 @@ import numpy as np
 
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.step.files import step_text
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file
 from validation.tools.browser import Browser
@@ -92,7 +93,7 @@ def check_page(site: Path) -> None:
     with TemporaryDirectory() as folder:
         cases = Cases(Path(folder))
         good = good_file(step, "exact")
-        text = cases.text(step)
+        text = step_text(step)
         forged = good | {
             "delta_q": [float(np.nextafter(good["delta_q"][0], 1)), *good["delta_q"][1:]]
         }
