@@ -12,8 +12,8 @@ from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.shapes.placed_shape import Box, PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.tolerances import CLOSED_FORM
-from validation.make.aligned_poses import UP, tries
-from validation.make.forces_by_hand import FAMILIES, attempts, wrong
+from validation.make.aligned_poses import UP, tries, wrong
+from validation.make.forces_by_hand import FAMILIES, attempts
 
 SIDE = 0.1
 CUBE = Box(np.full(3, SIDE / 2))

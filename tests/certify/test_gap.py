@@ -19,7 +19,8 @@ from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.tolerances import IMPULSES
 from tests.certify.test_rational import fraction
 from tests.oracles.random_steps import any_step
-from tests.oracles.solution_truth import dot, program, solved
+from tests.oracles.rational_kkt import dot, solved
+from tests.oracles.solution_truth import program
 
 
 def steps():

@@ -14,7 +14,4 @@ FAULTS = list(single_faults())
 def test_one_fault_is_enough_to_be_refused_and_a_rare_rounding_is_none(
     step, solution, reason, tmp_path
 ):
-    files = tmp_path / "step.json", tmp_path / "solution.json"
-    for path, text in zip(files, (step, solution), strict=True):
-        path.write_text(text)
-    assert (verify_refusal(*files) is None) == (reason == PROVED)
+    assert (verify_refusal(tmp_path, step, solution) is None) == (reason == PROVED)

@@ -8,8 +8,7 @@ from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
 from tests.tolerances import ROUNDING
-from validation.make.aligned_poses import FLAT, HALF, UP
-from validation.make.forces_by_hand import Scene, wrong
+from validation.make.aligned_poses import FLAT, HALF, UP, Scene, wrong
 
 ORIGIN = np.zeros(3)
 STRAIGHT = np.eye(3)

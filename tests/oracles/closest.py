@@ -33,6 +33,8 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 
 Array = np.ndarray
+TURNS = list(Rotation.create_group("O").as_matrix().round())
+"""The 24 quarter turns."""
 MEETING = 1e-8
 """A distance [m] that the cone program cannot tell from none."""
 
@@ -66,12 +68,11 @@ def poses(count: int, seed: int) -> Iterator[tuple[Array, Array]]:
     millionth, and the same place.
     """
     random = np.random.default_rng(seed)
-    turns = list(Rotation.create_group("O").as_matrix().round())
     for k in range(count):
         R = Rotation.random(random_state=random).as_matrix()
         t = random.normal(size=3) * 0.07
         if k % 2:
-            R = turns[random.integers(len(turns))]
+            R = TURNS[random.integers(len(TURNS))]
         if k % 8 == 3:
             R = Rotation.from_rotvec(1e-6 * random.normal(size=3)).as_matrix() @ R
         if k % 4 == 1:

@@ -11,7 +11,8 @@ from fractions import Fraction
 import mpmath as mp
 import numpy as np
 
-from tests.oracles.solution_truth import exact, program
+from tests.oracles.rational_kkt import exact
+from tests.oracles.solution_truth import program
 
 DIGITS = 60
 MOST = 200

@@ -1,86 +1,136 @@
-"""Answers of quadratic programs in fractions, by Python's integers alone: nothing of the package.
+"""Quadratic programs in fractions, each answer proved by Python's integers: nothing of the package.
 
 For a problem min 1/2 x'Hx - g'x subject to A x >= b with rows W that bear, the optimality
-conditions are H x - A_W' lam = g, A_W x = b_W, lam > 0 and A x >= b. The first two are solved
-without fractions by Bareiss' elimination, the others are signs of integers.
+conditions are H x - A_W' lam = g, A_W x = b_W, lam > 0 and A x >= b. FLINT solves the first two,
+whose solution is put into the equations here; the others are signs of fractions.
 """
 
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import lcm
+from typing import Any
 
 import numpy as np
+from flint import fmpz_mat
+
+Vector = list[Fraction]
+Matrix = list[Vector]
+Program = tuple[Matrix, Vector, Matrix, Vector]
+"""H, g, A and b."""
 
 
-def fractions_of(values):
-    """Float64 numbers as fractions, an array of the same shape."""
-    exact = [Fraction(v) for v in np.ravel(values).tolist()]
-    return np.array(exact, dtype=object).reshape(np.shape(values))
+def solved(M: Matrix, right: Vector) -> Vector:
+    """The solution of M x = right: FLINT finds it, and here it is put into the equations.
+
+    Raises
+    ------
+    ArithmeticError
+        If M is singular.
+    """
+    if not M:
+        return []
+    rows = [whole([*row, value]) for row, value in zip(M, right, strict=True)]
+    found = fmpz_mat([row[:-1] for row in rows]).solve(fmpz_mat([row[-1:] for row in rows]))
+    x = [Fraction(int(v.p), int(v.q)) for v in found.entries()]
+    *parts, unit = whole([*x, Fraction(1)])
+    for *row, value in rows:
+        assert sum(a * part for a, part in zip(row, parts, strict=True)) == value * unit
+    return x
 
 
-def solution(K, v):
-    """K^-1 v in fractions: each row in integers, eliminated by Bareiss' rule, then substituted."""
-    rows = []
-    for row, last in zip(K, v, strict=True):
-        whole = [*row, last]
-        common = lcm(*(entry.denominator for entry in whole))
-        rows.append(np.array([int(entry * common) for entry in whole], dtype=object))
-    size = len(rows)
-    before = 1
-    for k in range(size):
-        p = next(i for i in range(k, size) if rows[i][k])
-        rows[k], rows[p] = rows[p], rows[k]
-        for i in range(k + 1, size):
-            pivot = rows[k][k]
-            factor = rows[i][k]
-            rows[i][k:] = (pivot * rows[i][k:] - factor * rows[k][k:]) // before
-        before = rows[k][k]
-    found = np.empty(size, dtype=object)
-    for k in reversed(range(size)):
-        rest = sum(rows[k][j] * found[j] for j in range(k + 1, size))
-        found[k] = (rows[k][size] - rest) / Fraction(rows[k][k])
-    return found
+def whole(row: Vector) -> list[int]:
+    """A row times the least number that makes it whole."""
+    common = math.lcm(*(v.denominator for v in row))
+    return [v.numerator * (common // v.denominator) for v in row]
 
 
-def refutation(H, g, A, b, x, net, slack, lam):
+def dot(u: Vector, v: Vector) -> Fraction:
+    """The scalar product of two vectors."""
+    return sum((a * b for a, b in zip(u, v, strict=True)), Fraction(0))
+
+
+def exact(values: Any) -> Any:
+    """Float64 numbers as fractions, in nested lists."""
+    if isinstance(values, np.ndarray):
+        values = values.tolist()
+    return [exact(v) for v in values] if isinstance(values, list) else Fraction(values)
+
+
+def slacks(of: Program, x: Vector) -> Vector:
+    """A x - b."""
+    return [dot(row, x) - b for row, b in zip(of[2], of[3], strict=True)]
+
+
+def on_rows(of: Program, working: Sequence[int]) -> tuple[Vector, Vector]:
+    """The minimiser on A_i x = b_i of a working set, and its multipliers."""
+    H, g, A, b = of
+    n = len(g)
+    k = len(working)
+    K = [[*H[v], *(-A[i][v] for i in working)] for v in range(n)]
+    K += [[*A[i], *[Fraction(0)] * k] for i in working]
+    both = solved(K, [*g, *(b[i] for i in working)])
+    return both[:n], both[n:]
+
+
+def proved(of: Program, working: Sequence[int]) -> tuple[Vector, Vector, Vector]:
+    """The optimum, its multipliers on a working set, and all slacks.
+
+    Raises
+    ------
+    ArithmeticError
+        If the optimum is not that of the working set.
+    """
+    x, lam = on_rows(of, working)
+    slack = slacks(of, x)
+    if min([*lam, *slack], default=0) < 0:
+        raise ArithmeticError("a multiplier or a slack is negative")
+    return x, lam, slack
+
+
+def refutation(
+    H: np.ndarray,
+    g: np.ndarray,
+    A: np.ndarray,
+    b: np.ndarray,
+    x: np.ndarray,
+    net: np.ndarray,
+    slack: np.ndarray,
+    lam: np.ndarray,
+) -> str | None:
     """Why numbers in float64 are not the correctly rounded answer; None if they are.
 
     `lam` is read for which rows bear.
     """
-    W = np.flatnonzero(lam)
-    n = len(g)
-    k = len(W)
-    H, g, A, b = (fractions_of(part) for part in (H, g, A, b))
-    A_W = A[W]
-    corner = fractions_of(np.zeros((k, k)))
-    K = np.concatenate([np.hstack([H, -A_W.T]), np.hstack([A_W, corner])])
-    both = solution(K, [*g, *b[W]])
-    exact_x = both[:n]
-    exact_lam = both[n:]
-    if not all(value > 0 for value in exact_lam):
+    W = np.flatnonzero(lam).tolist()
+    of = exact(H), exact(g), exact(A), exact(b)
+    exact_x, exact_lam = on_rows(of, W)
+    if min(exact_lam, default=1) <= 0:
         return "a multiplier is not positive"
-    exact_slack = A @ exact_x - b
-    if not all(value >= 0 for value in exact_slack):
+    exact_slack = slacks(of, exact_x)
+    if min(exact_slack, default=0) < 0:
         return "a row is violated"
-    exact_net = A_W.T @ exact_lam if k else np.zeros(n)
+    exact_net = [dot(exact_lam, [of[2][i][v] for i in W]) for v in range(len(g))]
     pairs = {"x": (exact_x, x), "net": (exact_net, net), "slack": (exact_slack, slack),
              "lam": (exact_lam, lam[W])}  # fmt: skip
-    for name, (exact, said) in pairs.items():
-        if [float(value) for value in exact] != said.tolist():
+    for name, (value, said) in pairs.items():
+        if [float(v) for v in value] != said.tolist():
             return f"{name} is not rounded correctly"
     return None
 
 
-def farkas_refutation(A, b, y):
+def farkas_refutation(A: np.ndarray, b: np.ndarray, y: Mapping[Any, str]) -> str | None:
     """Why y, fractions by row as text, does not prove that A x >= b has no solution; else None.
 
     It does if y > 0, A'y = 0 and b'y > 0: then 0 = (A'y)'x >= b'y > 0 for any x.
     """
     rows = [int(i) for i in y]
-    weights = np.array([Fraction(value) for value in y.values()], dtype=object)
-    if not all(value > 0 for value in weights):
+    weights = [Fraction(value) for value in y.values()]
+    if min(weights) <= 0:
         return "a weight is not positive"
-    if any(fractions_of(A[rows]).T @ weights):
+    if any(dot(weights, exact(column)) for column in A[rows].T):
         return "A'y is not zero"
-    if not fractions_of(b[rows]) @ weights > 0:
+    if dot(weights, exact(b[rows])) <= 0:
         return "b'y is not positive"
     return None

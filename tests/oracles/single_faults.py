@@ -15,10 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.cli.solution_files import infeasible_text, solution_text
+from quasistatic_ref.cli.solution_files import infeasible_text
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step, free_step, point_step
-from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.files import step_sha256, step_text
 from tests.oracles.forged_scenes import facing, scenes
@@ -44,11 +43,6 @@ def single_faults() -> Iterator[Fault]:
 def fault(step: StepData, record: Any, reason: str) -> Fault:
     """A fault of a solution file."""
     return step_text(step), json.dumps(record), reason
-
-
-def solved(step: StepData) -> Any:
-    """The solution file of a step, which is right."""
-    return json.loads(solution_text(solve_step(step)))
 
 
 def in_the_files() -> Iterator[Fault]:
@@ -90,11 +84,11 @@ def rounded() -> Iterator[Fault]:
     tau, target = np.array([1.0, 1.0 + ulp]), np.full(2, ulp / 2)  # delta_q = tau + target
     for numbers in ((tau, target), (np.array([1.0, 0.0]), np.array([0.0, 3 * math.ulp(0.0)]))):
         step = actuated_step(np.eye(2), *numbers, no_contacts(2), 1.0)
-        yield fault(step, solved(step), PROVED)
+        yield fault(step, good_file(step, "exact"), PROVED)
     step = actuated_step([[4.0, 1.0], [1.0, 4.0]], (1.0, 2.0), (0.0, 0.0), no_contacts(2), 1.0)
     text = step_text(step).replace("4.0", "0.0")
     delta_q, own = [2.0, 1.0], hashlib.sha256(text.encode()).hexdigest()  # the saddle point
-    record = solved(step) | {"delta_q": delta_q, "step_sha256": own}
+    record = good_file(step, "exact") | {"delta_q": delta_q, "step_sha256": own}
     yield text, json.dumps(record), "K_q is not positive definite"
 
 
@@ -105,18 +99,20 @@ def on_other_rows() -> Iterator[Fault]:
         next(step for name, step in cases.items() if word in name)
         for word in ("bears nothing", "held back", "sticks")
     )
-    record = solved(idle)
+    record = good_file(idle, "exact")
     record["certificate"] |= {"active": [[0, 0]], "smallest_active_multiplier": 0.0}
     yield fault(idle, record, "a multiplier on the rows of active is not positive")
     free = held.replace(extra=Extra((), np.zeros((0, held.n_v)), np.zeros(0)))
-    record = solved(free) | {"step_sha256": step_sha256(held), "lam_extra": [0.0]}
+    record = good_file(free, "exact") | {"step_sha256": step_sha256(held), "lam_extra": [0.0]}
     yield fault(held, record, "the minimiser on the rows of active violates a row")
     for active, reason in (
         ([[0, 3], [0, 2]], "active is not in increasing order without repetition"),
         ([[0, 2], [0, 2]], "active is not in increasing order without repetition"),
         ([[0, i] for i in range(4)], "the rows of active are not independent"),
     ):
-        yield fault(sticks, put(solved(sticks), ("certificate", "active"), active), reason)
+        yield fault(
+            sticks, put(good_file(sticks, "exact"), ("certificate", "active"), active), reason
+        )
 
 
 def on_floor(across: float, mu_v: float = 0.5, copies: tuple[float, ...] = (0.0,)) -> StepData:
@@ -132,7 +128,10 @@ def on_floor(across: float, mu_v: float = 0.5, copies: tuple[float, ...] = (0.0,
 def stuck(step: StepData, lam: list[list[float]], active: list[list[int]], gap: float) -> Any:
     """The file of a body that stays where it is."""
     certificate = {"kind": "exact", "active": active, "error_bound": 0.0, "gap": gap}
-    record = solved(on_floor(0.0)) | {"step_sha256": step_sha256(step), "delta_q": [0.0] * 3}
+    record = good_file(on_floor(0.0), "exact") | {
+        "step_sha256": step_sha256(step),
+        "delta_q": [0.0] * 3,
+    }
     return with_its_wrenches(step, record | {"lam": lam, "certificate": certificate})
 
 

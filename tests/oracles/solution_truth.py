@@ -1,20 +1,19 @@
 """What a solution file claims, decided by fractions from the equations: the judge of forgeries.
 
 H, g, A and b are formed by plain loops, which no rounding and no line of the core enters, from the
-plain program's table of each cone; solutions of linear systems are checked. The optimum of a
-polyhedral cone is proved here from the working set that a file or the package names: all
-multipliers and slacks are at least zero. In the ellipsoid the package encloses it to 40 digits.
+plain program's table of each cone. The optimum of a polyhedral cone is proved from the working set
+that a file or the package names: all multipliers and slacks are at least zero. In the ellipsoid
+the package encloses it to 40 digits.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-from flint import arb, fmpz_mat
+from flint import arb
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
@@ -22,11 +21,19 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
 from quasistatic_ref.step.data import StepData
+from tests.oracles.rational_kkt import (
+    Matrix,
+    Program,
+    Vector,
+    dot,
+    exact,
+    on_rows,
+    proved,
+    slacks,
+    solved,
+)
 
 Json = Any
-Vector = list[Fraction]
-Matrix = list[Vector]
-Program = tuple[Matrix, Vector, Matrix, Vector]
 
 MAY_CHANGE = {
     "exact": (),
@@ -38,43 +45,6 @@ MAY_CHANGE = {
 """What a file of each kind does not fix to the last bit."""
 ROUNDING = 1 + Fraction(1, 10**30)
 """The optimum in the ellipsoid is known to 40 digits here."""
-
-
-def solved(M: Matrix, right: Vector) -> Vector:
-    """The solution of M x = right: FLINT finds it, and here it is put into the equations.
-
-    Raises
-    ------
-    ArithmeticError
-        If M is singular.
-    """
-    if not M:
-        return []
-    rows = [whole([*row, value]) for row, value in zip(M, right, strict=True)]
-    found = fmpz_mat([row[:-1] for row in rows]).solve(fmpz_mat([row[-1:] for row in rows]))
-    x = [Fraction(int(v.p), int(v.q)) for v in found.entries()]
-    *parts, unit = whole([*x, Fraction(1)])
-    for *row, value in rows:
-        assert sum(a * part for a, part in zip(row, parts, strict=True)) == value * unit
-    return x
-
-
-def whole(row: Vector) -> list[int]:
-    """A row times the least number that makes it whole."""
-    common = math.lcm(*(v.denominator for v in row))
-    return [v.numerator * (common // v.denominator) for v in row]
-
-
-def dot(u: Vector, v: Vector) -> Fraction:
-    """The scalar product of two vectors."""
-    return sum((a * b for a, b in zip(u, v, strict=True)), Fraction(0))
-
-
-def exact(values: Any) -> Any:
-    """Float64 numbers as fractions, in nested lists."""
-    if isinstance(values, np.ndarray):
-        values = values.tolist()
-    return [exact(v) for v in values] if isinstance(values, list) else Fraction(values)
 
 
 def combinations(step: StepData) -> list[Matrix]:
@@ -119,32 +89,6 @@ def program(step: StepData) -> Program:
             A.append([dot(row, [motion[k][v] for k in range(4)]) for v in range(n)])
             b.append(-row[0] * exact(c.phi)[j])
     return H, g, A + exact(step.extra.A), b + exact(step.extra.b)
-
-
-def on_rows(of: Program, working: Sequence[int]) -> tuple[Vector, Vector]:
-    """The minimiser on A_i x = b_i of a working set, and its multipliers."""
-    H, g, A, b = of
-    n = len(g)
-    k = len(working)
-    K = [[*H[v], *(-A[i][v] for i in working)] for v in range(n)]
-    K += [[*A[i], *[Fraction(0)] * k] for i in working]
-    both = solved(K, [*g, *(b[i] for i in working)])
-    return both[:n], both[n:]
-
-
-def proved(of: Program, working: Sequence[int]) -> tuple[Vector, Vector, Vector]:
-    """The optimum, its multipliers on a working set, and all slacks.
-
-    Raises
-    ------
-    ArithmeticError
-        If the optimum is not that of the working set.
-    """
-    x, lam = on_rows(of, working)
-    slack = [dot(row, x) - b for row, b in zip(of[2], of[3], strict=True)]
-    if min([*lam, *slack], default=0) < 0:
-        raise ArithmeticError("a multiplier or a slack is negative")
-    return x, lam, slack
 
 
 def wrenches(step: StepData, lam: list[list[float]]) -> list[list[float]]:
@@ -251,7 +195,7 @@ class Judge:
         lam = self.lam(record)
         push = [dot(lam, [row[v] for row in self.A]) for v in range(len(self.g))]
         left = [dot(row, self.x) - g - p for row, g, p in zip(self.H, self.g, push, strict=True)]
-        slack = [dot(row, self.x) - b for row, b in zip(self.A, self.b, strict=True)]
+        slack = slacks((self.H, self.g, self.A, self.b), self.x)
         return dot(left, solved(self.H, left)) / 2 + dot(lam, slack)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
-from tests.oracles.solution_truth import dot, exact
+from tests.oracles.rational_kkt import dot, exact
 
 PROBLEMS = 320
 

@@ -39,16 +39,8 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.files import step_read, step_text
 from tests.oracles.attacked_steps import FAMILIES, singular, steps
 from tests.oracles.random_steps import any_step
-from tests.oracles.solution_truth import (
-    Judge,
-    combinations,
-    exact,
-    program,
-    proof,
-    proved,
-    rounded,
-    wrenches,
-)
+from tests.oracles.rational_kkt import exact, proved
+from tests.oracles.solution_truth import Judge, combinations, program, proof, rounded, wrenches
 from validation.tools.check_verifier import verdicts
 from validation.tools.scripts import asked, shown
 from validation.tools.verifier_files import Case, verify_refusal
@@ -78,7 +70,8 @@ class Attack:
     """
 
     def __init__(self, name: str, folder: str) -> None:
-        self.name, self.paths = name, [Path(folder) / part for part in ("step", "solution")]
+        self.name = name
+        self.folder = Path(folder)
         self.counts = Counter[str]()
         self.wrong: list[str] = []
         self.cases: list[Case] = []
@@ -102,12 +95,6 @@ class Attack:
         except Exception as error:  # whatever it is: a traceback
             self.add("a traceback", False, f"{error!r} {step_text(step)}")
         return None
-
-    def refused(self, step: str, solution: str) -> str | None:
-        """Why `verify` of the package refuses two texts; None if it verifies them."""
-        for path, text in zip(self.paths, (step, solution), strict=True):
-            path.write_text(text)
-        return verify_refusal(*self.paths)
 
     def ask(self, step: str, solution: str, begins: str = "every field is proved") -> None:
         """Keep two texts for ``verify.js``, whose reason has to begin so."""
@@ -175,7 +162,8 @@ def exact_answers(attack: Attack, family: str, number: int, first: int = 0) -> N
                 holds = json.dumps(right_file(step, record)) == json.dumps(record)
             except ArithmeticError:
                 holds = False
-        attack.add(record["status"], holds and attack.refused(text, file) is None, text)
+        holds = holds and verify_refusal(attack.folder, text, file) is None
+        attack.add(record["status"], holds, text)
         attack.ask(text, file)
 
 
@@ -201,7 +189,7 @@ def bounds(attack: Attack, family: str, number: int, first: int = 0) -> None:
         except ArithmeticError:  # without an optimum, or without a load
             holds = False
         holds = holds and record["wrench"] == wrenches(step, record["lam"])
-        attack.add("bounded", holds and attack.refused(text, file) is None, text)
+        attack.add("bounded", holds and verify_refusal(attack.folder, text, file) is None, text)
 
 
 def matrices(attack: Attack, key: str, number: int, first: int = 0) -> None:
@@ -214,9 +202,10 @@ def matrices(attack: Attack, key: str, number: int, first: int = 0) -> None:
         S = singular(rng, n)
         step = any_step(rng, *sizes, n_c)
         text = json.dumps(json.loads(step_text(step)) | {key: S.tolist()})
-        attack.paths[0].write_text(text)
+        path = attack.folder / "step.json"
+        path.write_text(text)
         try:
-            read = step_read(attack.paths[0])
+            read = step_read(path)
         except InputError as error:
             holds = not positive_definite(S) and "must be positive definite" in str(error)
             attack.add("refused", holds, f"{error} {text}")
@@ -229,7 +218,7 @@ def matrices(attack: Attack, key: str, number: int, first: int = 0) -> None:
             if file is None:
                 continue
             claims = certify == "full" or (certify == "residual" and ": null" not in file)
-            said = attack.refused(text, file) if claims else None
+            said = verify_refusal(attack.folder, text, file) if claims else None
             outcome = "verified" if claims else "nothing claimed"
             attack.add(f"{certify}: {outcome}", said is None, f"{said} {text}")
             if certify == "full":

@@ -125,28 +125,29 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     form = exact_form(step)
     hessian = BallHessian(step)
     truth = form_optimum(form)
+
+    def answers(guess: list[int]) -> tuple[ExactOptimum | None, ExactOptimum | None]:
+        """What is confirmed and what compiled code proves, each compared with the exact method."""
+        found = confirmed_answer(step, guess, hessian), compiled_answer(step, guess)
+        for one in found:
+            if one is not None and (wrong := differing(one, form_optimum(form, guess))):
+                faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
+        return found
+
     if isinstance(truth, Farkas):
         found["infeasible"] += 1
         right: list[int] = []
     else:
         found["optima"] += 1
         right = list(truth.working_set)
-        answer = confirmed_answer(step, right, hessian)
-        proved = compiled_answer(step, right)
+        answer, proved = answers(right)
         found["left open" if answer is None else "confirmed"] += 1
         found["compiled"] += proved is not None
-        for one in (answer, proved):
-            if one is not None and (wrong := differing(one, form_optimum(form, right))):
-                faults.append(f"{kind}, step {seed}: {', '.join(wrong)}")
     for guess in wrong_sets(rng, right, form.m):
-        answer = confirmed_answer(step, guess, hessian)
-        proved = compiled_answer(step, guess)
+        answer, proved = answers(guess)
         found["wrong sets"] += 1
         found["refused" if answer is None else "also right"] += 1
         found["proved too"] += proved is not None
-        for one in (answer, proved):
-            if one is not None and (wrong := differing(one, form_optimum(form, guess))):
-                faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
         if (near := nearby_answer(step, guess, hessian, by_code=False)) is not None:
             found["nearby"] += 1
             may = NEARBY if near.multipliers_unique else OTHERS

@@ -15,36 +15,25 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import combinations, product
-from typing import NamedTuple
 
 import numpy as np
 from tqdm import tqdm
 
-from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder, Shape
-from quasistatic_ref.tolerances import CLOSED_FORM
 from validation.make.aligned_poses import (
     EDGE,
     FLAT,
     HALF,
     LENGTHS,
-    MASS,
-    OVER,
-    SQUARE,
-    TIPPED,
     UP,
+    WEIGHT,
     Array,
-    G,
-    H,
-    step_of,
+    Scene,
+    on_top,
+    wrong,
 )
 
-WEIGHT = np.array([0.0, 0.0, -MASS * G])
-INERTIA = MASS * EDGE**2 / 6
-"""Of a cube about each axis, whatever the shape [kg m^2]."""
-MOTION = 1e-15
-"""Of motions [m, rad], which are differences of places of a metre."""
 CONTACTS = ((1, 0.0), (4, 0.0), (8, 0.0), (12, 0.0), (4, 0.5))
 """Contacts of a pair, and mu_v."""
 INTRODUCTION = """# Forces by hand
@@ -55,26 +44,6 @@ friction 0.5, with insets and depths of 0, 1e-9, 1e-6 and 1e-3 m
 clouds that are as deep as their inset, whose points have faces of their own, and walls with
 friction whose cubes push aside those that they slide past.
 """
-
-
-class Scene(NamedTuple):
-    """Bodies of which the first N are free.
-
-    Parameters
-    ----------
-    bodies : list of (Shape, R, t)
-    normals : dict of (alpha, beta) to ndarray, shape (3,)
-        Of what touches, by numbers of bodies.
-    motion : ndarray, shape (N, 3)
-        What is known to happen with faces on each other [m].
-    load : ndarray, shape (3,)
-        On each body [N].
-    """
-
-    bodies: list[tuple[Shape, Array, Array]]
-    normals: dict[tuple[int, int], Array]
-    motion: Array
-    load: Array = WEIGHT
 
 
 def slab() -> tuple[Shape, Array, Array]:
@@ -131,17 +100,6 @@ def corner(mu_v: float, inset: float, depth: float) -> Scene:
     return Scene([(box, np.eye(3), np.zeros(3)), *fixed], normals, motion, [-1.5, -2.5, WEIGHT[2]])
 
 
-def base_on_base(low: str, top: str, inset: float, depth: float) -> Scene:
-    """A base on a base; the corners of a square one are on the rim of a circular one."""
-    on_rim = top in SQUARE and low not in SQUARE
-    half = HALF / np.sqrt(2) - 1e-12 if on_rim else HALF
-    bodies = [
-        (FLAT[top](half - inset), np.eye(3), (EDGE - depth) * UP),
-        (FLAT[low](HALF), OVER if low in TIPPED else np.eye(3), np.zeros(3)),
-    ]
-    return Scene(bodies, {(1, 0): UP}, depth * UP[None])
-
-
 BOND = [(0, 1, 2), (0.5, 1.5), (1,)]
 FLUSH = [(0, 1), (0, 1)]
 FAMILIES: dict[str, Callable[[float, float], Scene]] = {
@@ -153,48 +111,10 @@ FAMILIES: dict[str, Callable[[float, float], Scene]] = {
     "a flush wall": partial(wall, FLUSH),
     "a box in a corner": partial(corner, 0.0),
     **{
-        f"{top} on {low}": partial(base_on_base, low, top)
+        f"{top} on {low}": partial(on_top, low, top)
         for low, top in product(FLAT, repeat=2) if low != "cloud"
     },
 }  # fmt: skip
-
-
-def wrong(scene: Scene, k: int, mu_v: float) -> str:
-    """What differs from what is known; nothing if it is empty."""
-    count = len(scene.motion)
-    places = np.array([t for _, _, t in scene.bodies])
-    gravity = (np.asarray(scene.load) / MASS).tolist()
-    try:
-        result = step_of(scene.bodies, count, scene.normals, k, mu_v, gravity=gravity)
-    except QuasistaticError as error:
-        return f"{type(error).__name__}: {error}"
-    c = result.step.contacts
-    points = result.points
-    wrench = result.solution.wrench
-    bodies = np.array([[int(i) for i in name.split("/")[0].split("-")] for name in c.name])
-    n = np.array([scene.normals[a, b] for a, b in bodies])
-    bears = wrench[:, 2] != 0.0
-    if np.abs(c.n - n)[bears].max(initial=0.0) > CLOSED_FORM:
-        return "a normal"
-    moved = np.zeros((len(places), 6))  # translations, then rotations
-    moved[:count] = result.solution.delta_q.reshape(count, 6)
-    force = (wrench[:, :3, None] * np.stack([c.d1, c.d2, n], axis=1)).sum(axis=1)
-    net = np.zeros_like(moved)
-    closes = points.phi.copy()
-    for body, r, sign in ((bodies[:, 0], points.alpha, -1.0), (bodies[:, 1], points.beta, 1.0)):
-        lever = r - places[body]
-        np.add.at(net, body, sign * np.hstack([force, np.cross(lever, force)]))
-        velocity = moved[body, :3] + np.cross(moved[body, 3:], lever)
-        closes += sign * (n * velocity).sum(axis=1)
-    asked = moved[:count] * np.repeat([MASS, INERTIA], 3) / H**2
-    asked[:, :3] -= scene.load
-    if np.abs(net[:count] - asked).max() > CLOSED_FORM * np.abs(wrench).sum():
-        return "Newton's law"
-    if k > 1:
-        known = np.hstack([scene.motion, np.zeros_like(scene.motion)])
-        return "motion" if np.abs(moved[:count] - known).max() > MOTION else ""
-    impossible = (closes < -MOTION) | (bears & (closes > MOTION)) | (wrench[:, 2] < 0)
-    return "action" if impossible.any() else ""
 
 
 def attempts(name: str) -> Iterator[tuple[Scene, int, float]]:

@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.measures import slope
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.lab.study.measuring.environment import machine
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
@@ -111,10 +113,20 @@ def name(shape: Shape) -> str:
     return str(shape[0]) if shape[1:] == (1, 1) else " x ".join(map(str, shape))
 
 
-def print_table(rows: list[list[str]]) -> None:
-    """A Markdown table."""
-    head, *body = (f"| {' | '.join(row)} |" for row in rows)
-    print(head, "|" + "---|" * len(rows[0]), *body, sep="\n", flush=True)
+def print_table(rows: Sequence[Sequence[str]]) -> None:
+    """A Markdown table, whose first row is its head."""
+    print(*markdown_table(rows[0], rows[1:]), sep="\n", flush=True)
+
+
+def promises_kept(measured: Iterable[tuple[str, float, float]]) -> bool:
+    """Print what is promised, with what was measured and its limit; whether all of it holds."""
+    print("\n## Promises\n")
+    rows = [("promise", "measured", "at most", "verdict")]
+    for promise, value, limit in measured:
+        verdict = "holds" if value <= limit else "FAILS"
+        rows.append((promise, f"{value:.3g}", f"{limit:g}", verdict))
+    print_table(rows)
+    return all(row[3] == "holds" for row in rows[1:])
 
 
 def by_way() -> None:
@@ -183,14 +195,10 @@ def main() -> int:
     )
     by_way()
     bodies, heap = large()
-    print("\n## Promises\n")
     measured = [(f"heap of {name(LARGEST)}, first [ms]", heap, HEAP_LIMIT)]
     for what, found in (("bodies", bodies), ("contacts", in_contacts())):
         measured += [(f"exponent in {what}, {b}", v, EXPONENT_LIMIT) for b, v in found.items()]
-    rows = [["promise", "measured", "at most", "verdict"]]
-    rows += [[w, f"{v:.3g}", f"{at:g}", "holds" if v <= at else "FAILS"] for w, v, at in measured]
-    print_table(rows)
-    return int(any(value > limit for _, value, limit in measured))
+    return int(not promises_kept(measured))
 
 
 if __name__ == "__main__":

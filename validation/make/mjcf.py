@@ -23,6 +23,7 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.step.data import Array
+from validation.make.random_mechanisms import error
 from validation.tools.scripts import asked, shown
 
 PACKAGES = ("gymnasium==1.4.0", "dm_control==1.0.50")
@@ -124,14 +125,14 @@ def differences(path: Path, count: int, seed: int = 0) -> Differences:
                        np.abs(R - data.xmat[i].reshape(3, 3)).max())  # fmt: skip
             own = np.zeros((2, 3, model.nv))
             mujoco.mj_jacBody(model, data, own[0], own[1], i)
-            jacobian = max(jacobian, off(J, np.vstack(own) @ T))
+            jacobian = max(jacobian, error(J, np.vstack(own) @ T))
             arm = R @ system.centres[k]
             linear = J[:3] - np.cross(arm, J[3:], axisb=0, axisc=0)
             M += system.masses[k] * linear.T @ linear
             M += J[3:].T @ R @ system.inertias[k] @ R.T @ J[3:]
         full = np.zeros((model.nv, model.nv))
         mujoco.mj_fullM(model, data, full)
-        inertia = off(M, T.T @ (full - np.diag(model.dof_armature)) @ T)
+        inertia = error(M, T.T @ (full - np.diag(model.dof_armature)) @ T)
         near = 0.0
         curved = 0.0
         for pair, g, other in pairs:
@@ -140,18 +141,12 @@ def differences(path: Path, count: int, seed: int = 0) -> Differences:
             if not exact and apart <= 0:
                 continue  # a rail through a box is as deep as its radius there
             try:
-                error = abs(float(closest_points([pair], kinematics).phi[0]) - apart)
+                off = abs(float(closest_points([pair], kinematics).phi[0]) - apart)
             except ContactError:  # neighbours that cross at a joint have no normal
                 continue
-            near, curved = (max(near, error), curved) if exact else (near, max(curved, error))
+            near, curved = (max(near, off), curved) if exact else (near, max(curved, off))
         worst = np.maximum(worst, [pose, jacobian, inertia, near, curved])
     return Differences(system.n_v, len(system.shapes), len(system.ignored), mass, *worst.tolist())
-
-
-def off(found: Array, expected: Array) -> float:
-    """The largest difference over the largest entry [-]."""
-    size = np.abs(expected).max(initial=0.0)
-    return float(np.abs(found - expected).max(initial=0.0) / (size or 1.0))
 
 
 def shape_pairs(

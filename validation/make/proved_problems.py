@@ -3,7 +3,7 @@
 Run ``python -m validation.make.proved_problems``; some minutes. ``--every N`` takes each N-th
 problem only. The first proof is that of ``study problems check --exact``. The second shares no code
 with it, nor with the package: the files are read by the lines of the set's README, and the
-optimality conditions are solved in integers.
+solution of the optimality conditions is proved in integers.
 Exit status 1 if an answer is refuted.
 """
 

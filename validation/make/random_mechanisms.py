@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.program.mechanism import kinematics, point_jacobian, slices
 from quasistatic_ref.lab.program.step import loads
 from quasistatic_ref.lab.vectors.families.mechanisms import random_q, random_tree
@@ -191,12 +192,12 @@ def report(count: int) -> str:
         with_mimic += own["mimic joints"] > 0
     worst = np.array(errors)
     lines = [f"{count} random mechanisms, {with_mimic} of them with mimic joints.", "", WORDS]
-    lines += ["| quantity | first call | tenth call | any call |", "|---|---|---|---|"]
-    for k, name in enumerate(QUANTITIES):
-        one = worst[:, :, k]
-        lines.append(
-            f"| {name} | {one[:, 0].max():.0e} | {one[:, -1].max():.0e} | {one.max():.0e} |"
-        )
+    columns = worst[:, 0], worst[:, -1], worst.max(axis=1)
+    rows = [
+        (name, *(f"{column[:, k].max():.0e}" for column in columns))
+        for k, name in enumerate(QUANTITIES)
+    ]
+    lines += markdown_table(("quantity", "first call", "tenth call", "any call"), rows)
     lines += ["", f"Equal bits at the first and the tenth call: {same} of {count}.", ""]
     lines += ["; ".join(f"{name}: {number}" for name, number in kinds.items()) + "."]
     return "\n".join(lines)

@@ -8,8 +8,8 @@ validation/results/second_order.jsonl, one a line, each engine in an environment
 
 from __future__ import annotations
 
-import shlex
 import tempfile
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ from tqdm import tqdm
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.parallel import Log
 from quasistatic_ref.lab.vectors.challenge.program import Program
-from validation.programs.engines.judge import ENGINES, HERE, python_of
+from validation.programs.engines.judge import program_of
 from validation.programs.engines.phenomena import answered
 from validation.programs.engines.second_order import (
     STUDY,
@@ -49,20 +49,15 @@ class Engines:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self.started = ExitStack()
         self.programs: dict[str, Program] = {}
         self.references: dict[tuple[str, float], Motion] = {}
-
-    def close(self) -> None:
-        """End all programs."""
-        for program in self.programs.values():
-            program.__exit__(None, None, None)
 
     def answer(self, run: Run) -> dict[str, Any]:
         """Poses and processor time of a run."""
         if run.engine not in self.programs:
-            adapter = str(HERE / ENGINES[run.engine]["adapter"])
-            command = shlex.join([python_of(run.engine, self.folder), adapter])
-            self.programs[run.engine] = Program(command, TIMEOUT).__enter__()
+            program = program_of(run.engine, self.folder, TIMEOUT)
+            self.programs[run.engine] = self.started.enter_context(program)
         setting = {"h": run.h, **STUDY["engines"][run.engine][run.setting]}
         program = self.programs[run.engine]
         return answered(program, scene_of(run.scene, run.speed), setting)
@@ -105,13 +100,11 @@ def main() -> None:
     )
     with tempfile.TemporaryDirectory() as temporary:
         engines = Engines((given.environments or Path(temporary)).absolute())
-        try:
+        with engines.started:
             for run in tqdm([one for one in wanted if one not in log.found]):
                 log.add(engines.row(run))
                 if given.count:
                     print(log.found[run])
-        finally:
-            engines.close()
     if not given.count:
         text_written(RESULTS.with_suffix(".md"), tables(rows()))
 

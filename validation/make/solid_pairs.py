@@ -39,7 +39,6 @@ GAPS = (0.0, 1e-16, 1e-13, -1e-13, 1e-9, -1e-9, 1e-6, -1e-3)
 MIDDLES = (0.0, 1e-13, 1e-10)
 """Distances of the middles of solids that are all but in one place [m]."""
 KEPT = (1, 4, 16)
-TURNS = list(Rotation.create_group("O").as_matrix().round())
 COLUMNS = ("poses", "decided", "refused", "different", "compiled [us]", "plain [us]")
 INTRODUCTION = """# Pairs of solids in compiled code
 
@@ -78,7 +77,7 @@ def poses(a: Shape, b: Shape, count: int, seed: int) -> Iterator[tuple[Array, Ar
                 t = t + (random.choice(GAPS) - found.phi) * found.n
             except ContactError:
                 pass
-        W = TURNS[random.integers(24)] if i % 3 else Rotation.random(rng=random).as_matrix()
+        W = closest.TURNS[random.integers(24)] if i % 3 else Rotation.random(rng=random).as_matrix()
         shift = (random.integers(-2, 3, 3) / 4) * (i % 5 != 0)
         yield np.stack([W, W @ R]), np.stack([shift, W @ t + shift])
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.bench.profile import PARTS, SOLVE, Microseconds, measured, share
 from quasistatic_ref.lab.study.measuring.environment import machine
 
@@ -28,10 +29,9 @@ def main() -> int:
     for title, of_profile in (("Medians", "typical"), ("Means", "mean")):
         print(f"\n## {title}\n")
         names = ("backend, distances", *PARTS, "step", "solve [%]", "call alone [%]")
-        print(f"| {' | '.join(names)} |")
-        print("|" + "---|" * len(names))
-        for profile in found["profiles"].all:
-            print(f"| {profile.name} | {' | '.join(_row(getattr(profile, of_profile)))} |")
+        profiles = found["profiles"].all
+        rows = [(profile.name, *_row(getattr(profile, of_profile))) for profile in profiles]
+        print(*markdown_table(names, rows), sep="\n")
     return 0
 
 

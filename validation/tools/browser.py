@@ -35,6 +35,12 @@ def browser_path() -> str:
     sys.exit("no Chromium on this machine: install Debian's package chromium")
 
 
+def check(wrong: bool, sentence: str) -> None:
+    """End the script with a sentence if something of a page is wrong."""
+    if wrong:
+        sys.exit(f"the page is wrong: {sentence}")
+
+
 class Browser:
     """A page in a headless browser; a context that ends the browser.
 

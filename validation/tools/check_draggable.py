@@ -12,7 +12,7 @@ import numpy as np
 
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.solve.solve import solve_step
-from validation.tools.browser import Browser
+from validation.tools.browser import Browser, check
 
 PAGE = Path(__file__).parents[2] / "docs" / "draggable" / "draggable.html"
 GRAVITY = 9.81
@@ -21,12 +21,6 @@ SAME = 1e-9
 """Largest difference, relative to the free motion: both are closed forms, or exact answers."""
 SETTLED = 200
 """Steps after which the gap no longer changes: it loses a fourth at least in each."""
-
-
-def check(wrong: bool, sentence: str) -> None:
-    """End the script with a sentence if something is wrong."""
-    if wrong:
-        sys.exit(f"the draggable page is wrong: {sentence}")
 
 
 def slid(browser: Browser, **values: float) -> dict:

@@ -23,9 +23,10 @@ import numpy as np
 
 from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.step.files import step_text
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file
-from validation.tools.browser import Browser
+from validation.tools.browser import Browser, check
 from validation.tools.scripts import asked
 from validation.tools.verifier_files import Case, Cases, all_cases
 
@@ -81,8 +82,7 @@ def page_verdicts(site: Path, cases: list[Case]) -> list[str]:
             browser.ask("DOM.setFileInputFiles", nodeId=node, files=[str(path) for path in paths])
             browser.until("document.getElementById('said').textContent !== ''")
             found.append(browser.value("document.getElementById('said').textContent"))
-        if faults := browser.faults():
-            sys.exit(f"the page is wrong: {faults}")
+        check(bool(browser.faults()), "; ".join(browser.faults()))
     return found
 
 
@@ -92,14 +92,14 @@ def check_page(site: Path) -> None:
     with TemporaryDirectory() as folder:
         cases = Cases(Path(folder))
         good = good_file(step, "exact")
-        text = cases.text(step)
+        text = step_text(step)
         forged = good | {
             "delta_q": [float(np.nextafter(good["delta_q"][0], 1)), *good["delta_q"][1:]]
         }
         texts = [json.dumps(record) for record in (good, forged)]
         said = page_verdicts(site, [cases.case("page", text, record) for record in texts])
-    if [sentence.split(":")[0] for sentence in said] != ["verified", "refused"]:
-        sys.exit(f"the page is wrong: {said}")
+    verdicts = [sentence.split(":")[0] for sentence in said]
+    check(verdicts != ["verified", "refused"], str(said))
     print("in the page a true solution is verified, and a forged one refused")
 
 

@@ -22,7 +22,7 @@ from quasistatic_ref.optional.show.figures.viewer import FRAMES_PER_SECOND, LONG
 from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
-from validation.tools.browser import Browser
+from validation.tools.browser import Browser, check
 
 SCENES = {
     "bunny_grasp": ["steps=120"],
@@ -38,12 +38,6 @@ COLOURS = 50
 
 Z_UP = np.array([[1.0, 0, 0, 0], [0, 0, -1.0, 0], [0, 1.0, 0, 0], [0, 0, 0, 1.0]])
 """From the frame of three.js, whose y is up, to the world's."""
-
-
-def check(wrong: bool, sentence: str) -> None:
-    """End the script with a sentence if something is wrong."""
-    if wrong:
-        sys.exit(f"the viewer page is wrong: {sentence}")
 
 
 def matrix(browser: Browser, path: list[str]) -> np.ndarray:

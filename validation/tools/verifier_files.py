@@ -15,11 +15,12 @@ import numpy as np
 from quasistatic_ref.cli.solution_files import infeasible_text, solution_read, solution_text
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible, StepNotSolved
 from quasistatic_ref.lab.vectors.files import inputs_read
+from quasistatic_ref.lab.vectors.layers.qp import step_of
 from quasistatic_ref.lab.vectors.own.step import posed_case
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra, StepData
-from quasistatic_ref.step.files import step_read, step_written
+from quasistatic_ref.step.files import step_read, step_text
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import at_random, forgeries, good_file, refutation
 from tests.oracles.random_steps import mixed_step
@@ -42,11 +43,14 @@ class Case(NamedTuple):
     reason: str = ""
 
 
-def verify_refusal(step: Path, solution: Path) -> str | None:
-    """Why the command `verify` refuses two files; None where it does not."""
+def verify_refusal(folder: Path, step: str, solution: str) -> str | None:
+    """Why the command `verify` refuses two texts, as files of a folder; None where it does not."""
+    paths = folder / "step.json", folder / "solution.json"
+    for path, text in zip(paths, (step, solution), strict=True):
+        path.write_text(text)
     try:
-        posed = step_read(step)
-        return refutation(posed, solution_read(solution, posed))
+        posed = step_read(paths[0])
+        return refutation(posed, solution_read(paths[1], posed))
     except InputError as error:
         return str(error)
 
@@ -55,29 +59,23 @@ class Cases:
     """Cases from steps and records, judged by `verify` in a folder of their own."""
 
     def __init__(self, folder: Path) -> None:
-        self.step = folder / "step.json"
-        self.solution = folder / "solution.json"
+        self.folder = folder
 
     def case(
         self, family: str, step: str, solution: str, forged: frozenset[str] = frozenset()
     ) -> Case:
         """Two texts and what `verify` says of them."""
-        self.step.write_text(step)
-        self.solution.write_text(solution)
-        return Case(family, step, solution, verify_refusal(self.step, self.solution), forged)
-
-    def text(self, step: StepData) -> str:
-        """A step's file."""
-        return step_written(self.step, step).read_text()
+        refusal = verify_refusal(self.folder, step, solution)
+        return Case(family, step, solution, refusal, forged)
 
     def solved(self, family: str, step: StepData) -> Iterator[Case]:
         """A step with its exact solution, or with the proof that it has none."""
         try:
-            yield self.case(family, self.text(step), solution_text(solve_step(step)))
+            yield self.case(family, step_text(step), solution_text(solve_step(step)))
         except StepInfeasible as proof:
             if proof.farkas is not None and proof.farkas.exact is not None:
                 text = infeasible_text(step, proof.farkas.exact)
-                yield self.case(f"{family}, infeasible", self.text(step), text)
+                yield self.case(f"{family}, infeasible", step_text(step), text)
         except (StepIllPosed, StepNotSolved):
             return
 
@@ -85,7 +83,7 @@ class Cases:
         """Each kind of solution as it is and forged, one field at a time and several at random."""
         for (kind, _), step in scenes(every=every == 1).items():
             good = good_file(step, kind)
-            text = self.text(step)
+            text = step_text(step)
             truth = truth_of(step, good)
             yield self.case(f"{kind}, as it is", text, json.dumps(good))
             for k, (_, record) in enumerate(forgeries(step, good)):
@@ -117,24 +115,11 @@ def changed_fields(record: object, good: dict[str, Any]) -> frozenset[str]:
     return frozenset(names)
 
 
-def vector_steps(path: Path) -> Iterator[StepData]:
+def vector_steps() -> Iterator[StepData]:
     """The quadratic programs of the vectors' layer qp, as steps whose rows are the user's own."""
     for case in inputs_read(VECTORS, "qp"):
-        given = case.input
-        if "second_order" in given:
-            continue
-        size = len(given["g"])
-        rows = len(given["b"])
-        record = {
-            "format": "quasistatic-ref/step", "version": 1, "h": 1.0, "n_a": size, "n_u": 0,
-            "K_q": given["H"], "M_u": [], "tau_a": given["g"], "tau_u": [],
-            "delta_q_bar_a": [0.0] * size, "contacts": [],
-        }  # fmt: skip
-        if rows:
-            names = [f"row {i}" for i in range(rows)]
-            record["extra"] = {"names": names, "A": given["A"], "b": given["b"]}
-        path.write_text(json.dumps(record))
-        yield step_read(path)
+        if "second_order" not in case.input:
+            yield step_of(case.input)
 
 
 def mechanism_steps() -> Iterator[StepData]:
@@ -196,11 +181,10 @@ def written_otherwise(cases: Cases) -> Iterator[Case]:
         if kind != "exact":
             continue
         good = json.dumps(good_file(step, kind))
-        for text in otherwise(cases.text(step)):
+        for text in otherwise(step_text(step)):
             yield cases.case(f"written otherwise, {name}", text, good)
             try:
-                cases.step.write_text(text)
-                posed = step_read(cases.step)
+                posed = step_read(cases.folder / "step.json")  # where the text was judged
                 solution = solution_text(solve_step(posed))
             except (InputError, StepInfeasible, StepIllPosed, StepNotSolved):
                 continue
@@ -210,7 +194,7 @@ def written_otherwise(cases: Cases) -> Iterator[Case]:
 def all_cases(folder: Path, whole: bool) -> Iterator[Case]:
     """Everything that the two checkers judge."""
     cases = Cases(folder)
-    for k, step in enumerate(vector_steps(cases.step)):
+    for k, step in enumerate(vector_steps()):
         if whole or k % 5 == 0:
             yield from cases.solved("vectors, layer qp", step)
     for k, step in enumerate(mechanism_steps()):

@@ -1,9 +1,8 @@
 """How an adapter is called: one JSON object a line in, one a line out. Needs NumPy alone.
 
 An adapter runs in its engine's own environment, where this package is not. It ends in
-``answer(name, layers)``: the layers of the reference vectors that it answers, and ``phenomena``,
-whose question is a scene and a setting (docs/engines.md) and whose answer is where the bodies are
-at the scene's times.
+``answer(name, phenomena)``: the question is a scene and a setting (docs/engines.md), and the answer
+is where the bodies are at the scene's times.
 """
 
 from __future__ import annotations
@@ -22,50 +21,29 @@ class Unsupported(Exception):
     """A case that an engine does not take."""
 
 
-def _unsupported(_case: Any) -> Any:
-    raise Unsupported("this layer is not answered")
-
-
-def answer(name: str, layers: dict[str, Callable[[Any], Any]]) -> None:
+def answer(name: str, phenomena: Callable[[Any], Any]) -> None:
     """Answer every line of standard input.
 
     Parameters
     ----------
     name : str
         Engine and version.
-    layers : dict
-        Layer -> function of a case's input that returns the output, or raises `Unsupported`.
+    phenomena : callable
+        Scene and setting -> what `run` returns; or it raises `Unsupported`.
     """
     out = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # what an engine prints is no answer
-    said = {"protocol": 1, "implementation": name, "layers": list(layers)}
+    said = {"protocol": 1, "implementation": name, "layers": ["phenomena"]}
     print(json.dumps(said), file=out, flush=True)
     for line in sys.stdin:
         case = json.loads(line)
         try:
-            answered = layers.get(case["layer"], _unsupported)
-            record = {"output": plain(answered(case["input"]))}
+            record = {"output": phenomena(case["input"])}
         except Unsupported as reason:
             record = {"error": f"left out: {reason}"}
         except Exception as error:
             record = {"error": f"{type(error).__name__}: {error}"}
         print(json.dumps({"id": case["id"], **record}), file=out, flush=True)
-
-
-def plain(value: Any) -> Any:
-    """Arrays as lists."""
-    if isinstance(value, dict):
-        return {key: plain(v) for key, v in value.items()}
-    if isinstance(value, list | tuple):
-        return [plain(v) for v in value]
-    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
-
-
-def rotation(quaternion: Any) -> np.ndarray:
-    """Rotation of q/|q|, q = [x, y, z, w]."""
-    x, y, z, w = np.array(quaternion) / np.linalg.norm(quaternion)
-    V = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + 2 * w * V + 2 * V @ V
 
 
 def aims(scene: Any, t: float) -> dict[str, Any]:

@@ -123,4 +123,4 @@ def phenomena(case: Any) -> Any:
 
 
 if __name__ == "__main__":
-    answer(f"drake {version('drake')}", {"phenomena": phenomena})
+    answer(f"drake {version('drake')}", phenomena)

@@ -27,14 +27,19 @@ def python_of(name: str, folder: Path) -> str:
     return str(environment(folder / name, *requires)) if requires else sys.executable
 
 
+def program_of(name: str, folder: Path, timeout: float) -> Program:
+    """An engine's adapter in its environment, given so long for a question [s]."""
+    adapter = str(HERE / ENGINES[name]["adapter"])
+    return Program(shlex.join([python_of(name, folder), adapter]), timeout)
+
+
 def judged(name: str, folder: Path, results: Path, resume: bool) -> None:
     """What an engine answered, written setting by setting; `resume` keeps those that are there."""
     engine = ENGINES[name]
     path = results / f"{name}.json"
     before = json.loads(path.read_text("utf-8")) if resume and path.exists() else {}
     record: dict[str, Any] = {"requires": engine["requires"], "settings": {}}
-    command = shlex.join([python_of(name, folder), str(HERE / engine["adapter"])])
-    with Program(command, TIMEOUT) as program:
+    with program_of(name, folder, TIMEOUT) as program:
         for setting, values in engine["settings"].items():
             print(f"{name}: {setting}", file=sys.stderr, flush=True)
             cells = before.get("settings", {}).get(setting)

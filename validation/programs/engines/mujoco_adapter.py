@@ -114,4 +114,4 @@ def phenomena(case: Any) -> Any:
 
 
 if __name__ == "__main__":
-    answer(f"mujoco {mujoco.__version__}", {"phenomena": phenomena})
+    answer(f"mujoco {mujoco.__version__}", phenomena)

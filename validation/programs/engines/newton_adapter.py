@@ -88,4 +88,4 @@ def phenomena(case: Any) -> Any:
 
 if __name__ == "__main__":
     wp.config.quiet = True
-    answer(NAME, {"phenomena": phenomena})
+    answer(NAME, phenomena)

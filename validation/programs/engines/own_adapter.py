@@ -106,15 +106,10 @@ def phenomena(case: Any) -> Any:
     def pose(name: str) -> Any:
         at = system.kinematics(state["q"])
         k = system.link(link(name))
-        return [*at.t[k], *quaternion(at.R[k])]
+        return [*at.t[k], *Rotation.from_matrix(at.R[k]).as_quat()]
 
     return run(scene, setting["h"], step, pose, aim)
 
 
-def quaternion(R: Any) -> Any:
-    """Of a rotation, x, y, z, w."""
-    return Rotation.from_matrix(R).as_quat()
-
-
 if __name__ == "__main__":
-    answer(f"quasistatic_ref {__version__}", {"phenomena": phenomena})
+    answer(f"quasistatic_ref {__version__}", phenomena)

@@ -77,4 +77,4 @@ def phenomena(case: Any) -> Any:
 
 
 if __name__ == "__main__":
-    answer(f"pinocchio {pin.__version__}", {"phenomena": phenomena})
+    answer(f"pinocchio {pin.__version__}", phenomena)

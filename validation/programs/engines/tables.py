@@ -83,9 +83,5 @@ def causes(records: dict[str, Any]) -> list[tuple[str, ...]]:
 def answer(phenomenon: dict[str, Any]) -> str:
     """What is expected, in a cell."""
     if "cones" in phenomenon:
-        return (
-            ", ".join(f"{x:.2f} or" for x in phenomenon["expected"])
-            .removesuffix(" or")
-            .replace(" or,", " or")
-        )
+        return " or ".join(f"{x:.2f}" for x in phenomenon["expected"])
     return f"{phenomenon['expected']:.3g}"

@@ -29,7 +29,8 @@ from tests.helpers import (
     sphere_on_floor,
 )
 from tests.oracles.random_steps import any_step
-from tests.oracles.solution_truth import exact, program
+from tests.oracles.rational_kkt import exact
+from tests.oracles.solution_truth import program
 from tests.tolerances import EXACT, ROUNDING
 
 TINY = F(1, 2**80)
