@@ -278,15 +278,21 @@ def _impulses(
     return raised(step, lam + 0.0)
 
 
+def rounded(ball: arb) -> float:
+    """The float64 nearest to a ball [its unit]; 0.0 if it holds zero."""
+    nearest = nearest_in(ball)
+    if ball.contains(0):
+        return 0.0
+    return float(ball) if nearest is None else nearest
+
+
 def _rounded(form: ExactForm, balls: BallForm, found: Checked) -> Array:
     """Return x in float64; an entry that may be zero is zero."""
     values = []
     for v in range(form.n):
         radius = square_root(2 * found.gap * balls.H_inv[v, v])
         middle = found.x[v, 0]
-        ball = (middle + arb(0, radius.upper())) * form.x_unit
-        nearest = nearest_in(ball)
-        values.append(0.0 if ball.contains(0) else float(ball) if nearest is None else nearest)
+        values.append(rounded((middle + arb(0, radius.upper())) * form.x_unit))
     return np.array(values)
 
 

@@ -23,8 +23,8 @@ from quasistatic_ref.certify.compliance.face_guess import lengths_of
 from quasistatic_ref.certify.compliance.forces import WRENCH, ContactForces
 from quasistatic_ref.certify.minimiser import square_root
 from quasistatic_ref.certify.rational import Dyadic, two_to
-from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.optional.ellipsoid.enclosure import rounded
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import scaled_by
@@ -262,14 +262,6 @@ def compliant_forces(step: StepData, compliance: float, near: tuple[Array, Array
         off = [square_root(H_inv[i, i]) * error for i in range(n)]
         x = [rounded(place[i, 0] + arb(0, off[i].upper())) for i in range(n)]
     return ContactForces(np.array(numbers).reshape(-1, 4)[:, WRENCH], np.array(x))
-
-
-def rounded(ball: arb) -> float:
-    """The float64 nearest to a ball [its unit]; 0.0 if it holds zero."""
-    nearest = nearest_in(ball)
-    if ball.contains(0):
-        return 0.0
-    return float(ball) if nearest is None else nearest
 
 
 def in_balls(numbers: Dyadic) -> arb_mat:
