@@ -25,7 +25,6 @@ from quasistatic_ref.shapes.placed_shape import (
     Cylinder,
     Ellipsoid,
     HalfSpace,
-    PointCloud,
     Shape,
     Sphere,
 )
@@ -92,8 +91,6 @@ def feature(shape: Shape, x: Array, n: Array) -> Feature:
         If the shape has no derivatives.
     """
     match shape:
-        case PointCloud():
-            return ball(0.0, n)
         case Sphere():
             return ball(shape.radius, n)
         case HalfSpace():
