@@ -6,6 +6,7 @@ The core imports no optional part. It asks for one here, under the word that use
 from functools import cache
 from importlib import import_module
 from types import ModuleType
+from typing import Any
 
 from quasistatic_ref.errors import InputError
 
@@ -35,6 +36,27 @@ def needed_part(module: str, word: str) -> ModuleType:
     if found is None:
         raise InputError(f"{word} needs {_folder(module).replace('.', '/')}")
     return found
+
+
+def needed_package(package: str, extra: str, what: str) -> Any:
+    """A package that an extra of the installation brings.
+
+    Parameters
+    ----------
+    package, extra : str
+    what : str
+        What needs it, for the message.
+
+    Raises
+    ------
+    InputError
+        If it is not installed.
+    """
+    try:
+        return import_module(package)
+    except ImportError:
+        problem = f"{what} needs {package}: pip install 'quasistatic-ref[{extra}]'"
+        raise InputError(problem) from None
 
 
 def _folder(module: str) -> str:

@@ -119,6 +119,11 @@ def square_root(square: arb) -> arb:
     return square.nonnegative_part().sqrt()
 
 
+def inner(u: arb_mat, v: arb_mat) -> arb:
+    """U'v of two columns (n, 1) [product of their units]."""
+    return (u.transpose() * v)[0, 0]
+
+
 @dataclass(frozen=True, eq=False)
 class RationalSolution:
     """A solution of H x = g + A_w' lam, A_w x = b_w: fractions of one positive denominator.

@@ -137,7 +137,7 @@ class Trajectory(Plain, Shown):
         listed = enumerate(self.header.get("findings", ()))
         found = [finding_read(table, f"findings[{i}]") for i, table in listed]
         doctor = part("doctor.table") if self.seconds else None
-        return tuple(found if doctor is None else [*found, *doctor.of_time(self)])
+        return tuple(found if doctor is None else [*found, *doctor.findings(doctor.OF_TIME, self)])
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k (from 0), bit for bit as it was solved.

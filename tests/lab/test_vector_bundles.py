@@ -1,11 +1,12 @@
 """Quadratic programs in qpbenchmark's format."""
 
+import sys
+
 import numpy as np
 import pytest
 from pyarrow.parquet import read_table
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.vectors import parquet
 from quasistatic_ref.lab.vectors.parquet import Program, parquet_written
 
 PROGRAMS = [
@@ -37,10 +38,6 @@ def test_parquet_holds_qpbenchmarks_columns_with_its_signs(tmp_path):
 
 
 def test_without_pyarrow_the_extra_is_named(tmp_path, monkeypatch):
-    monkeypatch.setattr(parquet, "import_module", _missing)
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(InputError, match=r"pip install 'quasistatic-ref\[parquet\]'"):
         parquet_written(tmp_path / "qps.parquet", PROGRAMS)
-
-
-def _missing(name):
-    raise ImportError(name)

@@ -12,10 +12,10 @@ from typing import IO, Any, Final
 
 import numpy as np
 
-from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
 from quasistatic_ref.lab.vectors.layers.qp import matrices
+from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.data import Array
 
 COLUMNS: Final = ("P", "q", "G", "h", "A", "b", "lb", "ub", "name")
@@ -65,13 +65,8 @@ def parquet_written(path: str | Path, programs: Sequence[Program]) -> Path:
     InputError
         If pyarrow is not installed, or the file cannot be written.
     """
-    try:
-        arrow = import_module("pyarrow")
-        parquet = import_module("pyarrow.parquet")
-    except ImportError:
-        raise InputError(
-            "needs pyarrow: pip install 'quasistatic-ref[parquet]'", field="parquet"
-        ) from None
+    arrow = needed_package("pyarrow", "parquet", "a Parquet file")
+    parquet = import_module("pyarrow.parquet")
     columns: dict[str, list[Any]] = {name: [None] * len(programs) for name in COLUMNS}
     columns["name"] = [program.name for program in programs]
     columns["P"] = [program.H.ravel() for program in programs]

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence, Set
 
 import numpy as np
 
+from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.optional.derivatives.model.tangent import half_turns
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import OptimumRates
@@ -69,7 +70,7 @@ def row_reasons(
         where = tuple(names[j] for j in sorted(contacts))
         together[where] = together.get(where, np.zeros_like(bad)) | bad
     for where, bad in together.items():
-        says = f"the equations of {_listed(where)} would contradict each other"
+        says = f"the equations of {listed(where)} would contradict each other"
         reasons.append(Reason(reason.CONTRADICTION, where, fields(bad), says))
     for (j, i), bad in zip(touching.idle.tolist(), found.opens, strict=True):
         if bad.any():
@@ -120,7 +121,3 @@ def forbidden(
                 last = first + 1
             bad[first:last] = True
     return np.asarray(bad)
-
-
-def _listed(names: Sequence[str]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -16,7 +16,8 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
-from quasistatic_ref.optional.derivatives.contact.contact_rates import ContactRates, tangent_rates
+from quasistatic_ref.optional.derivatives.contact.closest_point_rates import Rates
+from quasistatic_ref.optional.derivatives.contact.contact_rates import tangent_rates
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.step.data import Array, Contacts, Indices
 from quasistatic_ref.step.ordered import crossed
@@ -31,14 +32,14 @@ class RowRates:
     contacts : Contacts
     points : ClosestPoints
     layout : ContactLayout
-    rates : ContactRates
+    rates : Rates
     motion : MotionRates
     """
 
     contacts: Contacts
     points: ClosestPoints
     layout: ContactLayout
-    rates: ContactRates
+    rates: Rates
     motion: MotionRates
 
     def of_motion(self, x: Array) -> Array:

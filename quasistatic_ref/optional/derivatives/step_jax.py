@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
-from importlib import import_module
 from math import prod
 from typing import Any
 
@@ -27,6 +26,7 @@ from quasistatic_ref.optional.derivatives.gradient import Derivatives
 from quasistatic_ref.optional.derivatives.model.tangent import entry_rates
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.reason import KINDS, Reason
+from quasistatic_ref.parts import needed_package
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import length
@@ -153,11 +153,7 @@ def jax_package() -> Any:
     InputError
         If it is not installed.
     """
-    try:
-        return import_module("jax")
-    except ImportError:
-        problem = "a step in JAX needs it: pip install 'quasistatic-ref[jax]'"
-        raise InputError(problem) from None
+    return needed_package("jax", "jax", "a step in JAX")
 
 
 def _differentiable(

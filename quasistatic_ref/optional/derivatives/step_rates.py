@@ -35,7 +35,7 @@ class StepRates:
     motion : MotionRates
     couples : list of Couple
         The contacts.
-    contacts : ContactRates
+    contacts : Rates
     data : DataRates
         By all parameters.
     places : dict

@@ -57,9 +57,8 @@ def drags(system: System, step: StepData, delta_q: Array, wrench: Array, g: floa
     found = []
     presses = _carried(step, np.ones(len(wrench)), wrench[:, 2])
     friction = _carried(step, step.contacts.mu_v, wrench[:, 2])
-    for base in free_bases(system):
+    for body, base in free_bases(system).items():
         x = base.v.start
-        body = base.name.removesuffix("/base")
         drag = _quotient(np.linalg.norm(momentum[x - step.n_a : x - step.n_a + 3]), step.h**2)
         if drag is not None:
             touched = bool(presses[x] > BEARS * drag)
@@ -124,7 +123,7 @@ def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: floa
         None where nothing floats, nothing rubs or nothing weighs, or where float64 has no number
         for it, as with a mu_v of 1e-323.
     """
-    bases = [base.v.start for base in free_bases(system)]
+    bases = [base.v.start for base in free_bases(system).values()]
     rough = step.contacts.mu_v[step.contacts.mu_v > 0]
     if not (bases and rough.size and g > 0):
         return None

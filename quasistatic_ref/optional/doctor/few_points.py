@@ -25,8 +25,7 @@ def few_points(start: Start) -> Iterator[Said]:
     """Bodies whose centre is over the points of their faces, and not over the k that are kept."""
     if not (start.small and np.linalg.norm(start.gravity) > 0.0):  # its square may vanish
         return
-    for base in free_bases(start.system):
-        name = base.name.removesuffix("/base")
+    for name in free_bases(start.system):
         own = [
             p
             for p in start.pairs

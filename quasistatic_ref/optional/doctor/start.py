@@ -125,6 +125,7 @@ def body(system: System, link: int) -> str:
     return system.links[link].partition("/")[0]
 
 
-def free_bases(system: System) -> list[Joint]:
-    """The floating bases that nothing actuates."""
-    return [j for j in system.joints if j.kind == "floating" and not j.actuated]
+def free_bases(system: System) -> dict[str, Joint]:
+    """The floating bases that nothing actuates, by their bodies."""
+    bases = [j for j in system.joints if j.kind == "floating" and not j.actuated]
+    return {base.name.removesuffix("/base"): base for base in bases}

@@ -1,6 +1,6 @@
 """The table of findings, before a run and after it: causes come before what comes of them."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
 from quasistatic_ref.optional.doctor import (
@@ -17,7 +17,6 @@ from quasistatic_ref.optional.doctor import (
     units,
     unsupported,
 )
-from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Said, Start
 from quasistatic_ref.simulate.finding import Finding
 from quasistatic_ref.simulate.simulator import Simulator
@@ -71,24 +70,21 @@ OF_TIME = (Kind("time of proof", False, proofs.proofs),)
 
 def scene_findings(simulator: Simulator, q: Array) -> list[Finding]:
     """The findings on the scene of a simulator that is to start at q, shape (n_q,)."""
-    return before(Start(simulator, q))
+    return findings(BEFORE, Start(simulator, q))
 
 
-def before(start: Start) -> list[Finding]:
-    """The findings on a scene where it starts."""
-    return [_finding(kind, said) for kind in BEFORE for said in kind.found(start)]
+def findings(kinds: Iterable[Kind], of: Start | Trajectory) -> list[Finding]:
+    """What each line of a table finds, in its order.
 
-
-def after(run: Run) -> list[Finding]:
-    """The findings on a run at its end."""
-    return [_finding(kind, said) for kind in AFTER for said in kind.found(run)]
-
-
-def of_time(trajectory: Trajectory) -> list[Finding]:
-    """The findings on the wall time of a run that has steps."""
-    return [_finding(kind, said) for kind in OF_TIME for said in kind.found(trajectory)]
-
-
-def _finding(kind: Kind, said: Said) -> Finding:
-    sentence = f"{said.remedy}: {said.cause}"
-    return Finding(kind.name, kind.grave, sentence, said.remedy, said.numbers)
+    Parameters
+    ----------
+    kinds : iterable of Kind
+        `BEFORE`, `AFTER` or `OF_TIME`.
+    of : Start, Run or Trajectory
+        The scene at its start, the run at its end, or the trajectory of a run that has steps.
+    """
+    return [
+        Finding(kind.name, kind.grave, f"{said.remedy}: {said.cause}", said.remedy, said.numbers)
+        for kind in kinds
+        for said in kind.found(of)
+    ]

@@ -12,7 +12,7 @@ from quasistatic_ref.tolerances import BEARS
 
 def alone(start: Start) -> set[str]:
     """Free bodies that no chain of contact tables joins to what stands."""
-    free = {base.name.removesuffix("/base") for base in free_bases(start.system)}
+    free = {*free_bases(start.system)}
     borne = {"world", *(b.name for b in start.system.bodies)} - free
     joined = _joined(start)
     for _ in free:  # a chain is no longer
@@ -49,8 +49,7 @@ def falling(run: Run) -> Iterator[Said]:
     each = zip(_joined(run), run.pairs, strict=True)
     sides = [names for names, pair in each for _ in range(pair.n_c)]
     said = alone(run)
-    for base in free_bases(system):
-        name = base.name.removesuffix("/base")
+    for name, base in free_bases(system).items():
         if name in said:
             continue
         own = np.array([name in names for names in sides], dtype=bool)

@@ -20,6 +20,7 @@ from quasistatic_ref.certify.gap import duality_gap, fractions
 from quasistatic_ref.certify.minimiser import (
     BallForm,
     ball_form,
+    inner,
     rational_solution,
     rounded_solution,
     square_root,
@@ -201,9 +202,7 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
 def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
     """How far float64 numbers are from the optimum, at most, in the one definition of error [-]."""
     off = arb_mat([[arb(float(v)) / form.x_unit] for v in delta_q]) - found.x
-    length = square_root((off.transpose() * (arb_mat(form.H) * off))[0, 0]) + square_root(
-        2 * found.gap
-    )
+    length = square_root(inner(off, arb_mat(form.H) * off)) + square_root(2 * found.gap)
     return nearest_above(length / found.free) if found.free > 0 else float("inf")
 
 
@@ -263,8 +262,8 @@ def _checked(
     H = arb_mat(form.H)
     work = sum((u * v for a, b in zip(s, y, strict=True) for u, v in zip(a, b, strict=True)),
                arb(0))  # fmt: skip
-    gap = (off.transpose() * (H * off))[0, 0] / 2 + work
-    free = (balls.x_free.transpose() * (H * balls.x_free))[0, 0]
+    gap = inner(off, H * off) / 2 + work
+    free = inner(balls.x_free, H * balls.x_free)
     return Checked(x, lam, gap, square_root(free))
 
 
@@ -278,15 +277,21 @@ def _impulses(
     return raised(step, lam + 0.0)
 
 
+def rounded(ball: arb) -> float:
+    """The float64 nearest to a ball [its unit]; 0.0 if it holds zero."""
+    nearest = nearest_in(ball)
+    if ball.contains(0):
+        return 0.0
+    return float(ball) if nearest is None else nearest
+
+
 def _rounded(form: ExactForm, balls: BallForm, found: Checked) -> Array:
     """Return x in float64; an entry that may be zero is zero."""
     values = []
     for v in range(form.n):
         radius = square_root(2 * found.gap * balls.H_inv[v, v])
         middle = found.x[v, 0]
-        ball = (middle + arb(0, radius.upper())) * form.x_unit
-        nearest = nearest_in(ball)
-        values.append(0.0 if ball.contains(0) else float(ball) if nearest is None else nearest)
+        values.append(rounded((middle + arb(0, radius.upper())) * form.x_unit))
     return np.array(values)
 
 

@@ -21,10 +21,10 @@ from flint import arb, arb_mat, ctx
 from quasistatic_ref.certify.compliance.eliminated import EliminatedStep
 from quasistatic_ref.certify.compliance.face_guess import lengths_of
 from quasistatic_ref.certify.compliance.forces import WRENCH, ContactForces
-from quasistatic_ref.certify.minimiser import square_root
+from quasistatic_ref.certify.minimiser import inner, square_root
 from quasistatic_ref.certify.rational import Dyadic, two_to
-from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.optional.ellipsoid.enclosure import rounded
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import scaled_by
@@ -112,7 +112,7 @@ class CompliantStep:
     def energy(self, x: arb_mat, give: Sequence[Pushed]) -> arb:
         """The energy at x."""
         squares = sum((v * v for one in give for v in one.s.entries()), arb(0))
-        return (x.transpose() * (self.H * x / 2 - self.g))[0, 0] + self.k * squares / 2
+        return inner(x, self.H * x / 2 - self.g) + self.k * squares / 2
 
     def gradient(self, x: arb_mat, give: Sequence[Pushed]) -> arb_mat:
         """Its gradient at x."""
@@ -171,7 +171,7 @@ class CompliantStep:
     def share(self, x: arb_mat, give: Sequence[Pushed], way: arb_mat) -> arb:
         """The part of a Newton step that lowers the energy by enough."""
         energy = self.energy(x, give)
-        slope = (self.gradient(x, give).transpose() * way)[0, 0]
+        slope = inner(self.gradient(x, give), way)
         share = arb(1)
         while share > LEAST:
             there = (x + way * share).mid()
@@ -182,7 +182,7 @@ class CompliantStep:
 
     def squared(self, x: arb_mat) -> arb:
         """||x||_H^2."""
-        return (x.transpose() * (self.H * x))[0, 0].mid()
+        return inner(x, self.H * x).mid()
 
     def on_active_rows(self, x: arb_mat, give: list[Pushed]) -> tuple[arb_mat, arb_mat]:
         """The minimiser under the user's own rows, and the multipliers of all of them."""
@@ -212,8 +212,7 @@ class CompliantStep:
         if not all(v >= 0 for v in (*slack.entries(), *y.entries())):
             return arb("inf")
         off = self.gradient(x, self.pushed(x)) - self.E.transpose() * y
-        work = (y.transpose() * slack)[0, 0]
-        return square_root(2 * work + (off.transpose() * (H_inv * off))[0, 0])
+        return square_root(2 * inner(y, slack) + inner(off, H_inv * off))
 
 
 def compliant_forces(step: StepData, compliance: float, near: tuple[Array, Array]) -> ContactForces:
@@ -262,14 +261,6 @@ def compliant_forces(step: StepData, compliance: float, near: tuple[Array, Array
         off = [square_root(H_inv[i, i]) * error for i in range(n)]
         x = [rounded(place[i, 0] + arb(0, off[i].upper())) for i in range(n)]
     return ContactForces(np.array(numbers).reshape(-1, 4)[:, WRENCH], np.array(x))
-
-
-def rounded(ball: arb) -> float:
-    """The float64 nearest to a ball [its unit]; 0.0 if it holds zero."""
-    nearest = nearest_in(ball)
-    if ball.contains(0):
-        return 0.0
-    return float(ball) if nearest is None else nearest
 
 
 def in_balls(numbers: Dyadic) -> arb_mat:

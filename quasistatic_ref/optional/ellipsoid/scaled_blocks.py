@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from flint import arb, arb_mat
 
-from quasistatic_ref.certify.minimiser import BallForm, square_root
+from quasistatic_ref.certify.minimiser import BallForm, inner, square_root
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.optional.ellipsoid.impulses import ONE, cone_blocks
 from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, Vector
@@ -77,7 +77,7 @@ def scaled_blocks(step: StepData, form: ExactForm, balls: BallForm) -> ScaledBlo
     rows = [[[mu[i] * A[i, v] * root[v] for v in range(n)] for i in block] for block in blocks]
     length = [largest([a for row in block for a in row]) for block in rows]
     gaps = [abs(b[block[0], 0]) / ell for block, ell in zip(blocks, length, strict=True)]
-    free = square_root((balls.x_free.transpose() * (arb_mat(form.H) * balls.x_free))[0, 0])
+    free = square_root(inner(balls.x_free, arb_mat(form.H) * balls.x_free))
     size = free.mid() if free > 0 else largest(gaps)
     problem = Blocks(
         H=arb_mat(

@@ -23,6 +23,7 @@ from quasistatic_ref.certify.minimiser import (
     PRECISION,
     BallForm,
     ball_form,
+    inner,
     square_root,
 )
 from quasistatic_ref.certify.rational import ExactForm, exact_form
@@ -93,9 +94,9 @@ def _distance(
     H = arb_mat(form.H)
     way = moved - x
     off = moved - (balls.x_free + balls.H_inv * (balls.A.transpose() * y))
-    gap = _product(off, H * off) / 2 + _product(y, balls.A * moved - balls.b)
-    length = square_root(_product(way, H * way)) + square_root(2 * gap)
-    free = square_root(_product(balls.x_free, H * balls.x_free))
+    gap = inner(off, H * off) / 2 + inner(y, balls.A * moved - balls.b)
+    length = square_root(inner(way, H * way)) + square_root(2 * gap)
+    free = square_root(inner(balls.x_free, H * balls.x_free))
     return length, nearest_above(length / free) if free > 0 else float("inf")
 
 
@@ -146,7 +147,3 @@ def opening_direction(step: StepData) -> Array | None:
 
 def _column(values: Array, unit: fmpq) -> arb_mat:
     return arb_mat([[arb(float(v)) / unit] for v in values]) if len(values) else arb_mat(0, 1)
-
-
-def _product(u: arb_mat, v: arb_mat) -> arb:
-    return (u.transpose() * v)[0, 0] if u.nrows() else arb(0)

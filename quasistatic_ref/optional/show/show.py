@@ -33,14 +33,14 @@ def number(x: object) -> str:
     return f"{float(x) + 0.0:.4g}" if isinstance(x, Real) else "-"
 
 
-def vector(values: Iterable[float]) -> str:
-    """The `values` of a vector [any unit] to three digits, e.g. ``(0, 0, -9.81)``."""
-    return f"({', '.join(f'{x + 0.0:.3g}' for x in values)})"
+def vector(values: Iterable[float], digits: str = ".3g") -> str:
+    """The `values` of a vector [any unit], each with some digits, e.g. ``(0, 0, -9.81)``."""
+    return f"({', '.join(f'{x + 0.0:{digits}}' for x in values)})"
 
 
 def direction(n: Iterable[float]) -> str:
     """A unit vector to three decimals, e.g. ``(0.000, 0.707, -0.707)``."""
-    return f"({', '.join(f'{x + 0.0:.3f}' for x in n)})"
+    return vector(n, ".3f")
 
 
 def counted(n: int, noun: str) -> str:

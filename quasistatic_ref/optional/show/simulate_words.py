@@ -60,41 +60,39 @@ def recorder_page(recorder: Recorder) -> Page:
 
 def simulator_page(simulator: Simulator) -> Page:
     """What steps, and how each step is solved."""
-    title = (
-        f"Simulator: h = {simulator.h:g} s, {counted(simulator.system.n_v, 'coordinate')} "
-        f"({simulator.system.n_a} actuated), {_touching(simulator.pairs)}"
-    )
-    facts = [
-        f"{path_words(simulator)}, certify {simulator.certify}, cone "
-        f"{simulator.cone}, gravity {vector(simulator.gravity)} m/s^2"
-    ]
-    return title, facts, PAIR, pair_rows(simulator.pairs)
+    title = f"Simulator: h = {simulator.h:g} s, {_size(simulator)}"
+    return title, [path_words(simulator)], PAIR, pair_rows(simulator.pairs)
 
 
 def scenario_page(scenario: Scenario) -> Page:
     """What a scenario file comes to."""
-    system = scenario.system
     title = (
         f"Scenario {scenario.path.stem}: {counted(scenario.steps, 'step')} of {scenario.h:g} s, "
-        f"{counted(system.n_v, 'coordinate')} ({system.n_a} actuated), {_touching(scenario.pairs)}"
+        f"{_size(scenario)}"
     )
     facts = [
         f"file {scenario.path}",
-        f"bodies: {', '.join(body.name for body in system.bodies)}",
-        f"{path_words(scenario)}, certify {scenario.certify}, cone "
-        f"{scenario.cone}, gravity {vector(scenario.gravity)} m/s^2, record {scenario.record}",
+        f"bodies: {', '.join(body.name for body in scenario.system.bodies)}",
+        f"{path_words(scenario)}, record {scenario.record}",
     ]
     return title, facts, PAIR, pair_rows(scenario.pairs)
 
 
 def path_words(of: Simulator | Scenario) -> str:
-    """The backend and the speed of a simulator or a scenario, in words."""
-    return f"backend {of.backend}, {'fast' if of.fast else 'plain'} path"
+    """How each step of a simulator or a scenario is solved, in words."""
+    return (
+        f"backend {of.backend}, {'fast' if of.fast else 'plain'} path, certify {of.certify}, cone "
+        f"{of.cone}, gravity {vector(of.gravity)} m/s^2"
+    )
 
 
-def _touching(pairs: Sequence[ContactPair]) -> str:
-    n_c = sum(pair.n_c for pair in pairs)
-    return f"{counted(len(pairs), 'pair')} with {counted(n_c, 'contact')}"
+def _size(of: Simulator | Scenario) -> str:
+    """How many coordinates, pairs and contacts there are."""
+    n_c = sum(pair.n_c for pair in of.pairs)
+    return (
+        f"{counted(of.system.n_v, 'coordinate')} ({of.system.n_a} actuated), "
+        f"{counted(len(of.pairs), 'pair')} with {counted(n_c, 'contact')}"
+    )
 
 
 def trajectory_page(trajectory: Trajectory) -> Page:

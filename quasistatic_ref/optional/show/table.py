@@ -5,7 +5,6 @@ tidy ones for analysis: a row a step and coordinate, a row a step and contact.
 """
 
 from collections.abc import Iterator, Mapping
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -13,6 +12,7 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
+from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array
 
@@ -126,7 +126,7 @@ def check_table_path(path: Path) -> None:
         raise InputError(problem, field="--table", value=str(path))
     _pandas()
     if path.suffix == ".parquet":
-        _installed("pyarrow", "a Parquet file")
+        needed_package("pyarrow", "parquet", "a Parquet file")
 
 
 def _wide(trajectory: "Trajectory") -> Iterator[tuple[str, Array]]:
@@ -174,15 +174,4 @@ def _slots(trajectory: "Trajectory") -> list[str]:
 
 
 def _pandas() -> Any:
-    return _installed("pandas", "a table")
-
-
-def _installed(package: str, what: str) -> Any:
-    try:
-        return import_module(package)
-    except ImportError:
-        problem = f"{what} needs {package}: pip install 'quasistatic-ref[{EXTRAS[package]}]'"
-        raise InputError(problem) from None
-
-
-EXTRAS: Final = {"pandas": "pandas", "pyarrow": "parquet"}
+    return needed_package("pandas", "pandas", "a table")

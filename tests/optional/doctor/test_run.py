@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.optional.doctor.start import Start
 from quasistatic_ref.optional.doctor.sunk import sunk
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
@@ -24,22 +23,13 @@ def test_a_file_from_before_there_were_findings_has_none(scene, tmp_path):
     assert trajectory_read(path).findings == ()
 
 
-class Made(Start):
-    """The record of a run in which nothing happens, but for `changes`."""
+class Made:
+    """What `sunk` reads of a run, of which nothing is known but some arrays."""
 
-    def __init__(self, simulator, steps=3, **changes):
-        super().__init__(simulator, simulator.system.q_start)
-        system = self.system
-        n_c = sum(pair.n_c for pair in self.pairs)
-        still = {
-            "phi": np.zeros((steps, n_c)),
-            "point": np.zeros((steps, n_c), dtype=int),
-            "delta_q": np.zeros((steps, system.n_v)),
-            "q": np.tile(system.q_start, (steps + 1, 1)),
-            "q_bar_a": np.tile(system.q_start[: system.n_q_a], (steps, 1)),
-            "gap": np.zeros((steps, n_c)),
-        }
-        self.arrays = still | changes
+    def __init__(self, pairs, **arrays):
+        nothing = np.zeros_like(arrays["phi"])
+        self.pairs = pairs
+        self.arrays = {"point": nothing.astype(int), "gap": nothing} | arrays
 
     def __getitem__(self, name):
         return self.arrays[name]
@@ -47,9 +37,8 @@ class Made(Start):
     noted = __getitem__
 
 
-def sentences(found, scenario, **changes):
-    run = Made(scenario.simulator(), **changes)
-    return [f"{said.remedy}: {said.cause}" for said in found(run)]
+def sentences(scenario, **arrays):
+    return [f"{said.remedy}: {said.cause}" for said in sunk(Made(scenario.pairs, **arrays))]
 
 
 @pytest.mark.parametrize(("share", "gap", "warned"), [
@@ -61,7 +50,7 @@ def sentences(found, scenario, **changes):
 def test_a_contact_that_sinks_unpredicted_needs_shorter_steps(scene, share, gap, warned):
     phi = np.zeros((3, 2))
     phi[2, 0] = -share * SUNK * 0.1
-    said = sentences(sunk, load_scenario(scene, fast=True), phi=phi, gap=np.full((3, 2), gap))
+    said = sentences(load_scenario(scene, fast=True), phi=phi, gap=np.full((3, 2), gap))
     depth = share * SUNK * 100.0
     sentence = (
         "take a smaller h or move slower: candidate 0 of floor(floor, ball/ball#0) is "
@@ -75,14 +64,14 @@ def test_a_pair_of_solids_that_could_keep_more_contacts_is_asked_for_k(scene):
     # push: a box against a ball has 8 corners and the closest pair, of which one is kept.
     phi = np.zeros((3, 2))
     phi[1, 1] = -2 * SUNK * 0.1
-    (said,) = sentences(sunk, load_scenario(scene, fast=True), phi=phi)
+    (said,) = sentences(load_scenario(scene, fast=True), phi=phi)
     assert said.startswith("take a smaller h or move slower, or raise k of contacts.push: ")
     # Two are kept: a corner that was not one of them is a contact that k left out.
     scenario = load_scenario(scene, ["contacts.push.k=2"], fast=True)
     phi = np.zeros((3, 3))
     point = np.array([[0, 8, 3], [0, 8, 3], [0, 5, 8]])
     phi[2, 1] = -2 * SUNK * 0.1
-    (said,) = sentences(sunk, scenario, phi=phi, point=point)
+    (said,) = sentences(scenario, phi=phi, point=point)
     assert said == (
         "raise k of contacts.push: point 5 of push(rail/plate#0, ball/ball#0) was not among its 2 "
         "closest at step 1 and is 2 mm deep at step 2"

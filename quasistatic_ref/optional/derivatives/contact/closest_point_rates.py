@@ -38,9 +38,14 @@ class Rates(NamedTuple):
     phi : ndarray, shape (N, n_v)
     alpha, beta, n : ndarray, shape (N, 3, n_v)
     unique : ndarray of bool, shape (N,)
-        Whether there are such derivatives.
+        Whether there are such derivatives; where there are none, the others mean nothing.
     blurred : ndarray of bool, shape (N,)
-        Whether not, and the points or normals themselves have lost half of their digits.
+        Whether the points or normals themselves have lost half of their digits.
+    level_rim : ndarray of bool, shape (N,)
+        Whether a pair is on a rim of which no point is the nearest.
+    slides : ndarray of bool, shape (N,)
+        Whether its points may be anywhere along a line, where an edge ends among others, and it
+        does not matter where.
     """
 
     phi: Array
@@ -49,6 +54,8 @@ class Rates(NamedTuple):
     n: Array
     unique: Mask
     blurred: Mask
+    level_rim: Mask
+    slides: Mask
 
 
 def closest_point_rates(
@@ -98,7 +105,8 @@ def closest_point_rates(
     slid = free.transpose(0, 2, 1) @ z * np.concatenate([size, size])[:, None, None]
     moved = v + bent + slid
     d_phi = np.einsum("ja,jak->jk", n, apart)
-    return Rates(d_phi, moved[:N], moved[N:], dn, good, ~good & (least > SPLIT))
+    no = np.zeros(N, dtype=bool)  # of rims and lines a single pair knows nothing
+    return Rates(d_phi, moved[:N], moved[N:], dn, good, ~good & (least > SPLIT), no, no)
 
 
 def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | None:

@@ -1,7 +1,6 @@
 """How all contacts of a step change with q, and where they have kinks."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -9,44 +8,19 @@ from quasistatic_ref.optional.derivatives.contact.closest_point_rates import (
     Rates,
     closest_point_rates,
 )
-from quasistatic_ref.optional.derivatives.contact.couples import Couple, rim_velocity
+from quasistatic_ref.optional.derivatives.contact.couples import (
+    Couple,
+    PairInWorld,
+    Rim,
+    rim_velocity,
+)
 from quasistatic_ref.optional.derivatives.contact.features import Feature, across
-from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
 
 
-class ContactRates(NamedTuple):
-    """Derivatives by n_v coordinates of what n_c contacts are.
-
-    Parameters
-    ----------
-    phi : ndarray, shape (n_c, n_v)
-    alpha, beta, n : ndarray, shape (n_c, 3, n_v)
-    unique : ndarray of bool, shape (n_c,)
-        Whether the closest points are; where they are not, the others mean nothing.
-    level_rim : ndarray of bool, shape (n_c,)
-        Whether the contact is on a rim of which no point is the nearest.
-    blurred : ndarray of bool, shape (n_c,)
-        Whether point or normal themselves are known to half of their digits only.
-    slides : ndarray of bool, shape (n_c,)
-        Whether its points may be anywhere along a line, where an edge ends among others, and it
-        does not matter where.
-    """
-
-    phi: Array
-    alpha: Array
-    beta: Array
-    n: Array
-    unique: Mask
-    level_rim: Mask
-    blurred: Mask
-    slides: Mask
-
-
-def contact_rates(
-    couples: Sequence[Couple], tangents: tuple[Array, Array], J: Array
-) -> ContactRates:
+def contact_rates(couples: Sequence[Couple], tangents: tuple[Array, Array], J: Array) -> Rates:
     """The derivatives of all contacts.
 
     Parameters
@@ -60,11 +34,11 @@ def contact_rates(
     frames = np.stack(tangents, axis=1)
     slides = np.zeros((2, len(couples), 3, J.shape[2]))
     level = np.zeros(len(couples), dtype=bool)
-    on_rims = [j for j, couple in enumerate(couples) if couple.rim is not None]
-    for j in on_rims:
-        slide = _rim_slide(couples[j], J)
-        level[j] = slide is None
-        slides[_rim_side(couples[j]), j] = 0.0 if slide is None else slide
+    for j, couple in enumerate(couples):
+        if couple.rim is not None:
+            slide = _rim_slide(couple.of, couple.rim, J)
+            level[j] = slide is None
+            slides[couple.rim.side, j] = 0.0 if slide is None else slide
     features = [couple.features for couple in couples]
     slid = np.zeros(len(couples), dtype=bool)
     for j, couple in enumerate(couples):
@@ -75,16 +49,7 @@ def contact_rates(
             features[j] = merged if slid[j] else features[j]
     found = couple_rates(couples, frames, J, slides, features)
     level_too = np.array([nearly_level(couple) for couple in couples], dtype=bool)
-    return ContactRates(
-        found.phi,
-        found.alpha,
-        found.beta,
-        found.n,
-        found.unique,
-        level,
-        found.blurred | level_too,
-        slid,
-    )
+    return found._replace(blurred=found.blurred | level_too, level_rim=level, slides=slid)
 
 
 def nearly_level(couple: Couple) -> bool:
@@ -153,16 +118,8 @@ def couple_rates(
     return closest_point_rates(phi, n, frames, both, v, omega, size)
 
 
-def _rim_side(couple: Couple) -> int:
-    assert couple.rim is not None
-    return couple.rim.side
-
-
-def _rim_slide(couple: Couple, J: Array) -> Array | None:
+def _rim_slide(of: PairInWorld, rim: Rim, J: Array) -> Array | None:
     """How a corner moves along its rim, shape (3, n_v), as the normal of the closest pair turns."""
-    rim = couple.rim
-    of = couple.of
-    assert rim is not None
     nearest = of.closest
     n = of.closest.n
     rates = couple_rates([nearest], across(n)[None], J)

@@ -75,7 +75,7 @@ class PairInWorld:
             for body in self.bodies
             if isinstance(body.shape, HalfSpace)
         ]
-        return Feature(np.zeros((3, 3)), free)
+        return Feature(free=free)
 
     @cached_property
     def radii(self) -> tuple[float, float]:

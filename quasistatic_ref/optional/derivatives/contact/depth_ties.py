@@ -44,7 +44,8 @@ def depth_tie(couple: Couple) -> bool:
         way = solid.R.T @ (couple.n if other == 0 else -couple.n) if corner else None
         return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.of.size, way)
     if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
-        return _axes_cross(couple)
+        radii = a.shape.radius + b.shape.radius
+        return bool(abs(couple.phi + radii) <= TIED * couple.of.size)  # where the axes cross
     if couple.phi > 0:
         return False
     P = polytope(a.shape)
@@ -55,11 +56,6 @@ def depth_tie(couple: Couple) -> bool:
     core = couple.phi + P.margin + Q.margin
     level = every >= core - TIED * couple.of.size
     return core < 0 and _differ(normals[level], a.R.T @ couple.n)
-
-
-def _axes_cross(couple: Couple) -> bool:
-    radii = sum(body.shape.radius for body in couple.of.bodies if isinstance(body.shape, Capsule))
-    return bool(abs(couple.phi + radii) <= TIED * couple.of.size)
 
 
 def _rival(a: ShapeInWorld, b: ShapeInWorld, couple: Couple) -> bool:

@@ -25,7 +25,6 @@ from quasistatic_ref.shapes.placed_shape import (
     Cylinder,
     Ellipsoid,
     HalfSpace,
-    PointCloud,
     Shape,
     Sphere,
 )
@@ -34,6 +33,8 @@ from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
 NONE = np.zeros((0, 3))
+STRAIGHT = np.zeros((3, 3))
+"""D of what does not bend."""
 
 
 class Feature(NamedTuple):
@@ -54,7 +55,7 @@ class Feature(NamedTuple):
         Along it, 0 if it were straight [1/m].
     """
 
-    bend: Array
+    bend: Array = STRAIGHT
     free: Array = NONE
     ends: Array = NONE
     arc: Array = NONE
@@ -71,7 +72,7 @@ class Feature(NamedTuple):
 def ball(radius: float, n: Array) -> Feature:
     """A sphere's [m], or of radius 0 a vertex's, whose outward normal is n of shape (3,) [-]."""
     if not radius:
-        return Feature(np.zeros((3, 3)))
+        return Feature()
     return Feature(radius * (np.eye(3) - np.outer(n, n)))
 
 
@@ -90,12 +91,10 @@ def feature(shape: Shape, x: Array, n: Array) -> Feature:
         If the shape has no derivatives.
     """
     match shape:
-        case PointCloud():
-            return ball(0.0, n)
         case Sphere():
             return ball(shape.radius, n)
         case HalfSpace():
-            return Feature(np.zeros((3, 3)), across(n))
+            return Feature(free=across(n))
         case Box():
             return _of_box(shape, x, n)
         case Capsule():
@@ -117,7 +116,7 @@ def feature(shape: Shape, x: Array, n: Array) -> Feature:
 def _of_box(box: Box, x: Array, n: Array) -> Feature:
     fixed = np.abs(x) >= box.half_extents - ON_RIM * box.half_extents.max()
     axes = np.eye(3)
-    return Feature(np.zeros((3, 3)), axes[~fixed], axes[fixed & (np.abs(n) <= ON_RIM)])
+    return Feature(free=axes[~fixed], ends=axes[fixed & (np.abs(n) <= ON_RIM)])
 
 
 def _of_capsule(shape: Capsule, x: Array, n: Array) -> Feature:
@@ -135,7 +134,7 @@ def _of_cylinder(shape: Cylinder, x: Array, n: Array) -> Feature:
     side = np.hypot(x[0], x[1]) >= shape.radius - near
     cap = abs(x[2]) >= shape.half_length - near
     if cap and not side:
-        return Feature(np.zeros((3, 3)), across(n))
+        return Feature(free=across(n))
     if not cap:
         return Feature(_around(x, n), axis[None])
     return _of_rim(x, n, axis[None] if abs(n[2]) <= ON_RIM else NONE)
@@ -149,14 +148,14 @@ def _of_cone(shape: Cone, x: Array, n: Array) -> Feature:
     level = shape.radius / slant
     base = x[2] <= -shape.half_length + near
     if base and r < shape.radius - near:
-        return Feature(np.zeros((3, 3)), across(n))
+        return Feature(free=across(n))
     outward = n[:2] / (radial or 1.0)
     generator = np.array([*(-level * outward), 2 * shape.half_length / slant])
     on_slant = generator[None] if abs(n[2] - level) <= ON_RIM else NONE
     if base:
         return _of_rim(x, n, on_slant)
     if x[2] >= shape.half_length - near:
-        return Feature(np.zeros((3, 3)), ends=on_slant)
+        return Feature(ends=on_slant)
     return Feature(_around(x, n), generator[None])
 
 
@@ -171,32 +170,30 @@ def _of_polytope(flat: Polytope, x: Array, n: Array, near: float) -> Feature:
     """Of the faces that meet at x: one is a face, two an edge, and more a vertex."""
     level = flat.normals @ x - flat.offsets
     on = flat.normals[level >= level.max() - near]
-    nothing = np.zeros((3, 3))
     if len(on) == 1:
-        return Feature(nothing, across(n))
+        return Feature(free=across(n))
     if len(on) == 2:
         along = np.cross(on[0], on[1])
         shares = np.linalg.lstsq(on.T, n, rcond=None)[0]
         along = along / np.sqrt(along @ along)
         side = np.cross(along, n)[None]
-        return Feature(nothing, along[None], side if shares.min() <= ON_RIM else NONE)
+        return Feature(free=along[None], ends=side if shares.min() <= ON_RIM else NONE)
     tail = flat.vertices[flat.edges[:, 0]]
     head = flat.vertices[flat.edges[:, 1]]
     here = [np.abs(end - x).max(axis=1) <= 10 * near for end in (tail, head)]
     ways = np.concatenate([(head - tail)[here[0]], (tail - head)[here[1]]])
     ways = ways / np.sqrt(np.sum(ways * ways, axis=1))[:, None]
-    return Feature(nothing, ends=ways[ways @ n >= -ON_RIM])
+    return Feature(ends=ways[ways @ n >= -ON_RIM])
 
 
 def _of_rim(x: Array, n: Array, side: Array) -> Feature:
     """Of a circle about the z axis; `side` (0 or 1, 3) is the way to the side where it begins."""
     radial = np.hypot(n[0], n[1])
-    nothing = np.zeros((3, 3))
     if radial <= LEVEL:
-        return Feature(nothing, ends=across(n))
+        return Feature(ends=across(n))
     if len(side):
         return Feature(_around(x, n), ends=side)
-    return Feature(nothing, arc=_way_around(x)[None], curvature=float(radial / np.hypot(*x[:2])))
+    return Feature(arc=_way_around(x)[None], curvature=float(radial / np.hypot(*x[:2])))
 
 
 def _around(x: Array, n: Array) -> Array:

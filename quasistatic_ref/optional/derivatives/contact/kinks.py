@@ -5,11 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.optional.derivatives.contact.contact_rates import (
-    ContactRates,
-    couple_rates,
-    merged_features,
-)
+from quasistatic_ref.optional.derivatives.contact.closest_point_rates import Rates
+from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, merged_features
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.optional.derivatives.step import reason
@@ -41,14 +38,14 @@ class Kink(NamedTuple):
 
 
 def kinks(
-    couples: Sequence[Couple], rates: ContactRates, frames: Array, J: Array, quarters: bool
+    couples: Sequence[Couple], rates: Rates, frames: Array, J: Array, quarters: bool
 ) -> Iterator[Kink]:
     """The kinks of all contacts, whether they touch or not.
 
     Parameters
     ----------
     couples : sequence of Couple, length n_c
-    rates : ContactRates
+    rates : Rates
     frames : ndarray, shape (n_c, 2, 3)
         d1 and d2 [-].
     J : ndarray, shape (L, 6, n_v)

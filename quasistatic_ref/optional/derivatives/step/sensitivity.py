@@ -32,6 +32,7 @@ from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
 from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.optional.derivatives.step.parameters import Change, parameter_changes
 from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
@@ -244,5 +245,4 @@ def _rank(rows: list[list[fmpq]]) -> int:
 
 
 def _names(step: StepData, rows: Sequence[int]) -> str:
-    owners = list(row_owners(step, rows))
-    return owners[0] if len(owners) == 1 else f"{', '.join(owners[:-1])} and {owners[-1]}"
+    return listed(list(row_owners(step, rows)))

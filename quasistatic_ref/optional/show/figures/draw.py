@@ -9,7 +9,13 @@ from matplotlib.patches import Patch
 
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.looks import CONE_EDGE, CONE_FACE, FORCE
-from quasistatic_ref.optional.show.figures.moments import BEARING, DrawnContact, Moment, extent
+from quasistatic_ref.optional.show.figures.moments import (
+    BEARING,
+    DrawnContact,
+    Moment,
+    box_of,
+    extent,
+)
 from quasistatic_ref.optional.show.figures.pens import (
     MILLI,
     PLANES,
@@ -81,8 +87,7 @@ def draw_scene(
             _draw_contact(pen, contact, parts, metres_per_newton, 2 * FRAME * half)
     if around is None:
         tips = [c.beta + metres_per_newton * at for c in of.contacts for at in _tips(c, parts)]
-        every = np.array([*box, *tips])
-        box = np.array([every.min(axis=0), every.max(axis=0)])
+        box = box_of(np.array([*box, *tips]))
         centre = box.mean(axis=0)
     pen.finish(centre + (box - centre) * MARGIN + PADDING * half * SIGNS, view)
     if legend and of.contacts:

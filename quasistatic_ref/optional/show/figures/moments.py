@@ -9,7 +9,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.show.figures.looks import link_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points
 from quasistatic_ref.optional.show.figures.visuals import Visual
-from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone, cone_matrix
@@ -178,13 +178,13 @@ def drawn_shapes(scene: HasScene) -> tuple[PlacedShape, ...]:
 
 def extent(of: Moment) -> Array:
     """Least and greatest coordinates of what is bounded, shape (2, 3) [m]."""
-    points = [
-        of.world(placed, surface_points(placed.shape))
-        for placed in of.shapes
-        if not isinstance(placed.shape, HalfSpace)
-    ]
-    every = np.concatenate([*points, *([c.beta] for c in of.contacts)])
-    return np.array([every.min(axis=0), every.max(axis=0)])
+    points = [of.world(placed, surface_points(placed.shape)) for placed in of.shapes]
+    return box_of(np.concatenate([*points, *([c.beta] for c in of.contacts)]))
+
+
+def box_of(points: Array) -> Array:
+    """Least and greatest coordinates of points (N, 3) [m], shape (2, 3) [m]."""
+    return np.array([points.min(axis=0), points.max(axis=0)])
 
 
 def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
@@ -212,8 +212,7 @@ def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
         points += [m.world(placed, surface_points(placed.shape)) for placed in own]
         seen = [visual for visual in looks if moved[visual.link]]
         points += [v.corners @ m.R[v.link].T + m.t_links[v.link] for v in seen]
-    every = np.concatenate(points)
-    return np.array([every.min(axis=0), every.max(axis=0)])
+    return box_of(np.concatenate(points))
 
 
 def reported(run: Trajectory, k: int) -> Array:

@@ -68,11 +68,12 @@ def _of_body(body: Body, system: System, own: str) -> Iterator[Visual]:
             yield Visual(number, corners @ R.T + t, colour)
 
 
-def _corners(shape: Any, folder: Any, package_dirs: Sequence[Any]) -> Array:
+def _corners(shape: Any, folder: Path, package_dirs: Sequence[Any]) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
     if not isinstance(shape, FileMesh):
         return triangles(surface_points(shape, AROUND, UP))
-    return _mesh_corners(mesh_path(shape.uri, folder, package_dirs), shape.scale)
+    loaded = loaded_mesh(mesh_path(shape.uri, folder, package_dirs), shape.scale)
+    return np.asarray(np.array(loaded.vertices())[triangles_of(loaded).ravel()])
 
 
 def _colour(material: Element | None, named: dict[str | None, Element]) -> str | None:
@@ -90,21 +91,3 @@ def _colour(material: Element | None, named: dict[str | None, Element]) -> str |
         return None
     red, green, blue = np.clip([red, green, blue], 0.0, 1.0)
     return to_hex((red, green, blue))
-
-
-def _mesh_corners(path: Path, scale: Array) -> Array:
-    """The triangles of a mesh file, three corners each, shape (3T, 3) [m].
-
-    Parameters
-    ----------
-    path : Path
-    scale : ndarray, shape (3,)
-        Of each coordinate [-].
-
-    Raises
-    ------
-    ModelError
-        If coal cannot read the file.
-    """
-    loaded = loaded_mesh(path, scale)
-    return np.asarray(np.array(loaded.vertices())[triangles_of(loaded).ravel()])

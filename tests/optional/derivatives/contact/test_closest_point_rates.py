@@ -11,7 +11,7 @@ X, Y, N = np.eye(3)
 ACROSS = np.stack([X, Y])
 PHI = 0.1
 DIAGONAL = (X + Y) / np.sqrt(2)
-EDGE, FACE = (Feature(np.zeros((3, 3)), free) for free in (DIAGONAL[None], ACROSS))
+EDGE, FACE = (Feature(free=free) for free in (DIAGONAL[None], ACROSS))
 
 
 def found(features, v, omega, turned=None):
