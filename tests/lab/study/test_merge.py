@@ -107,15 +107,9 @@ def test_rows_are_never_counted_twice_under_whatever_name(stores, both, tmp_path
     assert not (tmp_path / "out").exists()
 
 
-OTHER_OPTIONS = [
-    one | {"options": one["options"] | {"mid": {"eps": 1.0}}} for one in made_store.STUDY["solvers"]
-]
-
-
 @pytest.mark.parametrize(("fields", "words"), [
     ({"problems": {"sha256": "b"}}, "another problems, by their hash"),
     ({"time_limit": 2.0}, "another time_limit"),
-    ({"solvers": OTHER_OPTIONS}, "another solver or options qpsolvers:ant than"),
 ])  # fmt: skip
 def test_results_of_another_study_are_refused_by_what_differs(stores, tmp_path, fields, words):
     folder, _ = stores

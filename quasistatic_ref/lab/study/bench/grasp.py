@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, ratio
 from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.native import NativeSolver
@@ -72,7 +71,6 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
     others: dict[str, Callable[[Array, Array], Job]] = {
         "DAQP alone": lambda q, goal: alone_call,
         "step, through CVXPY": lambda q, goal: partial(through.step, q, goal),
-        "all distances, brute force": lambda q, goal: partial(brute_force, at.scenario, q),
     }
     before = min(BEFORE, len(at.q) - 1)
     medians: dict[str, float] = {}
@@ -155,11 +153,6 @@ class _Run:
         q = self.q if k == self.k else self.at.q[k]
         self.q = self.simulator.step(q, self.at.goals[k]).q
         self.k = k + 1
-
-
-def brute_force(scenario: Scenario, q: Array) -> None:
-    """All signed distances at q, shape (n_q,), and the selection among them."""
-    closest_points(scenario.pairs, scenario.system.kinematics(q))
 
 
 def certification(at: Places, repeat: int) -> Mapping[str, Any]:
