@@ -30,6 +30,7 @@ def paper_sentence(tables: Mapping[str, Any]) -> str:
     m = tables["machine"]
     compiled = tables["compiled"]
     step = tables["interfaces"]["microseconds"]["step, native"]
+    plain = tables["certification"][PLAIN]
     sentence = (
         f"the paper's step takes less than {PAPER:g} us (its own interior-point method, all "
         f"distances, Julia 1.9.2 on a Mac M1 Pro). On {m['processor']}, with tracked distances and "
@@ -39,15 +40,9 @@ def paper_sentence(tables: Mapping[str, Any]) -> str:
     if compiled:
         sentence += (
             f", and compiled {compiled['step']:.0f} us, or {compiled['certified']:.0f} us "
-            f"with its proof{plain_words(tables)}"
+            f"with its proof; on the plain path, with its proof, {plain:.0f} us"
         )
     return sentence
-
-
-def plain_words(tables: Mapping[str, Any]) -> str:
-    """The time of a certified step on the plain path, where it was measured."""
-    times = tables["certification"]
-    return f"; on the plain path, with its proof, {times[PLAIN]:.0f} us" if PLAIN in times else ""
 
 
 def page(tables: Mapping[str, Any]) -> str:

@@ -5,6 +5,7 @@ from scipy.sparse import csc_matrix
 
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.scenes.rigid import actuated_step
 from quasistatic_ref.lab.study.problems.answers import step_of
 from quasistatic_ref.lab.study.problems.families.short import framed
@@ -55,10 +56,8 @@ def _not_enclosed(one: Problem) -> str | None:
     again = enclosure(cone_step(one))
     if again is None:
         return "its answer cannot be enclosed"
-    H = one.H.toarray()
-    off = again.delta_q - one.answer.x
-    free = float(one.g @ np.linalg.solve(H, one.g))
-    far = float(np.sqrt(off @ H @ off / free))
+    norm = energy_norm(one.H.toarray())
+    far = norm.displacement(again.delta_q - one.answer.x) / norm.impulse(one.g)
     close = far <= 2 * (again.error + one.answer.error) + 1e-16
     return None if close else f"x is off by {far:.1g}"
 
