@@ -6,8 +6,8 @@ from scipy.sparse import csc_matrix
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
-from quasistatic_ref.lab.study.problems.answers import step_of
 from quasistatic_ref.lab.study.problems.families.short import framed
 from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
@@ -15,7 +15,8 @@ from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.step.standard_form import StandardForm
 
 
 def refutation(one: Problem) -> str | None:
@@ -27,7 +28,7 @@ def refutation(one: Problem) -> str | None:
     """
     if one.answer.farkas:
         y = [one.answer.farkas.get(i, "0") for i in range(len(one.b))]
-        return farkas_refutation(step_of(one.form), y)
+        return farkas_refutation(row_step(one.form), y)
     if one.facts["kind"] == SOCP:
         return _not_enclosed(one)
     if one.answer.kind == BOUNDED:
@@ -41,6 +42,13 @@ def refutation(one: Problem) -> str | None:
         name for name, v in parts.items() if v.tobytes() != getattr(one.answer, name).tobytes()
     ]
     return f"{' and '.join(wrong)} have other bits" if wrong else None
+
+
+def row_step(form: StandardForm) -> StepData:
+    """The step whose standard form is a given quadratic program: h = 1, K_q = H, rows as extra."""
+    n = len(form.g)
+    rows = Extra(tuple(f"row {i}" for i in range(len(form.b))), form.A, form.b)
+    return actuated_step(form.H, form.g, np.zeros(n), no_contacts(n), 1.0).replace(extra=rows)
 
 
 def cone_step(one: Problem) -> StepData:

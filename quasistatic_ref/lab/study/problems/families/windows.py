@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.lab.digits import correct_digits
-from quasistatic_ref.lab.study.problems.families.harvest import Count, no_count, scenario_run
+from quasistatic_ref.lab.study.problems.families.harvest import Count, scenario_run
 from quasistatic_ref.lab.study.problems.families.made import Made, mass_ratio
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Mask
@@ -20,7 +20,7 @@ FEW = 2
 """Still steps of a sequence at most; a run without such a sequence has none."""
 
 
-def windows(name: str, count: Count = no_count) -> Iterator[Made]:
+def windows(name: str, count: Count) -> Iterator[Made]:
     """Sequences of a scenario that move, at most one for each stride, where contacts change most.
 
     Parameters
