@@ -27,25 +27,12 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     found = json.loads(capsys.readouterr().out)
     assert json.loads((tmp_path / "bench.json").read_text()) == found
     assert set(found["interfaces"]["microseconds"]) == {
-        "step, native", "DAQP alone", "step, through CVXPY", "all distances, brute force",
+        "step, native", "DAQP alone", "step, through CVXPY",
     }  # fmt: skip
-    measured = {(row["engine"], row["backend"]) for row in found["parts"]}
-    assert {("native", "daqp"), ("cvxpy", "clarabel"), ("native", "quadprog")} <= measured
     assert {STEP, MAPPED, "derivatives", "step_jax"} == set(found["derivatives"])
     text = (tmp_path / "bench.md").read_text()
-    for title in (
-        "by every interface",
-        "By part",
-        "certificate",
-        "Derivatives",
-        "Scenes of solids",
-    ):
+    for title in ("by every interface", "certificate", "Derivatives", "Scenes of solids"):
         assert title in text
-    # Distances by brute force, and what a step of this backend takes besides its own.
-    brute = found["interfaces"]["microseconds"]["all distances, brute force"]
-    (piqp,) = [r for r in found["parts"] if (r["engine"], r["backend"]) == ("native", "piqp")]
-    alike = brute + piqp["rows"] + piqp["solve"] + piqp["integrate"]
-    assert f"takes {alike:.0f} us with piqp (more than {alike / 90:.1f} times)" in text
 
 
 def test_the_interfaces_lead_to_the_same_step(at):

@@ -1,7 +1,6 @@
 """The profile of a step: what is counted and timed, and when the claim about it fails."""
 
 from quasistatic_ref.lab.study.bench.profile import (
-    all_distances,
     grasp_scenario,
     tracked_distances,
 )
@@ -34,7 +33,3 @@ def test_the_distances_of_the_tracker_are_those_that_it_really_evaluates(monkeyp
     # evaluates the lists alone.
     assert found[0] == 3 * (992 + 992 + 32)
     assert (found[1:] == 3 * 32).all()
-
-
-def test_brute_force_evaluates_every_point_against_every_object():
-    assert all_distances(grasp_scenario("clarabel", "off")) == 3 * 992

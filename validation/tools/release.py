@@ -84,7 +84,6 @@ RESULTS = (
     ),
     printed("large_steps"),
     printed("grouped_proofs"),
-    to_file("contact_qp"),
     to_file("proved_problems"),
     printed("pair_distances"),
     to_file("solid_pairs"),

@@ -110,15 +110,41 @@ def agrees(cell, value):
     return abs(float(cell) - value) <= 0.5001 * 10.0 ** (power - decimals)
 
 
-def rows_of_line(title, where, columns, line, rows):
+def lines(tables, *, titled):
+    """(title, filter, columns, line) of tables whose title begins so."""
+    return [
+        (title, where, columns, line)
+        for title, where, columns, body in tables
+        if re.match(titled, title)
+        for line in body
+    ]
+
+
+def checked(tables, rows, limit):
+    """How many numbers of tables of counts were compared, each of which is that of the rows."""
+    count = 0
+    titles = "Setting|Raw units|Cold|qpsolvers and cvxpy|Machines|How the calls"
+    for title, where, columns, line in lines(tables, titled=titles):
+        own = rows_of_line(where, columns, line, rows)
+        for column, cell in zip(columns, line, strict=True):
+            if column not in ("solver", "setting", "interface", "machine"):
+                value = number(column, own, limit)
+                assert agrees(cell, value), (title, line[0], column, cell, value)
+                count += 1
+    return count
+
+
+def rows_of_line(where, columns, line, rows):
     """The rows that one line of a table is about."""
     kept = picked(rows, where)
     if "left out" in where:
         kept = [r for r in kept if r["outcome"] != "not_run_budget"]
     for name, cell in zip(columns, line, strict=True):
         if name == "solver":
-            kept = [r for r in kept if cell in (said(r, "label"), r["solver"])]
-        elif name in ("setting", "family", "interface"):
+            solver, _, machine = cell.partition("@")
+            kept = [r for r in kept if solver in (said(r, "label"), r["solver"])
+                    and machine in ("", r.get("machine"))]  # fmt: skip
+        elif name in ("setting", "interface", "machine"):
             kept = [r for r in kept if r[name] == cell]
     if both := re.search(r"at every value of (\w+)", where):
         kept = shared(kept, [both[1]])

@@ -1,11 +1,8 @@
 """The families of problems that have a dial, by formulas for what the dial does."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.study.problems.families.dials import DIALS, one_turned, turned
 from quasistatic_ref.lab.study.problems.making import problem_of
@@ -56,22 +53,12 @@ def test_copies_multiply_rows_and_leave_the_answer():
         np.testing.assert_array_equal(form.A[:m], form.A[-m:])
 
 
-@pytest.mark.parametrize("overlap", [1e-2, 1e-6, 1e-13])
-def test_walls_that_overlap_leave_no_solution(overlap):
-    """Rows a x >= -phi and -a x >= phi + overlap, whose sum is 0 >= overlap."""
-    tight = problem_of(one_turned("infeasible", overlap, 0, 1))
-    y = tight.answer.farkas
-    assert isinstance(dual_active_set(exact_form_of(*tight.form)), Farkas)
-    assert sum(float(Fraction(v)) * tight.b[i] for i, v in y.items()) > 0
-
-
 @pytest.mark.parametrize("clearance", [1e-3, 1e-7, 1e-13])
-def test_a_cage_with_clearance_allows_to_stand_still_and_one_without_nothing(clearance):
-    """All gaps positive: x = 0 satisfies A x >= b; all negative, and normals all around: none."""
+def test_a_cage_with_clearance_allows_to_stand_still(clearance):
+    """All gaps positive: x = 0 satisfies A x >= b."""
     loose = problem_of(one_turned("narrow", clearance, 1, 1))
     assert (loose.b < 0).all()
     assert not loose.answer.farkas
-    assert problem_of(one_turned("infeasible", clearance, 1, 1)).answer.farkas
 
 
 @pytest.mark.parametrize("angle", [1e-1, 1e-5, 1e-9])
@@ -95,11 +82,13 @@ def test_joints_stay_within_their_limits(travel):
     assert bearing.any() == (travel < 1e-2)
 
 
-@pytest.mark.parametrize("i", [0, 1])
-def test_what_is_jammed_has_a_proof_that_it_cannot_move(i):
-    """Joints at their limits, and a tower under a ceiling."""
-    one = problem_of(one_turned("jammed", 1e-6, i, 2))
-    assert farkas_refutation(one.form.A, one.b, one.answer.farkas) is None
+@pytest.mark.parametrize("overlap", [1e-2, 1e-6, 1e-13])
+@pytest.mark.parametrize("family", [name for name in DIALS if not DIALS[name].solvable])
+def test_what_overlaps_has_a_proof_that_there_is_no_solution(family, overlap):
+    """Both scenes: walls and a cage, joints at their limits and a tower under a ceiling."""
+    for i in range(2):
+        one = problem_of(one_turned(family, overlap, i, 2))
+        assert farkas_refutation(one.form.A, one.b, one.answer.farkas) is None
 
 
 def test_a_wall_of_bricks_has_few_entries():

@@ -66,27 +66,15 @@ def test_every_row_of_every_machine_is_there_once_with_its_machine(stores, both,
 
 
 def test_machines_are_lines_of_tables_and_compared_on_the_same_problems(both):
-    """The report of the merged store against its rows: n problems of each machine, its median."""
+    """The report of the merged store against its rows; cat is called on 9 problems of 12."""
     rows = [row for row in contents(both).rows if row["repetition"] == 0]
     tables = plain_report.parsed(markdown_page(study_report(both)))
-    (_, where, names, body) = next(t for t in tables if t[0].startswith("Setting mid"))
-    assert names[:3] == ["solver", "interface", "machine"]
-    assert len(body) == 2 * len(made_store.SOLVERS)
-    for solver, interface, machine, calls, *_ in body:
-        wanted = {"solver": solver, "interface": interface, "machine": machine}
-        own = [r for r in plain_report.picked(rows, where) if wanted.items() <= r.items()]
-        own = [r for r in own if r["outcome"] != "not_run_budget"]
-        assert int(calls) == len(own) == (9 if solver == "cat" else 12)
-    (machines,) = (t for t in tables if t[0].startswith("Machines"))
-    at = machines[2].index("time, median [ms], machine = slow")
-    for line in machines[3]:
-        wanted = {"machine": "slow", "setting": line[1], "warm": False, "units": "natural"}
-        own = [r for r in rows if wanted.items() <= r.items()]
-        own = [r for r in own if plain_report.said(r, "label") == line[0]]
-        own = [r for r in own if r["outcome"] != "not_run_budget"]
-        assert int(line[2]) == len(own)
-        expected = plain_report.number("time, median [ms]", own, made_store.LIMIT)
-        assert plain_report.agrees(line[at], expected)
+    assert plain_report.checked(tables, rows, made_store.LIMIT) > 300
+    found = plain_report.lines(tables, titled="Setting mid")
+    assert len(found) == 2 * len(made_store.SOLVERS)
+    for _, _, _, (solver, _, _, calls, *_) in found:
+        assert int(calls) == (9 if solver == "cat" else 12)
+    assert plain_report.lines(tables, titled="Machines")
 
 
 def test_rows_are_never_counted_twice_under_whatever_name(stores, both, tmp_path):
@@ -107,15 +95,9 @@ def test_rows_are_never_counted_twice_under_whatever_name(stores, both, tmp_path
     assert not (tmp_path / "out").exists()
 
 
-OTHER_OPTIONS = [
-    one | {"options": one["options"] | {"mid": {"eps": 1.0}}} for one in made_store.STUDY["solvers"]
-]
-
-
 @pytest.mark.parametrize(("fields", "words"), [
     ({"problems": {"sha256": "b"}}, "another problems, by their hash"),
     ({"time_limit": 2.0}, "another time_limit"),
-    ({"solvers": OTHER_OPTIONS}, "another solver or options qpsolvers:ant than"),
 ])  # fmt: skip
 def test_results_of_another_study_are_refused_by_what_differs(stores, tmp_path, fields, words):
     folder, _ = stores

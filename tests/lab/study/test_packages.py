@@ -81,7 +81,6 @@ def test_names_that_are_not_clear_or_not_there_are_refused(planted, study):
 
 
 @pytest.mark.parametrize(("value", "words"), [
-    ("planted_package_2:solve", "cannot be imported: RuntimeError: no licence"),
     ("planted_package_3:solve", "cannot be imported: ModuleNotFoundError"),
     ("planted_package:nobody", "cannot be imported: AttributeError"),
     ("planted_package:NUMBER", "is not a function"),

@@ -55,15 +55,6 @@ def test_wrong_answers_and_wrong_proofs_are_refuted_in_fractions():
     assert [rational_kkt.farkas_refutation(A, *proof) for proof in proofs.values()] == list(proofs)
 
 
-def test_a_sample_of_all_answers_is_proved_again_without_a_solver(members, older):
-    kinds = {"conic": [one for one in older if one.facts["kind"] == "socp"][::90]}
-    kinds["sparse"] = [one for one in older if "sparse" in one.facts["tags"]][:3]
-    kinds["rows"] = [one for one in members if one.facts["n"] < 25][::40]
-    assert all(kinds.values())
-    for some in kinds.values():
-        assert [refutation(one) for one in some] == [None] * len(some)
-
-
 @pytest.mark.parametrize("kind", ["exact", "enclosed", "bounded", "infeasible"])
 def test_an_answer_that_was_changed_is_refuted(members, older, kind):
     def of_kind(one):

@@ -15,7 +15,6 @@ import distributed
 
 import quasistatic_ref
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.lab.study.measuring.run import run_study
 from quasistatic_ref.lab.study.problems import making
 from quasistatic_ref.lab.study.store.rows import table
 from quasistatic_ref.lab.study.store.store import STORE, contents
@@ -92,12 +91,6 @@ def test_a_study_killed_at_a_random_moment_gives_the_same_table(study, run, smal
     assert table(rows) == table(contents(whole).rows), f"killed at {moment}"
     kept = [r for r in rows if r in before]  # nothing is measured twice: times are the old ones
     assert len(kept) == len(before)
-
-
-def test_a_finished_study_measures_nothing_again(study, small, whole):
-    before = contents(whole).rows
-    run_study(study(small), whole, progress=False)
-    assert contents(whole).rows == before
 
 
 MIXED = """

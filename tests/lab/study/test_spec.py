@@ -45,9 +45,7 @@ def test_bad_files_end_the_command_with_status_2(tmp_path, capsys):
         ("a.toml", "x = ", "is not TOML"),
         ("b.toml", "format = 3", "format"),
         ("c.toml", None, "no such file"),
-        ("d.toml", HEAD + 'kind = "swep"', "kind: is not a choice; did you mean 'sweep'?"),
-        ("e.toml", HEAD.replace("version", "vesrion"), "vesrion: is unknown; did you mean"),
-        ("f.toml", HEAD.replace("study", "scenario") + "h = 1", "format: must be 'quasis"),
+        ("d.toml", HEAD.replace("version", "vesrion"), "vesrion: is unknown; did you mean"),
     ):
         path = tmp_path / name
         if content is not None:

@@ -9,35 +9,8 @@ from quasistatic_ref.lab.study.calling.solvers import Setting
 from quasistatic_ref.lab.study.measuring.grade import grades, prepared
 from quasistatic_ref.lab.study.problems.answers import FROM_NOTHING, dense_answer, exact_answer
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.step.standard_form import StandardForm, standard_form
+from quasistatic_ref.step.standard_form import standard_form
 from tests.lab.study.planted import ANY
-
-
-def planted(rng, n=6, m=20):
-    """A program made around x and lam: H x - g = A' lam, slack and lam never both positive."""
-    B = rng.normal(size=(n, n))
-    H = B @ B.T + np.eye(n)
-    A = rng.normal(size=(m, n))
-    x = rng.normal(size=n)
-    lam = np.where(np.arange(m) < n // 2, rng.uniform(1, 2, m), 0.0)
-    b = A @ x - np.where(lam > 0, 0.0, rng.uniform(0, 1, m))
-    return StandardForm((H + H.T) / 2, H @ x - A.T @ lam, A, b), x, lam
-
-
-def test_the_answer_of_a_planted_program_is_what_it_was_made_around():
-    form, x, lam = planted(np.random.default_rng(3))
-    answer = dense_answer(form)
-    np.testing.assert_allclose(answer.x, x, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(answer.net, form.A.T @ lam, rtol=0, atol=1e-11)
-    np.testing.assert_allclose(answer.slack, form.A @ x - form.b, rtol=0, atol=1e-11)
-    assert answer.error == 0.0
-
-
-def test_a_program_without_solution_has_a_farkas_vector():
-    """X >= 1, -x >= 1: y = (1, 1) has A'y = 0 and b'y = 2."""
-    one = np.eye(1)
-    form = StandardForm(one, np.zeros(1), np.vstack([one, -one]), np.ones(2))
-    assert dense_answer(form).farkas == {0: "1", 1: "1"}
 
 
 def test_a_large_problem_has_the_bits_of_the_exact_method_from_no_rows():

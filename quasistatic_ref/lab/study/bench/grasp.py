@@ -8,28 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.errors import StepNotSolved
-from quasistatic_ref.lab.study.bench.timing import (
-    INTERFACES,
-    Job,
-    in_turn,
-    microseconds,
-    ratio,
-)
+from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, ratio
 from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, installed
+from quasistatic_ref.solve.backends import CERTIFY, DEFAULT
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import ACCURACY
 
 PLAIN = "full, plain"
 FORCES = "full, and the forces of its contacts"
-SETTINGS = ["solver.certify=off", "record=light"]
-PARTS = ("distances", "rows", "solve", "integrate")
+SETTINGS = ["solver.backend=daqp", "solver.certify=off", "record=light"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,9 +39,9 @@ class Places:
     goals: list[Array]
 
 
-def places(steps: int, backend: str = "daqp") -> Places:
+def places(steps: int) -> Places:
     """Configurations of a bunny_grasp run, from the closing of the grip on."""
-    scenario = load_scenario("bunny_grasp", [*SETTINGS, f"solver.backend={backend}"], fast=True)
+    scenario = load_scenario("bunny_grasp", SETTINGS, fast=True)
     simulator = scenario.simulator()
     q = scenario.system.q_start
     visited = []
@@ -80,7 +71,6 @@ def interfaces(at: Places, repeat: int) -> dict[str, Any]:
     others: dict[str, Callable[[Array, Array], Job]] = {
         "DAQP alone": lambda q, goal: alone_call,
         "step, through CVXPY": lambda q, goal: partial(through.step, q, goal),
-        "all distances, brute force": lambda q, goal: partial(brute_force, at.scenario, q),
     }
     before = min(BEFORE, len(at.q) - 1)
     medians: dict[str, float] = {}
@@ -163,50 +153,6 @@ class _Run:
         q = self.q if k == self.k else self.at.q[k]
         self.q = self.simulator.step(q, self.at.goals[k]).q
         self.k = k + 1
-
-
-def parts(at: Places, repeat: int) -> list[dict[str, Any]]:
-    """The parts of a step for every interface and backend, the backends taking turns [us]."""
-    simulators: dict[tuple[str, str], Simulator] = {}
-    for interface, fast in INTERFACES.items():
-        for name in installed(interface):
-            if name not in UNFIT:
-                settings = replace(at.scenario, fast=fast, backend=name)
-                made = by_numpy(settings) if fast else settings.simulator()
-                simulators[interface, name] = made
-    taken = {key: np.full((len(at.q), len(PARTS)), np.inf) for key in simulators}
-    failed = dict.fromkeys(simulators, 0)
-    for _ in range(repeat):
-        for k, (q, goal) in enumerate(zip(at.q, at.goals, strict=True)):
-            for key, simulator in simulators.items():
-                try:
-                    lap = simulator.step(q, goal).seconds
-                except StepNotSolved:
-                    failed[key] += 1
-                    continue
-                lap["solve"] += lap["proof"]
-                row = np.array([lap[part] for part in PARTS])
-                taken[key][k] = np.minimum(taken[key][k], row)
-    return [_row(key, taken[key], failed[key]) for key in simulators]
-
-
-UNFIT = ("highs", "qpalm")
-"""At the accuracy of a run HiGHS leaves a third of the grasp unsolved (docs/conventions.md); QPALM
-solves no steps, only problems of studies."""
-
-
-def _row(key: tuple[str, str], taken: Array, failed: int) -> dict[str, Any]:
-    solved = taken[np.isfinite(taken).all(axis=1)]
-    medians = 1e6 * np.median(solved, axis=0) if len(solved) else np.full(len(PARTS), np.nan)
-    row: dict[str, Any] = {"engine": key[0], "backend": key[1]}
-    row |= {part: float(us) for part, us in zip(PARTS, medians, strict=True)}
-    row["step"] = 1e6 * float(np.median(solved.sum(axis=1))) if len(solved) else float("nan")
-    return row | {"unsolved": failed}
-
-
-def brute_force(scenario: Scenario, q: Array) -> None:
-    """All signed distances at q, shape (n_q,), and the selection among them."""
-    closest_points(scenario.pairs, scenario.system.kinematics(q))
 
 
 def certification(at: Places, repeat: int) -> Mapping[str, Any]:

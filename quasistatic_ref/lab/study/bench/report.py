@@ -6,7 +6,7 @@ from typing import Any
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.bench.acceptance import PAPER
 from quasistatic_ref.lab.study.bench.derived import SCENE, STEP
-from quasistatic_ref.lab.study.bench.grasp import PARTS, PLAIN
+from quasistatic_ref.lab.study.bench.grasp import PLAIN
 from quasistatic_ref.lab.study.bench.solids import COLUMNS
 
 Rows = list[tuple[str, ...]]
@@ -14,13 +14,6 @@ Rows = list[tuple[str, ...]]
 SOLIDS = """Boxes lie apart on a floor, which each touches at four corners with six rows, and are
 pushed; three finger tips turn the drum. With `fast`, by what it certifies; and on the plain path.
 MuJoCo's is `mj_step` of the same scene (`pip install "quasistatic-ref[engines]"`)."""
-
-BY_PART = {
-    "engine": "{engine}",
-    "backend": "{backend}",
-    **{name: f"{{{name}:.1f}}" for name in (*PARTS, "step")},
-    "unsolved": "{unsolved}",
-}
 
 
 def promise_rows(promises: Sequence[Mapping[str, Any]]) -> Rows:
@@ -33,45 +26,23 @@ def promise_rows(promises: Sequence[Mapping[str, Any]]) -> Rows:
 
 
 def paper_sentence(tables: Mapping[str, Any]) -> str:
-    """How far the step is from the paper's time: like for like, and with all that makes it fast."""
+    """How far the step is from the paper's time."""
     m = tables["machine"]
     compiled = tables["compiled"]
-    alike = " and ".join(
-        f"{us:.0f} us with {name} (more than {us / PAPER:.1f} times)"
-        for name, us in like_for_like(tables).items()
-    )
     step = tables["interfaces"]["microseconds"]["step, native"]
+    plain = tables["certification"][PLAIN]
     sentence = (
         f"the paper's step takes less than {PAPER:g} us (its own interior-point method, all "
-        "distances, Julia 1.9.2 on a Mac M1 Pro). Like for like, with all distances and an "
-        "interior-point method, which starts cold, nothing certified, the 13 x 80 step takes "
-        f"{alike} on "
-        f"{m['processor']}, by NumPy, as the sum of its parts. With tracked distances and DAQP, "
-        f"which starts from the last answer, it takes {step:.0f} us by NumPy"
+        f"distances, Julia 1.9.2 on a Mac M1 Pro). On {m['processor']}, with tracked distances and "
+        "DAQP, which starts from the last answer, nothing certified, the 13 x 80 step takes "
+        f"{step:.0f} us by NumPy"
     )
     if compiled:
         sentence += (
             f", and compiled {compiled['step']:.0f} us, or {compiled['certified']:.0f} us "
-            f"with its proof{plain_words(tables)}"
+            f"with its proof; on the plain path, with its proof, {plain:.0f} us"
         )
     return sentence
-
-
-def like_for_like(tables: Mapping[str, Any]) -> dict[str, float]:
-    """Steps with all distances by an interior-point method, called natively, by backend [us]."""
-    rows = {(row["engine"], row["backend"]): row for row in tables["parts"]}
-    all_distances = tables["interfaces"]["microseconds"]["all distances, brute force"]
-    return {
-        name: sum(rows["native", name][part] for part in ("rows", "solve", "integrate"))
-        + all_distances
-        for name in ("piqp", "clarabel")
-    }
-
-
-def plain_words(tables: Mapping[str, Any]) -> str:
-    """The time of a certified step on the plain path, where it was measured."""
-    times = tables["certification"]
-    return f"; on the plain path, with its proof, {times[PLAIN]:.0f} us" if PLAIN in times else ""
 
 
 def page(tables: Mapping[str, Any]) -> str:
@@ -79,7 +50,6 @@ def page(tables: Mapping[str, Any]) -> str:
     m = tables["machine"]
     times = tables["certification"].items()
     promises = promise_rows(tables["promises"])
-    parts = _formatted(BY_PART, tables["parts"])
     certified: Rows = [("certify", "step [us]"), *((kind, f"{us:.0f}") for kind, us in times)]
     lines = [
         "# What a step costs",
@@ -96,7 +66,6 @@ def page(tables: Mapping[str, Any]) -> str:
             "The step of the bunny by every interface",
             _over(tables["interfaces"]["microseconds"], "step, native"),
         ),
-        *_section("By part, interface and backend [us], all in turn, caches cold", parts),
         *_section(
             "With a certificate, fast; and on the plain path [us]",
             certified,
@@ -126,11 +95,6 @@ def _solids(scenes: Mapping[str, Mapping[str, float]]) -> Rows:
         over = (f"{costs[key]:.2f}" if key in costs else "" for key in ratios)
         rows.append((name, *us, *over))
     return rows
-
-
-def _formatted(columns: Mapping[str, str], records: Sequence[Mapping[str, Any]]) -> Rows:
-    """The names of columns, and of each record its fields in the columns' formats."""
-    return [tuple(columns), *(tuple(f.format(**r) for f in columns.values()) for r in records)]
 
 
 def _section(title: str, rows: Rows) -> list[str]:

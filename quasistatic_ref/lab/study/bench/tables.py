@@ -14,7 +14,6 @@ from quasistatic_ref.lab.study.bench.grasp import (
     by_compiled_code,
     certification,
     interfaces,
-    parts,
     places,
     residual_over_off,
 )
@@ -49,10 +48,8 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     found["interfaces"] = interfaces(at, repeat)
     tell("compiled")
     found["compiled"] = by_compiled_code(at, repeat)
-    tell("parts")
-    some = places(4 if quick else 60)
-    found["parts"] = parts(some, 1 if quick else 2)
     tell("certification")
+    some = places(4 if quick else 60)
     found["certification"] = certification(some, 1 if quick else 2)
     found["residual_over_off"] = residual_over_off(some, 1 if quick else 2)
     tell("derivatives")

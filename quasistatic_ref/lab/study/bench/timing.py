@@ -9,10 +9,6 @@ import numpy as np
 from quasistatic_ref.step.data import Array
 
 Job = Callable[[], Any]
-INTERFACES = {"native": True, "cvxpy": False}
-"""How a backend is reached, and whether that is `fast`: by its own interface, or on the plain path
-through CVXPY."""
-
 Clock = Callable[[], float]
 
 

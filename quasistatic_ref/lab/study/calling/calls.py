@@ -1,7 +1,6 @@
 """Six interfaces to a solver: CVXPY, qpsolvers, its own, a package, a callable, an executable."""
 
 import contextlib
-import importlib
 import inspect
 import json
 import shutil
@@ -20,7 +19,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.lab.study.calling.guests import NATIVELY, natively
 from quasistatic_ref.lab.study.calling.native import Native
-from quasistatic_ref.lab.study.calling.packages import loaded
+from quasistatic_ref.lab.study.calling.packages import function_at, loaded
 from quasistatic_ref.lab.study.calling.solvers import Solver
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
@@ -79,25 +78,6 @@ def call_of(solver: Solver, folder: str = ".") -> Call:
     if solver.interface in ("package", "callable"):
         return _function(function_of(solver))
     return Executable(_command(tuple(solver.target), folder), folder)
-
-
-def imported(target: str) -> Callable[..., Any]:
-    """The function of ``module:function``.
-
-    Raises
-    ------
-    InputError
-        If there is none.
-    """
-    module, _, name = target.partition(":")
-    try:
-        function: Callable[..., Any] = getattr(importlib.import_module(module), name)
-    except Exception as error:  # a module may raise anything when it is imported
-        words = f"cannot be imported: {type(error).__name__}: {error}"
-        raise InputError(f"{words}; write module:function", value=target) from None
-    if not callable(function):
-        raise InputError("is not a function", value=target)
-    return function
 
 
 class Crashed(Exception):
@@ -171,7 +151,7 @@ def function_of(solver: Solver) -> Callable[..., Any]:
         If it cannot be imported.
     """
     target = str(solver.target)
-    return loaded(target) if solver.interface == "package" else imported(target)
+    return loaded(target) if solver.interface == "package" else function_at(target)
 
 
 def takes_start(function: Callable[..., Any]) -> bool:

@@ -51,6 +51,24 @@ def package_of(entry: EntryPoint) -> str:
     return entry.dist.name if entry.dist else "a package without a name"
 
 
+def function_at(target: str) -> Callable[..., Any]:
+    """The function of ``module:function``.
+
+    Raises
+    ------
+    InputError
+        If there is none, or it cannot be imported.
+    """
+    try:
+        function: Callable[..., Any] = EntryPoint("", target, GROUP).load()
+    except Exception as error:  # a module may raise anything when it is imported
+        words = f"cannot be imported: {type(error).__name__}: {error}"
+        raise InputError(words, value=target) from None
+    if not callable(function):
+        raise InputError("is not a function", value=target)
+    return function
+
+
 def loaded(name: str) -> Callable[..., Any]:
     """The function that a package announces.
 
@@ -60,12 +78,8 @@ def loaded(name: str) -> Callable[..., Any]:
         If there is none, or it cannot be imported.
     """
     entry = entry_of(name)
-    where = f"{entry.value} of {package_of(entry)}"
     try:
-        function: Callable[..., Any] = entry.load()
-    except Exception as error:  # a package may raise anything when it is imported
-        words = f"{where}, cannot be imported: {type(error).__name__}: {error}"
+        return function_at(entry.value)
+    except InputError as error:
+        words = f"{entry.value} of {package_of(entry)}, {error.problem}"
         raise InputError(words, value=name) from None
-    if not callable(function):
-        raise InputError(f"{where}, is not a function", value=name)
-    return function

@@ -145,7 +145,7 @@ def _axes(tables: Fields, quick: bool) -> tuple[Axis, ...]:
         table = tables.table(name)
         given = TABLES.all_values(table, AXIS)
         values = given["values"]
-        if not all(isinstance(v, str) or _is_finite(v) for v in values):
+        if not all(map(is_value, values)):
             raise table.fail("values", "must be a list of finite numbers or words", values)
         chosen = dict.fromkeys([values[0], values[-1]] if quick else values)
         axes.append(Axis(name, tuple(given["fields"] or [name]), tuple(chosen)))
@@ -154,5 +154,6 @@ def _axes(tables: Fields, quick: bool) -> tuple[Axis, ...]:
     return tuple(axes)
 
 
-def _is_finite(value: Any) -> bool:
-    return isinstance(value, int | float) and -LARGE < value < LARGE
+def is_value(value: object) -> bool:
+    """Whether an axis may have it: a word, or a finite number."""
+    return isinstance(value, str) or (isinstance(value, int | float) and abs(value) < LARGE)

@@ -17,6 +17,7 @@ from quasistatic_ref.lab.study.measuring.measure import Limits, measured
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, set_read
 from quasistatic_ref.lab.study.problems.for_study import FOLDER
 from quasistatic_ref.lab.study.problems.problem import Problem
+from quasistatic_ref.lab.study.store.continued import solver_label
 from quasistatic_ref.lab.study.store.store import contents
 
 LIMITS = Limits(2.0, 10.0, 5)
@@ -44,10 +45,10 @@ class Question:
     problem: Problem
     solver: Solver
     setting: Setting
-    units: str = "natural"
-    warm: bool = False
-    limits: Limits = LIMITS
-    memory: float = MEMORY
+    units: str
+    warm: bool
+    limits: Limits
+    memory: float
 
 
 def question(
@@ -164,7 +165,7 @@ def solver_named(label: str) -> Solver:
 def _of_store(label: str, study: Mapping[str, Any]) -> Solver:
     """A solver as it was called in a study, at the same options."""
     entries: Sequence[Mapping[str, Any]] = study["solvers"]
-    labels = {f"{one['interface']}:{one['name']}": one for one in entries}
+    labels = {solver_label(one): one for one in entries}
     if label not in labels:
         raise InputError(f"is not a solver of the study{suggestion(label, labels)}", value=label)
     one = labels[label]

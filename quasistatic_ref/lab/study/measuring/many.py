@@ -12,12 +12,11 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.study.file.sweeps import MOST_RUNS, Axis, Sweep, sweep_scenario
+from quasistatic_ref.lab.study.file.sweeps import MOST_RUNS, Axis, Sweep, is_value, sweep_scenario
 from quasistatic_ref.lab.study.measuring.sweep import run_file, run_sweep
 from quasistatic_ref.lab.study.store.rows import Row
 from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.overrides import parsed
-from quasistatic_ref.tolerances import LARGE
 
 TABLE = "runs.csv"
 
@@ -116,8 +115,7 @@ def swept_values(text: str) -> tuple[str, list[float | str]]:
 def _axis(name: str, values: Iterable[float | str]) -> Axis:
     own = [v.item() if isinstance(v, np.generic) else v for v in values]
     own = [str(v) if isinstance(v, str) else v for v in own]  # no word of a file of ours
-    good = all(isinstance(v, str) or (isinstance(v, int | float) and abs(v) < LARGE) for v in own)
-    if not own or not good:
+    if not own or not all(map(is_value, own)):
         raise InputError("must be a list of finite numbers or words", field=name, value=own)
     return Axis(name, (name,), tuple(dict.fromkeys(own)))
 

@@ -13,7 +13,6 @@ from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import natural_form, natural_hessian, units_of
-from quasistatic_ref.step.data import Contacts, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -72,22 +71,3 @@ def reply_of(natural: StandardForm, solver: str) -> Reply | None:
         return None
     options = BACKENDS[solver].first(ACCURACY)
     return tried(qpsolvers_reply, natural, solver, options)
-
-
-def step_of(form: StandardForm) -> StepData:
-    """The step whose standard form is a given quadratic program: h = 1, K_q = H, rows as extra."""
-    n = len(form.g)
-    m = len(form.b)
-    nothing = np.zeros(0)
-    frames = np.zeros((0, 3))
-    return StepData(
-        h=1.0,
-        K_q=form.H,
-        M_u=np.zeros((0, 0)),
-        tau_a=form.g,
-        tau_u=nothing,
-        delta_q_bar_a=np.zeros(n),
-        contacts=Contacts((), nothing, frames, frames, frames, np.zeros((0, 4, n)), nothing,
-                          nothing, np.zeros(0, dtype=np.int64)),
-        extra=Extra(tuple(f"row {i}" for i in range(m)), form.A, form.b),
-    )  # fmt: skip

@@ -5,8 +5,9 @@ from scipy.sparse import csc_matrix
 
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
+from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
-from quasistatic_ref.lab.study.problems.answers import step_of
 from quasistatic_ref.lab.study.problems.families.short import framed
 from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
@@ -14,7 +15,8 @@ from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.step.standard_form import StandardForm
 
 
 def refutation(one: Problem) -> str | None:
@@ -26,7 +28,7 @@ def refutation(one: Problem) -> str | None:
     """
     if one.answer.farkas:
         y = [one.answer.farkas.get(i, "0") for i in range(len(one.b))]
-        return farkas_refutation(step_of(one.form), y)
+        return farkas_refutation(row_step(one.form), y)
     if one.facts["kind"] == SOCP:
         return _not_enclosed(one)
     if one.answer.kind == BOUNDED:
@@ -42,6 +44,13 @@ def refutation(one: Problem) -> str | None:
     return f"{' and '.join(wrong)} have other bits" if wrong else None
 
 
+def row_step(form: StandardForm) -> StepData:
+    """The step whose standard form is a given quadratic program: h = 1, K_q = H, rows as extra."""
+    n = len(form.g)
+    rows = Extra(tuple(f"row {i}" for i in range(len(form.b))), form.A, form.b)
+    return actuated_step(form.H, form.g, np.zeros(n), no_contacts(n), 1.0).replace(extra=rows)
+
+
 def cone_step(one: Problem) -> StepData:
     """The step in the ellipsoid, friction being 1, whose blocks of rows a problem has."""
     A = one.A.toarray().reshape(-1, 4, len(one.g))
@@ -55,10 +64,8 @@ def _not_enclosed(one: Problem) -> str | None:
     again = enclosure(cone_step(one))
     if again is None:
         return "its answer cannot be enclosed"
-    H = one.H.toarray()
-    off = again.delta_q - one.answer.x
-    free = float(one.g @ np.linalg.solve(H, one.g))
-    far = float(np.sqrt(off @ H @ off / free))
+    norm = energy_norm(one.H.toarray())
+    far = norm.displacement(again.delta_q - one.answer.x) / norm.impulse(one.g)
     close = far <= 2 * (again.error + one.answer.error) + 1e-16
     return None if close else f"x is off by {far:.1g}"
 

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.step.data import Array
 
@@ -52,16 +53,15 @@ def measures(one: Problem) -> dict[str, Any]:
     bearing = lam[lam > 0]
     rank = _rank(natural, active)
     sharp = one.answer.error == 0
-    x = natural.answer.x
-    g = natural.g
-    free = _free(natural)
+    norm = energy_norm(natural.H.toarray())
+    free = norm.impulse(natural.g)
     found |= {
         "active": len(active),
         "rank": rank,
         "dependent": len(active) - rank,
         "smallest_slack": float(idle.min()) if sharp and idle.size else None,
         "smallest_multiplier": float(bearing.min()) if sharp and bearing.size else None,
-        "size": float(np.sqrt(x @ (natural.H @ x))) / free if free > 0 and g.any() else None,
+        "size": norm.displacement(natural.answer.x) / free if free > 0 else None,
     }
     return _rounded(found)
 
@@ -101,12 +101,6 @@ def _rank(natural: Problem, active: np.ndarray) -> int:
     lengths = np.linalg.norm(rows, axis=1, keepdims=True)
     rows = rows / np.where(lengths > 0, lengths, 1.0)
     return int(np.linalg.matrix_rank(rows, tol=DEPENDENT)) if len(rows) else 0
-
-
-def _free(natural: Problem) -> float:
-    """||H^-1 g||_H."""
-    z = np.linalg.solve(natural.H.toarray(), natural.g)
-    return float(np.sqrt(max(float(natural.g @ z), 0.0)))
 
 
 def _rounded(found: dict[str, Any]) -> dict[str, Any]:

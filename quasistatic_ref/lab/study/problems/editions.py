@@ -1,11 +1,9 @@
 """Versions of sets: a name is one content, and a folder that has another is not that set."""
 
-import hashlib
 from pathlib import Path
 from typing import Final
 
-from quasistatic_ref.formats.files import bytes_read
-from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest
+from quasistatic_ref.lab.study.problems.selection import set_identity
 
 FROZEN: Final = {
     "contact-qp-1": "8e1afbb65c99bf8960de581918bd3fa00846080b4f505cff78b99db0af83e9cb",
@@ -27,8 +25,8 @@ def edition_problem(folder: Path) -> str | None:
     InputError
         If it is no set, or a file was changed.
     """
-    name = manifest(folder)["name"]
-    found = hashlib.sha256(bytes_read(folder / MANIFEST)).hexdigest()
-    if FROZEN.get(name, found) == found:
+    own = set_identity(str(folder))
+    name = own["name"]
+    if FROZEN.get(name, own["sha256"]) == own["sha256"]:
         return None
     return f"calls itself {name} and has other problems: give it another name"

@@ -17,6 +17,7 @@ import numpy as np
 from quasistatic_ref.lab.study.calling.claims import hides
 from quasistatic_ref.lab.study.report.rows import Rows, Where
 from quasistatic_ref.lab.study.report.statistics import shifted_geometric_mean, success
+from quasistatic_ref.lab.study.store.continued import solver_label
 
 WANTED = 6.0
 """Digits for which times are given: those that a simulator's step should have."""
@@ -221,7 +222,7 @@ class Comparison:
     @property
     def options(self) -> dict[str, Mapping[str, Any]]:
         """The options of each solver at each setting, by ``interface:name``."""
-        return {f"{s['interface']}:{s['name']}": s["options"] for s in self.study["solvers"]}
+        return {solver_label(s): s["options"] for s in self.study["solvers"]}
 
     def at(self, setting: str) -> Where:
         """The fields of the rows that are compared first, at one setting."""

@@ -4,6 +4,7 @@ All else stands behind that, section by section.
 """
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,6 @@ from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Section
 from quasistatic_ref.lab.study.report import tables
 from quasistatic_ref.lab.study.report.cheats import cheat_alone
 from quasistatic_ref.lab.study.report.comparison import WANTED, Comparison, comparison_of
-from quasistatic_ref.lab.study.report.recomputed import lines_of_pandas
 from quasistatic_ref.lab.study.report.rows import Where, rows_of
 from quasistatic_ref.lab.study.report.statistics import SHIFT, performance_ratios
 from quasistatic_ref.lab.study.report.words import filter_words, sentences
@@ -77,6 +77,18 @@ def _one_screen(comparison: Comparison, unreached: Mapping[str, str], head: str)
     )
     table = tables.headline(comparison.fastest(), comparison)
     return [head, *words, times, table, again, Code(lines_of_pandas(comparison))]
+
+
+def lines_of_pandas(comparison: Comparison) -> str:
+    """Ten lines that make the first table again: units, starts and time limit are put in."""
+    text = (Path(__file__).parent / "ten_lines.txt").read_text(encoding="utf-8")
+    return text.format(
+        warm=comparison.base["warm"],
+        units=comparison.base["units"],
+        least=WANTED,
+        limit=comparison.limit,
+        shift=SHIFT,
+    )
 
 
 def _of_problems(

@@ -47,9 +47,9 @@ def continued(there: Mapping[str, Any], wanted: Mapping[str, Any], folder: Path)
         return InputError(f"{words}--out, or remove this one", file=folder)
 
     both = joined(there, wanted, differs)
-    labels = {label(solver) for solver in wanted.get("solvers", ())}
+    labels = {solver_label(solver) for solver in wanted.get("solvers", ())}
     for solver in both["solvers"]:
-        solver["present"] = label(solver) in labels
+        solver["present"] = solver_label(solver) in labels
     places = {}
     for name in ("machine", "versions"):
         if lasting(there[name], wanted[name]) != lasting(wanted[name], there[name]):
@@ -67,23 +67,23 @@ def joined(one: Mapping[str, Any], other: Mapping[str, Any], differs: Differs) -
     for setting in other.get("settings", ()):
         if settings.setdefault(setting["name"], setting) != setting:
             raise differs(f"setting {setting['name']}")
-    solvers = {label(solver): dict(solver) for solver in one["solvers"]}
+    solvers = {solver_label(solver): dict(solver) for solver in one["solvers"]}
     for solver in other.get("solvers", ()):
-        own = solvers.setdefault(label(solver), dict(solver))
+        own = solvers.setdefault(solver_label(solver), dict(solver))
         if own["target"] != solver["target"] or any(
             own[part].get(name, value) != value
             for part in BY_SETTING
             for name, value in solver[part].items()
         ):
-            raise differs(f"solver or options {label(solver)}")
+            raise differs(f"solver or options {solver_label(solver)}")
         for part in BY_SETTING:
             own[part] = {**own[part], **solver[part]}
         own["present"] = own.get("present", True) or solver.get("present", True)
-    order = dict.fromkeys([*map(label, other.get("solvers", ())), *solvers])
+    order = dict.fromkeys([*map(solver_label, other.get("solvers", ())), *solvers])
     return {"settings": list(settings.values()), "solvers": [solvers[name] for name in order]}
 
 
-def label(solver: Mapping[str, Any]) -> str:
+def solver_label(solver: Mapping[str, Any]) -> str:
     """``interface:name`` of a solver of a study."""
     return f"{solver['interface']}:{solver['name']}"
 

@@ -17,7 +17,7 @@ from typing import Any, Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read, json_text
-from quasistatic_ref.lab.study.store.continued import continued, label
+from quasistatic_ref.lab.study.store.continued import continued, solver_label
 from quasistatic_ref.lab.study.store.rows import Row, flat, key_of, label_of, nested
 
 STORE = "study.sqlite"
@@ -320,7 +320,7 @@ def _contents(tables: sqlite3.Connection, every: bool) -> Contents:
         "solvers": [one for one in solvers if every or one["present"]],
         **_machines(found["machines"]),
     }
-    labels = set(map(label, study["solvers"]))
+    labels = set(map(solver_label, study["solvers"]))
     rows = [row for row in found["rows"] if label_of(row) in labels]
     if "machines" not in study:
         for row in rows:

@@ -16,17 +16,13 @@ Count = Callable[[int], object]
 _RUNS: dict[str, Trajectory] = {}
 
 
-def no_count(steps: int) -> None:
-    """Count nothing."""
-
-
 @cache
 def scenario_of(name: str) -> Scenario:
     """A scenario by name, loaded once."""
     return load_scenario(name, fast=True)
 
 
-def scenario_run(name: str, count: Count = no_count) -> tuple[Scenario, Trajectory]:
+def scenario_run(name: str, count: Count) -> tuple[Scenario, Trajectory]:
     """A scenario and its run, each step exact: the same bits whatever the machine's solvers.
 
     Parameters
@@ -62,7 +58,7 @@ def scenario_run(name: str, count: Count = no_count) -> tuple[Scenario, Trajecto
     return scenario, _RUNS[name]
 
 
-def harvested(names: Sequence[str], total: int, count: Count = no_count) -> Iterator[Made]:
+def harvested(names: Sequence[str], total: int, count: Count) -> Iterator[Made]:
     """Steps of the runs of scenarios, evenly spaced and never twice.
 
     Parameters

@@ -4,12 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from quasistatic_ref.certify.digits import relative_digits
-from quasistatic_ref.lab.study.problems.families.harvest import Count, no_count, scenario_run
+from quasistatic_ref.lab.digits import correct_digits
+from quasistatic_ref.lab.study.problems.families.harvest import Count, scenario_run
 from quasistatic_ref.lab.study.problems.families.made import Made, mass_ratio
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Mask
-from quasistatic_ref.step.standard_form import standard_form
 
 LENGTH = 12
 """Steps of a sequence."""
@@ -21,7 +20,7 @@ FEW = 2
 """Still steps of a sequence at most; a run without such a sequence has none."""
 
 
-def windows(name: str, count: Count = no_count) -> Iterator[Made]:
+def windows(name: str, count: Count) -> Iterator[Made]:
     """Sequences of a scenario that move, at most one for each stride, where contacts change most.
 
     Parameters
@@ -74,9 +73,5 @@ def still_steps(run: Trajectory, stride: int) -> Mask:
     x = run["delta_q"]
     still = np.zeros(run.steps, dtype=bool)
     for s in range(stride, run.steps):
-        form = standard_form(run.step_data(s))
-        off = x[s] - x[s - stride]
-        distance = float(np.sqrt(off @ form.H @ off))
-        free = float(np.sqrt(form.g @ np.linalg.solve(form.H, form.g)))
-        still[s] = relative_digits(distance, free) >= STILL
+        still[s] = correct_digits(run.step_data(s), x[s - stride], x[s]) >= STILL
     return still
