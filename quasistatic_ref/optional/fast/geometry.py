@@ -7,8 +7,9 @@ from quasistatic_ref.contact.jacobian import ContactGeometry, tangents
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.optional.fast.posed import PosedContacts
+from quasistatic_ref.optional.fast.posed import PosedContacts, posed
 from quasistatic_ref.parts import part
+from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.contacts import friction_coefficients
 from quasistatic_ref.step.data import Indices
 
@@ -25,6 +26,8 @@ class PosedGeometry(ContactGeometry):
     ----------
     in_blocks : bool
         Whether J is in blocks.
+    of_contacts : dict of str to ndarray
+        What the contacts have in common: friction and rows.
     """
 
     in_blocks = False
@@ -32,17 +35,21 @@ class PosedGeometry(ContactGeometry):
     def __init__(self, layout: ContactLayout, column_map: ColumnMap) -> None:
         super().__init__(layout, column_map)
         self.mu = friction_coefficients(layout.mu_v, layout.mu_omega, layout.rows)
+        self.of_contacts = {
+            "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": self.mu
+        }  # fmt: skip
         self.named: tuple[list[int], tuple[str, ...]] = [], ()
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> PosedContacts:
         """The contacts of one step, from the closest points of all pairs."""
-        layout = self.layout
         n = points.n
         d1, d2 = tangents(n)
         J = self.jacobian(kinematics.columns, points.alpha, points.beta, n)
-        names = self.names(points.point)
-        constant = layout.mu_v, layout.mu_omega, layout.rows, self.mu
-        return PosedContacts(names, points.phi, n, d1, d2, J, *constant)
+        measured = {"phi": points.phi, "n": n, "d1": d1, "d2": d2, "J": J}
+        for array in measured.values():
+            read_only(array)
+        own = {"name": self.names(points.point), **measured}
+        return posed(PosedContacts, self.of_contacts, own)
 
     def names(self, point: Indices) -> tuple[str, ...]:
         """A name for each contact, from its point's number, shape (n_c,): mostly those before."""

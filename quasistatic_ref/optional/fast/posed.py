@@ -97,35 +97,7 @@ def constants(
 
 
 class PosedContacts(Contacts):
-    """Contacts of a layout that was checked, at points and normals that were measured.
-
-    Parameters
-    ----------
-    name, phi, n, d1, d2, J, mu_v, mu_omega, rows
-        As in :class:`~quasistatic_ref.step.contacts.Contacts`; not copied, but made read-only.
-    mu : ndarray, shape (n_c, 3), optional
-        ``mu`` of the contacts [-, -, m], if it was formed before.
-    """
-
-    def __init__(
-        self,
-        name: tuple[str, ...],
-        phi: Array,
-        n: Array,
-        d1: Array,
-        d2: Array,
-        J: Array,
-        mu_v: Array,
-        mu_omega: Array,
-        rows: Indices,
-        mu: Array | None = None,
-    ) -> None:
-        for array in (phi, n, d1, d2, J):
-            array.setflags(write=False)
-        vars(self).update(name=name, phi=phi, n=n, d1=d1, d2=d2, J=J)
-        vars(self).update(mu_v=mu_v, mu_omega=mu_omega, rows=rows)
-        if mu is not None:
-            vars(self)["mu"] = mu
+    """Contacts of a layout that was checked, at points and normals that were measured."""
 
     def checked(self) -> Contacts:
         """The same, each number of them checked."""
@@ -138,27 +110,7 @@ class PosedContacts(Contacts):
 
 
 class PosedStep(StepData):
-    """A step of a simulator.
-
-    Parameters
-    ----------
-    constant : Constants
-    tau_a, tau_u, delta_q_bar_a, contacts
-        As in :class:`~quasistatic_ref.step.data.StepData`; not copied, but made read-only.
-    """
-
-    def __init__(
-        self,
-        constant: Constants,
-        tau_a: Array,
-        tau_u: Array,
-        delta_q_bar_a: Array,
-        contacts: Contacts,
-    ) -> None:
-        for array in (tau_a, tau_u, delta_q_bar_a):
-            array.setflags(write=False)
-        own = tau_a, tau_u, delta_q_bar_a, contacts
-        vars(self).update(zip(NAMES, (*constant, *own), strict=True))
+    """A step of a simulator."""
 
     @classmethod
     def compared_as(cls) -> type:
@@ -167,13 +119,7 @@ class PosedStep(StepData):
 
 
 class BlockStep(PosedStep):
-    """A step of a simulator of many bodies, whose M_u is kept in diagonal blocks.
-
-    Parameters
-    ----------
-    constant, tau_a, tau_u, delta_q_bar_a, contacts
-        As in :class:`PosedStep`.
-    """
+    """A step of a simulator of many bodies, whose M_u is kept in diagonal blocks."""
 
     @property
     def M_u(self) -> Array:
@@ -209,13 +155,10 @@ class BlockStep(PosedStep):
 def posed(kind: type[T], same: Mapping[str, Any], own: Mapping[str, Any]) -> T:
     """Data of a `kind`, unchecked: of fields that are the `same` at each step, and of their `own`.
 
-    The arrays must be read-only.
+    The arrays must be read-only; they are not copied.
     """
     made = kind.__new__(kind)
     fields = vars(made)
     fields.update(same)
     fields.update(own)
     return made
-
-
-NAMES = (*Constants._fields, "tau_a", "tau_u", "delta_q_bar_a", "contacts")

@@ -15,10 +15,17 @@ from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
 from quasistatic_ref.optional.fast.guess.far import Solved, far_slacks, with_far
 from quasistatic_ref.optional.fast.kept_step import KeptStep
-from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep, constants
+from quasistatic_ref.optional.fast.posed import (
+    Constants,
+    PosedContacts,
+    PosedStep,
+    constants,
+    posed,
+)
 from quasistatic_ref.solve.natural_step import DenseStep, NaturalStep
 from quasistatic_ref.solve.solver import NaturalAnswer
 from quasistatic_ref.solve.units import NaturalHessian
+from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
 from quasistatic_ref.step.groups import Group, extra_rows, group_steps, groups, split
 from quasistatic_ref.tolerances import ILL_POSED
@@ -154,19 +161,19 @@ class Part:
         j = group.contacts
         if len(group.extra_rows):
             constant = constant._replace(extra=extra_rows(step, group))
-        contacts = PosedContacts(
-            name=tuple([given.name[i] for i in j.tolist()]),
-            phi=given.phi[j],
-            n=given.n[j],
-            d1=given.d1[j],
-            d2=given.d2[j],
-            J=given.columns(j, group.coordinates),
-            mu_v=given.mu_v[j],
-            mu_omega=given.mu_omega[j],
-            rows=given.rows[j],
-        )
-        loads = step.tau_a[a], step.tau_u[u], step.delta_q_bar_a[a]
-        return PosedStep(constant, *loads, contacts)
+        of_contacts = {
+            name: read_only(getattr(given, name)[j])
+            for name in ("phi", "n", "d1", "d2", "mu_v", "mu_omega", "rows")
+        }
+        names = tuple([given.name[i] for i in j.tolist()])
+        J = read_only(given.columns(j, group.coordinates))
+        loads = {
+            "tau_a": read_only(step.tau_a[a]),
+            "tau_u": read_only(step.tau_u[u]),
+            "delta_q_bar_a": read_only(step.delta_q_bar_a[a]),
+        }
+        contacts = posed(PosedContacts, of_contacts, {"name": names, "J": J})
+        return posed(PosedStep, constant._asdict(), {**loads, "contacts": contacts})
 
 
 class Proofs:

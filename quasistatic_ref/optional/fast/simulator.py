@@ -9,12 +9,13 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.fast.backends import default_backend, fast_backend, sparse_from
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.geometry import posed_geometry
-from quasistatic_ref.optional.fast.posed import constants
+from quasistatic_ref.optional.fast.posed import constants, posed
 from quasistatic_ref.optional.fast.spare import Spare
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, by_one_thread
+from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, StepData
 
 
@@ -92,7 +93,10 @@ class FastSimulator(Simulator):
         delta_q_bar_a = system.actuated_difference(q, q_bar_a)
         tau = self.generalised_force(q, force)
         constant = self.constant if system.constant_mass_matrix else self.constant.at(system.M_u(q))
-        return constant.kind(constant, tau[:n_a], tau[n_a:], delta_q_bar_a, contacts)
+        loads = {"tau_a": tau[:n_a], "tau_u": tau[n_a:], "delta_q_bar_a": delta_q_bar_a}
+        for array in loads.values():
+            read_only(array)
+        return posed(constant.kind, constant._asdict(), {**loads, "contacts": contacts})
 
     def solution(self, step: StepData) -> StepSolution:
         """A step solved; where the default backend fails, by the spare one."""

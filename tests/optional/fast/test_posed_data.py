@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.optional.fast.posed import PosedContacts, PosedStep
+from quasistatic_ref.optional.fast.posed import PosedStep
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from tests.helpers import changed_blocks, random_step
+from tests.helpers import changed_blocks
 from tests.scenes import chain_scene
-from tests.tolerances import EXACT
 
 NAN = np.nan
 
@@ -75,19 +74,3 @@ def test_sparse_contacts_refuse(things, changes):
     assert isinstance(sparse, SparseContacts)
     with pytest.raises(StepDataError):
         changed_blocks(sparse, **{key: f(getattr(sparse, key)) for key, f in changes.items()})
-
-
-def posed(c, mu):
-    """Contacts as a simulator poses them."""
-    arrays = (array.copy() for array in (c.phi, c.n, c.d1, c.d2, c.J))
-    return PosedContacts(c.name, *arrays, c.mu_v, c.mu_omega, c.rows, mu)
-
-
-def test_posed_contacts_have_the_friction_that_they_are_given_or_make_it(rng):
-    """(mu_v, mu_v, mu_omega) of each contact; the second has four rows, and no mu_omega."""
-    c = random_step(rng, rows=(6, 4)).contacts
-    assert posed(c, c.mu).mu is c.mu
-    v, w = c.mu_v
-    omega = c.mu_omega[0]
-    expected = [[v, v, omega], [w, w, 0.0]]
-    np.testing.assert_allclose(posed(c, None).mu, expected, rtol=EXACT, atol=EXACT)

@@ -106,11 +106,6 @@ class CompiledStep:
         self.screws = Screws(simulator.system, self.poses)
         self.program: NaturalProgram | None = None
         self.equal: bool | None = None
-        layout = self.geometry.layout
-        mu = self.geometry.mu
-        self.of_contacts = {
-            "mu_v": layout.mu_v, "mu_omega": layout.mu_omega, "rows": layout.rows, "mu": mu
-        }  # fmt: skip
         self.constant: Constants | None = None
         self.of_steps: dict[str, Any] = {}
         self.solver: FastSolver | None = None
@@ -188,7 +183,7 @@ class CompiledStep:
         points = ClosestPoints(*found)
         phi, point, n = points.phi, points.point, points.n
         own = {"name": self.geometry.names(point), "phi": phi, "n": n, "d1": d1, "d2": d2, "J": J}
-        contacts = posed(PosedContacts, self.of_contacts, own)
+        contacts = posed(PosedContacts, self.geometry.of_contacts, own)
         if constant is not self.constant:
             self.constant, self.of_steps, self.solver = constant, constant._asdict(), None
         n_a = len(delta_q_bar_a)
