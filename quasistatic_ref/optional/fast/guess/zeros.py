@@ -123,34 +123,13 @@ def _implied(step: StepData, claim: _Claim) -> bool:
         n = step.n_v
         k = claim.k
         exact = exact_rows(step, claim.rows)
-        equations = _across_pairs(step, claim, exact)
+        equations = exact[k:]
         equations += [[int(i == v) for i in range(n + 1)] for v in claim.coordinates]
         known = not equations or all(follow(exact[:k], equations))
         while len(_known) >= KEPT:
             _known.popitem(last=False)  # the oldest, in one call: other threads solve as well
         _known[claim] = known
     return known
-
-
-def _across_pairs(step: StepData, claim: _Claim, exact: list[list[int]]) -> list[list[int]]:
-    """The equations of the claim's rows that do not follow from those of W between the same bodies.
-
-    Most do: the rows of a contact combine four motions, of which contacts with the same normal have
-    the spin in common. Of few rows and coordinates that is decided in little time.
-    """
-    contact, _ = places(step, claim.rows)
-    alike: dict[bytes, list[int]] = {}
-    moves = np.vstack([(step.contacts.J != 0).any(axis=1), np.ones((1, step.n_v), bool)])
-    for i, j in enumerate(contact.tolist()):
-        alike.setdefault(moves[j].tobytes(), []).append(i)
-    left = []
-    for key, rows in alike.items():
-        columns = [*np.flatnonzero(np.frombuffer(key, dtype=bool)).tolist(), step.n_v]
-        some = [[exact[i][v] for v in columns] for i in rows]
-        k = sum(i < claim.k for i in rows)
-        found = follow(some[:k], some[k:]) if k else [False] * len(rows)
-        left += [exact[i] for i, seen in zip(rows[k:], found, strict=True) if not seen]
-    return left
 
 
 def exact_rows(step: StepData, rows: Sequence[int]) -> list[list[int]]:
