@@ -122,7 +122,8 @@ def _implied(step: StepData, claim: _Claim) -> bool:
     if known is None:
         n = step.n_v
         k = claim.k
-        exact = exact_rows(step, claim.rows)
+        A, b = _some_rows(step, claim.rows)  # one positive factor for every a, one for every b
+        exact: list[list[int]] = [[*a_i, b_i] for a_i, b_i in zip(A.m, b.m, strict=True)]
         equations = exact[k:]
         equations += [[int(i == v) for i in range(n + 1)] for v in claim.coordinates]
         known = not equations or all(follow(exact[:k], equations))
@@ -130,20 +131,6 @@ def _implied(step: StepData, claim: _Claim) -> bool:
             _known.popitem(last=False)  # the oldest, in one call: other threads solve as well
         _known[claim] = known
     return known
-
-
-def exact_rows(step: StepData, rows: Sequence[int]) -> list[list[int]]:
-    """Rows [a, b] of A x >= b without rounding: one positive factor for every a, one for every b.
-
-    Parameters
-    ----------
-    step : StepData
-        In a polyhedral cone.
-    rows : sequence of int
-        Rows of A; only these are formed.
-    """
-    A, b = _some_rows(step, rows)
-    return [[*A.m[i], b.m[i]] for i in range(len(rows))]
 
 
 def _some_rows(step: StepData, rows: Sequence[int]) -> tuple[Dyadic, Dyadic]:
