@@ -1,14 +1,11 @@
 """The contacts of a step as a simulator poses them: not checked number by number."""
 
-from typing import Any
-
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry, tangents
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.fast.posed import PosedContacts, posed
-from quasistatic_ref.parts import part
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.contacts import friction_coefficients
 from quasistatic_ref.step.data import Indices
@@ -57,20 +54,3 @@ class PosedGeometry(ContactGeometry):
         if listed != self.named[0]:
             self.named = listed, self.layout.contact_names(point)
         return self.named[1]
-
-
-def posed_geometry(layout: ContactLayout, column_map: ColumnMap, sparse_from: int) -> Any:
-    """The geometry of contacts: in blocks where J is large, if `optional/large` is there.
-
-    Parameters
-    ----------
-    layout : ContactLayout
-    column_map : ColumnMap
-    sparse_from : int
-        Entries of J from which the steps' solver takes blocks; 0 if it takes none.
-    """
-    entries = 4 * len(layout.rows) * column_map.n_v
-    large = part("large.sparse_jacobian")
-    if large is not None and 0 < sparse_from <= entries:
-        return large.BlockGeometry(layout, column_map)
-    return PosedGeometry(layout, column_map)

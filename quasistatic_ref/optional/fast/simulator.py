@@ -8,10 +8,11 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.fast.backends import default_backend, fast_backend, sparse_from
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.optional.fast.geometry import posed_geometry
+from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import constants, posed
 from quasistatic_ref.optional.fast.spare import Spare
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
+from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, by_one_thread
@@ -58,7 +59,11 @@ class FastSimulator(Simulator):
         )
         self.tracker = ContactTracker(self.pairs)
         least = sparse_from(self.backend, self.cone) if entries else 0
-        self.geometry = posed_geometry(self.layout, system.column_map, least)
+        large = part("large.sparse_jacobian")
+        if large is not None and 0 < least <= entries:
+            self.geometry = large.BlockGeometry(self.layout, system.column_map)
+        else:
+            self.geometry = PosedGeometry(self.layout, system.column_map)
         M_u = system.mass_blocks if self.geometry.in_blocks else system.M_u(system.q_start)
         rows = self.layout.rows
         self.constant = constants(self.h, self.K_q, system.n_a, M_u, rows, self.cone)
