@@ -91,7 +91,7 @@ def equality_solution(balls: BallForm, working: Sequence[int]) -> BallSolution |
 
     Parameters
     ----------
-    balls : BallForm
+    ball_form : BallForm
     working : sequence of int
         Independent rows.
 
@@ -120,7 +120,7 @@ def square_root(square: arb) -> arb:
 
 
 def inner(u: arb_mat, v: arb_mat) -> arb:
-    """U'v of two columns (n, 1) [product of their units]."""
+    """Inner product u'v of two columns (n, 1) [product of their units]."""
     return (u.transpose() * v)[0, 0]
 
 
@@ -203,9 +203,9 @@ class Minimiser:
         Independent rows.
     """
 
-    def __init__(self, form: ExactForm, balls: BallForm, working: tuple[int, ...]) -> None:
+    def __init__(self, form: ExactForm, ball_form: BallForm, working: tuple[int, ...]) -> None:
         self.form = form
-        self.ball_form = balls
+        self.ball_form = ball_form
         self.working = working
         self._implied: dict[int, bool] = {}
 

@@ -223,7 +223,7 @@ def h_times_hessian(step: StepData) -> Dyadic:
 
 
 def contact_motion(contacts: Contacts, which: Which = ALL) -> Dyadic:
-    """The motion along n, d1, d2 and spin per unit of delta_q, shape (n_c, 4, n_v), `of` some."""
+    """The motion along n, d1, d2 and spin per unit of delta_q, shape (n_c, 4, n_v)."""
     J = dyadic(contacts.J[which])
     axes = dyadic(np.stack([contacts.n[which], contacts.d1[which], contacts.d2[which]], axis=1))
     return concatenated([axes @ J[:, :3], J[:, 3:]], axis=1)

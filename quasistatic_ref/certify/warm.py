@@ -16,7 +16,7 @@ wrong guess costs a walk."""
 
 
 def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:
-    """Independent rows that carry A'lam, the most pressed first.
+    """Independent rows that carry A'lam, the largest multiplier first.
 
     Parameters
     ----------

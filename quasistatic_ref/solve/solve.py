@@ -144,7 +144,7 @@ def solved(scaled: NaturalStep, solver: Solver, accuracy: float, certify: str) -
 
 
 def _far_from_largest(solution: StepSolution) -> bool:
-    """Whether lam, mu and 1 / h are so far from the largest float64 that wrenches are finite."""
+    """Whether lam, mu and 1 / h are so small that wrenches, their products, cannot overflow."""
     mu = solution.step.contacts.mu
     lam = solution.lam
     return bool(solution.step.h > 1 / LARGE and np.vdot(mu, mu) + np.vdot(lam, lam) < LARGE)

@@ -183,7 +183,8 @@ class Solver:
     def write(self, scaled: Any) -> Mask | None:
         """Write a step in natural units into the problem.
 
-        Contacts out of reach are written nearer than they are.
+        Gaps of contacts out of reach are written smaller than they are: numbers of very different
+        size cost solvers digits. Such rows are inactive, and their multipliers are set to zero.
 
         Returns
         -------

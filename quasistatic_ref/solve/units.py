@@ -211,7 +211,7 @@ def to_natural(step: StepData, units: Units) -> StepData:
 
 
 def within_reach(natural: StepData) -> Array:
-    """The phi of each contact, shape (n_c,) [-]; of those too far to matter nearer, for solvers."""
+    """The phi of each contact, shape (n_c,) [-]; at most :func:`reach`, as solvers need it."""
     return np.minimum(natural.contacts.phi, reach(natural.contacts.J))
 
 
