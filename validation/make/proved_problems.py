@@ -86,7 +86,7 @@ def main() -> None:
     text = (
         f"# Answers of contact-qp-2, proved again\n\n{proved} answers by the exact method, "
         f"from the rows that the files name: {refuted} refuted. {again} of them, one in {SHARE} "
-        f"of up to {LARGEST} coordinates in each family, by Python's integers alone, read by the "
+        f"of up to {LARGEST} coordinates in each family, proved in Python's integers, read by the "
         f"lines of the set's README: {refuted_again} refuted. Processor time; the number of "
         "coordinates is the largest.\n\n" + "\n".join(markdown_table(HEAD, found))
     )
