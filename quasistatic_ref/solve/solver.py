@@ -7,6 +7,7 @@ chooses among them.
 """
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -78,7 +79,7 @@ class OptionSet:
     kept: Any = None
 
 
-class Solver:
+class Solver(ABC):
     """What solves steps of one kind.
 
     A copy, or one that was pickled, compiles its problem again and starts cold.
@@ -180,44 +181,7 @@ class Solver:
         bound: float = bounds.error_bound(scaled.step, delta_q, lam).error
         return bound
 
-    def write(self, scaled: Any) -> Mask | None:
-        """Write a step in natural units into the problem.
-
-        Gaps of contacts out of reach are written smaller than they are: numbers of very different
-        size cost solvers digits. Such rows are inactive, and their multipliers are set to zero.
-
-        Returns
-        -------
-        ndarray of bool, shape (m,), or None
-            Whether each row is of such a contact; None if none is.
-
-        Raises
-        ------
-        NotImplementedError
-            Unless a subclass says how.
-        """
-        raise NotImplementedError
-
-    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
-        """What the backend says to the problem as it is written.
-
-        Raises
-        ------
-        NotImplementedError
-            Unless a subclass says how.
-        """
-        raise NotImplementedError
-
-    def attempts(self, accuracy: float) -> list[OptionSet]:
-        """The sets of options for an accuracy in natural units [-], in the order to be tried."""
-        if accuracy not in self._attempts:
-            entry = BACKENDS[self.name.removeprefix(QPSOLVERS)]
-            least = max(accuracy, entry.floor)
-            steps = (1.0,) if cone(self.template.cone).polyhedral else RELAXED
-            tried = [k * least for k in steps]
-            self._attempts[accuracy] = [OptionSet(a, o) for a in tried for o in entry.attempts(a)]
-        return self._attempts[accuracy]
-
+    @abstractmethod
     def answer(self, scaled: NaturalStep, accuracy: float) -> NaturalAnswer:
         """The backend's answer to a step, in natural units; rows out of reach bear no load.
 
@@ -233,6 +197,46 @@ class Solver:
         StepNotSolved
             If it says anything but a full solution, or the numbers are not finite; or if it may
             not return and the rows of the step are unlike each other.
+        """
+
+
+class BackendSolver(Solver):
+    """A solver that writes steps into a problem of a backend, and reads its replies."""
+
+    @abstractmethod
+    def write(self, scaled: Any) -> Mask | None:
+        """Write a step in natural units into the problem.
+
+        Gaps of contacts out of reach are written smaller than they are: numbers of very different
+        size cost solvers digits. Such rows are inactive, and their multipliers are set to zero.
+
+        Returns
+        -------
+        ndarray of bool, shape (m,), or None
+            Whether each row is of such a contact; None if none is.
+        """
+
+    @abstractmethod
+    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
+        """What the backend says to the problem as it is written."""
+
+    def attempts(self, accuracy: float) -> list[OptionSet]:
+        """The sets of options for an accuracy in natural units [-], in the order to be tried."""
+        if accuracy not in self._attempts:
+            entry = BACKENDS[self.name.removeprefix(QPSOLVERS)]
+            least = max(accuracy, entry.floor)
+            steps = (1.0,) if cone(self.template.cone).polyhedral else RELAXED
+            tried = [k * least for k in steps]
+            self._attempts[accuracy] = [OptionSet(a, o) for a in tried for o in entry.attempts(a)]
+        return self._attempts[accuracy]
+
+    def answer(self, scaled: NaturalStep, accuracy: float) -> NaturalAnswer:
+        """The answer, by each set of options in turn until one solves the step.
+
+        Raises
+        ------
+        StepNotSolved
+            If none does; or, before any call, if the backend may not return from such rows.
         """
         if self.unsafe and isinstance(scaled, DenseStep) and not scaled.unlike <= ALIKE:
             status = f"not called: its rows differ by {scaled.unlike:.0e} in natural units"

@@ -11,7 +11,7 @@ from quasistatic_ref.solve.backends import DEFAULT, Options
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.natural_step import DenseStep
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import OptionSet, Solver
+from quasistatic_ref.solve.solver import BackendSolver, OptionSet
 from quasistatic_ref.solve.units import within_reach
 from quasistatic_ref.step.data import KIND, Array, Mask, StepData
 
@@ -32,7 +32,7 @@ class CompiledProgram(Protocol):
         """Its multipliers, shape (m,), where the backend has any [-]."""
 
 
-class CvxpySolver(Solver):
+class CvxpySolver(BackendSolver):
     """The step's CVXPY problem, compiled once, and a backend that CVXPY has an interface to.
 
     Parameters

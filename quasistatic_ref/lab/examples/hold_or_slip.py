@@ -18,10 +18,17 @@ from quasistatic_ref.lab.study.measuring.many import simulate_many
 from quasistatic_ref.optional.show.figures import Figure, panels, scaled
 from quasistatic_ref.step.data import Array, Mask
 
-M, D, N = 0.2, 0.055, 5.0
-"""Mass of the bar [kg], its distance from the fingers [m], their squeeze [N]."""
+M = 0.2
+"""Mass of the bar [kg]."""
 
-MU_V, MU_OMEGA = np.linspace(0.2, 0.8, 21), np.linspace(0.0, 0.04, 17)
+D = 0.055
+"""Its distance from the fingers [m]."""
+
+N = 5.0
+"""What they press with [N]."""
+
+MU_V = np.linspace(0.2, 0.8, 21)
+MU_OMEGA = np.linspace(0.0, 0.04, 17)
 """What is swept [-], [m]."""
 
 STEPS = 5

@@ -5,10 +5,14 @@ import numpy as np
 from quasistatic_ref.lab.scenes.contacts import GRAVITY, X, Y, contacts_of, point_jacobian
 from quasistatic_ref.step.data import StepData
 
-HALF_WIDTH, INERTIA = 0.03, 1e-4
-"""Of the bar, along x [m]; about each axis [kg m^2]."""
-STIFFNESS, H = 1000.0, 0.01
-"""Of a finger [N/m]; time step [s]."""
+HALF_WIDTH = 0.03
+"""Of the bar, along x [m]."""
+INERTIA = 1e-4
+"""Of the bar, about each axis [kg m^2]."""
+STIFFNESS = 1000.0
+"""Of a finger [N/m]."""
+H = 0.01
+"""Time step [s]."""
 
 
 def pinch_step(

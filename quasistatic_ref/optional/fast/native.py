@@ -16,7 +16,7 @@ from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import OptionSet, Solver
+from quasistatic_ref.solve.solver import BackendSolver, OptionSet
 from quasistatic_ref.solve.units import NaturalHessian, Units, reach
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -44,7 +44,7 @@ def check_native(name: str, cone_name: str) -> None:
     raise BackendError(problem, field="backend", value=name)
 
 
-class NativeSolver(Solver):
+class NativeSolver(BackendSolver):
     """The arrays of steps of one kind, and a backend that is updated from them in place.
 
     Parameters

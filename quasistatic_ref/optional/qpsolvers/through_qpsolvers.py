@@ -11,7 +11,7 @@ import qpsolvers
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.natural_step import DenseStep
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.solver import OptionSet, Solver
+from quasistatic_ref.solve.solver import BackendSolver, OptionSet
 from quasistatic_ref.solve.units import within_reach
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -22,7 +22,7 @@ def available_solvers() -> list[str]:
     return list(qpsolvers.available_solvers)
 
 
-class QpsolversSolver(Solver):
+class QpsolversSolver(BackendSolver):
     """A backend that qpsolvers knows; nothing is compiled, so it takes every step of its cone.
 
     Parameters

@@ -25,18 +25,27 @@ from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 
-H, HALF, MASS = 0.01, 0.05, 0.5
-"""Time step [s], half of a box's edge [m] and its mass [kg]."""
+H = 0.01
+"""Time step [s]."""
+HALF = 0.05
+"""Half of a box's edge [m]."""
+MASS = 0.5
+"""Of a box [kg]."""
 PUSH = np.array([1.5, 1.0, 0.0])
 """On each box [N]; friction, of 2.45 N, holds it. What slides here is thrown about in MuJoCo, whose
 bodies have inertia, and its step is then another one."""
 GAP = 4 * HALF
 """From the middle of a box to that of the next [m]."""
-MU_V, MU_OMEGA = 0.5, 0.01
+MU_V = 0.5
+MU_OMEGA = 0.01
+"""[m]"""
 HAND = "hand with a drum"
 FORCES = "full, forces"
-UNCERTIFIED, PROVED, PLAIN = "off", "full", "full, plain"
-MUJOCO, SOLVER = "MuJoCo", "DAQP alone"
+UNCERTIFIED = "off"
+PROVED = "full"
+PLAIN = "full, plain"
+MUJOCO = "MuJoCo"
+SOLVER = "DAQP alone"
 COLUMNS = (UNCERTIFIED, "residual", PROVED, FORCES, PLAIN, SOLVER, MUJOCO)
 
 

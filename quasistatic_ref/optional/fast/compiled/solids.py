@@ -178,5 +178,8 @@ class PosedSolids:
         self.R[:] = R[: len(self.R)].transpose(0, 2, 1)
         self.t[:] = t[: len(self.t)]
         self.find(self.pairs.address)
-        found = ClosestPoints(*(field.copy() for field in self.written))  # type: ignore[arg-type]
+        phi, alpha, beta, n, point, tie = self.written
+        found = ClosestPoints(
+            phi.copy(), alpha.copy(), beta.copy(), n.copy(), point.copy(), tie.copy()
+        )
         return found, self.pairs["decided"] != 0
