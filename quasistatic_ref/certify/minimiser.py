@@ -209,6 +209,10 @@ class Minimiser:
         self.working = working
         self._implied: dict[int, bool] = {}
 
+    def on(self, working: tuple[int, ...]) -> "Minimiser":
+        """Return the minimiser of the same form on another working set."""
+        return Minimiser(self.form, self.ball_form, working)
+
     @cached_property
     def balls(self) -> BallSolution | None:
         """Balls around x, the multipliers and the slacks; None if they show nothing."""

@@ -32,11 +32,10 @@ class KeptStep(DenseStep):
         self.step = step
         self.form = standard_form(step) if form is None else form
         try:
-            same = template is not None and template.H is self.form.H
-            self.metric = (
-                template if template is not None and same else natural_hessian(self.form.H)
-            )
-            self.units = units_of(self.form, self.metric) if units is None else units
+            if template is None or template.H is not self.form.H:
+                template = natural_hessian(self.form.H)
+            self.metric = template
+            self.units = units_of(self.form, template) if units is None else units
         except np.linalg.LinAlgError:
             raise out_of_range(step) from None
-        check_units(self.units, step, self.metric.usable)
+        check_units(self.units, step, template.usable)

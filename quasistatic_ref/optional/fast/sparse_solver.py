@@ -113,9 +113,10 @@ class SparseSolver(NativeSolver):
     def write(self, scaled: Any) -> Mask:
         """Write g, A and b; tell which rows are out of reach, shape (m,)."""
         program = self.program
-        squares = np.bincount(scaled.A.indices, scaled.A.data**2, minlength=len(scaled.b))
+        _, g, A, b = scaled.natural_form
+        squares = np.bincount(A.indices, A.data**2, minlength=len(b))
         reach = -FAR * np.maximum(1.0, np.sqrt(squares))
-        program.f[:] = -scaled.g
-        program.A.data[:] = scaled.A.data
-        np.maximum(scaled.b, reach, out=program.b)
-        return np.asarray(scaled.b < reach)
+        program.f[:] = -g
+        program.A.data[:] = A.data
+        np.maximum(b, reach, out=program.b)
+        return np.asarray(b < reach)

@@ -93,11 +93,10 @@ class SparseStep:
         length = math.ldexp(energy, power)  # ||H^-1 g||_H
         self.units = units = units_from(S, np.sort(squares), length, form.b)
         check_units(units, step)
-        self.A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
-        self.g = y / units.size
-        self.b = form.b / (units.size * units.length)
         self.form: Any = form
-        self.natural_form: Any = StandardForm(kind.H.H, self.g, self.A, self.b)
+        A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
+        b = form.b / (units.size * units.length)
+        self.natural_form: Any = StandardForm(kind.H.H, y / units.size, A, b)
 
     def residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
@@ -107,5 +106,6 @@ class SparseStep:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
         units = self.units
         sizes = sizes_of(self.step, units.coordinate, units.length, units.size)
-        form = LargeForm(self.metric, self.g, self.A, self.b, sizes)
+        _, g, A, b = self.natural_form
+        form = LargeForm(self.metric, g, A, b, sizes)
         return sparse_error_bound(form, *in_natural(delta_q, lam, units))
