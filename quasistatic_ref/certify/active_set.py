@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.dependence import combination, independent_rows
-from quasistatic_ref.certify.minimiser import PRECISION, Minimiser, ball_form
+from quasistatic_ref.certify.minimiser import PRECISION, Minimiser, form_in_balls
 from quasistatic_ref.certify.rational import ExactForm
 
 
@@ -84,12 +84,12 @@ def least_index(minimiser: Minimiser) -> tuple[int | None, list[int]]:
     return (violated[0], []) if violated else (None, signs)
 
 
-Choice = Callable[[Minimiser], tuple[int | None, list[int]]]
-"""Which violated row is added next."""
+EnteringRule = Callable[[Minimiser], tuple[int | None, list[int]]]
+"""Chooses the violated row that is added next."""
 
 
 def dual_active_set(
-    form: ExactForm, warm: Sequence[int] = (), violated: Choice = most_violated
+    form: ExactForm, warm: Sequence[int] = (), entering_row: EnteringRule = most_violated
 ) -> Optimum | Farkas:
     """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b, or a proof that there is none.
 
@@ -100,7 +100,7 @@ def dual_active_set(
     warm : sequence of int
         Rows that are active at the optimum, as far as a solver could tell, in order of
         preference. Any rows will do; none is a cold start.
-    violated : callable
+    entering_row : callable
         Chooses the row to add: :func:`most_violated` or :func:`least_index`.
 
     Returns
@@ -111,7 +111,7 @@ def dual_active_set(
     minimiser = _start(form, warm)
     walks = 0
     while True:
-        p, signs = violated(minimiser)
+        p, signs = entering_row(minimiser)
         if p is None:
             return Optimum(_without_zeros(minimiser), signs, walks)
         after = _walk(minimiser, p)
@@ -124,7 +124,7 @@ def dual_active_set(
 def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
     """Return a minimiser with positive multipliers: any subset of the warm rows that has them."""
     independent = independent_rows(form, list(dict.fromkeys(warm)))
-    minimiser = Minimiser(form, ball_form(form), independent)
+    minimiser = Minimiser(form, form_in_balls(form), independent)
     while (positive := minimiser.surely_positive()) != minimiser.working:
         minimiser = minimiser.on(positive)
     return minimiser
