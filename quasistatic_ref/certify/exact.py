@@ -34,7 +34,7 @@ from quasistatic_ref.certify.minimiser import (
 )
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import all_nearest_in, nearest_fraction
+from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -153,14 +153,13 @@ def nearest_numbers(
     """
     rounded: dict[int, float | None] = {int(i): None for i in entries}
     if minimiser.balls is not None:
-        shown = values(minimiser.balls)
+        balls = values(minimiser.balls)
         with ctx.workprec(PRECISION):
             factor = arb(unit)
-            scaled = [shown[i] * factor for i in rounded]
-            rounded = dict(zip(rounded, all_nearest_in(scaled), strict=True))
-    hidden = [i for i, value in rounded.items() if value is None]
-    rounded.update(dict.fromkeys(zeros(hidden), 0.0))
-    for i in hidden:
+            rounded = {i: nearest_in(balls[i] * factor) for i in rounded}
+    undecided = [i for i, value in rounded.items() if value is None]
+    rounded.update(dict.fromkeys(zeros(undecided), 0.0))
+    for i in undecided:
         if rounded[i] is None:
             exact = minimiser.rational
             rounded[i] = nearest_fraction(unit * values(exact)[i] / exact.denominator)
