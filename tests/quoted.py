@@ -26,8 +26,10 @@ FILLED = Filled()
 def held(page):
     """The phrases of a page, as they ought to read."""
     phrases = [phrase.format_map(FILLED) for phrase in QUOTED[page]["phrases"]]
+    labels = QUOTED[page].get("labels", {})
     for source, row in QUOTED[page].get("rows", {}).items():
-        phrases += [row.format(name=name, own=own) for name, own in FILLED[source].items()]
+        for name, own in FILLED[source].items():
+            phrases.append(row.format(name=labels.get(name, name), own=own))
     return phrases
 
 

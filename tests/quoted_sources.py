@@ -153,7 +153,7 @@ def demo_lines():
     angle, lift = ([r[key] for r in reports] for key in ("rotation_deg", "lift_mm"))
     label = f"t = 0.7 to {TOP:g} s"
     return (
-        f"rotation of the bunny, {label}, at most [deg] {angle[0]:.3f} {angle[1]:.3f} "
+        f"largest rotation of the bunny, {label} [deg] {angle[0]:.3f} {angle[1]:.3f} "
         f"lift height, {label} [mm] {lift[0]:.2f} {lift[1]:.2f}"
     )
 
