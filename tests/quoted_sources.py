@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from quasistatic_ref import tolerances
 from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.registry import BY_NAME
@@ -213,6 +214,11 @@ def bench():
 
 
 @cache
+def solids():
+    return table("benchmarks/bench.md", "Scenes of solids")
+
+
+@cache
 def profile():
     """The tables, mean steps over the paper's, and signed distances of a step."""
     means = table("step_profile.md", "Means")
@@ -241,6 +247,22 @@ def large():
     assert {row["unsolved"] for row in sparse["piqp"]} == {"0"}
     promises = table("large_steps.md", "Promises")
     return {"promises": promises, "heap": sparse["5 x 5 x 4"]}
+
+
+def proofs():
+    """The time of a certified step of each scene [s, ms], and with residuals."""
+    found = {}
+    for heading in ("Boxes that do not touch", "Boxes in contact"):
+        for row in table("grouped_proofs.md", heading):
+            later = float(row["later [s]"])
+            residual = float(row["later with residual [s]"])
+            found[row["scene"]] = {"s": later, "ms": 1e3 * later, "residual, s": residual}
+    return found
+
+
+def sizes():
+    """From how many entries of J on steps are sparse."""
+    return vars(tolerances)
 
 
 # -- Measured pushes ------------------------------------------------------------------------------

@@ -298,7 +298,7 @@ def main() -> int:
     )
     print("\n## Boxes that do not touch each other\n")
     found = table([*SEPARATE, *COPIED])
-    print("\n## Boxes that do\n")
+    print("\n## Boxes in contact\n")
     connected = table(CONNECTED)
     print("\n## The same bits\n")
     print("`delta_q`, `A'lam`, slacks and what is said of them, by group and of the whole step:\n")
