@@ -213,6 +213,11 @@ def bench():
     return table("benchmarks/bench.md")
 
 
+def interfaces():
+    """Medians of a step of the bunny [us]."""
+    return json.loads(text("benchmarks/bench.json"))["interfaces"]["microseconds"]
+
+
 @cache
 def solids():
     return table("benchmarks/bench.md", "Scenes of solids")
