@@ -186,8 +186,8 @@ def verify(
     lam_exact = np.zeros(step.m)
     reason = ""
     solved = []
-    for group, part in group_steps(step):
-        form = exact_form(part)
+    for group, group_step in group_steps(step):
+        form = exact_form(group_step)
         working_rows = tuple(group.within(working))
         try:
             solution = rational_solution(form, working_rows)

@@ -35,7 +35,7 @@ class SolverStatistics(NamedTuple):
         The accuracy that was asked of the solver, in natural units [-].
     digits : float or None
         Correct digits of the backend's delta_q, 0 to 16, where the exact answer is known.
-    engine : str
+    interface : str
         The interface by which the solver was called: ``"cvxpy"``, ``"qpsolvers"``, ``"native"``;
         ``"none"`` without a backend.
     proof_time : float
@@ -48,7 +48,7 @@ class SolverStatistics(NamedTuple):
     solve_time: float | None
     accuracy: float
     digits: float | None = None
-    engine: str = "cvxpy"
+    interface: str = "cvxpy"
     proof_time: float = 0.0
 
 

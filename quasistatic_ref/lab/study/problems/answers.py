@@ -12,7 +12,7 @@ from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.solve.reply import Reply
-from quasistatic_ref.solve.units import natural_form, natural_hessian, units_of
+from quasistatic_ref.solve.units import hessian_in_both_units, natural_form, units_of
 from quasistatic_ref.step.standard_form import StandardForm
 from quasistatic_ref.tolerances import ACCURACY
 
@@ -37,8 +37,8 @@ def dense_answer(form: StandardForm) -> Answer:
 
 def _pressed(form: StandardForm) -> list[int]:
     """Rows that a solver found active; none if it found no answer."""
-    of_H = natural_hessian(form.H)
-    natural = natural_form(form, units_of(form, of_H), of_H.natural)
+    hessian = hessian_in_both_units(form.H)
+    natural = natural_form(form, units_of(form, hessian), hessian.natural_H)
     for solver in WITNESSES:
         reply = reply_of(natural, solver)
         if reply is not None and reply.solved and reply.x is not None and reply.lam is not None:

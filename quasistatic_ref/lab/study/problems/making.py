@@ -16,7 +16,7 @@ from quasistatic_ref.lab.study.problems.families.made import Made
 from quasistatic_ref.lab.study.problems.folder import family_written, problems_begun, set_written
 from quasistatic_ref.lab.study.problems.problem import QP, Answer, Problem
 from quasistatic_ref.simulate.progress import progress_bar
-from quasistatic_ref.solve.units import Units, natural_hessian, units_of
+from quasistatic_ref.solve.units import Units, hessian_in_both_units, units_of
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 ATTEMPTS = 10
@@ -107,7 +107,7 @@ def problem_of(one: Made, kept: Kept = NOTHING) -> Problem:
     before = kept.get(one.id)
     if before is not None and _same(before, form):
         return before
-    units = units_of(form, natural_hessian(form.H))
+    units = units_of(form, hessian_in_both_units(form.H))
     return _measured(one, form, units, dense_answer(form))
 
 
