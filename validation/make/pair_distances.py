@@ -2,7 +2,7 @@
 
     python -m validation.make.pair_distances [--count POSES]
 
-The reference is computed another way (tests/oracles/closest.py). For each pair, the largest of:
+The reference is the plain program (tests/oracles/closest.py). For each pair, the largest of:
 - phi: |phi - reference| [m], where there is an exact one;
 - inside: where there is none (curved solids in penetration), by how much the gap along some of
   4,000 directions exceeds phi [m]: a shallower way out than the one found;
@@ -27,10 +27,8 @@ from validation.tools.scripts import asked
 
 COLUMNS = ("phi", "inside", "normal", "points", "moved")
 STEP = 1e-3
-WORDS = """Refused: curved solids that meet, and whose answer could not be proved. Of curved solids
-apart the reference is a cone program in float64: at the largest difference, of a cone and an
-ellipsoid, the gap along n, a lower bound of the distance, exceeds the reference. Microseconds
-are upper bounds: the machine did other work meanwhile.
+WORDS = """Refused: curved solids that meet, and whose answer could not be proved. Microseconds are
+upper bounds: the machine did other work meanwhile.
 """
 
 
@@ -42,8 +40,10 @@ def points_off(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, found: Witness)
     return float(max(abs(on_a), abs(on_b), apart))
 
 
-def pair_errors(a: Shape, b: Shape, count: int) -> tuple[dict[str, float], int, int]:
+def pair_errors(names: tuple[str, str], count: int) -> tuple[dict[str, float], int, int]:
     """Largest errors over some poses, how many were in penetration, how many were refused."""
+    solids = closest.solids()
+    a, b = (solids[name] for name in names)
     random = np.random.default_rng(0)
     directions = random.normal(size=(4000, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
@@ -60,7 +60,7 @@ def pair_errors(a: Shape, b: Shape, count: int) -> tuple[dict[str, float], int, 
         phi = found.phi
         n = found.n
         inside += phi < 0
-        reference = closest.signed_distance(a, b, R, t)
+        reference = closest.signed_distance(names, R, t)
         errors = {
             "points": points_off(a, b, R, t, found),
             "moved": abs(moved.phi - phi - STEP),
@@ -91,7 +91,7 @@ def main() -> int:
     for first, second in closest.pairs():
         a = solids[first]
         b = solids[second]
-        worst, inside, refused = pair_errors(a, b, count)
+        worst, inside, refused = pair_errors((first, second), count)
         poses = list(closest.poses(50, 1))
         start = time.perf_counter()
         for R, t in poses:
