@@ -1,8 +1,8 @@
 """Closest points of convex solids, computed another way than the package does.
 
-Distances are those of the plain program, which shares no line with the package. Curved solids in
-penetration have none there: of these, and of every normal, the gap between the solids along
-directions is taken from their support functions.
+Signed distances are the plain program's, which shares no line with the package, where it has a
+closed form. The gap between solids along a direction follows from their support functions: solids
+are at least so far apart. It proves the distance of two points of theirs on the direction itself.
 """
 
 from __future__ import annotations
@@ -14,27 +14,19 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.lab.program.distance import closest_points
+from quasistatic_ref.lab.program.distance import closest_points, core
 from quasistatic_ref.lab.vectors.own.shapes import own_shape
-from quasistatic_ref.shapes.convex_mesh import ConvexMesh, convex_hull
-from quasistatic_ref.shapes.placed_shape import (
-    Box,
-    Capsule,
-    Cone,
-    Cylinder,
-    Ellipsoid,
-    Shape,
-    Sphere,
-)
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import Shape
 
 Array = np.ndarray
+Table = dict[str, Any]
 TURNS = list(Rotation.create_group("O").as_matrix().round())
 """The 24 quarter turns."""
-MEETING = 1e-8
-"""Curved solids that are nearer [m] are taken for solids that meet."""
+CURVED = {"cylinder", "cone", "ellipsoid"}
 HERE = np.eye(3), np.zeros(3)
 POINTS = np.random.default_rng(7).normal(size=(30, 3)) * [0.03, 0.04, 0.05]
-TABLES: dict[str, dict[str, Any]] = {
+TABLES: dict[str, Table] = {
     "sphere": {"kind": "sphere", "radius": 0.03},
     "box": {"kind": "box", "size": [0.06, 0.1, 0.16]},
     "capsule": {"kind": "capsule", "radius": 0.03, "length": 0.1},
@@ -83,44 +75,30 @@ def poses(count: int, seed: int) -> Iterator[tuple[Array, Array]]:
         yield R, t
 
 
-def gap(a: Shape, b: Shape, R: Array, t: Array, n: Array) -> Array:
+def gap(a: Table, b: Table, R: Array, t: Array, n: Array) -> Array:
     """Gap between the solids along unit vectors n, shape (N, 3): least of b minus most of a."""
     return n @ t - _most(b, -n @ R) - _most(a, n)
 
 
-def _most(solid: Shape, n: Array) -> Array:
-    """Support function: the largest n . x over the solid, for each n, shape (N, 3)."""
-    axial = n[:, 2]
-    radial = np.hypot(n[:, 0], n[:, 1])
-    match solid:
-        case Sphere():
-            return np.full(len(n), solid.radius) * np.linalg.norm(n, axis=1)
-        case Box():
-            return np.abs(n) @ solid.half_extents
-        case Capsule():
-            return solid.radius * np.linalg.norm(n, axis=1) + solid.half_length * np.abs(axial)
-        case Cylinder():
-            return solid.radius * radial + solid.half_length * np.abs(axial)
-        case Cone():
-            return np.maximum(
-                solid.half_length * axial, solid.radius * radial - solid.half_length * axial
-            )
-        case Ellipsoid():
-            return np.linalg.norm(n * solid.half_axes, axis=1)
-        case ConvexMesh():
-            return (n @ solid.vertices.T).max(axis=1)
-        case _:
-            raise AssertionError(solid)
+def _most(solid: Table, n: Array) -> Array:
+    """Support function: the largest n . x over the solid, for each unit vector n, shape (N, 3)."""
+    found = core(solid, HERE)
+    if found is not None:
+        points, radius = found
+        return (n @ points.T).max(axis=1) + radius
+    if solid["kind"] == "ellipsoid":
+        return np.linalg.norm(n * solid["half_axes"], axis=1)
+    along = n[:, 2] * solid["length"] / 2
+    rim = solid["radius"] * np.hypot(n[:, 0], n[:, 1])
+    return rim + np.abs(along) if solid["kind"] == "cylinder" else np.maximum(along, rim - along)
 
 
 def signed_distance(names: tuple[str, str], R: Array, t: Array) -> float | None:
     """Signed distance of two solids, the second at pose (R, t) in the frame of the first.
 
-    None of curved solids that meet, or nearly: the plain program has no penetration of these.
+    None where the plain program has no closed form: curved solids on one another and on polytopes.
     """
-    a, b = (TABLES[name] for name in names)
-    phi, *_ = closest_points(a, HERE, b, (R, t))
-    curved = {"cylinder", "cone", "ellipsoid"} & set(names)
-    if curved and not {"sphere", "half-space"} & set(names) and phi <= MEETING:
+    if set(names) & CURVED and not set(names) & {"sphere", "half-space"}:
         return None
+    phi, *_ = closest_points(TABLES[names[0]], HERE, TABLES[names[1]], (R, t))
     return float(phi)
