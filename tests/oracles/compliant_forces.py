@@ -6,6 +6,7 @@ rows that bear, and the conditions of the optimum are decided by signs of fracti
 """
 
 from fractions import Fraction
+from itertools import accumulate
 
 import numpy as np
 
@@ -32,25 +33,17 @@ def forces(step, compliance):
         If the rows that the package names are not those of the optimum.
     """
     H, g, A, b = program(step)
-    n = step.n_v
-    lengths = 4 * step.contacts.n_c
-    stiffness = Fraction(step.h) / Fraction(compliance)
-    none = [Fraction(0)] * lengths
-    H = [row + none for row in H]
-    for i in range(n, n + lengths):
-        H.append([stiffness * (i == j) for j in range(n + lengths)])
-    tables = [cone_table(step.cone, rows, 1).tolist() for rows in step.contacts.rows]
-    blocks = []
-    end = 0
+    tables = [cone_table(step.cone, rows, 1) for rows in step.contacts.rows]
+    ends = list(accumulate(len(table) for table in tables))
+    blocks = [slice(end - len(table), end) for end, table in zip(ends, tables, strict=True)]
+    gives = np.zeros((len(b), 4 * len(tables)), dtype=object)
     for j, table in enumerate(tables):
-        blocks.append(slice(end, end + len(table)))
-        end += len(table)
-        for row, along in zip(A[blocks[j]], table, strict=True):
-            row += none
-            row[n + 4 * j : n + 4 * j + 4] = [Fraction(1), *map(Fraction, along)]
+        gives[blocks[j], 4 * j : 4 * j + 4] = np.insert(table, 0, 1, axis=1)
+    aside = np.zeros((len(g), gives.shape[1]), dtype=object)
+    stiffness = Fraction(step.h) / Fraction(compliance) * np.eye(gives.shape[1], dtype=int)
+    whole = np.block([[H, aside], [aside.T, stiffness]]), np.append(g, aside[:1])
     working = dual_active_set(compliant_form(step, compliance)).minimiser.working
-    _, pressing, _ = proved((H, g + none, A, b), working)
-    lam = [Fraction(0)] * len(b)
-    for i, value in zip(working, pressing, strict=True):
-        lam[i] = value
+    _, pressing, _ = proved((*whole, np.hstack([A, gives]), b), working)
+    lam = np.zeros(len(b), dtype=object)
+    lam[list(working)] = pressing
     return np.array(wrenches(step, [lam[block] for block in blocks])).reshape(-1, 4)
