@@ -16,11 +16,6 @@ def nodes(value: Json, path: Path = ()) -> Iterator[tuple[Path, Json]]:
         yield from nodes(inner, (*path, key))
 
 
-def named(value: Json, name: str) -> Iterator[Json]:
-    """Every value of a field, at any depth."""
-    return (inner for path, inner in nodes(value) if path[-1:] == (name,))
-
-
 def mapped(value: Json, leaf: Callable[[Json], Json], kept: Collection[str] = ()) -> Json:
     """The same nesting with another value in the place of each leaf; fields `kept` stay."""
     if isinstance(value, dict):
