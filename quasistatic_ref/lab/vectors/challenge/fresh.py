@@ -12,7 +12,7 @@ import numpy as np
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.scenes.at_random import Rng, random_contacts, random_frames
 from quasistatic_ref.lab.scenes.at_random import random_step as random_program
-from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.lab.scenes.contacts import NUMBERS, repeated
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step
 from quasistatic_ref.lab.vectors.challenge.simpler import rounded_case
 from quasistatic_ref.lab.vectors.challenge.terms import terms
@@ -34,9 +34,10 @@ from quasistatic_ref.lab.vectors.families.mechanisms import (
     random_tree,
 )
 from quasistatic_ref.lab.vectors.families.random_scenes import random_scene
-from quasistatic_ref.lab.vectors.families.steps import PLACE, program, rows_input, wrench_input
+from quasistatic_ref.lab.vectors.families.steps import contact_entries, program
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.layers import step as step_layer
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.data import Contacts
 
@@ -153,7 +154,7 @@ def _contacts(rng: Rng, level: int, n_v: int) -> Contacts:
 
 def _rows(rng: Rng, level: int) -> Json:
     at = _contacts(rng, level, int(rng.integers(1, 3 if level == EASY else 9)))
-    return rows_input(at, str(rng.choice(CONES)))
+    return {"cone": str(rng.choice(CONES)), "contacts": contact_entries(at, NUMBERS)}
 
 
 def _qp(rng: Rng, level: int) -> Json:
@@ -175,29 +176,29 @@ def _qp(rng: Rng, level: int) -> Json:
     return found
 
 
-def random_loads(rng: Rng, n_c: int, cone: str) -> Json:
-    """The input with multipliers at random, on contacts between three bodies and the world."""
-    at = random_contacts(rng, n_c, 1)
+def _wrench(rng: Rng, level: int) -> Json:
+    """Multipliers at random, on contacts between three bodies and the world."""
+    cone = "pyramid" if level == EASY else str(rng.choice([*CONES, "ellipsoid"]))
+    at = random_contacts(rng, 1 if level == EASY else int(rng.integers(1, 6)), 1)
+    contacts = contact_entries(at, ("n", "d1", "d2", "mu_v", "mu_omega", "rows"))
     names = [None, "a", "b", "c"]
-    points = []
-    for n, phi in zip(at.n, at.phi, strict=True):
+    touched = set()
+    for contact, n, phi in zip(contacts, at.n, at.phi, strict=True):
         one, two = rng.choice(4, 2, replace=False)
         alpha = 0.2 * rng.standard_normal(3)
-        place = (names[one], names[two], alpha.tolist(), (alpha + phi * n).tolist())
-        points.append(dict(zip(PLACE, place, strict=True)))
-    touched = {point[body] for point in points for body in PLACE[:2]} - {None}
-    bodies = {body: {"point": rng.uniform(-1, 1, 3).tolist()} for body in sorted(touched)}
+        contact |= {"alpha_body": names[one], "beta_body": names[two]}
+        contact |= {"alpha": alpha.tolist(), "beta": (alpha + phi * n).tolist()}
+        touched |= {names[one], names[two]}
+    points = {body: rng.uniform(-1, 1, 3).tolist() for body in names[1:] if body in touched}
     count = int(cone_of(cone).counts(at.rows).sum())
     lam = rng.random(count) * (rng.random(count) < 0.6)
     if cone == "ellipsoid":
-        lam = lam.reshape(-1, 4) * [4, 0.1, -0.1, 0.001]
-    return wrench_input(at, cone, 0.01, lam.ravel() + 0.0, points, bodies)
-
-
-def _wrench(rng: Rng, level: int) -> Json:
-    cone = "pyramid" if level == EASY else str(rng.choice([*CONES, "ellipsoid"]))
-    case = random_loads(rng, 1 if level == EASY else int(rng.integers(1, 6)), cone)
-    return {**case, "h": float(rng.choice([0.01, 0.02, 0.005, 0.1]))}
+        lam = (lam.reshape(-1, 4) * [4, 0.1, -0.1, 0.001]).ravel() + 0.0
+    for contact, part in zip(contacts, by_contact(lam.tolist(), cone, contacts), strict=True):
+        contact["lam"] = part
+    bodies = {body: {"point": point} for body, point in points.items()}
+    h = float(rng.choice([0.01, 0.02, 0.005, 0.1]))
+    return {"h": h, "cone": cone, "contacts": contacts, "bodies": bodies}
 
 
 def _tree(rng: Rng, level: int) -> Json:

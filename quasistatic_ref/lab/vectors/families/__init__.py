@@ -1,1 +1,1 @@
-"""Inputs written by rule (closed forms, seeded random numbers, corners) and from scenarios."""
+"""Scenes, mechanisms and contacts at random or by hand: what new cases are made of."""

@@ -2,7 +2,6 @@
 
 from functools import cache
 
-from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.expected import Json
@@ -14,19 +13,6 @@ from quasistatic_ref.lab.vectors.layers import layer
 
 WILD = 1e3
 """Largest entry of dq+/dq [-, rad/m] in a case."""
-
-
-def kinds_of(table: Json) -> set[str] | None:
-    """Kinds of the reasons why q+ has no derivative; None of a case that asks nothing."""
-    try:
-        output = layer("derivative").expected(table).output
-        if output["differentiable"] and hangs_on_rounding(table):
-            return None
-    except (QuasistaticError, ArithmeticError, LookupError):
-        return None
-    if not is_tame(output):
-        return None
-    return {reason["kind"] for reason in output["reasons"]}
 
 
 def hangs_on_rounding(table: Json) -> bool:
