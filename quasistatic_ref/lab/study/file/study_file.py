@@ -23,7 +23,7 @@ from quasistatic_ref.lab.study.file.fields import (
     VERSION,
 )
 from quasistatic_ref.lab.study.file.solver_lists import chosen_solvers, own_solvers
-from quasistatic_ref.lab.study.problems.families.dials import DIALS, SCENARIOS
+from quasistatic_ref.lab.study.problems.dials import SCENARIOS
 from quasistatic_ref.lab.study.problems.for_study import TestSet
 from quasistatic_ref.lab.study.problems.problem import UNITS
 
@@ -150,7 +150,7 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
     """
     try:
         top = TABLES.all_values(Fields(tables), SOLVERS)
-        problems = _problems(top["problems"], quick)
+        problems = _problems(top["problems"], path.parent, quick)
         settings = _settings(top["settings"])
         own = own_solvers(top["solvers"], settings)
         parts = tuple(
@@ -164,11 +164,15 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
         raise error.in_file(path) from None
 
 
-def _problems(table: Fields, quick: bool) -> TestSet:
+def _problems(table: Fields, folder: Path, quick: bool) -> TestSet:
     given = TABLES.all_values(table, PROBLEMS)
     known = scenario_names()
     scenarios = known if given["scenarios"] is None else given["scenarios"]
-    _check_known(table, "scenarios", scenarios, known)
+    files = [name for name in scenarios if name.endswith(".toml")]
+    _check_known(table, "scenarios", scenarios, [*known, *files])
+    if len({Path(name).stem for name in scenarios}) < len(scenarios):
+        raise table.fail("scenarios", "must have different names", scenarios)
+    scenarios = [str(folder / name) if name in files else name for name in scenarios]
     source = given["set"] or ""
     families, most = _counts(given["families"], bool(source))
     if quick:
@@ -185,10 +189,10 @@ def _counts(table: Fields, of_a_set: bool) -> tuple[dict[str, int], dict[str, fl
     for name, own in TABLES.all_values(table, COUNTS).items():
         inner = Fields({"count": own} if isinstance(own, int) else own, table.name(name))
         count = TABLES.all_values(inner, COUNT)
-        if count["count"] and not of_a_set and name not in (SCENARIOS, *DIALS):
+        if count["count"] and not of_a_set and name != SCENARIOS:
             words = 'is a family of sets; say set = "contact-qp-2", or "contact-qp-1"'
             raise table.fail(name, words)
-        if count["most"] is not None and not (of_a_set or name in DIALS):
+        if count["most"] is not None and not of_a_set:
             raise table.fail(name, "has no dial to be turned, unless it is taken from a set")
         if count["count"]:
             counts[name] = count["count"]
