@@ -8,9 +8,9 @@ import pytest
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.folders import CONTACT_QP_1, CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.file.study_file import solver_study
+from quasistatic_ref.lab.study.file.study_file import Limits, solver_study
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.measuring.measure import measured
 from quasistatic_ref.lab.study.measuring.run import run_study
 from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.lab.study.report.report import study_report

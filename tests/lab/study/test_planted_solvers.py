@@ -12,8 +12,9 @@ import pytest
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.keeper import Keeper, Request
-from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.measuring.measure import measured
 from quasistatic_ref.lab.study.measuring.worker import GRACE
 from quasistatic_ref.lab.study.problems.folder import set_read
 from tests.lab.study.planted import FAKES

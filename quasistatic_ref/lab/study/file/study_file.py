@@ -62,6 +62,31 @@ class Part:
 
 
 @dataclass(frozen=True)
+class Limits:
+    """What calls may take, as study files have it by default.
+
+    Parameters
+    ----------
+    time_limit : float
+        Of one call [s].
+    warm_up : float
+        Of the first call of a shape, at a setting, in a process, which is not counted [s].
+    repetitions : int
+        Calls of a measurement that are timed; more where they are short.
+    budget : float
+        Of one solver [s], for all its calls, and as much for its starts and its calls that warm up.
+    memory : float
+        Of one solver's processes [bytes].
+    """
+
+    time_limit: float = 2.0
+    warm_up: float = 10.0
+    repetitions: int = 5
+    budget: float = 600.0
+    memory: float = 4 * GB
+
+
+@dataclass(frozen=True)
 class Study:
     """A study file, read.
 
@@ -69,26 +94,13 @@ class Study:
     ----------
     path : Path
     problems : TestSet
-    time_limit : float
-        Of one problem [s].
-    budget : float
-        Of one solver, all its calls together [s].
-    warm_up : float
-        Of the first call of a shape, which is not counted [s].
-    memory : float
-        Of one solver [bytes].
-    repetitions : int
-        Calls of a measurement that are timed.
+    limits : Limits
     parts : tuple of Part
     """
 
     path: Path
     problems: TestSet
-    time_limit: float
-    budget: float
-    warm_up: float
-    memory: float
-    repetitions: int
+    limits: Limits
     parts: tuple[Part, ...]
 
     @property
@@ -156,10 +168,9 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
         parts = tuple(
             _part(Fields(part, f"runs[{i}]"), settings, own) for i, part in enumerate(top["runs"])
         )
-        return Study(
-            path, problems, top["time_limit"], top["budget"], top["warm_up"],
-            top["memory"] * GB, top["repetitions"], parts,
-        )  # fmt: skip
+        limits = Limits(top["time_limit"], top["warm_up"], top["repetitions"], top["budget"],
+                        top["memory"] * GB)  # fmt: skip
+        return Study(path, problems, limits, parts)
     except InputError as error:
         raise error.in_file(path) from None
 
