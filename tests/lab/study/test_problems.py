@@ -1,5 +1,7 @@
 """Problems made of the steps of scenarios: the same each time, with answers that are proved."""
 
+from os.path import relpath
+
 import numpy as np
 import pytest
 
@@ -13,9 +15,9 @@ PROBLEMS = '[problems]\nscenarios = ["block_incline", "{own}"]\nfamilies.scenari
 
 
 @pytest.fixture
-def own(study):
+def own(study, tmp_path):
     """A test set of five steps: of a scenario by its name, and of a file."""
-    return study(PROBLEMS.format(own=scenario_path("block_push"))).problems
+    return study(PROBLEMS.format(own=relpath(scenario_path("block_push"), tmp_path))).problems
 
 
 def test_steps_are_evenly_spaced_and_their_answers_are_proved_by_other_arithmetic(own, tmp_path):

@@ -15,7 +15,7 @@ from quasistatic_ref.lab.study.measuring.plan import Measurement, plan
 from quasistatic_ref.lab.study.measuring.schedule import Work, measure_here
 from quasistatic_ref.lab.study.problems.for_study import fact_of, problems_record, study_problems
 from quasistatic_ref.lab.study.problems.problem import Problem
-from quasistatic_ref.lab.study.store.rows import Row, key_of, label_of
+from quasistatic_ref.lab.study.store.rows import Row, label_of
 from quasistatic_ref.lab.study.store.store import Store
 
 
@@ -59,7 +59,7 @@ def run_study(
     facts = [fact_of(one) for one in problems]
     with Store(folder, study_record(study, problems), facts) as store:
         done = store.keys
-        todo = [m for m in planned if key_of(m.fields()) not in done]
+        todo = [m for m in planned if m.key not in done]
         work = Work(store, todo, by_id, place, study.limits, progress, unreached)
         if scheduler is None:
             measure_here(work, jobs or os.cpu_count() or 1)
