@@ -16,6 +16,9 @@ from quasistatic_ref.step.data import Array
 HEAD = 1 << 16
 """Largest line of JSON [bytes]."""
 NOTHING = Reply(None, None, False, "not called")
+READY = "ready: "
+"""What a worker says first, before the modes that its solver can be called in; else why it cannot
+be called."""
 
 
 class Unreadable(Exception):
