@@ -23,11 +23,11 @@ PAIRS = [
     for names in closest.pairs()
     if CURVED & set(names) and not {"sphere", "half-space"} & set(names)
 ]
-SCALES = (1e-5, 10.0)
+SMALLER = 1e-5
 HERE = np.eye(3), np.zeros(3)
 
 
-def enlarged(solid: Shape, scale: float) -> Shape:
+def scaled(solid: Shape, scale: float) -> Shape:
     match solid:
         case Box():
             return Box(scale * solid.half_extents)
@@ -94,7 +94,7 @@ def test_closest_points_are_found_at_every_feature(feature, other) -> None:
 
 
 @pytest.mark.parametrize("names", PAIRS, ids="-".join)
-def test_an_enlarged_pair_has_the_same_normal_and_a_larger_distance(names) -> None:
+def test_a_pair_that_is_made_smaller_has_the_same_normal_and_a_smaller_distance(names) -> None:
     a, b = (SOLIDS[name] for name in names)
     answered = 0
     for R, t in closest.poses(4, 23):
@@ -103,14 +103,13 @@ def test_an_enlarged_pair_has_the_same_normal_and_a_larger_distance(names) -> No
         except ContactError:
             continue
         answered += 1
-        for k in SCALES:
-            A = enlarged(a, k)
-            B = enlarged(b, k)
-            other = solid_pair("p", ShapeInWorld(A, *HERE), ShapeInWorld(B, R, k * t))
-            np.testing.assert_allclose(other.phi / k, one.phi, rtol=EXACT, atol=CURVED_PAIR)
-            # Of several normals that are as good, which one is taken may be rounding.
-            gap = closest.gap(A, B, R, k * t, other.n[None])[0]
-            np.testing.assert_allclose(gap / k, one.phi, rtol=EXACT, atol=CURVED_PAIR)
+        A = scaled(a, SMALLER)
+        B = scaled(b, SMALLER)
+        other = solid_pair("p", ShapeInWorld(A, *HERE), ShapeInWorld(B, R, SMALLER * t))
+        np.testing.assert_allclose(other.phi / SMALLER, one.phi, rtol=EXACT, atol=CURVED_PAIR)
+        # Of several normals that are as good, which one is taken may be rounding.
+        gap = closest.gap(A, B, R, SMALLER * t, other.n[None])[0]
+        np.testing.assert_allclose(gap / SMALLER, one.phi, rtol=EXACT, atol=CURVED_PAIR)
     assert answered >= 3
 
 
