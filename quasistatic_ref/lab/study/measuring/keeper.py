@@ -17,6 +17,7 @@ from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.grade import CRASHED, MEMORY, TIMEOUT
 from quasistatic_ref.lab.study.measuring.messages import (
     HEAD,
+    KEPT,
     READY,
     Response,
     Unreadable,
@@ -37,9 +38,6 @@ EXTRA = 0.5
 
 LOOK = 0.02
 """How often the memory of a process is looked at while it computes [s]."""
-
-KEPT = 2
-"""Programs that a process keeps: one in raw and in natural units."""
 
 PINGS = 9
 """Exchanges without a call, whose median is what an exchange takes."""

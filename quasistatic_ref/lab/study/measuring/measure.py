@@ -24,10 +24,10 @@ from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.grade import (
     CRASHED,
     MEMORY,
-    NOT_RUN,
     TIMEOUT,
     Prepared,
     grades,
+    not_run,
     prepared,
     ungraded,
 )
@@ -152,8 +152,7 @@ def sequence_measured(
             request = Request(setting, limits.time_limit, mode=mode, first=first)
             shape = (*one.forms[units].A.shape, setting.name, units, mode, min(place, 1))
             if left <= 0:
-                row = ungraded(NOT_RUN, "not run (budget)", None, not one.answer.farkas)
-                row["seconds"]["spent"] = 0.0
+                row = not_run(not one.answer.farkas)
             else:
                 last = x
                 row, x = _step(keeper, one, request, units, shape, limits.warm_up)

@@ -13,6 +13,8 @@ import numpy as np
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 
+KEPT = 2
+"""Programs that a solver's process keeps: one in raw and in natural units."""
 HEAD = 1 << 16
 """Largest line of JSON [bytes]."""
 NOTHING = Reply(None, None, False, "not called")

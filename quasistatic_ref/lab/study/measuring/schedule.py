@@ -13,7 +13,7 @@ from itertools import groupby
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.file.study_file import Limits
-from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, ungraded
+from quasistatic_ref.lab.study.measuring.grade import not_run
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.lab.study.measuring.measure import measured, sequence_measured
 from quasistatic_ref.lab.study.measuring.plan import Measurement
@@ -69,17 +69,11 @@ def _measured_together(keeper: Keeper, block: Block, limits: Limits, left: Left)
     rows: list[Row] = []
     for m, problem in block:
         if min(_less(left, rows)) <= 0:
-            rows.append(unmeasured(m, problem.feasible))
+            row = not_run(problem.feasible)
         else:
             row = measured(keeper, problem, m.setting, m.units, m.warm, limits)
-            rows.append(m.fields() | row)
+        rows.append(m.fields() | row)
     return rows
-
-
-def unmeasured(m: Measurement, feasible: bool) -> Row:
-    """The row of a measurement that the budget did not reach."""
-    row = ungraded(NOT_RUN, "not run (budget)", None, feasible)
-    return m.fields() | row | {"seconds": row["seconds"] | {"spent": 0.0}}
 
 
 def _less(left: Left, rows: Iterable[Row]) -> Left:

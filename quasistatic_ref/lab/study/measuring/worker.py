@@ -22,12 +22,10 @@ from quasistatic_ref.lab.processes import adopt_orphans
 from quasistatic_ref.lab.study.calling.calls import Crashed, Options, call_of, on_path, tried
 from quasistatic_ref.lab.study.calling.sessions import kept, modes_of
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
-from quasistatic_ref.lab.study.measuring.messages import NOTHING, READY, Response, to_bytes
+from quasistatic_ref.lab.study.measuring.messages import KEPT, NOTHING, READY, Response, to_bytes
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
-KEPT = 2
-"""Programs that are kept, as :class:`~.keeper.Keeper` knows."""
 TINY = StandardForm(np.eye(1), np.ones(1), np.eye(1), np.zeros(1))
 """min 1/2 x^2 - x, x >= 0."""
 PATIENCE = 10.0
