@@ -9,8 +9,7 @@ import tracemalloc
 import numpy as np
 
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate import recorder as recorder_module
-from quasistatic_ref.simulate.recorder import Recorder
+from quasistatic_ref.simulate.recorder import PACKED, Recorder
 
 GROWTH = """
 import gc, tracemalloc
@@ -33,8 +32,6 @@ lists would be counted, too."""
 LEFT = 50.0
 """Bytes that a step may leave between the 600th and the 1,000th, where NumPy still fills its cache
 of small arrays: 11 to 26 were seen; one number that is kept in a dictionary takes more than 60."""
-PACKED = 500
-"""Steps that are recorded, and packed as 1,000 are elsewhere."""
 APIECE = 40
 """Bytes a step beyond its numbers: of names and heads of arrays, which are there once."""
 
@@ -46,8 +43,7 @@ def test_certified_steps_leave_nothing_behind():
     assert (after - before) / (1000 - 600) < LEFT
 
 
-def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more(monkeypatch):
-    monkeypatch.setattr(recorder_module, "PACKED", PACKED)
+def test_a_recorder_holds_what_its_trajectory_does_and_a_few_numbers_more():
     scenario = load_scenario("sphere_spin", record="full", fast=True)
     simulator = scenario.simulator()
     q = scenario.system.q_start
