@@ -115,7 +115,7 @@ def test_a_loop_by_hand_ends_in_the_trajectory_of_rollout(scenario):
     assert found.seconds.keys() == expected.seconds.keys()
 
 
-def test_a_target_may_ask_for_the_result_of_the_step_before(scenario, run):
+def test_a_target_may_ask_for_the_result_of_the_step_before(run):
     seen = []
 
     def target(t, q, last):
