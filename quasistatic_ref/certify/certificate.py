@@ -173,9 +173,9 @@ def verify(
         judged = needed_part("large.judged", 'a certificate of kind "residual"')
         verdict: Verdict = judged.bound_verdict(step, delta_q, lam, claims.error_bound)
         return verdict
-    kind = cone(step.cone)
-    if isinstance(kind, CurvedCone):
-        return kind.verdict(step, delta_q, active, lam, claims)
+    friction_cone = cone(step.cone)
+    if isinstance(friction_cone, CurvedCone):
+        return friction_cone.verdict(step, delta_q, active, lam, claims)
     if claims is not None and claims.kind != "exact":
         return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing here")
     try:

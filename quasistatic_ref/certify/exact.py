@@ -308,9 +308,9 @@ def relative_length(step: StepData, delta_q: Array) -> float:
     loads[2, n_a:] = h * (scale * step.tau_u)
     pushed = b > 0
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        push_out = scale * b[pushed] / norm.impulses(form.A[pushed])
-        scene_length = float(max(norm.impulses(loads).max(), push_out.max(initial=0.0)))
-        length = norm.displacement(scale * delta_q)
+        push_out = scale * b[pushed] / norm.of_impulses(form.A[pushed])
+        scene_length = float(max(norm.of_impulses(loads).max(), push_out.max(initial=0.0)))
+        length = norm.of_displacement(scale * delta_q)
         if scene_length:
             return length / scene_length
         return 0.0 if length == 0 else float("inf")

@@ -128,8 +128,8 @@ class StepSolution(Plain, Shown):
         displacement with compliance; it is proportional to the compliance.
         """
         norm = energy_norm(self.step.H)
-        off = norm.displacement(self.delta_q - self.compliant.delta_q)
-        return off / norm.impulse(linear_term(self.step)) if off else 0.0
+        off = norm.of_displacement(self.delta_q - self.compliant.delta_q)
+        return off / norm.of_impulse(linear_term(self.step)) if off else 0.0
 
     @cached_property
     def compliant(self) -> ContactForces:

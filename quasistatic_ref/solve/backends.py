@@ -106,9 +106,9 @@ By strong convexity ||x - x*||_H^2 <= 2 gap: where a contact just begins to bear
 def _clarabel(accuracy: float) -> OptionSets:
     feasibility = dict.fromkeys(("tol_feas", "tol_infeas_abs", "tol_infeas_rel"), accuracy)
     gap = dict.fromkeys(("tol_gap_abs", "tol_gap_rel"), GAP * accuracy)
-    # With its default static regularisation of 1e-8 it stops early on 4 of the 600 steps of
+    # With its default static regularisation of 1e-8 it stops early on 4 of the 300 steps of
     # bunny_grasp, whose sticking patches have many dependent rows. With 1e-10 or 1e-12 it solves
-    # them, but fails on single steps of other scenes, never on the same ones: three attempts.
+    # them, but fails on single steps of other scenes, never on the same ones: all three are tried.
     return tuple(
         feasibility
         | gap
@@ -122,8 +122,9 @@ def _osqp(accuracy: float) -> OptionSets:
     # No polishing: it prints to standard output, and improves none of the worst answers.
     common = {"eps_abs": accuracy, "eps_rel": 0.0, "max_iter": 50_000, "polishing": False}
     common |= {"eps_prim_inf": accuracy, "eps_dual_inf": accuracy, "verbose": False}
-    # In natural units a fixed rho of about one suits nearly all steps (all but 11 of the 600 of
-    # bunny_grasp), where the adaptive one, which may run away to 1e6, leaves 34 unsolved.
+    # In natural units a fixed rho of about one suits nearly all steps (of bunny_grasp with and
+    # without torsion all but 11 of 600), where the adaptive one, which may run away to 1e6, leaves
+    # 34 unsolved.
     fixed = common | {"adaptive_rho": False, "rho": 0.3}
     return (fixed, common | {"adaptive_rho": True}, fixed | {"eps_abs": 10 * accuracy})
 
@@ -133,7 +134,7 @@ def _piqp(accuracy: float) -> OptionSets:
     feasibility = dict.fromkeys(("eps_abs", "eps_rel"), accuracy)
     gap = dict.fromkeys(("eps_duality_gap_abs", "eps_duality_gap_rel"), GAP * accuracy)
     # With less regularisation than it comes with, its worst error on bunny_grasp falls from
-    # 7e-8 to 4e-10.
+    # 7e-8 to 2e-10.
     regularisation = {"reg_lower_limit": 1e-13, "reg_finetune_lower_limit": 1e-15}
     common = feasibility | regularisation | {"check_duality_gap": True, "max_iter": 500}
     # With so little regularisation it stalls at single steps of a heap; its defaults solve them.

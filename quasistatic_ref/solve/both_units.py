@@ -76,7 +76,7 @@ class DenseStepInBothUnits:
         return natural_form(self.si_form, self.units, self.hessian.natural_H)
 
     @property
-    def unlike(self) -> float:
+    def row_ratio(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
         squares = squared_lengths(self.si_form, self.hessian)
         first = int(squares.searchsorted(0.0, side="right"))

@@ -154,22 +154,22 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     """The proved optimum; if the backend fails, the exact method starts cold: the same answer."""
     step = both.si_step
     units = both.units
-    kind = cone(step.cone)
+    friction_cone = cone(step.cone)
     answer, statistics = _answer_and_statistics(both, solver, accuracy)
     begin = time.perf_counter()
     si_answer = None
     if answer is not None:
         si_answer = in_si(answer.natural_delta_q, answer.natural_lam, units)
     certificate_of: Callable[..., Certificate]
-    if isinstance(kind, CurvedCone):
-        optimum = kind.optimum(step, si_answer)
+    if isinstance(friction_cone, CurvedCone):
+        optimum = friction_cone.optimum(step, si_answer)
         if optimum is None:
             if answer is not None:
                 return uncertified(both, solver, answer, "residual")
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, accuracy)
         check_length(step, optimum.delta_q, group_steps(step))
-        certificate_of = kind.certificate
+        certificate_of = friction_cone.certificate
     else:
         optimum = solver.optimum(both, answer)
         certificate_of = exact_certificate
@@ -177,9 +177,9 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     lam = optimum.lam
     if si_answer is not None:
         norm = solver.norm(both)
-        error = norm.displacement(si_answer[0] - delta_q)
-        of_free = norm.impulse(both.si_form.g)
-        statistics = statistics._replace(digits=relative_digits(error, of_free))
+        error = norm.of_displacement(si_answer[0] - delta_q)
+        free_length = norm.of_impulse(both.si_form.g)
+        statistics = statistics._replace(digits=relative_digits(error, free_length))
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(proof_time=time.perf_counter() - begin)
     certificate = certificate_of(step, optimum, residuals)

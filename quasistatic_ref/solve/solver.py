@@ -240,10 +240,10 @@ class BackendSolver(Solver):
         StepNotSolved
             If none does; or, before any call, if the backend may not return from such rows.
         """
-        if self.unsafe and isinstance(both, DenseStepInBothUnits) and not both.unlike <= ALIKE:
-            status = f"not called: its rows differ by {both.unlike:.0e} in natural units"
+        if self.unsafe and isinstance(both, DenseStepInBothUnits) and not both.row_ratio <= ALIKE:
+            status = f"not called: its rows differ by {both.row_ratio:.0e} in natural units"
             raise StepNotSolved(self.name, status, both.si_step, accuracy)
-        idle = self.write(both)
+        out_of_reach = self.write(both)
         cause: Exception | None = None
         for option_set in self.option_sets(accuracy):
             tried = option_set.accuracy
@@ -260,10 +260,17 @@ class BackendSolver(Solver):
             elif reply.x is None or reply.lam is None:
                 status = "an answer without multipliers"
             elif finite(reply.x) and finite(reply.lam):
-                if idle is not None:
-                    reply.lam[: idle.size][idle] = 0.0  # residuals are of the true gap
-                cost = reply.iterations, reply.seconds, tried
-                statistics = SolverStatistics(self.name, "optimal", *cost, None, self.interface)
+                if out_of_reach is not None:
+                    # Residuals are those of the true gap.
+                    reply.lam[: out_of_reach.size][out_of_reach] = 0.0
+                statistics = SolverStatistics(
+                    self.name,
+                    "optimal",
+                    reply.iterations,
+                    reply.seconds,
+                    tried,
+                    interface=self.interface,
+                )
                 return NaturalAnswer(reply.x, reply.lam, statistics)
         raise StepNotSolved(self.name, status, both.si_step, tried) from cause
 

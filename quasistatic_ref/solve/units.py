@@ -126,8 +126,9 @@ def units_of(form: StandardForm, hessian: HessianInBothUnits) -> Units:
     squares = squared_lengths(form, hessian)
     power = small_power(form.g * hessian.coordinate)
     g = np.ldexp(form.g, -power)
-    energy = math.sqrt(max(float(g.dot(hessian.H_inverse).dot(g)), 0.0))  # ||H^-1 g||_H
-    return units_from(hessian.coordinate, squares, math.ldexp(energy, power), form.b)
+    square = max(float(g.dot(hessian.H_inverse).dot(g)), 0.0)
+    free_length = math.ldexp(math.sqrt(square), power)  # ||H^-1 g||_H
+    return units_from(hessian.coordinate, squares, free_length, form.b)
 
 
 def small_power(g: Array) -> int:
@@ -143,7 +144,7 @@ def small_power(g: Array) -> int:
     return min(int(np.frexp(np.abs(g).max(initial=0.0))[1]), 0)
 
 
-def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Units:
+def units_from(coordinate: Array, squares: Array, free_length: float, b: Array) -> Units:
     """Natural units from their parts.
 
     Parameters
@@ -152,16 +153,16 @@ def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Un
         Diagonal of S [m or rad, per (N m s)^0.5].
     squares : ndarray, shape (m,)
         Squared lengths of the rows of A S [m^2/(N m s)], ascending.
-    energy : float
+    free_length : float
         Length of the unconstrained step in the norm of H, ||H^-1 g||_H [(N m s)^0.5].
     b : ndarray, shape (m,)
     """
-    length = _power_of_two(_typical(squares))
+    length = _power_of_two(_median_length(squares))
     push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
-    size = max(energy, push_out)
+    size = max(free_length, push_out)
     if size == 0:  # no load, no penetration: the optimum is zero, and the largest gap the size
         size = -float(b.min(initial=0.0)) / length or STANDSTILL
-    if not math.isfinite(energy + push_out + (squares[-1] if b.size else 0.0)):
+    if not math.isfinite(free_length + push_out + (squares[-1] if b.size else 0.0)):
         size = math.nan
     return Units(coordinate, length, _power_of_two(max(size, SMALLEST)))
 
@@ -243,7 +244,7 @@ def in_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
     return delta_q / (rho * S), lam / (rho / ell)
 
 
-def _typical(squares: Array) -> float:
+def _median_length(squares: Array) -> float:
     """Return the median of lengths that are not zero, from their squares in ascending order."""
     n = len(squares)
     first = 0 if n and squares[0] > 0 else int(squares.searchsorted(0.0, side="right"))

@@ -137,10 +137,10 @@ class StepProblem(Shown):
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
         for name in differences(self.template, step):
-            needed = KIND[name](self.template)
-            given = KIND[name](step)
-            message = f"must be {needed}; make a problem of this step"
-            raise StepDataError(message, field=name, value=np.asarray(given).tolist())
+            needed = np.asarray(KIND[name](self.template)).tolist()
+            given = np.asarray(KIND[name](step)).tolist()
+            message = f"must be {needed!r}; make a problem of this step"
+            raise StepDataError(message, field=name, value=given)
 
     def check_kind(self) -> None:
         """Refuse steps that are not the paper's, with StepDataError."""

@@ -49,13 +49,13 @@ class GroupNorm:
 
     parts: list[tuple[Indices, EnergyNorm]]
 
-    def displacement(self, v: Array) -> float:
+    def of_displacement(self, v: Array) -> float:
         """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
-        return math.hypot(*(norm.displacement(v[own]) for own, norm in self.parts))
+        return math.hypot(*(norm.of_displacement(v[own]) for own, norm in self.parts))
 
-    def impulse(self, p: Array) -> float:
+    def of_impulse(self, p: Array) -> float:
         """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
-        return math.hypot(*(norm.impulse(p[own]) for own, norm in self.parts))
+        return math.hypot(*(norm.of_impulse(p[own]) for own, norm in self.parts))
 
 
 class Kept:
@@ -228,8 +228,8 @@ class Proofs:
                     found = group_optimum(step, part.group, own.si_step, start)
                 hessian = part.kept.hessian_of(own.si_step)
                 # Of three loads' steps the longest is at least a third of their sum's.
-                most = ILL_POSED / 4 * hessian.norm.impulse(own.si_form.g)
-                long = long or not hessian.norm.displacement(found.delta_q) <= most
+                most = ILL_POSED / 4 * hessian.norm.of_impulse(own.si_form.g)
+                long = long or not hessian.norm.of_displacement(found.delta_q) <= most
                 optima.append(found)
                 points.append((part.group.coordinates, own.si_step, hessian, found.working_set))
             optimum = joined_optimum(step, [part.group for part in self.parts], optima)

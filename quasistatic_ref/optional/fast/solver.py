@@ -87,11 +87,11 @@ class FastSolver(NativeSolver):
 
     def write(self, both: DenseStepInBothUnits) -> NDArray[np.bool_] | None:
         """Write the program, mostly the natural standard form; rows out of reach, shape (m,)."""
-        idle = super().write(both)
+        out_of_reach = super().write(both)
         p: Any = self.program
-        if idle is None and self.adapter.ORDER == "C":
+        if out_of_reach is None and self.adapter.ORDER == "C":
             both.natural_form = StandardForm(p.H, -p.f, p.A, p.b)  # until the next step
-        return idle
+        return out_of_reach
 
     def norm(self, both: StepInBothUnits) -> Norm:
         """The norm ||.||_H of a step."""

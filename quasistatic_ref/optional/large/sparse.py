@@ -89,9 +89,9 @@ class SparseStep:
         y = form.g * S
         power = small_power(y)
         near_one = np.ldexp(y, -power)
-        energy = math.sqrt(max(float(near_one @ kind.H.factor.solve(near_one)), 0.0))
-        length = math.ldexp(energy, power)  # ||H^-1 g||_H
-        self.units = units = units_from(S, np.sort(squares), length, form.b)
+        square = max(float(near_one @ kind.H.factor.solve(near_one)), 0.0)
+        free_length = math.ldexp(math.sqrt(square), power)  # ||H^-1 g||_H
+        self.units = units = units_from(S, np.sort(squares), free_length, form.b)
         check_units(units, step)
         self.si_form: Any = form
         A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)

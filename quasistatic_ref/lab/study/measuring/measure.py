@@ -170,7 +170,7 @@ def _repeats(one: Prepared, before: Prepared, x: Array | None, last: Array | Non
     old = before.answer.x
     if x is None or not x.shape == exact.shape == old.shape or np.array_equal(exact, old):
         return None
-    off, off_before = (one.norm.displacement(x - answer) for answer in (exact, old))
+    off, off_before = (one.norm.of_displacement(x - answer) for answer in (exact, old))
     same = last is not None and np.array_equal(x, last)
     return same or bool(NEARER * off_before <= off)
 

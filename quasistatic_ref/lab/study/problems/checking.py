@@ -65,7 +65,7 @@ def _not_enclosed(one: Problem) -> str | None:
     if again is None:
         return "its answer cannot be enclosed"
     norm = energy_norm(one.H.toarray())
-    far = norm.displacement(again.delta_q - one.answer.x) / norm.impulse(one.g)
+    far = norm.of_displacement(again.delta_q - one.answer.x) / norm.of_impulse(one.g)
     close = far <= 2 * (again.error + one.answer.error) + 1e-16
     return None if close else f"x is off by {far:.1g}"
 

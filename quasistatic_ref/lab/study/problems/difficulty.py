@@ -54,14 +54,14 @@ def measures(one: Problem) -> dict[str, Any]:
     rank = _rank(natural, active)
     sharp = one.answer.error == 0
     norm = energy_norm(natural.H.toarray())
-    free = norm.impulse(natural.g)
+    free = norm.of_impulse(natural.g)
     found |= {
         "active": len(active),
         "rank": rank,
         "dependent": len(active) - rank,
         "smallest_slack": float(idle.min()) if sharp and idle.size else None,
         "smallest_multiplier": float(bearing.min()) if sharp and bearing.size else None,
-        "size": norm.displacement(natural.answer.x) / free if free > 0 else None,
+        "size": norm.of_displacement(natural.answer.x) / free if free > 0 else None,
     }
     return _rounded(found)
 

@@ -57,7 +57,13 @@ def _as_said(
     if not (finite(delta_q) and finite(lam)):
         return None
     solver.written = None
-    cost = reply.iterations, reply.seconds, option_set.accuracy
-    statistics = SolverStatistics(solver.name, "optimal", *cost, None, solver.interface)
+    statistics = SolverStatistics(
+        solver.name,
+        "optimal",
+        reply.iterations,
+        reply.seconds,
+        option_set.accuracy,
+        interface=solver.interface,
+    )
     own = {"delta_q": read_only(delta_q), "lam": read_only(lam), "step": step}
     return posed(StepSolution, SAME, {**own, "backend": solver.name, "statistics": statistics})
