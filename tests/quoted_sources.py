@@ -15,6 +15,7 @@ from quasistatic_ref import tolerances
 from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.registry import BY_NAME
+from quasistatic_ref.lab.clouds.rows import rows as cloud_rows
 from quasistatic_ref.lab.examples import grasp_against_mu_omega
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
 from quasistatic_ref.lab.runs import grasp as run_of
@@ -268,6 +269,14 @@ def proofs():
 def sizes():
     """From how many entries of J on steps are sparse."""
     return vars(tolerances)
+
+
+def clouds():
+    """How many of the 120 clouds of 992 points turn by at most a degree with torsional friction."""
+    grasps = [row for row in cloud_rows() if row["count"] == 992 and row["change"] == "none"]
+    turned = [row["mu_omega"] for row in grasps if row["rotation"] <= 1]
+    assert len(grasps) == 240 and 0.0 not in turned
+    return {"held": len(turned)}
 
 
 # -- Measured pushes ------------------------------------------------------------------------------
