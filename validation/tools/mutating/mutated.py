@@ -31,7 +31,7 @@ SETS = {
     "CURVED": "curved_pair settle faces by_coal contact/distance",
     "PAIRS": "cloud tied_faces contact/distance pairs jacobian",
     "SPARSE": "mass_in_blocks sparse solver",
-    "CLOUDS": "clouds cloud_headers mesh_files",
+    "CLOUDS": "clouds mesh_files",
     "URDF": "urdf urdf_refusals urdf_file mesh_files",
     "DATA": "arrays posed_data data plain_data step_files",
     "SYSTEM": "system system_forces system_refusals random_mechanisms",

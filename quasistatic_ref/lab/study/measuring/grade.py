@@ -150,6 +150,12 @@ def ungraded(
     }
 
 
+def not_run(feasible: bool) -> dict[str, Any]:
+    """The same fields of a call that the budget did not reach."""
+    row = ungraded(NOT_RUN, "not run (budget)", None, feasible)
+    return row | {"seconds": row["seconds"] | {"spent": 0.0}}
+
+
 def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array | None]:
     """Outcome, and the numbers if they can be judged."""
     if reply.x is None:

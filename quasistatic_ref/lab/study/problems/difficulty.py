@@ -66,14 +66,12 @@ def measures(one: Problem) -> dict[str, Any]:
     return _rounded(found)
 
 
-def tags(one: Problem, own: tuple[str, ...], found: dict[str, Any]) -> list[str]:
+def tags(one: Problem, found: dict[str, Any]) -> list[str]:
     """Words that a problem is chosen by.
 
     Parameters
     ----------
     one : Problem
-    own : tuple of str
-        Of its family.
     found : dict
         Its :func:`measures`.
     """
@@ -88,7 +86,7 @@ def tags(one: Problem, own: tuple[str, ...], found: dict[str, Any]) -> list[str]
         "close call": _close(found),
         "penetrating": bool((one.b > 0).any()),
     }
-    return list(dict.fromkeys([*own, *(word for word, holds in said.items() if holds)]))
+    return [word for word, holds in said.items() if holds]
 
 
 def _close(found: dict[str, Any]) -> bool:
