@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Final, cast
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpq_mat, fmpz, fmpz_mat
+from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.rational import ExactForm
@@ -180,16 +180,16 @@ def rounded_solution(
         A'lam [N s, N m s].
     slack : ndarray, shape (m,)
     """
-    x, lam, net, slack = (
-        np.array([nearest_fraction(unit * v / solution.denominator) for v in values])
-        for unit, values in (
-            (form.x_unit, solution.x),
-            (form.lam_unit, solution.lam),
-            (form.net_unit, solution.net),
-            (form.slack_unit, solution.slack),
-        )
+
+    def nearest(unit: fmpq, numerators: list[fmpz]) -> Array:
+        return np.array([nearest_fraction(unit * v / solution.denominator) for v in numerators])
+
+    return (
+        nearest(form.x_unit, solution.x),
+        nearest(form.lam_unit, solution.lam),
+        nearest(form.net_unit, solution.net),
+        nearest(form.slack_unit, solution.slack),
     )
-    return x, lam, net, slack
 
 
 class Minimiser:

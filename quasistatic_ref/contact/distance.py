@@ -16,7 +16,6 @@ Two solids:
 
 from collections.abc import Sequence
 from dataclasses import replace
-from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -65,7 +64,7 @@ class ClosestPoints(NamedTuple):
 
     def chosen(self, index: Indices) -> "ClosestPoints":
         """The contacts of an `index` of shape (k,), in its order."""
-        return ClosestPoints(*map(itemgetter(index), self))
+        return ClosestPoints._make(field[index] for field in self)
 
 
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
@@ -164,10 +163,14 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
 def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:
     """The closest pair of two solids, numbered after the corners if several contacts are kept."""
     found, tie = pair_normal(pair.name, a, b)
-    phi = np.array([found.phi])
-    point = np.array([pair.corners if pair.n_c > 1 else 0])
-    ends = found.alpha[None], found.beta[None]
-    return ClosestPoints(phi, *ends, found.n[None], point, np.array([tie]))
+    return ClosestPoints(
+        phi=np.array([found.phi]),
+        alpha=found.alpha[None],
+        beta=found.beta[None],
+        n=found.n[None],
+        point=np.array([pair.corners if pair.n_c > 1 else 0]),
+        tie=np.array([tie]),
+    )
 
 
 def every_candidate(

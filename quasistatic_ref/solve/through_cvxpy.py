@@ -89,16 +89,16 @@ def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bo
     seconds = perf_counter() - begin
     status = str(problem.status)
     stats = problem.solver_stats
-    own, setup = (None if t is None else float(t) for t in (stats.solve_time, stats.setup_time))
+    own = None if stats.solve_time is None else float(stats.solve_time)
     known = all(x.value is not None for x in problem.variables() if x.size)
     return Reply(
-        compiled.primal() if known else None,
-        compiled.dual() if known else None,
-        status == cp.OPTIMAL,
-        status,
-        None if stats.num_iters is None else int(stats.num_iters),
-        own,
-        seconds,
-        own,
-        setup,
+        x=compiled.primal() if known else None,
+        lam=compiled.dual() if known else None,
+        solved=status == cp.OPTIMAL,
+        status=status,
+        iterations=None if stats.num_iters is None else int(stats.num_iters),
+        seconds=own,
+        call_seconds=seconds,
+        own=own,
+        setup=None if stats.setup_time is None else float(stats.setup_time),
     )
