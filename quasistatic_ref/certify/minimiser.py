@@ -240,7 +240,7 @@ class Minimiser:
         return tuple(i for i, ball in zip(self.working, self.balls.lam, strict=True) if ball > 0)
 
     @cached_property
-    def slack_signs(self) -> list[int | None]:
+    def shown_slack_signs(self) -> list[int | None]:
         """Signs of all slacks as the balls show them: 1, -1, or None where they do not."""
         if self.balls is None:
             return [None] * self.form.m
@@ -249,7 +249,7 @@ class Minimiser:
     @cached_property
     def decided_slack_signs(self) -> list[int]:
         """Exact signs of all slacks."""
-        signs = list(self.slack_signs)
+        signs = list(self.shown_slack_signs)
         for i in self.working:
             signs[i] = 0
         for i in self.spanned([i for i, sign in enumerate(signs) if sign is None]):

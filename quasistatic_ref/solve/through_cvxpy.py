@@ -12,7 +12,7 @@ from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import within_reach
+from quasistatic_ref.solve.units import phi_within_reach
 from quasistatic_ref.step.data import KIND, Array, Mask, StepData
 
 CANON = cp.CPP_CANON_BACKEND
@@ -53,7 +53,7 @@ class CvxpySolver(BackendSolver):
     def write(self, both: DenseStepInBothUnits) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
         natural = both.natural_step
-        near = within_reach(natural)
+        near = phi_within_reach(natural)
         self.problem.fill(natural)
         self.problem.parameters["phi"].value = near
         return np.repeat(near < natural.contacts.phi, natural.counts)

@@ -26,7 +26,7 @@ import numpy as np
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.certify.dependence import combination, idle_rows, independent_rows
+from quasistatic_ref.certify.dependence import combination, independent_rows, tight_rows
 from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
@@ -139,7 +139,7 @@ def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
 
 
 def _active(form: ExactForm, working: tuple[int, ...]) -> Active:
-    spanned, unspanned = idle_rows(form, working, rational_solution(form, working).slack)
+    spanned, unspanned = tight_rows(form, working, rational_solution(form, working).slack)
     also = strictly_active(form, working, unspanned)
     strict = (*working, *spanned, *also)
     idle = tuple(i for i in unspanned if i not in also)
