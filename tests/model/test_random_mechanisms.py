@@ -7,7 +7,7 @@ import numpy as np
 
 from quasistatic_ref.lab.program.mechanism import kinematics, point_jacobian, slices
 from quasistatic_ref.lab.program.step import loads
-from quasistatic_ref.lab.vectors.families.mechanisms import random_q, random_tree
+from quasistatic_ref.lab.vectors.challenge.random_mechanisms import random_q, random_tree
 from quasistatic_ref.lab.vectors.own.system import own_system
 from tests.tolerances import ROUNDING
 

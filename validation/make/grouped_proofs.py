@@ -314,7 +314,7 @@ def main() -> int:
     lines = [
         "# Proofs by group, and of connected scenes", "", words,
         "", "## Boxes that do not touch each other", "", *separate,
-        "", "## Boxes that do", "", *touching,
+        "", "## Boxes in contact", "", *touching,
         "", "## The same bits", "", same, "", *steps,
         "", "## Promises", "", *promised,
     ]  # fmt: skip

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.distance import joined, pair_closest_points
+from quasistatic_ref.contact.distance import joined_contacts, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
@@ -91,7 +91,7 @@ def tried(a: Shape, b: Shape, count: int, seed: int) -> Counter[str]:
         found, (decided,) = by_c[i](R, t)
         between = time.perf_counter()
         try:
-            expected = joined([pair_closest_points(pairs[i], R, t)])
+            expected = joined_contacts([pair_closest_points(pairs[i], R, t)])
         except ContactError:
             expected = None
         tally["plain"] += time.perf_counter() - between
