@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.solve.both_units import check_units
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import (
     STANDSTILL,
     Units,
+    check_units,
     hessian_in_both_units,
     natural_form,
     natural_step,
