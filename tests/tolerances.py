@@ -68,9 +68,6 @@ CURVED_PAIR: Final = 1e-12
 """Convex pairs, whatever way leads to their answer [m], [-]: Newton's method and the closed forms
 end at rounding, 1e-15 of the sizes, which are below 1 m."""
 
-CONE_PROGRAM: Final = 1e-8
-"""Distances [m] of curved pairs by a second-order cone program, which its solver ends at 1e-9."""
-
 COAL: Final = 1e-6
 """Convex pairs by coal's iterative solvers, which stop at 1e-6 [m], [-]."""
 

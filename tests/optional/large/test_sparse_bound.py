@@ -31,7 +31,7 @@ def bound_of(step, delta_q, lam):
     """The bound of an answer in SI units by the sparse path; infinite where none is known."""
     sparse = in_blocks(step)
     solver = SparseSolver(sparse, "clarabel")
-    return solver.error_bound(solver.scaled(sparse), delta_q, lam)
+    return solver.error_bound(solver.in_both_units(sparse), delta_q, lam)
 
 
 def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():

@@ -175,7 +175,7 @@ model/world.py
 optional/fast/adapters/clarabel.py optional/fast/adapters/daqp.py optional/fast/adapters/osqp.py
 optional/fast/adapters/piqp.py optional/fast/adapters/program.py optional/fast/adapters/quadprog.py
 solve/backends.py
-optional/extensions/extended.py solve/natural_step.py solve/units.py
+optional/extensions/extended.py solve/both_units.py solve/units.py
     SOLVERS
 solve/cvxpy_problem.py
     standard_form problem SOLVERS
