@@ -90,9 +90,6 @@ FOUR_ULP: Final = 4 * 2.220446049250313e-16
 """The standard form against CVXPY's: a rounding more, of 1 / h or a product, on either side. And
 sums of a convergent series whose entries are at most 1, in an order of their own."""
 
-INTEGRAL: Final = 1e-11
-"""Adaptive quadrature of the volumes of solids, relative; rounding of its sums takes a digit."""
-
 JAX_STEP: Final = 1e-6
 """By what JAX moves its arguments to check a gradient [of their units]: rounding of a step, 1e-16,
 is then 1e-10 of the difference, and its error of the second order is as little."""

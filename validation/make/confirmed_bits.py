@@ -33,7 +33,7 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
-from quasistatic_ref.solve.units import Units, natural_units, to_natural
+from quasistatic_ref.solve.units import Units, natural_step, natural_units
 from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from tests.oracles.random_steps import mixed_step
@@ -61,7 +61,7 @@ def random_case(seed: int) -> tuple[str, StepData]:
     if seed % 2:
         return cone, step
     apart = Units(2.0 ** rng.integers(-20, 21, step.n_v), 2.0 ** int(rng.integers(-20, 21)), 1.0)
-    return f"{cone}, badly scaled", to_natural(step, apart)
+    return f"{cone}, badly scaled", natural_step(step, apart)
 
 
 def wrong_sets(rng: np.random.Generator, working: list[int], m: int) -> Iterator[list[int]]:

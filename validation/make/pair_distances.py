@@ -1,6 +1,6 @@
 """Signed distance, witness points and normal of every pair of shapes, on 1,000 poses each.
 
-    python -m validation.make.pair_distances [--count POSES]
+    python -m validation.make.pair_distances [--count POSES] [--out FILE]
 
 For each pair, the largest of:
 - phi: |phi - reference| [m], where the plain program has a closed form (tests/oracles/closest.py);
@@ -13,21 +13,24 @@ For each pair, the largest of:
 
 from __future__ import annotations
 
-import sys
 import time
+from pathlib import Path
 
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.shapes.placed_shape import Shape
 from tests.oracles import closest
-from validation.tools.scripts import asked
+from validation.tools.scripts import asked, shown
 
 COLUMNS = ("phi", "inside", "normal", "points", "moved")
 STEP = 1e-3
-WORDS = """Refused: curved solids that meet, and whose answer could not be proved. Microseconds are
+WORDS = """{count} poses a pair, half of them degenerate; errors in metres, sizes of 0.1 m.
+
+Refused: curved solids that meet, and whose answer could not be proved. Microseconds are
 upper bounds: the machine did other work meanwhile.
 """
 
@@ -79,18 +82,15 @@ def pair_errors(names: tuple[str, str], count: int) -> tuple[dict[str, float], i
     return worst, inside, refused
 
 
-def main() -> int:
-    """Print the table."""
-    count = asked(__doc__, count=1000).count
+def main() -> None:
+    """Write the table."""
+    options = asked(__doc__, count=1000, out=Path)
     solids = closest.solids()
-    print(f"{count} poses a pair, half of them degenerate; errors in metres, sizes of 0.1 m.\n")
-    print(WORDS)
-    print("| pair | " + " | ".join(COLUMNS) + " | in penetration | refused | us |")
-    print("|---" * (len(COLUMNS) + 4) + "|")
+    rows = []
     for first, second in closest.pairs():
         a = solids[first]
         b = solids[second]
-        worst, inside, refused = pair_errors((first, second), count)
+        worst, inside, refused = pair_errors((first, second), options.count)
         poses = list(closest.poses(50, 1))
         start = time.perf_counter()
         for R, t in poses:
@@ -100,10 +100,10 @@ def main() -> int:
                 continue
         cost = (time.perf_counter() - start) / len(poses) * 1e6
         cells = [f"{worst[name]:.0e}" if name in worst else "-" for name in COLUMNS]
-        cells += [str(inside), str(refused), f"{cost:.0f}"]
-        print(f"| {first} - {second} | " + " | ".join(cells) + " |", flush=True)
-    return 0
+        rows.append([f"{first} - {second}", *cells, inside, refused, f"{cost:.0f}"])
+    table = markdown_table(("pair", *COLUMNS, "in penetration", "refused", "us"), rows)
+    shown("\n".join([WORDS.format(count=options.count), *table]), options.out)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

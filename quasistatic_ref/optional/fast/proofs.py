@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined
+from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined_optimum
 from quasistatic_ref.certify.norm import EnergyNorm, Norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
 from quasistatic_ref.optional.fast.guess.far import Solved, far_slacks, with_far
-from quasistatic_ref.optional.fast.kept_step import KeptStep
+from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.posed import (
     Constants,
     PosedContacts,
@@ -22,9 +22,9 @@ from quasistatic_ref.optional.fast.posed import (
     constants,
     posed,
 )
-from quasistatic_ref.solve.natural_step import DenseStep, NaturalStep
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits, StepInBothUnits
 from quasistatic_ref.solve.solver import NaturalAnswer
-from quasistatic_ref.solve.units import NaturalHessian
+from quasistatic_ref.solve.units import HessianInBothUnits
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
 from quasistatic_ref.step.groups import Group, extra_rows, group_steps, groups, split
@@ -49,13 +49,13 @@ class GroupNorm:
 
     parts: list[tuple[Indices, EnergyNorm]]
 
-    def displacement(self, v: Array) -> float:
+    def of_displacement(self, v: Array) -> float:
         """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
-        return math.hypot(*(norm.displacement(v[own]) for own, norm in self.parts))
+        return math.hypot(*(norm.of_displacement(v[own]) for own, norm in self.parts))
 
-    def impulse(self, p: Array) -> float:
+    def of_impulse(self, p: Array) -> float:
         """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
-        return math.hypot(*(norm.impulse(p[own]) for own, norm in self.parts))
+        return math.hypot(*(norm.of_impulse(p[own]) for own, norm in self.parts))
 
 
 class Kept:
@@ -63,7 +63,7 @@ class Kept:
 
     def __init__(self) -> None:
         self.hessian: BallHessian | None = None
-        self.metric: NaturalHessian | None = None
+        self.hessian_in_both_units: HessianInBothUnits | None = None
         self.prover: Any = None
 
     def hessian_of(self, step: StepData) -> BallHessian:
@@ -85,13 +85,13 @@ class Kept:
         return self.hessian.norm
 
     def proved(
-        self, scaled: DenseStep, lam: Array, slack: Array
+        self, both: DenseStepInBothUnits, lam: Array, slack: Array
     ) -> tuple[ExactOptimum | None, list[int]]:
         """The optimum of a step, proved on the rows that an answer presses: in C, or in balls.
 
         Parameters
         ----------
-        scaled : DenseStep
+        both : DenseStepInBothUnits
         lam, slack : ndarray, shape (m,)
             Of the answer, both in natural units [-].
 
@@ -102,35 +102,35 @@ class Kept:
         list of int
             Where the exact method is then to start.
         """
-        step = scaled.step
-        hessian = self.hessian_of(scaled.step)
+        step = both.si_step
+        hessian = self.hessian_of(both.si_step)
         in_c = compiled("certificate")
         if in_c is not None:
-            self.prover = in_c.prover(step, scaled.units.coordinate, self.prover)
+            self.prover = in_c.prover(step, both.units.coordinate, self.prover)
         in_balls = cache(lambda: BallStep(step, hessian))
 
         def proof(guess: Indices) -> Proof:
             found: Proof = None
             if self.prover is not None:
-                found = self.prover.optimum(step, guess, scaled.units)
+                found = self.prover.optimum(step, guess, both.units)
             return in_balls().confirmed(guess) if found is None else found
 
-        guess = _guess(scaled, lam, slack)
-        found, last = proved_nearby(proof, guess, scaled.form, scaled.metric.inverse)
+        guess = _guess(both, lam, slack)
+        found, last = proved_nearby(proof, guess, both.si_form, both.hessian.H_inverse)
         if found is None and last is guess:
-            return None, warm_rows(scaled.natural_form.A, lam, slack)
+            return None, warm_rows(both.natural_form.A, lam, slack)
         return found, last.tolist()
 
 
-def _guess(scaled: DenseStep, lam: Array, slack: Array) -> Indices:
+def _guess(both: DenseStepInBothUnits, lam: Array, slack: Array) -> Indices:
     """The rows that an answer presses, ascending, made independent where it presses many."""
-    if np.count_nonzero(lam) > scaled.step.n_v:  # rows that depend on each other
-        return np.array(sorted(warm_rows(scaled.natural_form.A, lam, slack)), dtype=np.int64)
+    if np.count_nonzero(lam) > both.si_step.n_v:  # rows that depend on each other
+        return np.array(sorted(warm_rows(both.natural_form.A, lam, slack)), dtype=np.int64)
     return np.flatnonzero(lam > np.maximum(slack, 0))  # as warm_rows has it
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class KeptGroup:
     """A group of a step, and what its steps have in common.
 
     Parameters
@@ -146,13 +146,19 @@ class Part:
     constant: Constants | None
     kept: Kept
 
-    def scaled(self, whole: NaturalStep) -> DenseStep:
+    def in_both_units(self, whole: StepInBothUnits) -> DenseStepInBothUnits:
         """The step of the group in its own natural units, from the `whole` step."""
         if self.constant is None:
-            return whole if isinstance(whole, DenseStep) else KeptStep(whole.step, None)
-        scaled = KeptStep(self._step(whole.step, self.constant), self.kept.metric)
-        self.kept.metric = scaled.metric
-        return scaled
+            return (
+                whole
+                if isinstance(whole, DenseStepInBothUnits)
+                else KeptStepInBothUnits(whole.si_step, None)
+            )
+        both = KeptStepInBothUnits(
+            self._step(whole.si_step, self.constant), self.kept.hessian_in_both_units
+        )
+        self.kept.hessian_in_both_units = both.hessian
+        return both
 
     def _step(self, step: StepData, constant: Constants) -> PosedStep:
         group = self.group
@@ -181,12 +187,12 @@ class Proofs:
 
     Attributes
     ----------
-    parts : list of Part
+    parts : list of KeptGroup
         The groups of the last step.
     """
 
     def __init__(self) -> None:
-        self.parts: list[Part] = []
+        self.parts: list[KeptGroup] = []
         self._of_parts: list[Array | bytes | float] = []
         self._of_small: list[Array | bytes | float] = []
         self._small = np.zeros(0, dtype=bool)
@@ -196,37 +202,37 @@ class Proofs:
         norms = [(part.group.coordinates, part.kept.norm) for part in self.parts]
         return norms[0][1] if len(norms) == 1 else GroupNorm(norms)
 
-    def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum: proved on a guess of its working set, or found by the exact method.
 
         Raises
         ------
         StepInfeasible, StepIllPosed
         """
-        step = scaled.step
-        form = scaled.natural_form
+        step = both.si_step
+        form = both.natural_form
         lam, slack = np.zeros((2, step.m))
         if answer is not None:
-            lam = answer.lam
-            slack = form.A @ answer.delta_q - form.b
+            lam = answer.natural_lam
+            slack = form.A @ answer.natural_delta_q - form.b
         near = self._near(step, lam, slack)
         while True:
             optima = list[ExactOptimum]()
             points = list[Solved]()
             long = False
             for part in self.divided(step, near):
-                own = part.scaled(scaled)
+                own = part.in_both_units(both)
                 rows = part.group.rows
                 found, start = part.kept.proved(own, lam[rows], slack[rows])
                 if found is None:
-                    found = group_optimum(step, part.group, own.step, start)
-                hessian = part.kept.hessian_of(own.step)
+                    found = group_optimum(step, part.group, own.si_step, start)
+                hessian = part.kept.hessian_of(own.si_step)
                 # Of three loads' steps the longest is at least a third of their sum's.
-                most = ILL_POSED / 4 * hessian.norm.impulse(own.form.g)
-                long = long or not hessian.norm.displacement(found.delta_q) <= most
+                most = ILL_POSED / 4 * hessian.norm.of_impulse(own.si_form.g)
+                long = long or not hessian.norm.of_displacement(found.delta_q) <= most
                 optima.append(found)
-                points.append((part.group.coordinates, own.step, hessian, found.working_set))
-            optimum = joined(step, [part.group for part in self.parts], optima)
+                points.append((part.group.coordinates, own.si_step, hessian, found.working_set))
+            optimum = joined_optimum(step, [part.group for part in self.parts], optima)
             if near.all():
                 break
             slacks, doubtful = far_slacks(step, np.flatnonzero(~near), points)
@@ -254,7 +260,7 @@ class Proofs:
         touching = (slack[:m] <= TOUCHING) | (lam[:m] > slack[:m])
         return self._small | np.logical_or.reduceat(touching, step.offsets[:-1])
 
-    def divided(self, step: StepData, near: Mask) -> list[Part]:
+    def divided(self, step: StepData, near: Mask) -> list[KeptGroup]:
         """The groups of a step: those of the last step, if the same couples its coordinates.
 
         Parameters
@@ -289,12 +295,12 @@ def _same(one: list[Any], two: list[Any]) -> bool:
     return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in changed)
 
 
-def _parts(step: StepData, near: Mask, before: list[Part]) -> list[Part]:
+def _parts(step: StepData, near: Mask, before: list[KeptGroup]) -> list[KeptGroup]:
     """The groups of a step; those of equal constants share what is kept, also with the `before`."""
     found = groups(step, near)
     if len(found) == 1 and near.all():
         kept = before[0].kept if len(before) == 1 else Kept()
-        return [Part(found[0], None, kept)]
+        return [KeptGroup(found[0], None, kept)]
     known = {_key(part.constant): part for part in before if part.constant is not None}
     parts = []
     for group in found:
@@ -303,8 +309,8 @@ def _parts(step: StepData, near: Mask, before: list[Part]) -> list[Part]:
         M_u = step.inertia(u)
         rows = step.contacts.rows[group.contacts]
         constant = constants(step.h, K_q, len(a), M_u, rows, step.cone)
-        alike = known.setdefault(_key(constant), Part(group, constant, Kept()))
-        parts.append(Part(group, alike.constant, alike.kept))
+        alike = known.setdefault(_key(constant), KeptGroup(group, constant, Kept()))
+        parts.append(KeptGroup(group, alike.constant, alike.kept))
     return parts
 
 
