@@ -121,6 +121,7 @@ def test_a_row_whose_multiplier_rounding_makes_negative_is_dropped():
 def test_faces_are_guessed_in_floats(monkeypatch):
     monkeypatch.setattr(forces, "defined_optimum", never)
     monkeypatch.setattr(eliminated, "PROOFS", 1)
+    contact_forces(walled_block())
     for _, step in checks.random_steps(7):
         contact_forces(step)
 

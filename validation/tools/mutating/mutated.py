@@ -64,8 +64,10 @@ optional/ellipsoid/forces.py
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
-certify/rounding.py certify/exact.py certify/warm.py certify/certificate.py
+certify/rounding.py certify/exact.py certify/warm.py
     EXACT
+certify/certificate.py
+    EXACT FORGED
 cli/decimals.py
     rounding cli/solve
 certify/minimiser.py
