@@ -233,7 +233,7 @@ def exact_friction_rows(contacts: Contacts, name: str, which: Which = ALL) -> Dy
     """The rows n~' J + d~_i' J of Eq. :eq:`eq-4`, all of each contact, shape (n_c, R, n_v)."""
     motion = contact_motion(contacts, which)
     friction_cone = cone(name)
-    mu = dyadic(friction_cone.in_rows(contacts.mu[which]))
+    mu = dyadic(friction_cone.row_coefficients(contacts.mu[which]))
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
     mu_v = mu[:, :1, None]
     mu_omega = mu[:, 2:, None]

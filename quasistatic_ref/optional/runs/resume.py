@@ -139,7 +139,9 @@ class _Again:
             simulator.solution(step)
             return
         with suppress(StepNotSolved):
-            solve_step(step, simulator.fitting(step), accuracy=simulator.accuracy, certify="off")
+            solve_step(
+                step, simulator.fitting_solver(step), accuracy=simulator.accuracy, certify="off"
+            )
 
 
 def _check(what: str, k: int, then: Array, now: Array) -> None:
