@@ -111,7 +111,7 @@ optional/ellipsoid/enclosure.py optional/ellipsoid/interior.py optional/ellipsoi
 optional/ellipsoid/scaled_blocks.py
     ENCLOSED
 contact/distance.py
-    PAIRS
+    PAIRS flat_on_flat
 contact/tied_faces.py
     flat_on_flat PAIRS
 contact/crossings.py
