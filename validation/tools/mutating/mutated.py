@@ -111,7 +111,7 @@ optional/ellipsoid/enclosure.py optional/ellipsoid/interior.py optional/ellipsoi
 optional/ellipsoid/scaled_blocks.py
     ENCLOSED
 contact/distance.py
-    PAIRS
+    PAIRS flat_on_flat
 contact/tied_faces.py
     flat_on_flat PAIRS
 contact/crossings.py
@@ -176,9 +176,10 @@ model/world.py
     SYSTEM sparse
 optional/fast/adapters/clarabel.py optional/fast/adapters/daqp.py optional/fast/adapters/osqp.py
 optional/fast/adapters/piqp.py optional/fast/adapters/program.py optional/fast/adapters/quadprog.py
-solve/backends.py
 optional/extensions/extended.py solve/units.py
     SOLVERS
+solve/backends.py
+    parts SOLVERS
 solve/cvxpy_problem.py
     standard_form problem SOLVERS
 optional/fast/backends.py
