@@ -2,10 +2,11 @@
 
     python -m validation.make.solid_pairs [--count POSES] [--out FILE]
 
-Of each pair of shapes, among them a mesh in general position and a prism, as many poses: random ones, axes along each other's, tilts of a millionth
+Of each pair of shapes as many poses: random ones, axes along each other's, tilts of a millionth
 (tests/oracles/closest.py), three in four of them put so that the solids touch, or nearly, or are
 1 mm deep, some with their middles in one place; anywhere in the world. One, 4 or 16 contacts;
-either solid is alpha. What compiled code leaves to Python is counted; of what it says every bit is
+either solid is alpha. Two shapes are meshes, one of them a prism, whose faces are coplanar
+triangles. What compiled code leaves to Python is counted; of what it says every bit is
 compared. Exit status 1 if a bit differs.
 """
 

@@ -6,13 +6,12 @@
 /* shapes: support_value, of a sphere, capsule, box or mesh. */
 static double support_value(const Solid *solid, const double *n)
 {
-    double most = -INFINITY;
-    for (int64_t i = 0; solid->kind == MESH && i < solid->corners; i++)
+    double way[3] = {fabs(n[0]), fabs(n[1]), fabs(n[2])}, most = -INFINITY;
+    if (solid->kind != MESH)
+        return solid->size[3] + dot(way, solid->size);
+    for (int64_t i = 0; i < solid->corners; i++)
         most = larger(dot(n, solid->vertices + 3 * i), most);
-    if (solid->kind == MESH)
-        return most;
-    double way[3] = {fabs(n[0]), fabs(n[1]), fabs(n[2])};
-    return solid->size[3] + dot(way, solid->size);
+    return most;
 }
 
 /* contact/tied_faces, `_over`. */

@@ -6,7 +6,6 @@
 static void nearest_offset(const Solid *mesh, const double *x, double *offset)
 {
     double best = INFINITY, arm[3], away[3], foot = INFINITY;
-    const Triangle *inside = 0;
     int is_above = 0;
     for (const Triangle *t = mesh->surface; t < mesh->surface + mesh->triangles; t++) {
         int within = 1;
@@ -23,11 +22,10 @@ static void nearest_offset(const Solid *mesh, const double *x, double *offset)
             continue;
         is_above = above;
         foot = square;
-        inside = t;
         for (int i = 0; i < 3; i++)
             offset[i] = level * t->normal[i];
     }
-    if (inside && is_above)
+    if (is_above)
         return; /* nearer edges are rounding */
     for (int k = 0; k < 3; k++)
         for (const Triangle *t = mesh->surface; t < mesh->surface + mesh->triangles; t++) {
