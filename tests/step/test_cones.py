@@ -48,6 +48,7 @@ def test_opposite_directions_and_quarter_turns_are_exact(K):
     for k, (c, s) in enumerate(found):
         assert (-c, -s) == found[(k + K // 2) % K]
         assert (c, -s) in found
+        assert not {c.hex(), s.hex()} & {"-0x0.0p+0"}
         if K % 4 == 0:
             assert (-s, c) == found[(k + K // 4) % K]
 
