@@ -11,10 +11,14 @@ from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.fast.adapters.daqp import Daqp
 from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.solve.backends import installed
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.units import natural_step, natural_units, within_reach
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    natural_step,
+    natural_units,
+    phi_within_reach,
+)
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, error, planted_step, random_step, unconstrained
@@ -35,7 +39,7 @@ def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backen
     solver.answer(DenseStepInBothUnits(step), 1e-9)
     natural = natural_step(step, natural_units(step))
     if solver.adapter.NEAR:
-        natural = natural.replace(contacts=changed(natural.contacts, phi=within_reach(natural)))
+        natural = natural.replace(contacts=changed(natural.contacts, phi=phi_within_reach(natural)))
     expected = standard_form(natural)
     program = solver.program
     for found, value in ((program.H, expected.H), (program.f, -expected.g),

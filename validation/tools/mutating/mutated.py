@@ -169,7 +169,7 @@ model/readers/text.py model/urdf/urdf_file.py model/urdf/urdf_inertia.py
 model/urdf/urdf_tree.py model/urdf/urdf_xml.py
     URDF
 model/urdf/urdf.py
-    URDF world
+    URDF system
 model/urdf/urdf_shapes.py
     URDF python_mistakes
 optional/show/model_words.py
@@ -180,7 +180,7 @@ model/world.py
     SYSTEM sparse
 optional/fast/adapters/clarabel.py optional/fast/adapters/daqp.py optional/fast/adapters/osqp.py
 optional/fast/adapters/piqp.py optional/fast/adapters/program.py optional/fast/adapters/quadprog.py
-optional/extensions/extended.py solve/both_units.py solve/units.py
+optional/extensions/extended.py solve/units.py
     SOLVERS
 solve/backends.py
     parts SOLVERS
