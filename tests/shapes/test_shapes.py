@@ -115,6 +115,7 @@ def test_inside_the_highest_face_has_the_signed_distance_and_the_normal(shape: A
     heights, normals = shape.faces(points)
     highest = heights.argmax(axis=1)
     assert phi.max() < 0
+    np.testing.assert_allclose(np.linalg.norm(n, axis=1), 1.0, rtol=ROUNDING)
     np.testing.assert_allclose(heights.max(axis=1), phi, rtol=ROUNDING)
     np.testing.assert_allclose(normals[np.arange(50), highest], n, rtol=0, atol=ROUNDING)
 

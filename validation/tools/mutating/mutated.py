@@ -165,9 +165,13 @@ shapes/shape.py
     a_shape_added shapes SOLIDS
 model/urdf/solid.py
     plain_data
-model/readers/text.py model/urdf/urdf.py model/urdf/urdf_file.py model/urdf/urdf_inertia.py
-model/urdf/urdf_shapes.py model/urdf/urdf_tree.py model/urdf/urdf_xml.py
+model/readers/text.py model/urdf/urdf_file.py model/urdf/urdf_inertia.py
+model/urdf/urdf_tree.py model/urdf/urdf_xml.py
     URDF
+model/urdf/urdf.py
+    URDF system
+model/urdf/urdf_shapes.py
+    URDF python_mistakes
 optional/show/model_words.py
     words plain_data
 model/workspace.py
@@ -203,7 +207,7 @@ step/contacts.py
 step/data.py
     DATA
 step/extension.py
-    native extensions
+    native extensions rises
 step/files.py
     step_files solution_files bad_steps
 optional/show/show.py optional/show/step_words.py
