@@ -14,11 +14,12 @@ conversion loses nothing, unless a number leaves the range of float64.
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.certify.norm import float_inverse
+from quasistatic_ref.certify.norm import EnergyNorm, energy_norm, float_inverse
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
@@ -73,6 +74,11 @@ class NaturalHessian:
     squared: Array
     natural: Array
     usable: bool
+
+    @cached_property
+    def norm(self) -> EnergyNorm:
+        """The norm ||.||_H; StepDataError as of ``energy_norm``."""
+        return energy_norm(self.H)
 
 
 def natural_hessian(H: Array) -> NaturalHessian:

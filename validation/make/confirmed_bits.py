@@ -33,7 +33,8 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
-from quasistatic_ref.solve.units import Units, natural_units, to_natural
+from quasistatic_ref.solve.natural_step import DenseStep
+from quasistatic_ref.solve.units import Units, to_natural
 from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from tests.oracles.random_steps import mixed_step
@@ -90,8 +91,11 @@ def proof(step: StepData, rows: Indices) -> Proof:
     fast = compiled("certificate")
     if fast is None:
         return None
-    units = natural_units(step)
-    found: Proof = fast.prover(step, units.coordinate, None).optimum(step, rows, units)
+    scaled = DenseStep(step)
+    prover = fast.undivided(scaled)
+    prover.optimum(scaled, *np.zeros((2, step.m)))
+    (own,) = prover.proofs
+    found: Proof = None if own is None else own.optimum(step, rows, scaled.units)
     return found
 
 

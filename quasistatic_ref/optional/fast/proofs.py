@@ -1,6 +1,7 @@
 """Proofs of steps, group by group, with what is kept while groups and H stay."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -84,8 +85,19 @@ class Kept:
         assert self.hessian is not None
         return self.hessian.norm
 
+    def proof(self, scaled: DenseStep, lam: Array, slack: Array) -> Any:
+        """What C proves of a step that is one group, as of :meth:`proved`; None if it does not."""
+        in_c = compiled("certificate")
+        if in_c is None:
+            return None
+        if self.prover is None or self.metric is not scaled.metric:
+            self.prover = in_c.undivided(scaled)
+            self.metric = scaled.metric
+        self.prover.optimum(scaled, lam, slack)
+        return self.prover.proofs[0]
+
     def proved(
-        self, scaled: DenseStep, lam: Array, slack: Array
+        self, scaled: DenseStep, lam: Array, slack: Array, in_c: Any
     ) -> tuple[ExactOptimum | None, list[int]]:
         """The optimum of a step, proved on the rows that an answer presses: in C, or in balls.
 
@@ -94,6 +106,8 @@ class Kept:
         scaled : DenseStep
         lam, slack : ndarray, shape (m,)
             Of the answer, both in natural units [-].
+        in_c : GroupProof or None
+            What C proves of the step.
 
         Returns
         -------
@@ -103,16 +117,10 @@ class Kept:
             Where the exact method is then to start.
         """
         step = scaled.step
-        hessian = self.hessian_of(scaled.step)
-        in_c = compiled("certificate")
-        if in_c is not None:
-            self.prover = in_c.prover(step, scaled.units.coordinate, self.prover)
-        in_balls = cache(lambda: BallStep(step, hessian))
+        in_balls = cache(lambda: BallStep(step, self.hessian_of(step)))
 
         def proof(guess: Indices) -> Proof:
-            found: Proof = None
-            if self.prover is not None:
-                found = self.prover.optimum(step, guess, scaled.units)
+            found: Proof = None if in_c is None else in_c.optimum(step, guess, scaled.units)
             return in_balls().confirmed(guess) if found is None else found
 
         guess = _guess(scaled, lam, slack)
@@ -147,11 +155,19 @@ class Part:
     kept: Kept
 
     def scaled(self, whole: NaturalStep) -> DenseStep:
-        """The step of the group in its own natural units, from the `whole` step."""
-        if self.constant is None:
-            return whole if isinstance(whole, DenseStep) else KeptStep(whole.step, None)
-        scaled = KeptStep(self._step(whole.step, self.constant), self.kept.metric)
-        self.kept.metric = scaled.metric
+        """The step of the group in its own natural units, from the `whole` step.
+
+        Raises
+        ------
+        StepDataError
+            If M_u is not positive definite.
+        """
+        if self.constant is not None:
+            scaled: DenseStep = KeptStep(self._step(whole.step, self.constant), self.kept.metric)
+            self.kept.metric = scaled.metric
+        else:
+            scaled = whole if isinstance(whole, DenseStep) else KeptStep(whole.step, None)
+        self.kept.hessian_of(scaled.step)
         return scaled
 
     def _step(self, step: StepData, constant: Constants) -> PosedStep:
@@ -190,6 +206,8 @@ class Proofs:
         self._of_parts: list[Array | bytes | float] = []
         self._of_small: list[Array | bytes | float] = []
         self._small = np.zeros(0, dtype=bool)
+        self.prover: Any = None
+        self._group = np.zeros(0, np.int64)  # of each coordinate
 
     def norm(self) -> Norm:
         """The norm ||.||_H of the last step."""
@@ -211,32 +229,66 @@ class Proofs:
             slack = form.A @ answer.delta_q - form.b
         near = self._near(step, lam, slack)
         while True:
-            optima = list[ExactOptimum]()
-            points = list[Solved]()
-            long = False
-            for part in self.divided(step, near):
-                own = part.scaled(scaled)
-                rows = part.group.rows
-                found, start = part.kept.proved(own, lam[rows], slack[rows])
-                if found is None:
-                    found = group_optimum(step, part.group, own.step, start)
-                hessian = part.kept.hessian_of(own.step)
-                # Of three loads' steps the longest is at least a third of their sum's.
-                most = ILL_POSED / 4 * hessian.norm.impulse(own.form.g)
-                long = long or not hessian.norm.displacement(found.delta_q) <= most
-                optima.append(found)
-                points.append((part.group.coordinates, own.step, hessian, found.working_set))
-            optimum = joined(step, [part.group for part in self.parts], optima)
+            parts = self.divided(step, near)
+            own = cache(lambda i, parts=parts: parts[i].scaled(scaled))
+            prover = self._prover(scaled, own)
+            optimum = None if prover is None else prover.optimum(scaled, lam, slack)
+            if optimum is None:
+                optima = list[ExactOptimum]()
+                for i, part in enumerate(parts):
+                    rows = part.group.rows
+                    answered = lam[rows], slack[rows]
+                    in_c = (
+                        part.kept.proof(own(i), *answered) if prover is None else prover.proofs[i]
+                    )
+                    found = None if in_c is None else in_c.decided()
+                    if found is None:
+                        found, start = part.kept.proved(own(i), *answered, in_c)
+                    if found is None:
+                        found = group_optimum(step, part.group, own(i).step, start)
+                    optima.append(found)
+                optimum = joined(step, [part.group for part in parts], optima)
             if near.all():
                 break
+            points = list[Solved]()
+            for i, part in enumerate(parts):
+                one = own(i).step
+                working = part.group.within(optimum.working_set)
+                points.append((part.group.coordinates, one, part.kept.hessian_of(one), working))
             slacks, doubtful = far_slacks(step, np.flatnonzero(~near), points)
             if not doubtful.any():
                 optimum = with_far(step, optimum, near, slacks)
                 break
             near = near | doubtful
-        if long:
+        if self._may_be_long(scaled, optimum.delta_q):
             check_length(step, optimum.delta_q, group_steps(step))
         return optimum
+
+    def _prover(self, scaled: NaturalStep, own: Callable[[int], DenseStep]) -> Any:
+        """What proves all groups of a dense step, each its `own` step, in C; None without it."""
+        in_c = compiled("certificate")
+        if in_c is None or not isinstance(scaled, DenseStep):
+            return None
+        if self.prover is None:
+            groups = [(part.group, own(i)) for i, part in enumerate(self.parts)]
+            self.prover = in_c.Prover(scaled.step, groups)
+        return self.prover
+
+    def _may_be_long(self, scaled: NaturalStep, delta_q: Array) -> bool:
+        """Whether delta_q (n_v,) may be absurdly long in one of the groups; mostly it is not."""
+        # Of three loads' steps the longest is at least a third of their sum's.
+        most = ILL_POSED / 4
+        g = scaled.form.g
+        if isinstance(scaled, DenseStep):
+            norm = scaled.metric.norm  # whose factor has the blocks of H: the groups
+            moved = np.bincount(self._group, np.abs(norm.L.T.dot(delta_q / norm.unit)))
+            free = np.bincount(self._group, np.abs(norm.inverse.dot(g * norm.unit)))
+            # A vector's length is at most the sum of its entries, and that root n of the length.
+            return not (math.sqrt(len(g)) * moved <= most * free).all()
+        norms = [(part.group.coordinates, part.kept.norm) for part in self.parts]
+        return not all(
+            norm.displacement(delta_q[v]) <= most * norm.impulse(g[v]) for v, norm in norms
+        )
 
     def _near(self, step: StepData, lam: Array, slack: Array) -> Mask:
         """Which contacts may touch, as an answer says, shape (n_c,); in small groups all do."""
@@ -267,6 +319,10 @@ class Proofs:
         if not _same(coupling, self._of_parts):
             self.parts = _parts(step, near, self.parts)
             self._of_parts = coupling
+            self.prover = None
+            self._group = np.zeros(step.n_v, np.int64)
+            for i, part in enumerate(self.parts):
+                self._group[part.group.coordinates] = i
         return self.parts
 
 

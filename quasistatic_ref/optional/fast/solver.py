@@ -95,7 +95,8 @@ class FastSolver(NativeSolver):
 
     def norm(self, scaled: NaturalStep) -> Norm:
         """The norm ||.||_H of a step."""
-        return self.proofs.norm()
+        assert isinstance(scaled, DenseStep)
+        return scaled.metric.norm
 
     def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum: proved on a guess of its working set, or found by the exact method."""
