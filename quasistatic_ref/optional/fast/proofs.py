@@ -1,10 +1,9 @@
 """Proofs of steps, group by group, with what is kept while groups and H stay."""
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -37,6 +36,9 @@ SMALL = 24
 TOUCHING = 1e-6
 """Slack of a row, in natural units, up to which its contact may touch [-]."""
 
+Coupling: TypeAlias = "list[Array | bytes | float]"
+"""What couples the coordinates of a step, and how."""
+
 
 @dataclass(frozen=True, eq=False)
 class GroupNorm:
@@ -65,7 +67,8 @@ class Kept:
     def __init__(self) -> None:
         self.hessian: BallHessian | None = None
         self.metric: NaturalHessian | None = None
-        self.prover: Any = None
+        self._alone: Any = None
+        self._of_alone: NaturalHessian | None = None
 
     def hessian_of(self, step: StepData) -> BallHessian:
         """H of a step in balls: the one that is kept, if it is the same.
@@ -85,16 +88,16 @@ class Kept:
         assert self.hessian is not None
         return self.hessian.norm
 
-    def proof(self, scaled: DenseStep, lam: Array, slack: Array) -> Any:
+    def alone(self, scaled: DenseStep, lam: Array, slack: Array) -> Any:
         """What C proves of a step that is one group, as of :meth:`proved`; None if it does not."""
         in_c = compiled("certificate")
         if in_c is None:
             return None
-        if self.prover is None or self.metric is not scaled.metric:
-            self.prover = in_c.undivided(scaled)
-            self.metric = scaled.metric
-        self.prover.optimum(scaled, lam, slack)
-        return self.prover.proofs[0]
+        if self._of_alone is not scaled.metric:
+            self._of_alone = scaled.metric
+            self._alone = in_c.undivided(scaled)
+        self._alone.optimum(scaled, lam, slack)
+        return self._alone.proofs[0]
 
     def proved(
         self, scaled: DenseStep, lam: Array, slack: Array, in_c: Any
@@ -107,7 +110,7 @@ class Kept:
         lam, slack : ndarray, shape (m,)
             Of the answer, both in natural units [-].
         in_c : GroupProof or None
-            What C proves of the step.
+            What C has proved of the step already.
 
         Returns
         -------
@@ -118,6 +121,7 @@ class Kept:
         """
         step = scaled.step
         in_balls = cache(lambda: BallStep(step, self.hessian_of(step)))
+        in_c = self.alone(scaled, lam, slack) if in_c is None else in_c
 
         def proof(guess: Indices) -> Proof:
             found: Proof = None if in_c is None else in_c.optimum(step, guess, scaled.units)
@@ -154,6 +158,20 @@ class Part:
     constant: Constants | None
     kept: Kept
 
+    def optimum(self, whole: NaturalStep, lam: Array, slack: Array, in_c: Any) -> ExactOptimum:
+        """The exact optimum of the group; parameters of the `whole` step as of :class:`Kept`'s.
+
+        Raises
+        ------
+        StepInfeasible
+        """
+        found: ExactOptimum | None = None if in_c is None else in_c.decided()
+        if found is None:
+            own = self.scaled(whole)
+            rows = self.group.rows
+            found, start = self.kept.proved(own, lam[rows], slack[rows], in_c)
+        return group_optimum(whole.step, self.group, own.step, start) if found is None else found
+
     def scaled(self, whole: NaturalStep) -> DenseStep:
         """The step of the group in its own natural units, from the `whole` step.
 
@@ -162,15 +180,18 @@ class Part:
         StepDataError
             If M_u is not positive definite.
         """
-        if self.constant is not None:
-            scaled: DenseStep = KeptStep(self._step(whole.step, self.constant), self.kept.metric)
+        scaled = whole
+        if self.constant is not None or not isinstance(scaled, DenseStep):
+            scaled = KeptStep(self.step(whole.step), self.kept.metric)
             self.kept.metric = scaled.metric
-        else:
-            scaled = whole if isinstance(whole, DenseStep) else KeptStep(whole.step, None)
         self.kept.hessian_of(scaled.step)
         return scaled
 
-    def _step(self, step: StepData, constant: Constants) -> PosedStep:
+    def step(self, step: StepData) -> StepData:
+        """The step of the group, from the whole `step`."""
+        constant = self.constant
+        if constant is None:
+            return step
         group = self.group
         given = step.contacts
         a, u = split(step, group)
@@ -203,9 +224,9 @@ class Proofs:
 
     def __init__(self) -> None:
         self.parts: list[Part] = []
-        self._of_parts: list[Array | bytes | float] = []
-        self._of_small: list[Array | bytes | float] = []
-        self._small = np.zeros(0, dtype=bool)
+        self._of_parts: Coupling = []
+        self._of_small: Coupling = []
+        self._small: Mask | None = None
         self.prover: Any = None
         self._group = np.zeros(0, np.int64)  # of each coordinate
 
@@ -227,50 +248,40 @@ class Proofs:
         if answer is not None:
             lam = answer.lam
             slack = form.A @ answer.delta_q - form.b
-        near = self._near(step, lam, slack)
+        coupling = _coupling(step)
+        near = self._near(step, coupling, lam, slack)
         while True:
-            parts = self.divided(step, near)
-            own = cache(lambda i, parts=parts: parts[i].scaled(scaled))
-            prover = self._prover(scaled, own)
+            parts = self.divided(step, near, coupling)
+            prover = self._prover(scaled)
             optimum = None if prover is None else prover.optimum(scaled, lam, slack)
             if optimum is None:
-                optima = list[ExactOptimum]()
-                for i, part in enumerate(parts):
-                    rows = part.group.rows
-                    answered = lam[rows], slack[rows]
-                    in_c = (
-                        part.kept.proof(own(i), *answered) if prover is None else prover.proofs[i]
-                    )
-                    found = None if in_c is None else in_c.decided()
-                    if found is None:
-                        found, start = part.kept.proved(own(i), *answered, in_c)
-                    if found is None:
-                        found = group_optimum(step, part.group, own(i).step, start)
-                    optima.append(found)
+                tried = [None] * len(parts) if prover is None else prover.proofs
+                each = zip(parts, tried, strict=True)
+                optima = [part.optimum(scaled, lam, slack, in_c) for part, in_c in each]
                 optimum = joined(step, [part.group for part in parts], optima)
-            if near.all():
+            if near is None:
                 break
             points = list[Solved]()
-            for i, part in enumerate(parts):
-                one = own(i).step
+            for part in parts:
+                own = part.step(step)
                 working = part.group.within(optimum.working_set)
-                points.append((part.group.coordinates, one, part.kept.hessian_of(one), working))
+                points.append((part.group.coordinates, own, part.kept.hessian_of(own), working))
             slacks, doubtful = far_slacks(step, np.flatnonzero(~near), points)
             if not doubtful.any():
                 optimum = with_far(step, optimum, near, slacks)
                 break
-            near = near | doubtful
+            near = _unless_all(near | doubtful)
         if self._may_be_long(scaled, optimum.delta_q):
             check_length(step, optimum.delta_q, group_steps(step))
         return optimum
 
-    def _prover(self, scaled: NaturalStep, own: Callable[[int], DenseStep]) -> Any:
-        """What proves all groups of a dense step, each its `own` step, in C; None without it."""
+    def _prover(self, scaled: NaturalStep) -> Any:
+        """What proves all groups of a dense step in C; None where nothing does."""
         in_c = compiled("certificate")
         if in_c is None or not isinstance(scaled, DenseStep):
             return None
         if self.prover is None:
-            groups = [(part.group, own(i)) for i, part in enumerate(self.parts)]
+            groups = [(part.group, part.scaled(scaled)) for part in self.parts]
             self.prover = in_c.Prover(scaled.step, groups)
         return self.prover
 
@@ -290,32 +301,37 @@ class Proofs:
             norm.displacement(delta_q[v]) <= most * norm.impulse(g[v]) for v, norm in norms
         )
 
-    def _near(self, step: StepData, lam: Array, slack: Array) -> Mask:
-        """Which contacts may touch, as an answer says, shape (n_c,); in small groups all do."""
+    def _near(self, step: StepData, coupling: Coupling, lam: Array, slack: Array) -> Mask | None:
+        """Which contacts may touch, as an answer says, shape (n_c,); None if all do.
+
+        In small groups all do.
+        """
         if step.n_v <= SMALL:
-            return np.ones(step.contacts.n_c, dtype=bool)
-        coupling = _coupling(step)
+            return None
         if not _same(coupling, self._of_small):
             large = [g.contacts for g in groups(step) if len(g.coordinates) > SMALL]
-            self._small = np.ones(step.contacts.n_c, dtype=bool)
-            self._small[[j for contacts in large for j in contacts]] = False
+            small = np.ones(step.contacts.n_c, dtype=bool)
+            small[[j for contacts in large for j in contacts]] = False
+            self._small = _unless_all(small)
             self._of_small = coupling
-        if self._small.all():
-            return self._small
+        if self._small is None:
+            return None
         m = int(step.offsets[-1])
         touching = (slack[:m] <= TOUCHING) | (lam[:m] > slack[:m])
-        return self._small | np.logical_or.reduceat(touching, step.offsets[:-1])
+        return _unless_all(self._small | np.logical_or.reduceat(touching, step.offsets[:-1]))
 
-    def divided(self, step: StepData, near: Mask) -> list[Part]:
+    def divided(self, step: StepData, near: Mask | None, coupling: Coupling) -> list[Part]:
         """The groups of a step: those of the last step, if the same couples its coordinates.
 
         Parameters
         ----------
         step : StepData
-        near : ndarray of bool, shape (n_c,)
-            The contacts that count.
+        near : ndarray of bool, shape (n_c,), or None
+            The contacts that count; None if all do.
+        coupling : list
+            What couples the coordinates if all contacts count.
         """
-        coupling = [*_coupling(step), near.tobytes()]
+        coupling = [*coupling, b"" if near is None else near.tobytes()]
         if not _same(coupling, self._of_parts):
             self.parts = _parts(step, near, self.parts)
             self._of_parts = coupling
@@ -326,8 +342,12 @@ class Proofs:
         return self.parts
 
 
-def _coupling(step: StepData) -> list[Array | bytes | float]:
-    """What couples the coordinates of a step, and how."""
+def _unless_all(mask: Mask) -> Mask | None:
+    return None if mask.all() else mask
+
+
+def _coupling(step: StepData) -> Coupling:
+    """That of a step."""
     J = vars(step.contacts).get("J")  # None in blocks, as M_u then is
     if J is None:
         moving = b"".join(where.tobytes() for where in step.contacts.entries()[:2])
@@ -345,10 +365,10 @@ def _same(one: list[Any], two: list[Any]) -> bool:
     return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in changed)
 
 
-def _parts(step: StepData, near: Mask, before: list[Part]) -> list[Part]:
+def _parts(step: StepData, near: Mask | None, before: list[Part]) -> list[Part]:
     """The groups of a step; those of equal constants share what is kept, also with the `before`."""
     found = groups(step, near)
-    if len(found) == 1 and near.all():
+    if len(found) == 1 and near is None:
         kept = before[0].kept if len(before) == 1 else Kept()
         return [Part(found[0], None, kept)]
     known = {_key(part.constant): part for part in before if part.constant is not None}
