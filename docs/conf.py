@@ -104,6 +104,7 @@ import quasistatic_ref as qr
 from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.step.cones import direction
+np.set_printoptions(precision=8, suppress=False)  # a page before may have changed these
 """
 
 
@@ -140,6 +141,7 @@ def setup(app):
     app.connect("doctree-read", _plain_listings)
     app.connect("autodoc-process-docstring", _kept, priority=400)  # napoleon's is 500
     app.connect("autodoc-process-docstring", _mended, priority=600)
+    app.connect("html-page-context", _navigation_kept, priority=400)  # furo's is 500
 
 
 def _expanded(app, docname, source):
@@ -176,6 +178,23 @@ def _plain_listings(app, doctree):
     for listing in doctree.findall(nodes.literal_block):
         text = CITED_NAME.sub(r"\1", CITED_EQUATION.sub(r"(\1)", listing.astext()))
         listing.rawsource, listing.children = text, [nodes.Text(text)]
+
+
+_navigations = {}
+
+
+def _navigation_kept(app, pagename, templatename, context, doctree):
+    """Listings of one depth have the same navigation: to make it takes longer than all the rest."""
+    if pagename.startswith("_modules/"):
+        depth = pagename.count("/")
+        made = context["toctree"]
+
+        def kept(**options):
+            if depth not in _navigations:
+                _navigations[depth] = made(**options)
+            return _navigations[depth]
+
+        context["toctree"] = kept
 
 
 def _modules(folder):

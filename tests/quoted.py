@@ -21,13 +21,20 @@ class Filled(dict):
 
 FILLED = Filled()
 
+UNITS = "us|ms|s|minutes|hours|um|micrometres|mm|m|N|kg|g|N/m|mm/s|degrees|MB|GB|bytes"
+COUNTED = "lines|points|steps|claims|files|problems|pushes|digits|rows|contacts|coordinates|entries"
+WITH_UNIT = re.compile(rf"(?<![\w.^])[-+]?\d(?:[\d,.]*\d)?(?:e-?\d+)? (?:{UNITS}|{COUNTED})\b")
+"""A number before a unit, or before what it counts."""
+
 
 @cache
 def held(page):
     """The phrases of a page, as they ought to read."""
     phrases = [phrase.format_map(FILLED) for phrase in QUOTED[page]["phrases"]]
+    labels = QUOTED[page].get("labels", {})
     for source, row in QUOTED[page].get("rows", {}).items():
-        phrases += [row.format(name=name, own=own) for name, own in FILLED[source].items()]
+        for name, own in FILLED[source].items():
+            phrases.append(row.format(name=labels.get(name, name), own=own))
     return phrases
 
 
@@ -45,3 +52,11 @@ def printed(page):
 def stale(page, phrases):
     """The phrases, as they ought to read, that do not stand on a page."""
     return [phrase for phrase in phrases if phrase not in flat(page)]
+
+
+def outside(page, phrases):
+    """The numbers with a unit on a page that are neither in one of these phrases nor in code."""
+    prose = flat(re.sub(r"^( *)```.*?^\1```$", "", page, flags=re.MULTILINE | re.DOTALL))
+    for phrase in phrases:
+        prose = prose.replace(phrase, "...")
+    return WITH_UNIT.findall(prose)

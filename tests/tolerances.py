@@ -68,9 +68,6 @@ CURVED_PAIR: Final = 1e-12
 """Convex pairs, whatever way leads to their answer [m], [-]: Newton's method and the closed forms
 end at rounding, 1e-15 of the sizes, which are below 1 m."""
 
-CONE_PROGRAM: Final = 1e-8
-"""Distances [m] of curved pairs by a second-order cone program, which its solver ends at 1e-9."""
-
 COAL: Final = 1e-6
 """Convex pairs by coal's iterative solvers, which stop at 1e-6 [m], [-]."""
 
@@ -92,9 +89,6 @@ FIRST_ORDER: Final = 1e-3
 FOUR_ULP: Final = 4 * 2.220446049250313e-16
 """The standard form against CVXPY's: a rounding more, of 1 / h or a product, on either side. And
 sums of a convergent series whose entries are at most 1, in an order of their own."""
-
-INTEGRAL: Final = 1e-11
-"""Adaptive quadrature of the volumes of solids, relative; rounding of its sums takes a digit."""
 
 JAX_STEP: Final = 1e-6
 """By what JAX moves its arguments to check a gradient [of their units]: rounding of a step, 1e-16,

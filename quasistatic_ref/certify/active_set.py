@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from flint import ctx, fmpq
 
 from quasistatic_ref.certify.dependence import combination, independent_rows
-from quasistatic_ref.certify.minimiser import PRECISION, BallForm, Minimiser, ball_form
+from quasistatic_ref.certify.minimiser import PRECISION, Minimiser, form_in_balls
 from quasistatic_ref.certify.rational import ExactForm
 
 
@@ -84,12 +84,12 @@ def least_index(minimiser: Minimiser) -> tuple[int | None, list[int]]:
     return (violated[0], []) if violated else (None, signs)
 
 
-Choice = Callable[[Minimiser], tuple[int | None, list[int]]]
-"""Which violated row is added next."""
+EnteringRule = Callable[[Minimiser], tuple[int | None, list[int]]]
+"""Chooses the violated row that is added next."""
 
 
 def dual_active_set(
-    form: ExactForm, warm: Sequence[int] = (), violated: Choice = most_violated
+    form: ExactForm, warm: Sequence[int] = (), entering_row: EnteringRule = most_violated
 ) -> Optimum | Farkas:
     """The optimum of min 1/2 x'Hx - g'x s.t. Ax >= b, or a proof that there is none.
 
@@ -100,7 +100,7 @@ def dual_active_set(
     warm : sequence of int
         Rows that are active at the optimum, as far as a solver could tell, in order of
         preference. Any rows will do; none is a cold start.
-    violated : callable
+    entering_row : callable
         Chooses the row to add: :func:`most_violated` or :func:`least_index`.
 
     Returns
@@ -108,11 +108,10 @@ def dual_active_set(
     Optimum or Farkas
 
     """
-    balls = ball_form(form)
-    minimiser = _start(form, balls, warm)
+    minimiser = _start(form, warm)
     walks = 0
     while True:
-        p, signs = violated(minimiser)
+        p, signs = entering_row(minimiser)
         if p is None:
             return Optimum(_without_zeros(minimiser), signs, walks)
         after = _walk(minimiser, p)
@@ -122,15 +121,13 @@ def dual_active_set(
         walks += 1
 
 
-def _start(form: ExactForm, balls: BallForm, warm: Sequence[int]) -> Minimiser:
+def _start(form: ExactForm, warm: Sequence[int]) -> Minimiser:
     """Return a minimiser with positive multipliers: any subset of the warm rows that has them."""
-    working = independent_rows(form, list(dict.fromkeys(warm)))
-    while True:
-        minimiser = Minimiser(form, balls, working)
-        kept = minimiser.surely_positive()
-        if kept == working:
-            return minimiser
-        working = kept
+    independent = independent_rows(form, list(dict.fromkeys(warm)))
+    minimiser = Minimiser(form, form_in_balls(form), independent)
+    while (positive := minimiser.surely_positive()) != minimiser.working:
+        minimiser = minimiser.on(positive)
+    return minimiser
 
 
 def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
@@ -139,7 +136,7 @@ def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
         working = minimiser.working
         c = combination(minimiser.form, working, p)
         if c is None:
-            after = Minimiser(minimiser.form, minimiser.ball_form, (*working, p))
+            after = minimiser.on((*working, p))
             leaving = _first_to_vanish(minimiser, after)
             if leaving is None:
                 return after
@@ -149,7 +146,7 @@ def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
                 support = {i: -c_j for i, c_j in zip(working, c, strict=True) if c_j}
                 return Farkas({**support, p: fmpq(1)})
         rest = working[:leaving] + working[leaving + 1 :]
-        minimiser = Minimiser(minimiser.form, minimiser.ball_form, rest)
+        minimiser = minimiser.on(rest)
 
 
 def _first_to_vanish(minimiser: Minimiser, after: Minimiser) -> int | None:
@@ -206,6 +203,4 @@ def _ratio_less(minimiser: Minimiser, c: Sequence[fmpq], j: int, k: int) -> bool
 def _without_zeros(minimiser: Minimiser) -> Minimiser:
     """Return the same minimiser on the rows whose multipliers are positive."""
     positive = minimiser.positive()
-    if positive == minimiser.working:
-        return minimiser
-    return Minimiser(minimiser.form, minimiser.ball_form, positive)
+    return minimiser if positive == minimiser.working else minimiser.on(positive)

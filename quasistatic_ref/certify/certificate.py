@@ -173,9 +173,9 @@ def verify(
         judged = needed_part("large.judged", 'a certificate of kind "residual"')
         verdict: Verdict = judged.bound_verdict(step, delta_q, lam, claims.error_bound)
         return verdict
-    kind = cone(step.cone)
-    if isinstance(kind, CurvedCone):
-        return kind.verdict(step, delta_q, active, lam, claims)
+    friction_cone = cone(step.cone)
+    if isinstance(friction_cone, CurvedCone):
+        return friction_cone.verdict(step, delta_q, active, lam, claims)
     if claims is not None and claims.kind != "exact":
         return Verdict(False, f"a certificate of kind {claims.kind!r} proves nothing here")
     try:
@@ -186,8 +186,8 @@ def verify(
     lam_exact = np.zeros(step.m)
     reason = ""
     solved = []
-    for group, part in group_steps(step):
-        form = exact_form(part)
+    for group, group_step in group_steps(step):
+        form = exact_form(group_step)
         working_rows = tuple(group.within(working))
         try:
             solution = rational_solution(form, working_rows)

@@ -18,7 +18,7 @@ from flint import arb, ctx, fmpq
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.active_set import (
-    Choice,
+    EnteringRule,
     Farkas,
     Optimum,
     dual_active_set,
@@ -34,7 +34,7 @@ from quasistatic_ref.certify.minimiser import (
 )
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import all_nearest_in, nearest_fraction
+from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -84,7 +84,7 @@ class ExactOptimum:
 
 
 def form_optimum(
-    form: ExactForm, warm: Sequence[int] = (), violated: Choice = most_violated
+    form: ExactForm, warm: Sequence[int] = (), entering_row: EnteringRule = most_violated
 ) -> ExactOptimum | Farkas:
     """The exact optimum, or an exact proof that there is none.
 
@@ -93,16 +93,16 @@ def form_optimum(
     form : ExactForm
     warm : sequence of int
         Rows that a solver found active, in order of preference; any rows will do.
-    violated : callable
-        Which violated row is added next: it may change lam, the working set, the smallest
-        multiplier on that and the number of walks, but nothing else of an optimum.
+    entering_row : callable
+        Chooses the violated row that is added next: this may change lam, the working set, the
+        smallest multiplier on that and the number of walks, but nothing else of an optimum.
 
     Returns
     -------
     ExactOptimum or Farkas
 
     """
-    end = dual_active_set(form, warm, violated)
+    end = dual_active_set(form, warm, entering_row)
     return end if isinstance(end, Farkas) else _rounded(form, end)
 
 
@@ -153,14 +153,13 @@ def nearest_numbers(
     """
     rounded: dict[int, float | None] = {int(i): None for i in entries}
     if minimiser.balls is not None:
-        shown = values(minimiser.balls)
+        balls = values(minimiser.balls)
         with ctx.workprec(PRECISION):
             factor = arb(unit)
-            scaled = [shown[i] * factor for i in rounded]
-            rounded = dict(zip(rounded, all_nearest_in(scaled), strict=True))
-    hidden = [i for i, value in rounded.items() if value is None]
-    rounded.update(dict.fromkeys(zeros(hidden), 0.0))
-    for i in hidden:
+            rounded = {i: nearest_in(balls[i] * factor) for i in rounded}
+    undecided = [i for i, value in rounded.items() if value is None]
+    rounded.update(dict.fromkeys(zeros(undecided), 0.0))
+    for i in undecided:
         if rounded[i] is None:
             exact = minimiser.rational
             rounded[i] = nearest_fraction(unit * values(exact)[i] / exact.denominator)
@@ -193,30 +192,34 @@ def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:
     if not cone(step.cone).polyhedral:
         raise InputError("has no rational optimum", field="cone", value=step.cone)
     divided = group_steps(step)
-    optima = [group_optimum(step, group, part, group.within(warm)) for group, part in divided]
-    optimum = joined(step, [group for group, _ in divided], optima)
+    optima = [
+        group_optimum(step, group, group_step, group.within(warm)) for group, group_step in divided
+    ]
+    optimum = joined_optimum(step, [group for group, _ in divided], optima)
     check_length(step, optimum.delta_q, divided)
     return optimum
 
 
 def group_optimum(
-    step: StepData, group: Group, part: StepData, warm: Sequence[int]
+    step: StepData, group: Group, group_step: StepData, warm: Sequence[int]
 ) -> ExactOptimum:
-    """The exact optimum of a group of a step, which is the step `part`, from its `warm` rows.
+    """The exact optimum of a group of a step, from the step of the group and its `warm` rows.
 
     Raises
     ------
     StepInfeasible
         If no displacement satisfies the rows of the group, with the proof in the step's rows.
     """
-    form = exact_form(part)
+    form = exact_form(group_step)
     optimum = form_optimum(form, warm)
     if isinstance(optimum, Farkas):
         raise StepInfeasible(step, farkas_vector(step, form, optimum, group.rows))
     return optimum
 
 
-def joined(step: StepData, groups: Sequence[Group], optima: Sequence[ExactOptimum]) -> ExactOptimum:
+def joined_optimum(
+    step: StepData, groups: Sequence[Group], optima: Sequence[ExactOptimum]
+) -> ExactOptimum:
     """The optimum of a step from the `optima` of all of its groups."""
     if len(groups) == 1 and len(groups[0].rows) == step.m:
         return optima[0]
@@ -262,7 +265,9 @@ def check_length(step: StepData, delta_q: Array, divided: Sequence[tuple[Group, 
     ------
     StepIllPosed
     """
-    lengths = [relative_length(part, delta_q[group.coordinates]) for group, part in divided]
+    lengths = [
+        relative_length(group_step, delta_q[group.coordinates]) for group, group_step in divided
+    ]
     longest = max(lengths, key=lambda length: math.inf if math.isnan(length) else length)
     if not longest <= ILL_POSED:
         raise StepIllPosed(step, delta_q, longest)
@@ -303,9 +308,9 @@ def relative_length(step: StepData, delta_q: Array) -> float:
     loads[2, n_a:] = h * (scale * step.tau_u)
     pushed = b > 0
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-        push_out = scale * b[pushed] / norm.impulses(form.A[pushed])
-        scene_length = float(max(norm.impulses(loads).max(), push_out.max(initial=0.0)))
-        length = norm.displacement(scale * delta_q)
+        push_out = scale * b[pushed] / norm.of_impulses(form.A[pushed])
+        scene_length = float(max(norm.of_impulses(loads).max(), push_out.max(initial=0.0)))
+        length = norm.of_displacement(scale * delta_q)
         if scene_length:
             return length / scene_length
         return 0.0 if length == 0 else float("inf")

@@ -68,7 +68,7 @@ class BallSolution:
     slack: list[arb]
 
 
-def ball_form(form: ExactForm) -> BallForm:
+def form_in_balls(form: ExactForm) -> BallForm:
     """An exact form in balls; its H is positive definite, as that of a step is."""
     H_inv = inverse(form.H)
     with ctx.workprec(PRECISION):
@@ -86,12 +86,12 @@ def inverse(H: fmpz_mat) -> arb_mat:
                 precision *= 2
 
 
-def equality_solution(balls: BallForm, working: Sequence[int]) -> BallSolution | None:
+def equality_solution(form: BallForm, working: Sequence[int]) -> BallSolution | None:
     """The minimiser under A_i x = b_i for i in the working set, in balls.
 
     Parameters
     ----------
-    ball_form : BallForm
+    form : BallForm
     working : sequence of int
         Independent rows.
 
@@ -101,16 +101,16 @@ def equality_solution(balls: BallForm, working: Sequence[int]) -> BallSolution |
         None if the precision does not show that the rows are independent.
     """
     with ctx.workprec(PRECISION):
-        A_w = balls.rows(working)
-        b_w = arb_mat(len(working), 1, [balls.b[i, 0] for i in working])
-        range_ = A_w * balls.H_inv
+        A_w = form.rows(working)
+        b_w = arb_mat(len(working), 1, [form.b[i, 0] for i in working])
+        A_H_inv = A_w * form.H_inv
         try:
-            lam = (range_ * A_w.transpose()).solve(b_w - A_w * balls.x_free)
+            lam = (A_H_inv * A_w.transpose()).solve(b_w - A_w * form.x_free)
         except ZeroDivisionError:
             return None
-        x = balls.x_free + range_.transpose() * lam
+        x = form.x_free + A_H_inv.transpose() * lam
         net = A_w.transpose() * lam
-        slack = balls.A * x - balls.b
+        slack = form.A * x - form.b
         return BallSolution(x.entries(), lam.entries(), net.entries(), slack.entries())
 
 
@@ -198,7 +198,8 @@ class Minimiser:
     Parameters
     ----------
     form : ExactForm
-    balls : BallForm
+    ball_form : BallForm
+        The same in balls.
     working : tuple of int
         Independent rows.
     """
@@ -208,6 +209,10 @@ class Minimiser:
         self.ball_form = ball_form
         self.working = working
         self._implied: dict[int, bool] = {}
+
+    def on(self, working: tuple[int, ...]) -> "Minimiser":
+        """Return the minimiser of the same form on another working set."""
+        return Minimiser(self.form, self.ball_form, working)
 
     @cached_property
     def balls(self) -> BallSolution | None:

@@ -28,15 +28,15 @@ class EnergyNorm:
     L: Array
     inverse: Array
 
-    def displacement(self, v: Array) -> float:
+    def of_displacement(self, v: Array) -> float:
         """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
         return math.hypot(*self.L.T.dot(v / self.unit).tolist())
 
-    def impulse(self, p: Array) -> float:
+    def of_impulse(self, p: Array) -> float:
         """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
         return math.hypot(*self.inverse.dot(p * self.unit).tolist())
 
-    def impulses(self, P: Array) -> Array:
+    def of_impulses(self, P: Array) -> Array:
         """||H^-1 p||_H of each row p of P, shape (rows, n_v): how far an impulse moves; (rows,).
 
         NaN or infinity where an entry is.
@@ -51,10 +51,10 @@ class EnergyNorm:
 class Norm(Protocol):
     """Lengths of displacements and of impulses."""
 
-    def displacement(self, v: Array) -> float:
+    def of_displacement(self, v: Array) -> float:
         """||v||_H of a displacement v, shape (n_v,) [m, rad]."""
 
-    def impulse(self, p: Array) -> float:
+    def of_impulse(self, p: Array) -> float:
         """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
 
 

@@ -232,12 +232,12 @@ def contact_motion(contacts: Contacts, which: Which = ALL) -> Dyadic:
 def exact_friction_rows(contacts: Contacts, name: str, which: Which = ALL) -> Dyadic:
     """The rows n~' J + d~_i' J of Eq. :eq:`eq-4`, all of each contact, shape (n_c, R, n_v)."""
     motion = contact_motion(contacts, which)
-    kind = cone(name)
-    mu = dyadic(kind.in_rows(contacts.mu[which]))
+    friction_cone = cone(name)
+    mu = dyadic(friction_cone.in_rows(contacts.mu[which]))
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
     mu_v = mu[:, :1, None]
     mu_omega = mu[:, 2:, None]
-    rows = kind.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
+    rows = friction_cone.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)  # Eqs. (4)-(7)
     return concatenated(rows, axis=1)
 
 

@@ -1,7 +1,6 @@
 """From exact numbers and from balls to float64, rounded correctly (half to even)."""
 
 import math
-from collections.abc import Sequence
 
 from flint import arb, fmpq
 
@@ -45,11 +44,6 @@ def nearest_in(ball: arb) -> float | None:
     low = _exact(ball.lower())
     high = _exact(ball.upper())
     return low if low == high else None
-
-
-def all_nearest_in(balls: Sequence[arb]) -> list[float | None]:
-    """:func:`nearest_in` of each of some balls."""
-    return [nearest_in(ball) for ball in balls]
 
 
 def nearest_above(ball: arb) -> float:

@@ -35,7 +35,7 @@ class SolverStatistics(NamedTuple):
         The accuracy that was asked of the solver, in natural units [-].
     digits : float or None
         Correct digits of the backend's delta_q, 0 to 16, where the exact answer is known.
-    engine : str
+    interface : str
         The interface by which the solver was called: ``"cvxpy"``, ``"qpsolvers"``, ``"native"``;
         ``"none"`` without a backend.
     proof_time : float
@@ -48,7 +48,7 @@ class SolverStatistics(NamedTuple):
     solve_time: float | None
     accuracy: float
     digits: float | None = None
-    engine: str = "cvxpy"
+    interface: str = "cvxpy"
     proof_time: float = 0.0
 
 
@@ -128,8 +128,8 @@ class StepSolution(Plain, Shown):
         displacement with compliance; it is proportional to the compliance.
         """
         norm = energy_norm(self.step.H)
-        off = norm.displacement(self.delta_q - self.compliant.delta_q)
-        return off / norm.impulse(linear_term(self.step)) if off else 0.0
+        off = norm.of_displacement(self.delta_q - self.compliant.delta_q)
+        return off / norm.of_impulse(linear_term(self.step)) if off else 0.0
 
     @cached_property
     def compliant(self) -> ContactForces:

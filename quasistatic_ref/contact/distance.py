@@ -83,7 +83,7 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
     R = kinematics.R
     t = kinematics.t
     check_finite(R, t)
-    return joined([pair_closest_points(pair, R, t) for pair in pairs])
+    return joined_contacts([pair_closest_points(pair, R, t) for pair in pairs])
 
 
 def check_finite(R: Array, t: Array) -> None:
@@ -92,7 +92,7 @@ def check_finite(R: Array, t: Array) -> None:
         raise ContactError("must be finite", field="poses")
 
 
-def joined(found: Sequence[ClosestPoints]) -> ClosestPoints:
+def joined_contacts(found: Sequence[ClosestPoints]) -> ClosestPoints:
     """Several lists of contacts as one, in which zero is 0.0, never -0.0."""
     if not found:
         empty = np.zeros((0, 3))
@@ -119,7 +119,7 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     far = nearest._replace(phi=np.array([FILLED]), tie=np.array([OWN]))
     missing = np.arange(pair.n_c - len(order))
     filling = far.chosen(0 * missing)._replace(point=pair.corners + 1 + missing)
-    return joined([kept, filling])
+    return joined_contacts([kept, filling])
 
 
 def closest(phi: Array, k: int) -> Indices:
@@ -183,7 +183,7 @@ def every_candidate(
     on_b = _corners_on_solid(b, a, corners_a, radius_a, -n).swapped()
     on_a = _corners_on_solid(a, b, corners_b, radius_b, n)
     on_a = on_a._replace(point=len(corners_a) + on_a.point)
-    every = joined([on_b, on_a, _crossings(pair, a, b, nearest), nearest])
+    every = joined_contacts([on_b, on_a, _crossings(pair, a, b, nearest), nearest])
     if nearest.tie[0] == BISECTOR:
         alike = np.abs(every.n - n).max(axis=1) <= SAME_NORMAL
         every = every._replace(tie=np.where(alike, BISECTOR, every.tie))
@@ -198,7 +198,7 @@ def _crossings(
     found = crossings(a, b, nearest.alpha[0], nearest.beta[0], n)
     count = len(found.number)
     if not count:
-        return joined([])
+        return joined_contacts([])
     return ClosestPoints(
         phi=dot(found.beta - found.alpha, n),
         alpha=found.alpha,
@@ -260,7 +260,7 @@ def _corners_on_solid(
 ) -> ClosestPoints:
     """Corners of another solid, each with a ball about it; n is the pair's normal, out of this."""
     if not len(corners):
-        return joined([])
+        return joined_contacts([])
     relative = relative_pose(solid, other)
     x = rotated(relative[:, :3], corners) + relative[:, 3]
     found = corner_surface(solid, x, product(solid.R.T, n), rounding(solid, other))

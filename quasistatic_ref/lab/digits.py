@@ -21,5 +21,5 @@ def correct_digits(step: StepData, delta_q: Array, exact_delta_q: Array) -> floa
     form = standard_form(step)
     norm = energy_norm(form.H)
     with np.errstate(over="ignore", invalid="ignore"):
-        off = norm.displacement(delta_q - exact_delta_q)
-    return relative_digits(off, norm.impulse(form.g))
+        off = norm.of_displacement(delta_q - exact_delta_q)
+    return relative_digits(off, norm.of_impulse(form.g))

@@ -23,8 +23,6 @@ class Supervised:
         Of the environment, in addition to those of this process.
     descriptors : sequence of int
         Open files that it inherits.
-    errors : int, optional
-        For its standard error alone.
 
     Raises
     ------
@@ -38,14 +36,13 @@ class Supervised:
         pipe: int = subprocess.DEVNULL,
         variables: Mapping[str, str] | None = None,
         descriptors: Sequence[int] = (),
-        errors: int | None = None,
     ) -> None:
         self._token = uuid.uuid4().hex
         self.process = subprocess.Popen(
             words,
             stdin=pipe,
             stdout=pipe,
-            stderr=pipe if errors is None else errors,
+            stderr=pipe,
             pass_fds=descriptors,
             env={**os.environ, **(variables or {}), processes.TOKEN: self._token},
             start_new_session=True,

@@ -21,7 +21,7 @@ WORLD = np.eye(3)
 ORIGIN = np.zeros(3)
 
 
-class Part(NamedTuple):
+class WorkspacePart(NamedTuple):
     """Some bodies: their own model and workspace, and where their entries are in the whole.
 
     Parameters
@@ -65,7 +65,7 @@ class Workspace:
     """
 
     def __init__(self, all_bodies: Any, models: Sequence[Any], frames: Sequence[list[int]]) -> None:
-        self.parts: list[Part] = []
+        self.parts: list[WorkspacePart] = []
         before = 0
         for model, links in zip(models, frames, strict=True):
             model = model.copy()  # its gravity is this workspace's own
@@ -73,7 +73,9 @@ class Workspace:
             placements = [data.oMf[link] for link in links]
             R = [p.rotation for p in placements]
             t = [p.translation for p in placements]
-            self.parts.append(Part(model, data, R, t, *_entries(all_bodies, model, before)))
+            self.parts.append(
+                WorkspacePart(model, data, R, t, *_entries(all_bodies, model, before))
+            )
             before += model.njoints - 1
         self._turns = any(part.turns for part in self.parts)
         self._at: tuple[bytes, list[Array]] | None = None

@@ -26,7 +26,7 @@ PACKED = 1000
 SECONDS = "seconds."
 """What the names of wall times begin with."""
 
-Part = dict[str, NDArray[Any]]
+StepArrays = dict[str, NDArray[Any]]
 """Arrays over some steps that follow one another."""
 
 
@@ -94,7 +94,7 @@ class Recorder(Shown):
         self.steps = 0
         self.extra: tuple[str, ...] = ()
         self.alone = True
-        self.parts: list[Part] = []
+        self.parts: list[StepArrays] = []
         self._rows: list[dict[str, Any]] = []
 
     @property
@@ -153,7 +153,7 @@ class Recorder(Shown):
         if len(self._rows) == PACKED:
             self.packed()
 
-    def packed(self) -> list[Part]:
+    def packed(self) -> list[StepArrays]:
         """All steps so far as arrays, in parts: those added since the call before are the last."""
         if self._rows:
             self.parts.append(
@@ -162,7 +162,7 @@ class Recorder(Shown):
             self._rows = []
         return self.parts
 
-    def take(self, part: Part, extra: tuple[str, ...]) -> None:
+    def take(self, part: StepArrays, extra: tuple[str, ...]) -> None:
         """Add steps that were taken before, as :meth:`packed` gave them.
 
         Parameters
@@ -185,7 +185,7 @@ class Recorder(Shown):
     def noted(self, name: str) -> NDArray[Any]:
         """What an observer kept of each step so far, shape (steps, ...) [any unit]."""
         parts = self.packed()
-        return _joined(parts, name) if parts else np.zeros(0)
+        return _over_all_steps(parts, name) if parts else np.zeros(0)
 
     def trajectory(self, failed: str | None = None, interrupted: bool = False) -> Trajectory:
         """Everything recorded so far, as the observers leave it.
@@ -200,7 +200,7 @@ class Recorder(Shown):
         parts = self.packed()
         kept = parts[0] if parts else {}
         known = [name for name in (*PER_STEP, *PROGRAM, *FORCES, *EXTRA, *ITERATED) if name in kept]
-        arrays = {name: _joined(parts, name) for name in known} or {
+        arrays = {name: _over_all_steps(parts, name) for name in known} or {
             name: np.zeros(0) for name in ("t", "delta_q", "worst_residual")
         }
         full = self.steps and self.record == "full"
@@ -233,7 +233,7 @@ class Recorder(Shown):
         q = np.concatenate([self.start[None], *(part["q"] for part in parts)])
         arrays = {"q": q + 0.0, **arrays, **constant}
         timed = [name for name in kept if name.startswith(SECONDS)]
-        seconds = {name.removeprefix(SECONDS): _joined(parts, name) for name in timed}
+        seconds = {name.removeprefix(SECONDS): _over_all_steps(parts, name) for name in timed}
         trajectory = Trajectory(header, arrays, seconds, self.scene)
         for observer in self.observers:
             trajectory = observer.end(self, trajectory, interrupted)
@@ -256,7 +256,7 @@ def program(step: StepData) -> dict[str, Array]:
     return row
 
 
-def _joined(parts: list[Part], key: str) -> NDArray[Any]:
+def _over_all_steps(parts: list[StepArrays], key: str) -> NDArray[Any]:
     """One array of all steps, in which zero is 0.0, never -0.0."""
     array = np.concatenate([part[key] for part in parts])
     return array + 0.0 if array.dtype == np.float64 else array

@@ -18,7 +18,7 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import SPARSE_FROM, SPARSE_FROM_PIQP
 
 Options = dict[str, Any]
-Attempts = tuple[Options, ...]
+OptionSets = tuple[Options, ...]
 QPSOLVERS = "qpsolvers:"
 THROUGH_QPSOLVERS = "qpsolvers.through_qpsolvers"
 """The optional part that reaches backends through it."""
@@ -34,7 +34,7 @@ class Backend:
         Name of the backend: in lower case qpsolvers' name, in upper case CVXPY's.
     method : str
         Its method, in two words.
-    attempts : callable
+    option_sets : callable
         Accuracy in natural units [-] -> sets of the backend's own options, tried in order until
         one of them solves the step.
     floor : float
@@ -67,7 +67,7 @@ class Backend:
 
     name: str
     method: str
-    attempts: Callable[[float], Attempts]
+    option_sets: Callable[[float], OptionSets]
     floor: float = 0.0
     time_limit: str = ""
     warm: tuple[str, ...] = ()
@@ -82,7 +82,7 @@ class Backend:
 
     def first(self, accuracy: float) -> Options:
         """The options tried first for an accuracy in natural units [-]."""
-        return dict(self.attempts(max(accuracy, self.floor))[0])
+        return dict(self.option_sets(max(accuracy, self.floor))[0])
 
     @property
     def to_install(self) -> str:
@@ -103,12 +103,12 @@ By strong convexity ||x - x*||_H^2 <= 2 gap: where a contact just begins to bear
 1e-12 leaves an error of 1e-6 (Clarabel on bunny_grasp: 5e-7; with 1e-14: 6e-8)."""
 
 
-def _clarabel(accuracy: float) -> Attempts:
+def _clarabel(accuracy: float) -> OptionSets:
     feasibility = dict.fromkeys(("tol_feas", "tol_infeas_abs", "tol_infeas_rel"), accuracy)
     gap = dict.fromkeys(("tol_gap_abs", "tol_gap_rel"), GAP * accuracy)
-    # With its default static regularisation of 1e-8 it stops early on 4 of the 600 steps of
+    # With its default static regularisation of 1e-8 it stops early on 4 of the 300 steps of
     # bunny_grasp, whose sticking patches have many dependent rows. With 1e-10 or 1e-12 it solves
-    # them, but fails on single steps of other scenes, never on the same ones: three attempts.
+    # them, but fails on single steps of other scenes, never on the same ones: all three are tried.
     return tuple(
         feasibility
         | gap
@@ -118,22 +118,23 @@ def _clarabel(accuracy: float) -> Attempts:
     )
 
 
-def _osqp(accuracy: float) -> Attempts:
+def _osqp(accuracy: float) -> OptionSets:
     # No polishing: it prints to standard output, and improves none of the worst answers.
     common = {"eps_abs": accuracy, "eps_rel": 0.0, "max_iter": 50_000, "polishing": False}
     common |= {"eps_prim_inf": accuracy, "eps_dual_inf": accuracy, "verbose": False}
-    # In natural units a fixed rho of about one suits nearly all steps (all but 11 of the 600 of
-    # bunny_grasp), where the adaptive one, which may run away to 1e6, leaves 34 unsolved.
+    # In natural units a fixed rho of about one suits nearly all steps (of bunny_grasp with and
+    # without torsion all but 11 of 600), where the adaptive one, which may run away to 1e6, leaves
+    # 34 unsolved.
     fixed = common | {"adaptive_rho": False, "rho": 0.3}
     return (fixed, common | {"adaptive_rho": True}, fixed | {"eps_abs": 10 * accuracy})
 
 
-def _piqp(accuracy: float) -> Attempts:
+def _piqp(accuracy: float) -> OptionSets:
     # eps_abs alone leaves the duality gap at 1e-8: it must be set by name.
     feasibility = dict.fromkeys(("eps_abs", "eps_rel"), accuracy)
     gap = dict.fromkeys(("eps_duality_gap_abs", "eps_duality_gap_rel"), GAP * accuracy)
     # With less regularisation than it comes with, its worst error on bunny_grasp falls from
-    # 7e-8 to 4e-10.
+    # 7e-8 to 2e-10.
     regularisation = {"reg_lower_limit": 1e-13, "reg_finetune_lower_limit": 1e-15}
     common = feasibility | regularisation | {"check_duality_gap": True, "max_iter": 500}
     # With so little regularisation it stalls at single steps of a heap; its defaults solve them.
@@ -149,7 +150,7 @@ def at_accuracy(*names: str, **others: Any) -> Callable[[float], Options]:
     return lambda accuracy: dict.fromkeys(names, accuracy) | others
 
 
-def _once(options: Callable[[float], Options]) -> Callable[[float], Attempts]:
+def _once(options: Callable[[float], Options]) -> Callable[[float], OptionSets]:
     return lambda accuracy: (options(accuracy),)
 
 
@@ -162,7 +163,7 @@ _daqp = at_accuracy("primal_tol", "dual_tol")
 _qpalm = at_accuracy("eps_abs", eps_rel=0.0, max_iter=20_000)
 
 
-def _highs(accuracy: float) -> Attempts:
+def _highs(accuracy: float) -> OptionSets:
     tight = ("primal_feasibility_tolerance", "dual_feasibility_tolerance")
     refuses_less = max(accuracy, 1e-10)
     return (dict.fromkeys(tight, refuses_less) | {"time_limit": 5.0},)  # it can loop

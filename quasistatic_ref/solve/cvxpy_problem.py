@@ -30,10 +30,10 @@ class CvxpyProblem(StepProblem):
         super().__init__(template)
         if template.cone != PYRAMID:
             self.contact_rows = cone(template.cone).constraints(self.contact_motion, template.mask)
-        A_x = cp.Parameter(template.extra.A.shape, "A_x")
-        b_x = cp.Parameter(template.extra.b.shape, "b_x")
-        self.parameters |= {"A_x": A_x, "b_x": b_x}
-        self.extra = [A_x @ self.delta_q >= b_x] if template.extra.names else []
+        A_extra = cp.Parameter(template.extra.A.shape, "A_extra")
+        b_extra = cp.Parameter(template.extra.b.shape, "b_extra")
+        self.parameters |= {"A_extra": A_extra, "b_extra": b_extra}
+        self.extra = [A_extra @ self.delta_q >= b_extra] if template.extra.names else []
         objective = self.problem.objective
         for cost in costs(self):
             objective += cp.Minimize(cost)
@@ -51,8 +51,8 @@ class CvxpyProblem(StepProblem):
             If the step is of another kind, naming what differs.
         """
         super().fill(step)
-        self.parameters["A_x"].value = step.extra.A
-        self.parameters["b_x"].value = step.extra.b
+        self.parameters["A_extra"].value = step.extra.A
+        self.parameters["b_extra"].value = step.extra.b
 
     def primal(self) -> Array:
         """delta_q of the last solve, shape (n_v,)."""

@@ -16,9 +16,9 @@ from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, ste
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import NONE, check_certify
-from quasistatic_ref.solve.natural_step import NaturalStep, out_of_range
+from quasistatic_ref.solve.both_units import StepInBothUnits, out_of_range
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
-from quasistatic_ref.solve.units import from_natural, in_natural
+from quasistatic_ref.solve.units import in_natural, in_si
 from quasistatic_ref.step.arrays import Array, finite, without_warnings
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import StepData
@@ -113,33 +113,33 @@ def solve_step(
         solver.check(step)
     else:
         solver = solver_for(step, solver, fast)
-    scaled = without_warnings(solver.scaled, step)
-    return without_warnings(solved, scaled, solver, accuracy, certify)
+    both = without_warnings(solver.in_both_units, step)
+    return without_warnings(solved, both, solver, accuracy, certify)
 
 
-def solved(scaled: NaturalStep, solver: Solver, accuracy: float, certify: str) -> StepSolution:
-    """The optimum of a step that fits a solver, from the step in natural units.
+def solved(both: StepInBothUnits, solver: Solver, accuracy: float, certify: str) -> StepSolution:
+    """The optimum of a step that fits a solver, from the step in both units.
 
     It is called :func:`~quasistatic_ref.step.arrays.without_warnings`.
 
     Parameters
     ----------
-    scaled : NaturalStep
+    both : StepInBothUnits
     solver, accuracy, certify
         As of :func:`solve_step`, and its errors.
     """
     if certify != "off":
         check_arithmetic()
     if certify == "full":
-        solution = _certified(scaled, solver, accuracy)
+        solution = _certified(both, solver, accuracy)
     else:
-        solution = uncertified(scaled, solver, solver.answer(scaled, accuracy), certify)
+        solution = uncertified(both, solver, solver.answer(both, accuracy), certify)
     residuals = [*solution.certificate.residuals.values()]
     good = finite(np.concatenate([solution.delta_q, solution.lam, solution.lam_extra, residuals]))
     if certify != "off" or solution.lam_extra.size:
         good = good and (_far_from_largest(solution) or finite(solution.wrench.ravel()))
     if not good:
-        raise out_of_range(scaled.step)
+        raise out_of_range(both.si_step)
     return solution
 
 
@@ -150,54 +150,54 @@ def _far_from_largest(solution: StepSolution) -> bool:
     return bool(solution.step.h > 1 / LARGE and np.vdot(mu, mu) + np.vdot(lam, lam) < LARGE)
 
 
-def _certified(scaled: NaturalStep, solver: Solver, accuracy: float) -> StepSolution:
+def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSolution:
     """The proved optimum; if the backend fails, the exact method starts cold: the same answer."""
-    step = scaled.step
-    units = scaled.units
-    kind = cone(step.cone)
-    answer, statistics = _attempt(scaled, solver, accuracy)
+    step = both.si_step
+    units = both.units
+    friction_cone = cone(step.cone)
+    answer, statistics = _answer_and_statistics(both, solver, accuracy)
     begin = time.perf_counter()
-    answered = None
+    si_answer = None
     if answer is not None:
-        answered = from_natural(answer.delta_q, answer.lam, units)
-    certify: Callable[..., Certificate]
-    if isinstance(kind, CurvedCone):
-        optimum = kind.optimum(step, answered)
+        si_answer = in_si(answer.natural_delta_q, answer.natural_lam, units)
+    certificate_of: Callable[..., Certificate]
+    if isinstance(friction_cone, CurvedCone):
+        optimum = friction_cone.optimum(step, si_answer)
         if optimum is None:
             if answer is not None:
-                return uncertified(scaled, solver, answer, "residual")
+                return uncertified(both, solver, answer, "residual")
             status = f"{statistics.status}; and no answer strictly inside of all cones was found"
             raise StepNotSolved(solver.name, status, step, accuracy)
         check_length(step, optimum.delta_q, group_steps(step))
-        certify = kind.certificate
+        certificate_of = friction_cone.certificate
     else:
-        optimum = solver.optimum(scaled, answer)
-        certify = exact_certificate
+        optimum = solver.optimum(both, answer)
+        certificate_of = exact_certificate
     delta_q = optimum.delta_q
     lam = optimum.lam
-    if answered is not None:
-        norm = solver.norm(scaled)
-        error = norm.displacement(answered[0] - delta_q)
-        of_free = norm.impulse(scaled.form.g)
-        statistics = statistics._replace(digits=relative_digits(error, of_free))
-    residuals = vars(scaled.residuals(*in_natural(delta_q, lam, units)))
+    if si_answer is not None:
+        norm = solver.norm(both)
+        error = norm.of_displacement(si_answer[0] - delta_q)
+        free_length = norm.of_impulse(both.si_form.g)
+        statistics = statistics._replace(digits=relative_digits(error, free_length))
+    residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(proof_time=time.perf_counter() - begin)
-    certificate = certify(step, optimum, residuals)
+    certificate = certificate_of(step, optimum, residuals)
     return step_solution(step, delta_q, lam, certificate, statistics, optimum.net)
 
 
-def _attempt(
-    scaled: NaturalStep, solver: Solver, accuracy: float
+def _answer_and_statistics(
+    both: StepInBothUnits, solver: Solver, accuracy: float
 ) -> tuple[NaturalAnswer | None, SolverStatistics]:
-    """A backend's answer, or None and why not."""
+    """A backend's answer, or None, and what it said and cost."""
     statistics = SolverStatistics(
-        solver.name, "not called", None, None, accuracy, engine=solver.engine
+        solver.name, "not called", None, None, accuracy, interface=solver.interface
     )
     if solver.name == NONE:
         return None, statistics
     answer = None
     try:
-        answer = solver.answer(scaled, accuracy)
+        answer = solver.answer(both, accuracy)
         statistics = answer.statistics
     except StepNotSolved as failure:
         statistics = statistics._replace(status=f"failed: {failure.status}", digits=0.0)
@@ -206,17 +206,17 @@ def _attempt(
 
 
 def uncertified(
-    scaled: NaturalStep, solver: Solver, answer: NaturalAnswer, certify: str
+    both: StepInBothUnits, solver: Solver, answer: NaturalAnswer, certify: str
 ) -> StepSolution:
     """A backend's own answer as a solution in SI units.
 
     Parameters
     ----------
-    scaled : NaturalStep
-        Of :meth:`~quasistatic_ref.solve.solver.Solver.scaled`.
+    both : StepInBothUnits
+        Of :meth:`~quasistatic_ref.solve.solver.Solver.in_both_units`.
     solver : Solver
     answer : NaturalAnswer
-        In the natural units of `scaled` [-].
+        In the natural units of `both` [-].
     certify : str
         ``"residual"``: refused if its residuals are not small, and with a bound of its error;
         ``"off"``: not looked at, with a certificate that claims nothing.
@@ -226,28 +226,28 @@ def uncertified(
     StepNotSolved
         If a residual is above ``RESIDUAL_LIMIT`` or not a number.
     """
-    delta_q, lam = from_natural(answer.delta_q, answer.lam, scaled.units)
+    delta_q, lam = in_si(answer.natural_delta_q, answer.natural_lam, both.units)
     certificate = NOTHING_CLAIMED
     statistics = answer.statistics
     if certify != "off":
         begin = time.perf_counter()
-        certificate = _judged(scaled, solver, answer, delta_q, lam)
+        certificate = _judged(both, solver, answer, delta_q, lam)
         statistics = statistics._replace(proof_time=time.perf_counter() - begin)
-    return step_solution(scaled.step, delta_q, lam, certificate, statistics)
+    return step_solution(both.si_step, delta_q, lam, certificate, statistics)
 
 
 def _judged(
-    scaled: NaturalStep, solver: Solver, answer: NaturalAnswer, delta_q: Array, lam: Array
+    both: StepInBothUnits, solver: Solver, answer: NaturalAnswer, delta_q: Array, lam: Array
 ) -> Certificate:
     """The residuals of an answer as it is given, in SI units, and a bound of its error."""
     check_arithmetic()
-    x, y = in_natural(delta_q, lam, scaled.units)  # SI units may have rounded them: subnormals
-    residuals = scaled.residuals(x, y)
+    x, y = in_natural(delta_q, lam, both.units)  # SI units may have rounded them: subnormals
+    residuals = both.natural_residuals(x, y)
     if not residuals.worst <= RESIDUAL_LIMIT:  # NaN fails too
         worst = "NaN" if math.isnan(residuals.worst) else f"{residuals.worst:.1e}"
         status = f"it said {answer.statistics.status}, but its worst residual is {worst}"
         accuracy = answer.statistics.accuracy
-        raise StepNotSolved(solver.name, status, scaled.step, accuracy, residuals)
-    error = solver.error_bound(scaled, delta_q, lam)
+        raise StepNotSolved(solver.name, status, both.si_step, accuracy, residuals)
+    error = solver.error_bound(both, delta_q, lam)
     useful = error if error <= WORTHLESS else None
-    return Certificate("residual", dict(vars(residuals)), error_bound=useful, step=scaled.step)
+    return Certificate("residual", dict(vars(residuals)), error_bound=useful, step=both.si_step)

@@ -1,9 +1,8 @@
 """A solver of steps: one object that holds a compiled problem and says what it is.
 
-It knows its backend (``name``), the interface by which it reaches that
-(``engine``) and the kind of step that its problem was compiled for
-(:meth:`Solver.fits`). Each interface is one class in a file of its own, and :func:`solver_for`
-chooses among them.
+It knows its backend (``name``), by which interface it calls that (``interface``), and the kind of
+step that its problem was compiled for (:meth:`Solver.fits`). Each interface is one class in a file
+of its own, and :func:`solver_for` chooses among them.
 """
 
 import math
@@ -28,7 +27,7 @@ from quasistatic_ref.solve.backends import (
     Options,
     check_backend,
 )
-from quasistatic_ref.solve.natural_step import DenseStep, NaturalStep
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits, StepInBothUnits
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
@@ -48,15 +47,15 @@ class NaturalAnswer:
 
     Parameters
     ----------
-    delta_q : ndarray, shape (n_v,)
+    natural_delta_q : ndarray, shape (n_v,)
         In natural units [-].
-    lam : ndarray, shape (m,)
+    natural_lam : ndarray, shape (m,)
         In natural units [-], contact-major, the user's own rows last.
     statistics : SolverStatistics
     """
 
-    delta_q: Array
-    lam: Array
+    natural_delta_q: Array
+    natural_lam: Array
     statistics: SolverStatistics
 
 
@@ -93,8 +92,8 @@ class Solver(ABC):
 
     Attributes
     ----------
-    engine : str
-        The interface: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
+    interface : str
+        By which the backend is called: ``"cvxpy"``, ``"qpsolvers"``, ``"native"`` or ``"none"``.
     fixed : tuple of str
         What the steps that it solves have in common, of ``KIND`` of ``step/data.py``.
     remembers : bool
@@ -103,7 +102,7 @@ class Solver(ABC):
         Whether its backend may not return from steps whose rows are unlike each other.
     """
 
-    engine: ClassVar[str]
+    interface: ClassVar[str]
     fixed: ClassVar[tuple[str, ...]]
     remembers: ClassVar[bool] = False
 
@@ -111,7 +110,7 @@ class Solver(ABC):
         self.template = template
         self.name = name
         self.unsafe = name.removeprefix(QPSOLVERS) in UNSAFE
-        self._attempts: dict[float, list[OptionSet]] = {}
+        self._option_sets: dict[float, list[OptionSet]] = {}
         self._fitting: StepData | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -136,7 +135,7 @@ class Solver(ABC):
         if not self.fits(step):
             what = ", ".join(self.differences(step))
             problem = f"was made for steps that differ from this one in {what}; make a new solver"
-            raise InputError(problem, field="solver", value=f"{self.name}, {self.engine}")
+            raise InputError(problem, field="solver", value=f"{self.name}, {self.interface}")
 
     def differences(self, step: StepData) -> list[str]:
         """In what of ``fixed`` a step is not like the one that the problem was compiled for."""
@@ -146,11 +145,11 @@ class Solver(ABC):
         """Whether the numbers of a step can be written into the problem."""
         return not self.differences(step)
 
-    def scaled(self, step: StepData) -> NaturalStep:
-        """The step in natural units."""
-        return DenseStep(step)
+    def in_both_units(self, step: StepData) -> StepInBothUnits:
+        """The step in SI units and in natural units."""
+        return DenseStepInBothUnits(step)
 
-    def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum, sought from where an answer shows it to be, or from cold.
 
         It does not depend on the solver. It is asked of the solver only so that one of
@@ -162,33 +161,33 @@ class Solver(ABC):
         """
         warm = []
         if answer is not None:
-            form = scaled.natural_form
-            warm = warm_rows(form.A, answer.lam, form.A @ answer.delta_q - form.b)
-        return step_optimum(scaled.step, warm)
+            form = both.natural_form
+            warm = warm_rows(form.A, answer.natural_lam, form.A @ answer.natural_delta_q - form.b)
+        return step_optimum(both.si_step, warm)
 
-    def norm(self, scaled: NaturalStep) -> Norm:
+    def norm(self, both: StepInBothUnits) -> Norm:
         """The norm ||.||_H of a step, in which errors and lengths are measured."""
-        return energy_norm(scaled.step.H)
+        return energy_norm(both.si_step.H)
 
-    def error_bound(self, scaled: NaturalStep, delta_q: Array, lam: Array) -> float:
+    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units.
 
         Infinite where none is known, as in a curved cone.
         """
-        if not cone(scaled.step.cone).polyhedral:
+        if not cone(both.si_step.cone).polyhedral:
             return math.inf
         bounds = needed_part("large.bound", RESIDUAL)
-        bound: float = bounds.error_bound(scaled.step, delta_q, lam).error
+        bound: float = bounds.error_bound(both.si_step, delta_q, lam).error
         return bound
 
     @abstractmethod
-    def answer(self, scaled: NaturalStep, accuracy: float) -> NaturalAnswer:
+    def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
         """The backend's answer to a step, in natural units; rows out of reach bear no load.
 
         Parameters
         ----------
-        scaled : NaturalStep
-            Of :meth:`scaled`.
+        both : StepInBothUnits
+            Of :meth:`in_both_units`.
         accuracy : float
             In natural units [-].
 
@@ -204,8 +203,8 @@ class BackendSolver(Solver):
     """A solver that writes steps into a problem of a backend, and reads its replies."""
 
     @abstractmethod
-    def write(self, scaled: Any) -> Mask | None:
-        """Write a step in natural units into the problem.
+    def write(self, both: Any) -> Mask | None:
+        """Write a step into the problem, in natural units.
 
         Gaps of contacts out of reach are written smaller than they are: numbers of very different
         size cost solvers digits. Such rows are inactive, and their multipliers are set to zero.
@@ -217,20 +216,23 @@ class BackendSolver(Solver):
         """
 
     @abstractmethod
-    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
+    def reply(self, option_set: OptionSet, both: Any) -> Reply:
         """What the backend says to the problem as it is written."""
 
-    def attempts(self, accuracy: float) -> list[OptionSet]:
+    def option_sets(self, accuracy: float) -> list[OptionSet]:
         """The sets of options for an accuracy in natural units [-], in the order to be tried."""
-        if accuracy not in self._attempts:
+        if accuracy not in self._option_sets:
             entry = BACKENDS[self.name.removeprefix(QPSOLVERS)]
             least = max(accuracy, entry.floor)
-            steps = (1.0,) if cone(self.template.cone).polyhedral else RELAXED
-            tried = [k * least for k in steps]
-            self._attempts[accuracy] = [OptionSet(a, o) for a in tried for o in entry.attempts(a)]
-        return self._attempts[accuracy]
+            factors = (1.0,) if cone(self.template.cone).polyhedral else RELAXED
+            self._option_sets[accuracy] = [
+                OptionSet(k * least, options)
+                for k in factors
+                for options in entry.option_sets(k * least)
+            ]
+        return self._option_sets[accuracy]
 
-    def answer(self, scaled: NaturalStep, accuracy: float) -> NaturalAnswer:
+    def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
         """The answer, by each set of options in turn until one solves the step.
 
         Raises
@@ -238,16 +240,16 @@ class BackendSolver(Solver):
         StepNotSolved
             If none does; or, before any call, if the backend may not return from such rows.
         """
-        if self.unsafe and isinstance(scaled, DenseStep) and not scaled.unlike <= ALIKE:
-            status = f"not called: its rows differ by {scaled.unlike:.0e} in natural units"
-            raise StepNotSolved(self.name, status, scaled.step, accuracy)
-        idle = self.write(scaled)
+        if self.unsafe and isinstance(both, DenseStepInBothUnits) and not both.row_ratio <= ALIKE:
+            status = f"not called: its rows differ by {both.row_ratio:.0e} in natural units"
+            raise StepNotSolved(self.name, status, both.si_step, accuracy)
+        out_of_reach = self.write(both)
         cause: Exception | None = None
-        for attempt in self.attempts(accuracy):
-            tried = attempt.accuracy
+        for option_set in self.option_sets(accuracy):
+            tried = option_set.accuracy
             status = "an answer that is not finite"
             try:
-                reply = self.reply(attempt, scaled)
+                reply = self.reply(option_set, both)
             except Exception as error:  # whatever another package raises
                 status = f"the solver failed: {error}"
                 cause = error
@@ -258,12 +260,19 @@ class BackendSolver(Solver):
             elif reply.x is None or reply.lam is None:
                 status = "an answer without multipliers"
             elif finite(reply.x) and finite(reply.lam):
-                if idle is not None:
-                    reply.lam[: idle.size][idle] = 0.0  # residuals are of the true gap
-                cost = reply.iterations, reply.seconds, tried
-                statistics = SolverStatistics(self.name, "optimal", *cost, None, self.engine)
+                if out_of_reach is not None:
+                    # Residuals are those of the true gap.
+                    reply.lam[: out_of_reach.size][out_of_reach] = 0.0
+                statistics = SolverStatistics(
+                    self.name,
+                    "optimal",
+                    reply.iterations,
+                    reply.seconds,
+                    tried,
+                    interface=self.interface,
+                )
                 return NaturalAnswer(reply.x, reply.lam, statistics)
-        raise StepNotSolved(self.name, status, scaled.step, tried) from cause
+        raise StepNotSolved(self.name, status, both.si_step, tried) from cause
 
 
 class NoSolver(Solver):
@@ -277,12 +286,12 @@ class NoSolver(Solver):
         ``"none"``.
     """
 
-    engine = "none"
+    interface = "none"
     fixed = ()
 
-    def answer(self, scaled: NaturalStep, accuracy: float) -> NaturalAnswer:
+    def answer(self, both: StepInBothUnits, accuracy: float) -> NaturalAnswer:
         """No answer: StepNotSolved."""
-        raise StepNotSolved(self.name, "not called", scaled.step, accuracy)
+        raise StepNotSolved(self.name, "not called", both.si_step, accuracy)
 
 
 def solver_for(step: StepData, name: str | None = None, fast: bool = False) -> Solver:

@@ -8,8 +8,8 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.solve.backends import DEFAULT, Options
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
-from quasistatic_ref.solve.natural_step import DenseStep
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
 from quasistatic_ref.solve.units import within_reach
@@ -43,28 +43,28 @@ class CvxpySolver(BackendSolver):
         Of the backend, without ``qpsolvers:``.
     """
 
-    engine = "cvxpy"
+    interface = "cvxpy"
     fixed = tuple(KIND)
 
     def __init__(self, template: StepData, name: str = DEFAULT) -> None:
         super().__init__(template, name)
         self.problem = CvxpyProblem(template)
 
-    def write(self, scaled: DenseStep) -> Mask:
+    def write(self, both: DenseStepInBothUnits) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
-        natural = scaled.natural
+        natural = both.natural_step
         near = within_reach(natural)
         self.problem.fill(natural)
         self.problem.parameters["phi"].value = near
         return np.repeat(near < natural.contacts.phi, natural.counts)
 
-    def reply(self, attempt: OptionSet, scaled: DenseStep) -> Reply:
+    def reply(self, option_set: OptionSet, both: DenseStepInBothUnits) -> Reply:
         """What the backend says, from a cold start.
 
         Cold, so that a step replayed by itself takes the same path. (PROXQP's interface in CVXPY
         raises TypeError on a second warm start anyway.)
         """
-        return cvxpy_reply(self.problem, self.name, attempt.options, False)
+        return cvxpy_reply(self.problem, self.name, option_set.options, False)
 
 
 def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bool) -> Reply:

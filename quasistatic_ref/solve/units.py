@@ -50,19 +50,19 @@ class Units(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class NaturalHessian:
-    """What natural units take from H alone; a solver keeps it while H is the same.
+class HessianInBothUnits:
+    """H, and what natural units take from it alone; a solver keeps it while H is the same.
 
     Parameters
     ----------
     H : ndarray, shape (n_v, n_v)
     coordinate : ndarray, shape (n_v,)
         Diagonal of S [m or rad, per (N m s)^0.5].
-    inverse : ndarray, shape (n_v, n_v)
+    H_inverse : ndarray, shape (n_v, n_v)
         Of H [m^2/(N m s)].
     squared : ndarray, shape (n_v,)
         Squares of `coordinate` [m^2 or rad^2, per N m s].
-    natural : ndarray, shape (n_v, n_v)
+    natural_H : ndarray, shape (n_v, n_v)
         H in natural units [-].
     usable : bool
         Whether the units of all coordinates are finite and positive.
@@ -70,9 +70,9 @@ class NaturalHessian:
 
     H: Array
     coordinate: Array
-    inverse: Array
+    H_inverse: Array
     squared: Array
-    natural: Array
+    natural_H: Array
     usable: bool
 
     @cached_property
@@ -81,12 +81,14 @@ class NaturalHessian:
         return energy_norm(self.H)
 
 
-def natural_hessian(H: Array) -> NaturalHessian:
-    """What natural units take from H alone, shape (n_v, n_v) [N m s/m^2]."""
+def hessian_in_both_units(H: Array) -> HessianInBothUnits:
+    """H, shape (n_v, n_v) [N m s/m^2], and what natural units take from it alone."""
     coordinate = coordinate_units(np.diag(H))
     usable = bool((np.isfinite(coordinate) & (coordinate > 0)).all())
-    natural = H * np.outer(coordinate, coordinate)
-    return NaturalHessian(H, coordinate, float_inverse(H), coordinate * coordinate, natural, usable)
+    natural_H = H * np.outer(coordinate, coordinate)
+    return HessianInBothUnits(
+        H, coordinate, float_inverse(H), coordinate * coordinate, natural_H, usable
+    )
 
 
 def coordinate_units(diagonal: Array) -> Array:
@@ -108,30 +110,31 @@ def natural_units(step: StepData) -> Units:
         A function of the step alone, so that a step replayed by itself gives the same numbers.
     """
     form = standard_form(step)
-    return units_of(form, natural_hessian(form.H))
+    return units_of(form, hessian_in_both_units(form.H))
 
 
-def squared_lengths(form: StandardForm, of_H: NaturalHessian) -> Array:
+def squared_lengths(form: StandardForm, hessian: HessianInBothUnits) -> Array:
     """Squared lengths of the rows of A S [m^2/(N m s)], shape (m,), ascending; NaN comes last."""
     # Squares and sums are rounded, which is enough to choose a power of two.
-    squares: Array = np.square(form.A).dot(of_H.squared)
+    squares: Array = np.square(form.A).dot(hessian.squared)
     squares.sort()
     return squares
 
 
-def units_of(form: StandardForm, of_H: NaturalHessian) -> Units:
+def units_of(form: StandardForm, hessian: HessianInBothUnits) -> Units:
     """Natural units of a step from its standard form; not finite where its numbers are not.
 
     Parameters
     ----------
     form : StandardForm
-    of_H : NaturalHessian
+    hessian : HessianInBothUnits
     """
-    squares = squared_lengths(form, of_H)
-    power = small_power(form.g * of_H.coordinate)
+    squares = squared_lengths(form, hessian)
+    power = small_power(form.g * hessian.coordinate)
     g = np.ldexp(form.g, -power)
-    energy = math.sqrt(max(float(g.dot(of_H.inverse).dot(g)), 0.0))  # ||H^-1 g||_H
-    return units_from(of_H.coordinate, squares, math.ldexp(energy, power), form.b)
+    square = max(float(g.dot(hessian.H_inverse).dot(g)), 0.0)
+    free_length = math.ldexp(math.sqrt(square), power)  # ||H^-1 g||_H
+    return units_from(hessian.coordinate, squares, free_length, form.b)
 
 
 def small_power(g: Array) -> int:
@@ -147,7 +150,7 @@ def small_power(g: Array) -> int:
     return min(int(np.frexp(np.abs(g).max(initial=0.0))[1]), 0)
 
 
-def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Units:
+def units_from(coordinate: Array, squares: Array, free_length: float, b: Array) -> Units:
     """Natural units from their parts.
 
     Parameters
@@ -156,29 +159,29 @@ def units_from(coordinate: Array, squares: Array, energy: float, b: Array) -> Un
         Diagonal of S [m or rad, per (N m s)^0.5].
     squares : ndarray, shape (m,)
         Squared lengths of the rows of A S [m^2/(N m s)], ascending.
-    energy : float
+    free_length : float
         Length of the unconstrained step in the norm of H, ||H^-1 g||_H [(N m s)^0.5].
     b : ndarray, shape (m,)
     """
-    length = _power_of_two(_typical(squares))
+    length = _power_of_two(_median_length(squares))
     push_out = max(float(b[b.argmax()]), 0.0) / length if b.size else 0.0  # from penetration
-    size = max(energy, push_out)
+    size = max(free_length, push_out)
     if size == 0:  # no load, no penetration: the optimum is zero, and the largest gap the size
         size = -float(b.min(initial=0.0)) / length or STANDSTILL
-    if not math.isfinite(energy + push_out + (squares[-1] if b.size else 0.0)):
+    if not math.isfinite(free_length + push_out + (squares[-1] if b.size else 0.0)):
         size = math.nan
     return Units(coordinate, length, _power_of_two(max(size, SMALLEST)))
 
 
 def natural_form(form: StandardForm, units: Units, H: Array) -> StandardForm:
-    """The same quadratic program in natural units, bit for bit that of :func:`to_natural`.
+    """The same quadratic program in natural units, bit for bit that of :func:`natural_step`.
 
     Parameters
     ----------
     form : StandardForm
     units : Units
     H : ndarray, shape (n_v, n_v)
-        In these units, of :func:`natural_hessian` [-].
+        In these units, of :func:`hessian_in_both_units` [-].
     """
     S = units.coordinate
     ell = units.length
@@ -186,7 +189,7 @@ def natural_form(form: StandardForm, units: Units, H: Array) -> StandardForm:
     return StandardForm(H, form.g * (S / rho), form.A * (S / ell), form.b * (1 / (rho * ell)))
 
 
-def to_natural(step: StepData, units: Units) -> StepData:
+def natural_step(step: StepData, units: Units) -> StepData:
     """The same step in natural units; h, n, d1, d2, mu_v and mu_omega stay as they are.
 
     Raises
@@ -231,8 +234,8 @@ def reach(J: Array) -> Array:
     return np.asarray(FAR * np.maximum(1.0, np.sqrt(np.einsum("cij,cij->c", J, J))))
 
 
-def from_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
-    """delta_q (n_v,) [m, rad] and lam (m,) [N s] from their values in natural units."""
+def in_si(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
+    """delta_q (n_v,) [m, rad] and lam (m,) [N s] in SI units from their values in natural units."""
     S = units.coordinate
     ell = units.length
     rho = units.size
@@ -247,7 +250,7 @@ def in_natural(delta_q: Array, lam: Array, units: Units) -> tuple[Array, Array]:
     return delta_q / (rho * S), lam / (rho / ell)
 
 
-def _typical(squares: Array) -> float:
+def _median_length(squares: Array) -> float:
     """Return the median of lengths that are not zero, from their squares in ascending order."""
     n = len(squares)
     first = 0 if n and squares[0] > 0 else int(squares.searchsorted(0.0, side="right"))

@@ -57,9 +57,9 @@ def friction_rows(contacts: Contacts, name: str = PYRAMID) -> Array:
 def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
     """Eq. :eq:`eq-4` for any columns of J, shape (n_c, 4, w): all of them, or those of blocks."""
     J_n, J_1, J_2, J_w = frame_jacobian(contacts, J)
-    kind = cone(name)
-    mu_v, _, mu_omega = kind.in_rows(contacts.mu).T[:, :, None]
-    rows = kind.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
+    friction_cone = cone(name)
+    mu_v, _, mu_omega = friction_cone.in_rows(contacts.mu).T[:, :, None]
+    rows = friction_cone.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
     return np.array(rows).swapaxes(0, 1)
 
 
@@ -92,9 +92,9 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
         (f_d1, f_d2, f_n, tau_n) on beta's body [N, N m]: a force at the point beta, and a torque
         about n.
     """
-    kind = cone(name)
+    friction_cone = cone(name)
     of_rows = impulses(contacts, lam, name)
-    wrench: Array = wrenches(of_rows, kind.matrix, kind.in_rows(contacts.mu))
+    wrench: Array = wrenches(of_rows, friction_cone.matrix, friction_cone.in_rows(contacts.mu))
     return wrench / h
 
 

@@ -72,9 +72,9 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
     of_rows = np.concatenate([np.repeat(of_contacts, step.counts), of_extra_rows])
     labels = (label, of_contacts, of_extra_rows, of_rows)
     members = []
-    for part in labels:  # which entries have each of the labels `firsts`, ascending
-        order = np.argsort(part, kind="stable")
-        members.append(np.split(order, np.searchsorted(part[order], firsts))[1:])
+    for entries in labels:  # which entries have each of the labels `firsts`, ascending
+        order = np.argsort(entries, kind="stable")
+        members.append(np.split(order, np.searchsorted(entries[order], firsts))[1:])
     return [Group(*parts) for parts in zip(*members, strict=True)]
 
 
@@ -105,10 +105,10 @@ def group_steps(step: StepData) -> list[tuple[Group, StepData]]:
     found = groups(step)
     if len(found) == 1:
         return [(found[0], step)]
-    return [(group, _part(step, group)) for group in found]
+    return [(group, _group_step(step, group)) for group in found]
 
 
-def _part(step: StepData, group: Group) -> StepData:
+def _group_step(step: StepData, group: Group) -> StepData:
     """The step of one group."""
     a, u = split(step, group)
     return StepData(

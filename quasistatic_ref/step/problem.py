@@ -137,17 +137,17 @@ class StepProblem(Shown):
     def check(self, step: StepData) -> None:
         """Refuse a step that is not of this problem's kind; StepDataError, naming what differs."""
         for name in differences(self.template, step):
-            own = KIND[name](self.template)
-            other = KIND[name](step)
-            problem = f"is {own} in this problem; make a problem like this step"
-            raise StepDataError(problem, field=name, value=np.asarray(other).tolist())
+            needed = np.asarray(KIND[name](self.template)).tolist()
+            given = np.asarray(KIND[name](step)).tolist()
+            message = f"must be {needed!r}; make a problem of this step"
+            raise StepDataError(message, field=name, value=given)
 
     def check_kind(self) -> None:
         """Refuse steps that are not the paper's, with StepDataError."""
         cone = self.template.cone
         names = list(self.template.extra.names)
-        elsewhere = "solve/cvxpy_problem.py has what is not in the paper"
+        remedy = "CvxpyProblem of solve/cvxpy_problem.py takes it"
         if cone != PYRAMID:
-            raise StepDataError(f"is not the pyramid; {elsewhere}", field="cone", value=cone)
+            raise StepDataError(f"is not the pyramid; {remedy}", field="cone", value=cone)
         if names:
-            raise StepDataError(f"has a user's own rows; {elsewhere}", field="extra", value=names)
+            raise StepDataError(f"has a user's own rows; {remedy}", field="extra", value=names)

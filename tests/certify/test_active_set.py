@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.certify import active_set
 from quasistatic_ref.certify.active_set import Farkas, Optimum, dual_active_set
-from quasistatic_ref.certify.minimiser import Minimiser, ball_form
+from quasistatic_ref.certify.minimiser import Minimiser, form_in_balls
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 
 
@@ -18,7 +18,7 @@ def program(A, b, g=None):
 
 def point_on(form, working, balls=True):
     """The minimiser on a working set; without balls all signs are those of fractions."""
-    point = Minimiser(form, ball_form(form), tuple(working))
+    point = Minimiser(form, form_in_balls(form), tuple(working))
     if not balls:
         point.__dict__["balls"] = None
     return point

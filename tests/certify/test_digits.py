@@ -46,6 +46,6 @@ def test_norms_neither_underflow_nor_overflow(scale):
     """H = 4: ||H^-1 p||_H = ||p|| / 2, and 3, 4, 5 is a right triangle."""
     norm = energy_norm(4 * np.eye(2))
     p = scale * np.array([3.0, 4.0])
-    assert norm.impulses(p[None]) == pytest.approx([2.5 * scale], rel=ROUNDING)
-    assert norm.impulse(p) == pytest.approx(2.5 * scale, rel=ROUNDING)
-    assert norm.displacement(p) == pytest.approx(10 * scale, rel=ROUNDING)
+    assert norm.of_impulses(p[None]) == pytest.approx([2.5 * scale], rel=ROUNDING)
+    assert norm.of_impulse(p) == pytest.approx(2.5 * scale, rel=ROUNDING)
+    assert norm.of_displacement(p) == pytest.approx(10 * scale, rel=ROUNDING)

@@ -65,6 +65,7 @@ def test_false_proofs_are_refused_with_a_reason():
         (["0"] * 8, "b'y"),
         (["x", *right[1:]], "fractions"),
         (["1/0", *right[1:]], "fractions"),
+        (["1e999999999", *right[1:]], "fractions"),
     ):
         assert reason in farkas_refutation(step, wrong)
     apart = point_between_walls([EAST, WEST], [1e-3, -1e-3])  # x >= -1 mm, -x >= 1 mm: x = -1 mm

@@ -19,7 +19,7 @@ from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.tolerances import IMPULSES
 from tests.certify.test_rational import fraction
 from tests.oracles.random_steps import any_step
-from tests.oracles.rational_kkt import dot, solved
+from tests.oracles.rational_kkt import exact, solved
 from tests.oracles.solution_truth import program
 
 
@@ -37,19 +37,15 @@ def test_gap_and_energies_are_those_of_their_formulas(step, rng):
     # lam's unit: that of an impulse over that of a row; f(x) - d(lam) =
     # 1/2 ||H x - g - A' lam||^2 in the norm of H^-1, plus lam'(A x - b).
     H, g, A, b = program(step)
-    X = [Fraction(v) for v in delta_q.tolist()]
-    Y = [Fraction(v) for v in lam.tolist()]
-    off = [
-        dot(row, X) - g_v - dot(Y, [a[v] for a in A])
-        for v, (row, g_v) in enumerate(zip(H, g, strict=True))
-    ]
-    slack = [dot(row, X) - b_i for row, b_i in zip(A, b, strict=True)]
+    X = exact(delta_q)
+    Y = exact(lam)
+    off = H @ X - g - Y @ A
     unit = fraction(form.net_unit) * fraction(form.x_unit)
-    expected = dot(off, solved(H, off)) / 2 + dot(Y, slack)
+    expected = off @ solved(H, off) / 2 + Y @ (A @ X - b)
     found = duality_gap(form, x, fractions(lam, form.lam_unit))
     assert fraction(found) * unit == expected
-    free = dot(g, solved(H, g)) / 2
-    taken = dot(X, [dot(row, X) for row in H]) / 2
+    free = g @ solved(H, g) / 2
+    taken = X @ H @ X / 2
     assert fraction(free_energy(form)) * unit == free
     assert fraction(energy(form, x)) * unit == taken
     joules = in_joules(form, found)

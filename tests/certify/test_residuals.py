@@ -32,16 +32,6 @@ def test_a_planted_optimum_has_no_residual():
     near(optimality_residuals(standard_form(step), delta_q, lam).worst, 0.0)
 
 
-@pytest.mark.parametrize("k", range(4))
-def test_a_force_too_much_is_the_stationarity_residual_and_no_other(k):
-    step, delta_q, lam = plant()
-    tau_u = step.tau_u.copy()
-    tau_u[k] += SIZE / step.h
-    found = optimality_residuals(standard_form(step.replace(tau_u=tau_u)), delta_q, lam)
-    near(found.stationarity, SIZE)
-    near([found.primal, found.dual, found.complementarity], 0.0)
-
-
 def test_the_user_s_own_rows_are_judged_with_the_others():
     step, delta_q, lam = plant()
     row = np.ones(7)

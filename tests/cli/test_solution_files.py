@@ -99,9 +99,3 @@ def test_an_infeasible_step_s_file_has_the_proof_in_place_of_an_answer(tmp_path)
     assert back.farkas == ("1/3", "0")
     assert back.delta_q is None
     assert back.certificate is None
-
-
-def test_no_timing_enters_the_solution():
-    one, two = (solution_text(solve_step(PLAIN)) for _ in range(2))
-    assert one == two
-    assert "time" not in one

@@ -9,9 +9,7 @@ from quasistatic_ref.step.files import step_written
 from tests.helpers import one_sentence, pinch, point_on_floor
 
 
-def test_verify_says_in_json_that_an_answer_is_false_and_names_a_file_that_is_missing(
-    tmp_path, capsys
-):
+def test_verify_says_that_an_answer_is_false_and_names_a_file_that_is_missing(tmp_path, capsys):
     step = str(step_written(tmp_path / "step.json", point_on_floor(force=(0.5, 0.0, -3.0))))
     false = tmp_path / "false.json"
     assert main(["solve", step, "-o", str(false)]) == 0
@@ -19,6 +17,8 @@ def test_verify_says_in_json_that_an_answer_is_false_and_names_a_file_that_is_mi
     capsys.readouterr()
     assert main(["verify", step, str(false), "--json"]) == 1
     assert json.loads(capsys.readouterr().out)["verified"] is False
+    assert main(["verify", step, str(false)]) == 1
+    assert capsys.readouterr().out.startswith("refuted: delta_q[0] is 1")
     assert main(["verify", step, str(tmp_path / "none.json")]) == 2
     assert one_sentence(capsys.readouterr().err).endswith("none.json: no such file")
 

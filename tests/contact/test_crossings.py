@@ -8,7 +8,7 @@ from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
 from tests.tolerances import ROUNDING
-from validation.make.aligned_poses import FLAT, HALF, UP, Scene, wrong
+from validation.make.forces_by_hand import FLAT, HALF, UP, Scene, wrong
 
 ORIGIN = np.zeros(3)
 STRAIGHT = np.eye(3)
@@ -50,7 +50,7 @@ def test_a_body_whose_centre_is_over_what_touches_rests(name):
     low, top, R, place, least = RESTING[name]
     bodies = [(top, R, np.array(place)), (low, STRAIGHT, ORIGIN)]
     for normals in ({(1, 0): UP}, {(0, 1): -UP}):
-        scene = Scene(bodies, normals, np.zeros((1, 3)))
+        scene = Scene(bodies, normals, np.zeros((1, 6)))
         assert [wrong(scene, k, 0.5) for k in (least, least + 1, 12)] == [""] * 3
 
 

@@ -6,7 +6,8 @@ import pytest
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry, contact_jacobian, tangents
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
-from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud, Sphere
+from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Sphere
+from tests.contact.still import placed
 from tests.scenes import chain_scene
 from tests.tolerances import EXACT, ROUNDING
 
@@ -56,9 +57,9 @@ def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
     system = chain_scene(tmp_path)
     box = system.link("box/box")
     upper = system.link("arm/upper")
-    floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), HalfSpace(Z, 0.0))
-    cloud = PlacedShape("cloud", box, np.eye(3), np.zeros(3), PointCloud(rng.normal(size=(9, 3))))
-    ball = PlacedShape("ball", upper, np.eye(3), np.zeros(3), Sphere(0.1))
+    floor = placed(HalfSpace(Z, 0.0))
+    cloud = placed(PointCloud(rng.normal(size=(9, 3))), box)
+    ball = placed(Sphere(0.1), upper)
     pairs = [
         ContactPair("a", floor, cloud, 0.5, 0.0, 4, 3),
         ContactPair("b", ball, cloud, 0.6, 0.02, 6, 2),

@@ -6,7 +6,8 @@ import pytest
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PlacedShape, PointCloud, Sphere
+from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud, Sphere
+from tests.contact.still import placed
 
 CLOUD = PointCloud(np.eye(3))
 BALL = Sphere(0.1)
@@ -14,10 +15,9 @@ BOX = Box(np.ones(3))
 FLOOR = HalfSpace(np.eye(3)[2], 0.0)
 
 
-def pair(alpha, beta, link_alpha=0, link_beta=1, k=1):
-    a = PlacedShape("a", link_alpha, np.eye(3), np.zeros(3), alpha)
-    b = PlacedShape("b", link_beta, np.eye(3), np.zeros(3), beta)
-    return ContactPair("grip", a, b, 0.5, 0.01, 6, k)
+def pair(alpha, beta, link_alpha=0, link_beta=1, k=1, **more):
+    sides = placed(alpha, link_alpha, name="a"), placed(beta, link_beta, name="b")
+    return ContactPair("grip", *sides, 0.5, 0.01, 6, k, **more)
 
 
 REFUSALS = {
@@ -47,9 +47,7 @@ def test_a_mesh_that_is_not_convex_is_refused_unless_its_hull_will_do():
     dented = convex_hull(np.eye(4)[:, :3], excess=0.2)
     with pytest.raises(ContactError, match=r"the mesh of b is not convex: .* 20 % more; say hull"):
         pair(FLOOR, dented)
-    a = PlacedShape("a", 0, np.eye(3), np.zeros(3), FLOOR)
-    b = PlacedShape("b", 1, np.eye(3), np.zeros(3), dented)
-    assert ContactPair("grip", a, b, 0.5, 0.01, 6, 5, hull=True).n_c == 5
+    assert pair(FLOOR, dented, k=5, hull=True).n_c == 5
 
 
 def test_a_cloud_makes_k_contacts_or_as_many_as_it_has_points():

@@ -4,30 +4,23 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.distance import ClosestPoints, pair_closest_points
-from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
-from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
     Cylinder,
     HalfSpace,
-    PlacedShape,
     Shape,
 )
-from tests.contact.still import found_for, placed, standing
+from tests.contact.still import found_for, pair, placed, standing
 from tests.tolerances import CLOSED_FORM, EXACT
 
 
 def found(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, k: int) -> ClosestPoints:
-    still = Kinematics(np.array([np.eye(3), R]), np.array([np.zeros(3), t]), np.zeros((6, 0)))
-    alpha = PlacedShape("a", 0, np.eye(3), np.zeros(3), a)
-    beta = PlacedShape("b", 1, np.eye(3), np.zeros(3), b)
-    pair = ContactPair("p", alpha, beta, 0.5, 0.0, 4, k)
-    points = pair_closest_points(pair, still.R, still.t)
-    assert len(points.phi) == pair.n_c
+    points = found_for(placed(a), placed(b, 1), standing((R, t)), k)
+    assert len(points.phi) == pair(placed(a), placed(b, 1), k).n_c
     return points
 
 
@@ -112,7 +105,6 @@ def test_a_rims_first_corner_is_the_closest_point_and_repeats_it(seed: int) -> N
 def test_of_two_corners_that_are_one_contact_alpha_s_is_kept() -> None:
     # Two equal cubes, one on the other: the four corners of either's face are in the same places.
     # Alpha's corners are 0 to 7 (binary: x lowest), so that its upper ones are 4 to 7.
-    lower = placed(Box(np.full(3, 0.25)))
-    upper = placed(Box(np.full(3, 0.25)), 1)
-    found = found_for(lower, upper, standing((np.eye(3), np.array([0, 0, 0.5]))), k=4)
-    assert sorted(found.point.tolist()) == [4, 5, 6, 7]
+    cube = Box(np.full(3, 0.25))
+    points = found(cube, cube, np.eye(3), np.array([0, 0, 0.5]), 4)
+    assert sorted(points.point.tolist()) == [4, 5, 6, 7]

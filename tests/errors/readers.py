@@ -247,9 +247,9 @@ def stores(folder: Path) -> dict[str, Reader]:
     def problems(path: Path) -> None:
         set_read(path.parent.parent if path.parent.name == NUMBERS else path.parent)
 
-    study_problems(TestSet(1, {"contacts": 2}, ()), folder, progress=False)
+    study_problems(TestSet(1, {"scenarios": 2}, ("sphere_spin",)), folder, progress=False)
     home = folder / FOLDER
-    numbers = f"{NUMBERS}/contacts.npz"
+    numbers = f"{NUMBERS}/scenarios.npz"
     for file, form in {MANIFEST: spoilt_json, FACTS: spoilt_lines, numbers: spoilt_npz}.items():
         good = (home / file).read_bytes()
         found[f"test set, {file}"] = Reader(f"{FOLDER}/{file}", (good,), form, problems)

@@ -161,7 +161,7 @@ ROUND = changed(
                       "mu_v": 0.2, "mu_omega": 0.1}),
 )  # fmt: skip
 """The same scene with a shape of every other kind in reach of the ball's contacts."""
-AT_THE_ENDS = (5e-324, 1e-160, 1e15, 1.7e308)
+AT_THE_ENDS = (5e-324, -1e-160, 1e15, -1.7e308)
 """A subnormal number, one whose square is 0, the largest that a scenario takes, the largest."""
 
 
@@ -169,15 +169,13 @@ AT_THE_ENDS = (5e-324, 1e-160, 1e15, 1.7e308)
 def test_numbers_at_the_ends_of_the_range_run_or_are_refused_in_a_sentence(tmp_path, field):
     """Any warning of NumPy's, as of an overflow, is an error here."""
     path = scene_written(tmp_path)
-    refusals = []
-    for size in AT_THE_ENDS:
-        for number in (size, -size):
-            path.write_bytes(toml_text(changed(ROUND, ("steps", 1), (field, number))))
-            try:
-                load_scenario(path).run(progress=False)
-            except QuasistaticError as error:
-                refusals.append(str(error))
-    assert all(refusal.isprintable() for refusal in refusals)
+    for number in AT_THE_ENDS:
+        path.write_bytes(toml_text(changed(ROUND, ("steps", 1), (field, number))))
+        try:
+            load_scenario(path).run(progress=False)
+        except QuasistaticError as error:
+            sentence = str(error)
+            assert sentence.isprintable()
 
 
 def test_a_time_step_that_overflows_is_named(tmp_path, refused):

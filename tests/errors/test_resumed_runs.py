@@ -184,7 +184,7 @@ def test_a_run_that_ends_leaves_its_trajectory_and_nothing_else(tmp_path, change
 
 
 @pytest.mark.parametrize(("every", "kept"), [(0.0, True), (3600.0, False)])
-def test_ctrl_c_keeps_the_saved_steps_of_a_run_that_was_long(tmp_path, scene, every, kept, capsys):
+def test_ctrl_c_keeps_the_saved_steps_of_a_run_that_was_long(tmp_path, scene, every, kept):
     scenario = load_scenario(scene, fast=True)
     path = tmp_path / "run.npz"
 

@@ -74,7 +74,7 @@ repetitions = 2
 [problems]
 seed = 3
 scenarios = ["sphere_spin", "stack"]
-families = { scenarios = 4, contacts = 3, gaps = 2 }
+families = { scenarios = 4 }
 [settings.high]
 accuracy = 1e-9
 promised = 4.0

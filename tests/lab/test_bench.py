@@ -11,8 +11,8 @@ from quasistatic_ref.lab.study.bench.derived import MAPPED, STEP
 from quasistatic_ref.lab.study.bench.grasp import bare_daqp, places
 from quasistatic_ref.lab.study.bench.report import promise_rows
 from quasistatic_ref.lab.study.bench.timing import in_turn
-from quasistatic_ref.solve.natural_step import DenseStep
-from quasistatic_ref.solve.units import from_natural
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits
+from quasistatic_ref.solve.units import in_si
 from tests.helpers import error
 from tests.tolerances import ACTIVE_SET
 
@@ -42,7 +42,7 @@ def test_the_interfaces_lead_to_the_same_step(at):
         step = result.step
         delta_q = result.solution.delta_q
         x = bare_daqp(native.solver.program)()[0]
-        alone, _ = from_natural(x, np.zeros(0), DenseStep(step).units)
+        alone, _ = in_si(x, np.zeros(0), DenseStepInBothUnits(step).units)
         assert error(step, alone, delta_q) <= ACTIVE_SET
 
 

@@ -55,7 +55,7 @@ SAMPLE = {
         f"{RATIONAL} exact_friction_rows: mu[:, 2:, None] -> mu[:, 2 + 1:, None]",
         f"{MINIMISER} rational_solution: -a[i] -> a[i]",
         f"{DEPENDENCE} combination: solution[j, 0] -> solution[0, j]",
-        f"{MINIMISER} equality_solution: balls.A * x - balls.b -> balls.A * x + balls.b",
+        f"{MINIMISER} equality_solution: form.A * x - form.b -> form.A * x + form.b",
         f"{ROUNDING} nearest_in: low == high -> low != high",
         f"{EXACT} _rounded: signs == 0 -> signs != 0",
     ),

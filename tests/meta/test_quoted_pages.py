@@ -7,7 +7,7 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.lab.vectors.check.patched import program
 from tests.lab.vectors.material import answer_file, cases
-from tests.quoted import QUOTED, ROOT, flat, held, printed, stale
+from tests.quoted import QUOTED, ROOT, flat, held, outside, printed, stale
 
 PAGES = sorted(
     str(path.relative_to(ROOT)) for path in (ROOT / "README.md", *(ROOT / "docs").rglob("*.md"))
@@ -31,6 +31,11 @@ def text(page):
 def test_every_quoted_number_is_that_of_its_source(page):
     wrong = stale(text(page), held(page))
     assert not wrong, f"{page} ought to read:\n" + "\n".join(wrong)
+
+
+@pytest.mark.parametrize("page", [page for page, own in QUOTED.items() if "given" in own])
+def test_every_number_with_a_unit_has_a_source_or_is_given_by_the_page(page):
+    assert sorted(set(outside(text(page), held(page)))) == QUOTED[page]["given"]
 
 
 def test_every_page_with_printed_text_has_a_test_of_it():
@@ -61,3 +66,8 @@ def test_a_number_that_changed_is_named_with_its_sentence():
     phrases = ["turns by 49.9 degrees in 300 steps"]
     assert stale("It\nturns by 49.9 degrees in 300 steps.", phrases) == []
     assert stale("It turns by 49.8 degrees in 300 steps.", phrases) == phrases
+
+
+def test_a_number_without_a_source_is_found():
+    page = "It turns by 49.9 degrees\nin 300 steps of -0.5 mm.\n```text\n3 N\n```\n"
+    assert outside(page, ["by 49.9 degrees in"]) == ["300 steps", "-0.5 mm"]

@@ -15,13 +15,18 @@ from typing import Any
 import numpy as np
 from flint import fmpz_mat
 
-Vector = list[Fraction]
-Matrix = list[Vector]
-Program = tuple[Matrix, Vector, Matrix, Vector]
+Exact = Any
+"""An array of fractions."""
+Program = tuple[Exact, Exact, Exact, Exact]
 """H, g, A and b."""
 
 
-def solved(M: Matrix, right: Vector) -> Vector:
+def exact(values: Any) -> Exact:
+    """Numbers of float64 as fractions, in an array of the same shape."""
+    return np.frompyfunc(Fraction, 1, 1)(np.asarray(values, dtype=object))
+
+
+def solved(M: Exact, right: Exact) -> Exact:
     """The solution of M x = right: FLINT finds it, and here it is put into the equations.
 
     Raises
@@ -29,52 +34,33 @@ def solved(M: Matrix, right: Vector) -> Vector:
     ArithmeticError
         If M is singular.
     """
-    if not M:
-        return []
-    rows = [whole([*row, value]) for row, value in zip(M, right, strict=True)]
-    found = fmpz_mat([row[:-1] for row in rows]).solve(fmpz_mat([row[-1:] for row in rows]))
+    if not len(M):
+        return exact([])
+    both = np.column_stack([M, right])
+    rows = np.array([whole(row) for row in both], dtype=object)
+    found = fmpz_mat(rows[:, :-1].tolist()).solve(fmpz_mat(rows[:, -1:].tolist()))
     x = [Fraction(int(v.p), int(v.q)) for v in found.entries()]
     *parts, unit = whole([*x, Fraction(1)])
-    for *row, value in rows:
-        assert sum(a * part for a, part in zip(row, parts, strict=True)) == value * unit
-    return x
+    assert not any(rows @ np.array([*parts, -unit], dtype=object))
+    return exact(x)
 
 
-def whole(row: Vector) -> list[int]:
+def whole(row: Sequence[Fraction]) -> list[int]:
     """A row times the least number that makes it whole."""
     common = math.lcm(*(v.denominator for v in row))
     return [v.numerator * (common // v.denominator) for v in row]
 
 
-def dot(u: Vector, v: Vector) -> Fraction:
-    """The scalar product of two vectors."""
-    return sum((a * b for a, b in zip(u, v, strict=True)), Fraction(0))
-
-
-def exact(values: Any) -> Any:
-    """Float64 numbers as fractions, in nested lists."""
-    if isinstance(values, np.ndarray):
-        values = values.tolist()
-    return [exact(v) for v in values] if isinstance(values, list) else Fraction(values)
-
-
-def slacks(of: Program, x: Vector) -> Vector:
-    """A x - b."""
-    return [dot(row, x) - b for row, b in zip(of[2], of[3], strict=True)]
-
-
-def on_rows(of: Program, working: Sequence[int]) -> tuple[Vector, Vector]:
+def on_rows(of: Program, working: Sequence[int]) -> tuple[Exact, Exact]:
     """The minimiser on A_i x = b_i of a working set, and its multipliers."""
     H, g, A, b = of
-    n = len(g)
-    k = len(working)
-    K = [[*H[v], *(-A[i][v] for i in working)] for v in range(n)]
-    K += [[*A[i], *[Fraction(0)] * k] for i in working]
-    both = solved(K, [*g, *(b[i] for i in working)])
-    return both[:n], both[n:]
+    W = list(working)
+    none = np.zeros((len(W), len(W)), dtype=int)
+    both = solved(np.block([[H, -A[W].T], [A[W], none]]), np.append(g, b[W]))
+    return both[: len(g)], both[len(g) :]
 
 
-def proved(of: Program, working: Sequence[int]) -> tuple[Vector, Vector, Vector]:
+def proved(of: Program, working: Sequence[int]) -> tuple[Exact, Exact, Exact]:
     """The optimum, its multipliers on a working set, and all slacks.
 
     Raises
@@ -83,7 +69,7 @@ def proved(of: Program, working: Sequence[int]) -> tuple[Vector, Vector, Vector]
         If the optimum is not that of the working set.
     """
     x, lam = on_rows(of, working)
-    slack = slacks(of, x)
+    slack = of[2] @ x - of[3]
     if min([*lam, *slack], default=0) < 0:
         raise ArithmeticError("a multiplier or a slack is negative")
     return x, lam, slack
@@ -108,10 +94,10 @@ def refutation(
     exact_x, exact_lam = on_rows(of, W)
     if min(exact_lam, default=1) <= 0:
         return "a multiplier is not positive"
-    exact_slack = slacks(of, exact_x)
+    exact_slack = of[2] @ exact_x - of[3]
     if min(exact_slack, default=0) < 0:
         return "a row is violated"
-    exact_net = [dot(exact_lam, [of[2][i][v] for i in W]) for v in range(len(g))]
+    exact_net = exact_lam @ of[2][W]
     pairs = {"x": (exact_x, x), "net": (exact_net, net), "slack": (exact_slack, slack),
              "lam": (exact_lam, lam[W])}  # fmt: skip
     for name, (value, said) in pairs.items():
@@ -126,11 +112,11 @@ def farkas_refutation(A: np.ndarray, b: np.ndarray, y: Mapping[Any, str]) -> str
     It does if y > 0, A'y = 0 and b'y > 0: then 0 = (A'y)'x >= b'y > 0 for any x.
     """
     rows = [int(i) for i in y]
-    weights = [Fraction(value) for value in y.values()]
+    weights = exact(list(y.values()))
     if min(weights) <= 0:
         return "a weight is not positive"
-    if any(dot(weights, exact(column)) for column in A[rows].T):
+    if any(weights @ exact(A[rows])):
         return "A'y is not zero"
-    if dot(weights, exact(b[rows])) <= 0:
+    if weights @ exact(b[rows]) <= 0:
         return "b'y is not positive"
     return None

@@ -1,6 +1,6 @@
 """What a solution file claims, decided by fractions from the equations: the judge of forgeries.
 
-H, g, A and b are formed by plain loops, which no rounding and no line of the core enters, from the
+H, g, A and b are formed in fractions, which no rounding and no line of the core enters, from the
 plain program's table of each cone. The optimum of a polyhedral cone is proved from the working set
 that a file or the package names: all multipliers and slacks are at least zero. In the ellipsoid
 the package encloses it to 40 digits.
@@ -13,6 +13,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 from flint import arb
 
 from quasistatic_ref.certify.active_set import Farkas
@@ -21,17 +22,7 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.program.rows import cone_table
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, point
 from quasistatic_ref.step.data import StepData
-from tests.oracles.rational_kkt import (
-    Matrix,
-    Program,
-    Vector,
-    dot,
-    exact,
-    on_rows,
-    proved,
-    slacks,
-    solved,
-)
+from tests.oracles.rational_kkt import Exact, Program, exact, on_rows, proved, solved
 
 Json = Any
 
@@ -47,56 +38,47 @@ ROUNDING = 1 + Fraction(1, 10**30)
 """The optimum in the ellipsoid is known to 40 digits here."""
 
 
-def combinations(step: StepData) -> list[Matrix]:
+def combinations(step: StepData) -> list[Exact]:
     """Of each contact: what its rows take of n, d1, d2 and spin, with the friction coefficients."""
     c = step.contacts
-    one = Fraction(1)
     if step.cone == "ellipsoid":
-        return [[[Fraction(i == k) for k in range(4)] for i in range(4)]] * c.n_c
-    return [
-        [[one, mu * along_1, mu * along_2, omega * spin]
-         for along_1, along_2, spin in cone_table(step.cone, rows, 1).tolist()]
-        for mu, omega, rows in zip(exact(c.mu_v), exact(c.mu_omega), c.rows, strict=True)
-    ]  # fmt: skip
+        return [np.eye(4, dtype=int)] * c.n_c
+    found = []
+    for mu, omega, rows in zip(exact(c.mu_v), exact(c.mu_omega), c.rows, strict=True):
+        table = exact(cone_table(step.cone, rows, 1))
+        found.append(np.insert(table * [mu, mu, omega], 0, Fraction(1), axis=1))
+    return found
 
 
 def program(step: StepData) -> Program:
     """H, g, A and b, without rounding."""
     h = Fraction(step.h)
     n_a = step.n_a
-    n = step.n_v
     K = exact(step.K_q)
-    M = exact(step.M_u)
-    H = [[Fraction(0)] * n for _ in range(n)]
-    for i in range(n):
-        for j in range(n):
-            if i < n_a and j < n_a:
-                H[i][j] = h * K[i][j]
-            elif i >= n_a and j >= n_a:
-                H[i][j] = M[i - n_a][j - n_a] / h
-    springs = [dot(row, exact(step.delta_q_bar_a)) for row in K]
-    g = [h * (k + tau) for k, tau in zip(springs, exact(step.tau_a), strict=True)]
-    g += [h * tau for tau in exact(step.tau_u)]
+    H = np.zeros((step.n_v, step.n_v), dtype=object)
+    H[:n_a, :n_a] = h * K
+    H[n_a:, n_a:] = exact(step.M_u) / h
+    tau_k = K @ exact(step.delta_q_bar_a)
+    g = h * np.append(tau_k + exact(step.tau_a), exact(step.tau_u))
     A = []
     b = []
     c = step.contacts
     for j, rows in enumerate(combinations(step)):
         J = exact(c.J[j])
-        axes = [exact(axis[j]) for axis in (c.n, c.d1, c.d2)]
-        motion = [[dot(axis, [J[r][v] for r in range(3)]) for v in range(n)] for axis in axes]
-        motion.append(J[3])
-        for row in rows:
-            A.append([dot(row, [motion[k][v] for k in range(4)]) for v in range(n)])
-            b.append(-row[0] * exact(c.phi)[j])
-    return H, g, A + exact(step.extra.A), b + exact(step.extra.b)
+        motion = np.vstack([exact([c.n[j], c.d1[j], c.d2[j]]) @ J[:3], J[3:]])
+        A.append(rows @ motion)
+        b.append(-rows[:, 0] * Fraction(c.phi[j]))
+    A.append(exact(step.extra.A).reshape(-1, step.n_v))
+    b.append(exact(step.extra.b))
+    return H, g, np.vstack(A), np.concatenate(b)
 
 
 def wrenches(step: StepData, lam: list[list[float]]) -> list[list[float]]:
     """(f_d1, f_d2, f_n, tau_n) of each contact from its multipliers, rounded once."""
     found = []
     for rows, impulses in zip(combinations(step), lam, strict=True):
-        parts = [dot([row[k] for row in rows], exact(impulses)) for k in (1, 2, 0, 3)]
-        found.append([rounded(part / Fraction(step.h)) for part in parts])
+        forces = exact(impulses) @ rows[:, [1, 2, 0, 3]] / Fraction(step.h)
+        found.append([rounded(part) for part in forces])
     return found
 
 
@@ -123,7 +105,7 @@ def truth_of(step: StepData, good: Json) -> Callable[[Json], bool]:
 
     def _holds(forged: Json) -> bool:
         if kind == "infeasible":
-            return proof(step, [Fraction(text) for text in forged["farkas"]])
+            return proof(step, exact(forged["farkas"]))
         if judged is None or forged["wrench"] != wrenches(step, forged["lam"]):
             return judged is None
         claims = forged["certificate"]
@@ -161,49 +143,50 @@ class Judge:
     """
 
     def __init__(self, step: StepData, good: Json) -> None:
-        self.H, self.g, self.A, self.b = program(step)
-        self.free = dot(self.g, solved(self.H, self.g))
+        self.program = program(step)
+        H, g, _, _ = self.program
+        self.free = g @ solved(H, g)
         self.x = self._optimum(step, good["certificate"])
-        taken = dot(self.x, [dot(row, self.x) for row in self.H])
+        taken = self.x @ H @ self.x
         self.rounding = Fraction(1e-9) * (self.free + taken) / 2 * ROUNDING
 
-    def _optimum(self, step: StepData, claims: Json) -> Vector:
+    def _optimum(self, step: StepData, claims: Json) -> Exact:
         if claims["kind"] == "enclosure":
             found = checked_pair(step, arb(2) ** -280, 1536)
             unit = exact_form(step).x_unit
             assert found is not None
             scaled = [v * unit for v in point(found)]
-            return [Fraction(int(v.p), int(v.q)) for v in scaled]
+            return exact([Fraction(int(v.p), int(v.q)) for v in scaled])
         if claims["kind"] == "exact":  # where every loaded contact sticks
             working = [4 * j + i for j, i in claims["active"]]
-            return on_rows((self.H, self.g, self.A, self.b), working)[0]
+            return on_rows(self.program, working)[0]
         end = form_optimum(exact_form(step))
         working = () if isinstance(end, Farkas) else end.working_set  # () violates a row
-        return proved((self.H, self.g, self.A, self.b), working)[0]
+        return proved(self.program, working)[0]
 
-    def lam(self, record: Json) -> Vector:
+    def lam(self, record: Json) -> Exact:
         """All multipliers of a record, the user's own rows last."""
         return exact([v for part in record["lam"] for v in part] + record["lam_extra"])
 
     def off(self, record: Json) -> Fraction:
         """The square of the error of delta_q."""
-        away = [Fraction(v) - x_v for v, x_v in zip(record["delta_q"], self.x, strict=True)]
-        return dot(away, [dot(row, away) for row in self.H]) / self.free
+        away = exact(record["delta_q"]) - self.x
+        off: Fraction = away @ self.program[0] @ away / self.free
+        return off
 
     def gap(self, record: Json) -> Fraction:
         """f(x*) - d(lam) [N m s]."""
+        H, g, A, b = self.program
         lam = self.lam(record)
-        push = [dot(lam, [row[v] for row in self.A]) for v in range(len(self.g))]
-        left = [dot(row, self.x) - g - p for row, g, p in zip(self.H, self.g, push, strict=True)]
-        slack = slacks((self.H, self.g, self.A, self.b), self.x)
-        return dot(left, solved(self.H, left)) / 2 + dot(lam, slack)
+        left = H @ self.x - g - lam @ A
+        gap: Fraction = left @ solved(H, left) / 2 + lam @ (A @ self.x - b)
+        return gap
 
 
-def proof(step: StepData, y: Vector) -> bool:
+def proof(step: StepData, y: Exact) -> bool:
     """Whether y proves that a step has no solution."""
-    _, g, A, b = program(step)
-    balanced = not any(dot(y, [row[v] for row in A]) for v in range(len(g)))
-    return min(y) >= 0 and balanced and dot(y, b) > 0
+    _, _, A, b = program(step)
+    return bool(min(y) >= 0 and not any(y @ A) and y @ b > 0)
 
 
 def _fixed(record: Json, kind: str) -> Json:
@@ -215,7 +198,7 @@ def _fixed(record: Json, kind: str) -> Json:
     return kept
 
 
-def _inside(step: StepData, lam: Vector) -> bool:
+def _inside(step: StepData, lam: Exact) -> bool:
     """Whether impulses (n, d1, d2, spin) are inside of their cones."""
     for j, mu in enumerate(exact(step.contacts.mu)):
         f_n, *f = lam[4 * j : 4 * j + 4]

@@ -6,7 +6,7 @@ import pytest
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, error, point_on_floor, random_step
-from tests.tolerances import ACTIVE_SET, EXACT
+from tests.tolerances import ACTIVE_SET
 
 STEPS = [random_step(np.random.default_rng(seed), rows=(6, 4, 6)) for seed in range(4)]
 EIGHTH = np.pi / 4
@@ -21,42 +21,16 @@ def turned(step, angle):
     return step.replace(contacts=changed(step.contacts, d1=c * d1 + s * d2, d2=c * d2 - s * d1))
 
 
-def quarter(step):
-    """The same, by a quarter turn without rounding."""
-    contacts = step.contacts
-    return step.replace(contacts=changed(contacts, d1=contacts.d2, d2=-contacts.d1))
-
-
-def largest_change(cone, turn):
-    """The largest error of an answer with turned tangents against the one without, of the steps."""
-    changes = []
-    for step in (step.replace(cone=cone) for step in STEPS):
-        one, two = (solve_step(s, "none").delta_q for s in (step, turn(step)))
-        changes.append(error(step, two, one))
-    return max(changes)
-
-
-@pytest.mark.parametrize("name", ["pyramid", "product", "facets-4", "facets-12", "frictionless"])
-def test_a_quarter_turn_of_the_tangents_leaves_the_bits(name):
-    # The same rows in another order.
-    assert largest_change(name, quarter) == EXACT
-
-
 @pytest.mark.parametrize(
     ("name", "angle"),
     [("facets-8", EIGHTH), ("facets-64", EIGHTH), ("frictionless", 0.3), ("ellipsoid", 1.0)],
 )
 def test_a_turn_that_maps_a_cone_to_itself_leaves_the_answer(name, angle):
     # Turned tangents are rounded, cosines of the table too: answers differ by conditioning alone.
-    assert largest_change(name, lambda step: turned(step, angle)) < ACTIVE_SET
-
-
-@pytest.mark.parametrize(
-    ("name", "angle"),
-    [("pyramid", EIGHTH), ("product", EIGHTH), ("facets-12", EIGHTH), ("facets-6", np.pi / 2)],
-)
-def test_a_turn_that_changes_a_cone_changes_the_answer(name, angle):
-    assert largest_change(name, lambda step: turned(step, angle)) > 1e-4
+    for step in STEPS:
+        one = step.replace(cone=name)
+        expected = solve_step(one, "none").delta_q
+        assert error(step, solve_step(turned(one, angle), "none").delta_q, expected) < ACTIVE_SET
 
 
 def optimal_value(step, delta_q):

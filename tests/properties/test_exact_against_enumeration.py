@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import form_optimum
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
-from tests.oracles.rational_kkt import dot, exact
+from tests.oracles.rational_kkt import exact
 
 PROBLEMS = 320
 
@@ -41,27 +41,27 @@ class Enumeration:
         self.A, self.b, self.m, self.n = A, b, len(b), len(g)
         identity = [[Fraction(int(i == j)) for j in range(self.n)] for i in range(self.n)]
         self.H_inv = eliminated(H, identity)
-        self.free = [dot(row, g) for row in self.H_inv]
-        self.reach = [[dot(row, a) for row in self.H_inv] for a in A]
+        self.free = [np.dot(row, g) for row in self.H_inv]
+        self.reach = [[np.dot(row, a) for row in self.H_inv] for a in A]
         self.x = None
         self.vertices = []
         for k in range(min(self.n, self.m) + 1):
             for W in combinations(range(self.m), k):
                 self._try(W)
         if self.x is not None:
-            self.slack = [dot(a, self.x) - b_i for a, b_i in zip(A, b, strict=True)]
+            self.slack = [np.dot(a, self.x) - b_i for a, b_i in zip(A, b, strict=True)]
             self._degeneracy()
 
     def _try(self, W):
-        S = [[dot(self.A[i], self.reach[j]) for j in W] for i in W]
-        lam_w = eliminated(S, [[self.b[i] - dot(self.A[i], self.free)] for i in W])
+        S = [[np.dot(self.A[i], self.reach[j]) for j in W] for i in W]
+        lam_w = eliminated(S, [[self.b[i] - np.dot(self.A[i], self.free)] for i in W])
         if lam_w is None or any(v[0] < 0 for v in lam_w):
             return
         lam = [Fraction(0)] * self.m
         for i, (v,) in zip(W, lam_w, strict=True):
             lam[i] = v
         x = [f + sum(lam[i] * self.reach[i][v] for i in W) for v, f in enumerate(self.free)]
-        if all(dot(a, x) >= b_i for a, b_i in zip(self.A, self.b, strict=True)):
+        if all(np.dot(a, x) >= b_i for a, b_i in zip(self.A, self.b, strict=True)):
             assert self.x in (None, x)
             self.x = x
             if lam not in self.vertices:
@@ -74,8 +74,8 @@ class Enumeration:
         for k in range(1, len(Z) + 1):
             for C in combinations(Z, k):
                 first, rest = C[0], C[1:]  # a_first = -sum d_i a_i, rest independent
-                gram = [[dot(self.A[i], self.A[j]) for j in rest] for i in rest]
-                d = eliminated(gram, [[-dot(self.A[i], self.A[first])] for i in rest])
+                gram = [[np.dot(self.A[i], self.A[j]) for j in rest] for i in rest]
+                d = eliminated(gram, [[-np.dot(self.A[i], self.A[first])] for i in rest])
                 if d is None or any(v[0] < 0 for v in d):
                     continue
                 terms = [
@@ -129,7 +129,7 @@ def small_problem(seed):
 
 
 def enumeration_of(H, g, A, b):
-    return Enumeration([exact(r) for r in H], exact(g), [exact(r) for r in A], exact(b))
+    return Enumeration(exact(H), exact(g), exact(A), exact(b))
 
 
 def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
@@ -151,13 +151,13 @@ def test_exact_optimum_agrees_with_the_enumeration_of_all_working_sets():
                 for i, v in found.y.items():
                     y[i] = Fraction(int(v.p), int(v.q))
                 assert all(v >= 0 for v in y), seed
-                assert all(dot(y, exact(column)) == 0 for column in A.T), seed
-                assert dot(y, exact(b)) > 0, seed
+                assert all(np.dot(y, exact(column)) == 0 for column in A.T), seed
+                assert np.dot(y, exact(b)) > 0, seed
                 continue
             assert not isinstance(found, Farkas), seed
             assert found.delta_q.tolist() == [float(v) for v in truth.x], seed
             assert found.slack.tolist() == [float(v) for v in truth.slack], seed
-            net = [dot(truth.vertices[0], exact(column)) for column in A.T]
+            net = [np.dot(truth.vertices[0], exact(column)) for column in A.T]
             assert found.net.tolist() == [float(v) for v in net], seed
             vertices = [[float(v) for v in lam] for lam in truth.vertices]
             assert found.lam.tolist() in vertices, seed

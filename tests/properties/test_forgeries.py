@@ -12,7 +12,6 @@ from quasistatic_ref.cli.solution_files import solution_read, solution_text
 from quasistatic_ref.cli.verify import refutation
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone
-from tests.oracles import forgeries
 from tests.oracles.forged_scenes import between_walls, scenes
 from tests.oracles.forgeries import at_random, good_file, outcomes, refused
 from tests.oracles.records import places
@@ -75,14 +74,6 @@ def test_every_kind_and_every_claim_of_a_certificate_is_forged():
             in_files |= set(names)
     in_memory = {"residuals", "step"}
     assert in_files | in_memory == {field.name for field in fields(Certificate)}
-
-
-def test_the_forger_notices_a_verification_that_believes_everything(monkeypatch, path):
-    step = SCENES["exact", "touches, but bears nothing"]
-    good = good_file(step, "exact")
-    monkeypatch.setattr(forgeries, "refutation", lambda *_: None)
-    said = Counter(said for _, said, _ in outcomes(step, good, path))
-    assert said["PASSED"] > 50
 
 
 def forged(step, path, **changes):

@@ -9,7 +9,6 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.fast.tracker import ball_tree
 from quasistatic_ref.optional.fast.tracker import tracker as following
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
@@ -21,10 +20,10 @@ from quasistatic_ref.shapes.placed_shape import (
     Cylinder,
     Ellipsoid,
     HalfSpace,
-    PlacedShape,
     PointCloud,
     Sphere,
 )
+from tests.contact.still import pair, placed, standing
 from tests.tolerances import EXACT
 
 WEDGE = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2], [0.2, 0.2, 0.1]])
@@ -87,16 +86,15 @@ def scene(names, kinds, rng, N, k):
     pairs = []
     for i, (name, kind) in enumerate(zip(names, kinds, strict=True)):
         R = Rotation.random(rng=rng).as_matrix() if i % 2 else np.eye(3)
-        solid = PlacedShape(name, 1 + i, R, rng.uniform(-0.1, 0.1, size=3) * (i % 2), SHAPES[name])
-        points = PointCloud(cloud(kind, N, rng))
-        some = PlacedShape(kind, 1 + len(names) + i, np.eye(3), np.zeros(3), points)
+        solid = placed(SHAPES[name], 1 + i, R, rng.uniform(-0.1, 0.1, size=3) * (i % 2), name)
+        some = placed(PointCloud(cloud(kind, N, rng)), 1 + len(names) + i, name=kind)
         sides = (solid, some) if i % 3 else (some, solid)
         pairs.append(ContactPair(f"p{i}", *sides, 0.5, 0.0, 4, k))
     return pairs
 
 
 def same_bits(tracker, pairs, R, t):
-    expected = closest_points(pairs, Kinematics(R, t, np.zeros((len(R), 6, 0))))
+    expected = closest_points(pairs, standing(*zip(R[1:], t[1:], strict=True)))
     found = tracker.closest_points(R, t)
     for field in FIELDS:
         np.testing.assert_allclose(
@@ -156,9 +154,7 @@ def sheet(side, spacing):
 
 
 def one_pair(shape, points, k):
-    solid = PlacedShape("solid", 1, np.eye(3), np.zeros(3), shape)
-    some = PlacedShape("cloud", 2, np.eye(3), np.zeros(3), PointCloud(points))
-    return [ContactPair("p", solid, some, 0.5, 0.0, 4, k)]
+    return [pair(placed(shape, 1), placed(PointCloud(points), 2), k)]
 
 
 @pytest.mark.parametrize("name", ["sphere", "cylinder"])
@@ -190,13 +186,11 @@ def test_a_sheet_that_comes_and_goes_above_a_floor_needs_no_new_list(rng):
 
 
 def test_pairs_of_solids_and_of_clouds_stay_in_their_order(rng):
-    box = SHAPES["box"]
-    ball = SHAPES["sphere"]
-    solid = [PlacedShape(f"s{i}", i, np.eye(3), np.zeros(3), box) for i in (1, 2)]
-    points = PlacedShape("c", 3, np.eye(3), np.zeros(3), PointCloud(cloud("random", 99, rng)))
-    other = PlacedShape("b", 3, np.eye(3), np.zeros(3), ball)
+    solid = [placed(SHAPES["box"], i) for i in (1, 2)]
+    points = placed(PointCloud(cloud("random", 99, rng)), 3)
+    other = placed(SHAPES["sphere"], 3)
     sides = [(solid[0], points), (solid[0], solid[1]), (points, solid[1]), (solid[1], other)]
-    pairs = [ContactPair(f"p{i}", a, b, 0.5, 0.0, 4, 3) for i, (a, b) in enumerate(sides)]
+    pairs = [pair(*two, 3) for two in sides]
     same_bits(ContactTracker(pairs), pairs, *poses((0, 0, 0.4), (0, 0.3, 0), (0.1, 0, 0.1)))
     same_bits(ContactTracker(pairs[1::2]), pairs[1::2], *poses((0, 0, 0.4), (0, 0.3, 0), (0, 0, 0)))
 

@@ -62,19 +62,6 @@ def test_a_function_of_time_may_be_written_in_any_way(run, target):
     np.testing.assert_allclose(run(target)["q_bar_a"], expected, rtol=EXACT, atol=EXACT)
 
 
-def test_a_target_of_t_and_q_is_asked_where_the_step_starts(scenario, run):
-    calls = []
-
-    def target(t, q):
-        calls.append((t, q.copy()))
-        return q[:3]
-
-    done = run(target)
-    np.testing.assert_allclose([t for t, _ in calls], done["t"], rtol=EXACT)
-    np.testing.assert_allclose([q for _, q in calls], done["q"][:STEPS], rtol=EXACT, atol=EXACT)
-    np.testing.assert_allclose(done["q_bar_a"], done["q"][:STEPS, :3], rtol=EXACT, atol=EXACT)
-
-
 OTHER = {
     "none": lambda: goal(0.0),
     "q alone": lambda q: goal(0.0),
@@ -128,17 +115,18 @@ def test_a_loop_by_hand_ends_in_the_trajectory_of_rollout(scenario):
     assert found.seconds.keys() == expected.seconds.keys()
 
 
-def test_a_target_may_ask_for_the_result_of_the_step_before(scenario, run):
+def test_a_target_may_ask_for_the_result_of_the_step_before(run):
     seen = []
 
     def target(t, q, last):
-        seen.append(last)
+        seen.append((q.copy(), last))
         return goal(t)
 
     done = run(target)
-    assert seen[0] is None
-    for k, last in enumerate(seen[1:]):
-        np.testing.assert_array_equal(last.q, done["q"][k + 1])
+    assert seen[0][1] is None
+    for k, (q, last) in enumerate(seen[1:]):
+        np.testing.assert_array_equal(q, done["q"][k + 1])
+        np.testing.assert_array_equal(last.q, q)
         assert last.forces.shape == (len(done["mu_v"]), 4)
 
 

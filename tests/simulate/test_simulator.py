@@ -6,7 +6,7 @@ import pytest
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import contact_layout
-from quasistatic_ref.errors import InputError, ModelError, RunFailed, StepDataError
+from quasistatic_ref.errors import InputError, RunFailed, StepDataError
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.rollout import rollout
@@ -117,13 +117,6 @@ def test_a_target_that_is_no_configuration_is_refused(scenario):
     goal = np.array([0.0, 2 * np.cos(0.3), 2 * np.sin(0.3)])  # taken for 0, not 0.3
     with pytest.raises(InputError):
         rollout(scenario.simulator(), scenario.system.q_start, goal, 1, progress=False)
-
-
-def test_a_start_that_is_no_configuration_is_refused(scenario):
-    q = scenario.system.q_start.copy()
-    q[-1] = 0.0
-    with pytest.raises(ModelError, match=r"q\[ball/base\]: its quaternion must have length one"):
-        rollout(scenario.simulator(), q, scenario.targets, 1, progress=False)
 
 
 def test_a_force_that_is_not_a_number_ends_the_run_at_its_step(scenario):

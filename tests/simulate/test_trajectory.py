@@ -1,4 +1,4 @@
-"""Trajectories: the same bits in and out, without pickles; failed runs keep what succeeded."""
+"""Trajectories: the same bits in and out, without pickles."""
 
 import dataclasses
 
@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.measures import worst_residual
-from quasistatic_ref.errors import InputError, RunFailed, StepNotSolved
+from quasistatic_ref.errors import InputError
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
-from quasistatic_ref.step.files import step_read, step_written
-from tests.scenes import SWING, written_scenario
+from tests.scenes import written_scenario
 from tests.tolerances import EXACT
 
 SHAPES = {
@@ -39,14 +38,6 @@ def scenario(folder):
 @pytest.fixture(scope="module")
 def run(scenario):
     return scenario.run(progress=False)
-
-
-@pytest.fixture(scope="module")
-def failure(folder):
-    swing = load_scenario(written_scenario(folder, SWING, "swing.toml"), fast=True)
-    with pytest.raises(RunFailed) as caught:
-        swing.run(progress=False)
-    return caught.value
 
 
 def test_the_first_axis_is_the_step_and_q_has_the_start_as_well(scenario, run):
@@ -131,22 +122,3 @@ def test_a_run_of_no_steps_is_a_trajectory(tmp_path, folder):
     back = trajectory_read(empty.save(tmp_path / "run.npz"))
     assert (back.steps, back.failed, back["q"].shape) == (0, None, (1, 10))
     assert worst_residual(back) is None
-
-
-def test_a_run_that_fails_keeps_the_steps_before(tmp_path, failure):
-    back = trajectory_read(failure.trajectory.save(tmp_path / "run.npz"))
-    assert back.steps == 3
-    assert back.failed is not None
-    assert back.failed.startswith("step 3: the step has no solution: floor(")
-    assert back.failed == failure.reason
-    assert isinstance(failure.__cause__, StepNotSolved)
-    assert back.step_data(2) == failure.trajectory.step_data(2)
-    np.testing.assert_allclose(back["q"][:, 0], [0, 0, 0, -1.5 * np.pi], rtol=1e-9, atol=1e-9)
-
-
-def test_a_run_that_fails_hands_over_the_step_that_failed(tmp_path, failure):
-    step = step_read(step_written(tmp_path / "step.json", failure.step))
-    assert step == failure.step
-    # The club points straight down: 0.1 - 0.2 - 0.01 deep, and only sideways motion is left.
-    np.testing.assert_allclose(step.contacts.phi, [-0.11], rtol=1e-9)
-    np.testing.assert_allclose(step.contacts.J[0, :, 0], [-0.21, 0, 0, 0], rtol=1e-9, atol=1e-9)

@@ -107,7 +107,7 @@ def test_a_trajectory_from_a_file_or_a_pickle_is_given_its_scene(scenario, run, 
     assert copy.copy(run)["q"] is run["q"]
 
 
-def test_other_names_and_scenes_are_refused(scenario, run, pinch, tmp_path):
+def test_other_names_and_scenes_are_refused(run, pinch, tmp_path):
     with pytest.raises(ModelError, match="link: is not a link; did you mean 'ball'"):
         run.wrench_on("bal")
     with pytest.raises(InputError, match=r"scene: must be a Scenario or a Simulator; .*'floor'"):

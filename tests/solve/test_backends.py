@@ -112,7 +112,7 @@ def test_a_solver_stopped_after_one_iteration_is_raised(prefix, name, limit, mon
     step, _, _ = planted_step(np.random.default_rng(3), *SHAPES[0])
     entry = BACKENDS[name]
     stopped = dataclasses.replace(
-        entry, attempts=lambda a: tuple(options | {limit: 1} for options in entry.attempts(a))
+        entry, option_sets=lambda a: tuple(options | {limit: 1} for options in entry.option_sets(a))
     )
     monkeypatch.setitem(BACKENDS, name, stopped)
     with pytest.raises(StepNotSolved) as caught:
@@ -132,11 +132,11 @@ def lying(monkeypatch, spoil):
 
 
 LIES = {
-    "a motion a little off": lambda a: {"delta_q": a.delta_q + 1e-4},
-    "multipliers of the other sign": lambda a: {"lam": -a.lam},
-    "no multipliers": lambda a: {"lam": 0 * a.lam},
-    "no motion": lambda a: {"delta_q": 0 * a.delta_q},
-    "not a number": lambda a: {"delta_q": np.nan * a.delta_q},
+    "a motion a little off": lambda a: {"natural_delta_q": a.natural_delta_q + 1e-4},
+    "multipliers of the other sign": lambda a: {"natural_lam": -a.natural_lam},
+    "no multipliers": lambda a: {"natural_lam": 0 * a.natural_lam},
+    "no motion": lambda a: {"natural_delta_q": 0 * a.natural_delta_q},
+    "not a number": lambda a: {"natural_delta_q": np.nan * a.natural_delta_q},
 }
 
 
@@ -166,7 +166,7 @@ def by_hand(accuracy):
         "piqp": {
             "eps_abs": accuracy,
             "eps_rel": accuracy,
-            "eps_duality_gap_abs": gap,  # DESIGN section 3: eps_abs alone leaves the gap
+            "eps_duality_gap_abs": gap,  # eps_abs alone leaves the gap at 1e-8
             "eps_duality_gap_rel": gap,
         },
         "daqp": {"primal_tol": accuracy, "dual_tol": accuracy},  # by default 1e-6
@@ -176,7 +176,7 @@ def by_hand(accuracy):
 @pytest.mark.parametrize("name", REQUIRED)
 @pytest.mark.parametrize("accuracy", [1e-12, 1e-5])
 def test_the_accuracy_reaches_every_tolerance_that_stops_the_solver(name, accuracy):
-    for i, options in enumerate(BACKENDS[name].attempts(accuracy)):
+    for i, options in enumerate(BACKENDS[name].option_sets(accuracy)):
         expected = by_hand(accuracy)[name]
         if name == "piqp" and i >= 1:  # where rounding hides so small a gap
             expected |= dict.fromkeys(("eps_duality_gap_abs", "eps_duality_gap_rel"), accuracy)
@@ -209,9 +209,9 @@ def test_an_accuracy_that_is_not_positive_is_refused(accuracy):
 def test_a_second_set_of_options_is_tried_where_the_first_does_not_solve(monkeypatch, rng):
     step, delta_q, _ = planted_step(rng)
     entry = BACKENDS["piqp"]
-    good = entry.attempts(1e-12)[0]
+    good = entry.option_sets(1e-12)[0]
     for attempts in ((good | {"max_iter": 1}, good), (good, good | {"max_iter": 1})):
-        tried = dataclasses.replace(entry, attempts=lambda _, attempts=attempts: attempts)
+        tried = dataclasses.replace(entry, option_sets=lambda _, attempts=attempts: attempts)
         monkeypatch.setitem(BACKENDS, "piqp", tried)
         gap = error(step, solve_step(step, "piqp").delta_q, delta_q)
         np.testing.assert_allclose(gap, 0.0, rtol=0.0, atol=OPTIMUM)

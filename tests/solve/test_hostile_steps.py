@@ -42,10 +42,10 @@ def end_of(step, solver):
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: " ".join(path).replace(":", " "))
 def test_every_path_ends_as_no_backend_does_also_where_it_was_held_up(path):
-    engine, name = path
+    interface, name = path
     numbers = [0, *(number for part, number in HELD_UP.items() if part in " ".join(path))]
     for step in map(hostile, numbers):
-        solver = solver_for(step, name, fast=engine == "native")
+        solver = solver_for(step, name, fast=interface == "native")
         assert end_of(step, solver) == end_of(step, NONE)
 
 

@@ -9,7 +9,7 @@ from quasistatic_ref.certify.solution import step_solution
 from quasistatic_ref.errors import StepDataError, StepNotSolved
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
-from quasistatic_ref.solve.natural_step import DenseStep
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import Extra
@@ -29,9 +29,9 @@ def test_only_backends_that_may_not_return_are_kept_from_unlike_rows():
     unlike = step.replace(extra=Extra(("far",), [[1e4, 0.0, 0.0]], [-1.0]))
     for name, refused in (("qpsolvers:quadprog", True), ("daqp", False)):
         assert solver_for(unlike, name, not refused).unsafe == refused
-        solver_for(step, name, not refused).answer(DenseStep(step), 1e-9)
+        solver_for(step, name, not refused).answer(DenseStepInBothUnits(step), 1e-9)
     with pytest.raises(StepNotSolved, match="not called: its rows differ by"):
-        solver_for(unlike, "qpsolvers:quadprog").answer(DenseStep(unlike), 1e-9)
+        solver_for(unlike, "qpsolvers:quadprog").answer(DenseStepInBothUnits(unlike), 1e-9)
 
 
 def test_the_bound_of_an_error_is_of_this_step_and_not_of_the_one_before():
@@ -52,7 +52,11 @@ def test_residuals_and_digits_of_a_certified_answer_are_those_of_its_units(step)
         assert answer.certificate.kind in ("exact", "enclosure")
         assert max(answer.certificate.residuals.values()) < ROUNDING
         assert answer.statistics.digits > -np.log10(OPTIMUM)
-        assert DenseStep(one).units.size not in (0.5, 1.0, 2.0)  # or other units would do as well
+        assert DenseStepInBothUnits(one).units.size not in (
+            0.5,
+            1.0,
+            2.0,
+        )  # or other units would do as well
 
 
 def test_a_wrench_that_is_not_finite_is_refused_where_anything_is_claimed(monkeypatch):

@@ -54,7 +54,7 @@ EVERY = [
     *((FastSolver, name, "native") for name in installed("native")),
     (NoSolver, "none", "none"),
 ]
-every_solver = pytest.mark.parametrize(("kind", "name", "engine"), EVERY)
+every_solver = pytest.mark.parametrize(("kind", "name", "interface"), EVERY)
 
 
 def test_every_backend_of_these_tests_is_installed_by_every_interface():
@@ -64,18 +64,20 @@ def test_every_backend_of_these_tests_is_installed_by_every_interface():
 
 
 @every_solver
-def test_the_result_names_the_backend_and_the_interface_that_were_asked(kind, name, engine, step):
+def test_the_result_names_the_backend_and_the_interface_that_were_asked(
+    kind, name, interface, step
+):
     solver = solver_for(step, name, fast=kind is FastSolver)
     assert type(solver) is kind
-    assert (solver.name, solver.engine) == (name, engine)
+    assert (solver.name, solver.interface) == (name, interface)
     solution = solve_step(step, solver)
     said = solution.statistics
-    assert (solution.backend, said.backend, said.engine) == (name, name, engine)
+    assert (solution.backend, said.backend, said.interface) == (name, name, interface)
     if name in REQUIRED:
         assert said.status == "optimal"
     if kind is not FastSolver:  # a name alone never means another interface
         said = solve_step(step, name).statistics
-        assert (said.backend, said.engine) == (name, engine)
+        assert (said.backend, said.interface) == (name, interface)
 
 
 def test_a_call_that_contradicts_itself_cannot_be_written(step):
@@ -85,7 +87,7 @@ def test_a_call_that_contradicts_itself_cannot_be_written(step):
     with pytest.raises(InputError, match="fast: has no effect on an existing solver"):
         solve_step(step, solver_for(step), fast=True)
     for word, value in (
-        ("engine", "cvxpy"), ("backend", "clarabel"), ("problem", NativeSolver(step, "daqp")),
+        ("interface", "cvxpy"), ("backend", "clarabel"), ("problem", NativeSolver(step, "daqp")),
     ):  # fmt: skip
         with pytest.raises(TypeError, match=word):
             solve_step(step, "clarabel", **{word: value})
@@ -148,7 +150,7 @@ def test_a_sparse_solver_and_its_copy_certify_the_bits_of_the_exact_method(large
     solver = copy.copy(solver_for(large_step, "osqp", fast=True))
     assert type(solver) is SparseSolver
     answer = solve_step(large_step, solver)
-    assert (answer.statistics.backend, answer.statistics.engine) == ("osqp", "native")
+    assert (answer.statistics.backend, answer.statistics.interface) == ("osqp", "native")
     assert answer.certificate.kind == "exact"
     assert answer.delta_q.tobytes() == solve_step(large_step, "none").delta_q.tobytes()
 
@@ -157,11 +159,11 @@ def test_no_solver_gives_no_answer_of_its_own(step):
     with pytest.raises(BackendError, match="has no answer of its own"):
         solve_step(step, NoSolver(step, "none"), certify="residual")
     with pytest.raises(StepNotSolved, match="not called"):
-        NoSolver(step, "none").answer(NoSolver(step, "none").scaled(step), 1e-9)
+        NoSolver(step, "none").answer(NoSolver(step, "none").in_both_units(step), 1e-9)
 
 
-@pytest.mark.parametrize(("fast", "engine"), [(False, "cvxpy"), (True, "native")])
-def test_a_simulator_keeps_its_solver_while_steps_fit(fast, engine):
+@pytest.mark.parametrize(("fast", "interface"), [(False, "cvxpy"), (True, "native")])
+def test_a_simulator_keeps_its_solver_while_steps_fit(fast, interface):
     some = load_scenario("two_finger_pinch", ["solver.certify=off"], fast=fast)
     run = some.simulator()
     q = some.system.q_start
@@ -173,11 +175,11 @@ def test_a_simulator_keeps_its_solver_while_steps_fit(fast, engine):
     solution = run.solution(result.step.replace(extra=extra))
     assert run.solver is not first
     assert type(run.solver) is type(first)
-    assert solution.statistics.engine == engine
+    assert solution.statistics.interface == interface
 
 
 @pytest.mark.parametrize(
-    ("kind", "name", "engine"),
+    ("kind", "name", "interface"),
     [
         (CvxpySolver, "osqp", "cvxpy"),
         (QpsolversSolver, "qpsolvers:piqp", "qpsolvers"),
@@ -185,12 +187,12 @@ def test_a_simulator_keeps_its_solver_while_steps_fit(fast, engine):
         (NoSolver, "none", "none"),
     ],
 )
-def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, engine, step):
+def test_a_solver_that_was_pickled_or_copied_starts_afresh(kind, name, interface, step):
     solver = solver_for(step, name, fast=kind is FastSolver)
     expected = solve_step(step, solver)
     for again in (pickle.loads(pickle.dumps(solver)), copy.copy(solver)):
         assert type(again) is kind
-        assert (again.name, again.engine) == (name, engine)
+        assert (again.name, again.interface) == (name, interface)
         assert again.fits(step)
         found = solve_step(step, again)
         np.testing.assert_allclose(found.delta_q, expected.delta_q, rtol=EXACT, atol=EXACT)

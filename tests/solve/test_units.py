@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.solve.natural_step import check_units
+from quasistatic_ref.solve.both_units import check_units
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import (
     STANDSTILL,
     Units,
+    hessian_in_both_units,
     natural_form,
-    natural_hessian,
+    natural_step,
     natural_units,
-    to_natural,
     within_reach,
 )
 from quasistatic_ref.step.data import Extra
@@ -51,7 +51,7 @@ def inverse(units):
 @every_step
 def test_there_and_back_gives_the_same_bits(step):
     units = natural_units(step)
-    assert to_natural(to_natural(step, units), inverse(units)) == step
+    assert natural_step(natural_step(step, units), inverse(units)) == step
 
 
 @every_step
@@ -63,14 +63,14 @@ def test_all_units_are_powers_of_two(step):
 
 @every_step
 def test_the_natural_diagonal_of_H_is_about_one(step):
-    diagonal = np.diag(hessian(to_natural(step, natural_units(step))))
+    diagonal = np.diag(hessian(natural_step(step, natural_units(step))))
     assert diagonal.min() >= NATURAL_LOW
     assert diagonal.max() <= NATURAL_HIGH
 
 
 @every_step
 def test_the_typical_natural_row_is_about_one(step):
-    norms = np.linalg.norm(standard_form(to_natural(step, natural_units(step))).A, axis=1)
+    norms = np.linalg.norm(standard_form(natural_step(step, natural_units(step))).A, axis=1)
     if norms.size:
         assert NATURAL_LOW <= np.median(norms) <= NATURAL_HIGH
 
@@ -78,7 +78,7 @@ def test_the_typical_natural_row_is_about_one(step):
 @every_step
 def test_the_natural_unconstrained_step_is_no_longer_than_about_one(step):
     # rho is ||H^-1 g||_H, or the push out of a penetration where that is more.
-    natural = to_natural(step, natural_units(step))
+    natural = natural_step(step, natural_units(step))
     free = unconstrained(natural)
     assert np.sqrt(free @ hessian(natural) @ free) <= NATURAL_HIGH
 
@@ -91,7 +91,7 @@ def test_natural_units_keep_the_form_of_13_and_4(step):
     S = units.coordinate
     ell = units.length
     rho = units.size
-    natural = standard_form(to_natural(step, units))
+    natural = standard_form(natural_step(step, units))
     np.testing.assert_allclose(natural.H, given.H * np.outer(S, S), rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(natural.b, given.b / (rho * ell), rtol=EXACT, atol=EXACT)
     np.testing.assert_allclose(natural.A, given.A * S / ell, rtol=ROUNDING, atol=EXACT)
@@ -110,7 +110,7 @@ def test_a_power_of_two_in_the_data_moves_the_units_and_nothing_else(power):
     one = natural_units(step)
     two = natural_units(other)
     assert two.size == power * one.size
-    assert to_natural(other, two) == to_natural(step, one)
+    assert natural_step(other, two) == natural_step(step, one)
 
 
 def test_a_step_without_force_or_gap_has_units_too(rng):
@@ -125,13 +125,13 @@ def test_a_step_without_force_or_gap_has_units_too(rng):
 def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
     # ||H^-1 g||_H is nearly 0 here: without the push out, b' would be as large as depth / 0.
     natural = sphere_on_floor(phi=-depth, wrench=(0, 0, -1e-9, 0, 0, 0))
-    natural = to_natural(natural, natural_units(natural))
+    natural = natural_step(natural, natural_units(natural))
     assert NATURAL_LOW <= abs(natural.contacts.phi[0]) <= NATURAL_HIGH
 
 
 def test_contacts_out_of_reach_are_moved_nearer_and_the_others_are_not():
     step = sphere_on_floor(phi=0.0, wrench=(0, 0, -1.0, 0, 0, 0))
-    natural = to_natural(step, natural_units(step))
+    natural = natural_step(step, natural_units(step))
     assert (within_reach(natural) == natural.contacts.phi).all()
     far = natural.replace(contacts=dataclasses.replace(natural.contacts, phi=np.array([1e9])))
     reach = FAR * max(1.0, np.linalg.norm(natural.contacts.J[0]))
@@ -142,8 +142,8 @@ def test_contacts_out_of_reach_are_moved_nearer_and_the_others_are_not():
 def test_the_natural_form_is_that_of_the_natural_step_bit_for_bit(step):
     units = natural_units(step)
     form = standard_form(step)
-    expected = standard_form(to_natural(step, units))
-    found = natural_form(form, units, natural_hessian(form.H).natural)
+    expected = standard_form(natural_step(step, units))
+    found = natural_form(form, units, hessian_in_both_units(form.H).natural_H)
     for array, value in zip(found, expected, strict=True):
         np.testing.assert_array_equal(array, value)
 

@@ -24,8 +24,9 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud, Sphere
 from quasistatic_ref.simulate.rollout import rollout
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.step.data import Extra, StepData
-from tests.helpers import always_in_blocks, contacts_of, random_step
+from quasistatic_ref.step.data import Extra
+from tests.certify.test_farkas import EAST, WEST, point_between_walls
+from tests.helpers import always_in_blocks, random_step
 from tests.scenes import written_scenario
 
 NAN = np.nan
@@ -33,13 +34,8 @@ NAN = np.nan
 
 def squeezed():
     """The error about a step whose two contacts contradict each other."""
-    frames = [[[1, 0, 0], [0, 1, 0], [0, 0, 1]], [[1, 0, 0], [0, -1, 0], [0, 0, -1]]]
-    J = np.zeros((2, 4, 1))
-    J[:, 2, 0] = 1.0
-    contacts = contacts_of(-1e-3, frames, J, 0.0, 0.0, (4, 4))
-    step = StepData(0.01, [[]], [[1.0]], [], [0.0], [], contacts)
     with pytest.raises(StepInfeasible) as caught:
-        solve_step(step, "none")
+        solve_step(point_between_walls([EAST, WEST], -1e-3), "none")
     return caught.value
 
 

@@ -5,7 +5,6 @@ import pytest
 
 from quasistatic_ref.cli.solution_files import rounded_wrenches
 from quasistatic_ref.lab.scenes.contacts import no_contacts
-from quasistatic_ref.step.cones import pyramid
 from quasistatic_ref.step.friction import (
     contact_wrenches,
     friction_rows,
@@ -31,12 +30,6 @@ def test_each_row_alone_reaches_a_vertex_of_the_octahedron(row, rng):
     actual = contact_wrenches(contacts, np.eye(6)[row], h=0.5)
     expected = [np.array(vertices[row]) / 0.5]
     np.testing.assert_allclose(actual, expected, rtol=ROUNDING, atol=ROUNDING)
-
-
-def test_the_directions_of_a_contact_add_up_to_nothing(rng):
-    slips = rng.normal(size=(3, 5))
-    total = sum(pyramid(np.zeros(5), *slips))
-    np.testing.assert_allclose(total, 0.0, rtol=0.0, atol=ROUNDING)
 
 
 def test_no_contacts_make_no_rows_and_no_wrenches():

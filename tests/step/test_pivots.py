@@ -81,8 +81,8 @@ def test_a_nearly_singular_stiffness_has_norms_and_an_exact_answer():
         with pytest.raises(np.linalg.LinAlgError):
             lost(NEAR)
     norm = energy_norm(NEAR)
-    assert norm.impulse(LOWER[:, 0]) == pytest.approx(3**-0.5, rel=ROUNDING)
-    assert norm.displacement(np.eye(3)[2]) == pytest.approx(NEAR[2, 2] ** 0.5, rel=ROUNDING)
+    assert norm.of_impulse(LOWER[:, 0]) == pytest.approx(3**-0.5, rel=ROUNDING)
+    assert norm.of_displacement(np.eye(3)[2]) == pytest.approx(NEAR[2, 2] ** 0.5, rel=ROUNDING)
     solution = solve_step(with_stiffness(NEAR, LOWER[:, 0]), "none")
     assert solution.delta_q.tolist() == [1 / 3, 0.0, 0.0]
 

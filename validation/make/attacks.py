@@ -156,7 +156,7 @@ def exact_answers(attack: Attack, family: str, number: int, first: int = 0) -> N
             continue
         record = json.loads(file)
         if record["status"] == "infeasible":
-            holds = proof(step, [Fraction(y) for y in record["farkas"]])
+            holds = proof(step, exact(record["farkas"]))
         else:
             try:
                 holds = json.dumps(right_file(step, record)) == json.dumps(record)

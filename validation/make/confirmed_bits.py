@@ -33,8 +33,8 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
-from quasistatic_ref.solve.natural_step import DenseStep
-from quasistatic_ref.solve.units import Units, to_natural
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits
+from quasistatic_ref.solve.units import Units, natural_step
 from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from tests.oracles.random_steps import mixed_step
@@ -62,7 +62,7 @@ def random_case(seed: int) -> tuple[str, StepData]:
     if seed % 2:
         return cone, step
     apart = Units(2.0 ** rng.integers(-20, 21, step.n_v), 2.0 ** int(rng.integers(-20, 21)), 1.0)
-    return f"{cone}, badly scaled", to_natural(step, apart)
+    return f"{cone}, badly scaled", natural_step(step, apart)
 
 
 def wrong_sets(rng: np.random.Generator, working: list[int], m: int) -> Iterator[list[int]]:
@@ -91,11 +91,11 @@ def proof(step: StepData, rows: Indices) -> Proof:
     fast = compiled("certificate")
     if fast is None:
         return None
-    scaled = DenseStep(step)
-    prover = fast.undivided(scaled)
-    prover.optimum(scaled, *np.zeros((2, step.m)))
+    both = DenseStepInBothUnits(step)
+    prover = fast.undivided(both)
+    prover.optimum(both, *np.zeros((2, step.m)))
     (own,) = prover.proofs
-    found: Proof = None if own is None else own.optimum(step, rows, scaled.units)
+    found: Proof = None if own is None else own.optimum(step, rows, both.units)
     return found
 
 

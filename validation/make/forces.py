@@ -7,7 +7,7 @@ polyhedral cone after the other), on the steps of the vectors and on those of al
 
 - every backend and none, plain and fast, cold, and contacts in another order give equal bits;
 - so does the definition, in which what each contact gives way by is solved for, too;
-- so do 60 digits by a method that shares no code (tests/oracles/compliant_forces.py; the pyramid);
+- so do fractions, by which the optimum is proved (tests/oracles/compliant_forces.py; the pyramid);
 - noise of 1e-17 in phi and J changes forces by less than 1e-6 of the load (of steps under 1 m).
 
 Exit status 1 if anything of this fails.

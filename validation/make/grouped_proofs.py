@@ -1,4 +1,4 @@
-"""What exact proofs of many bodies cost: ``python -m validation.make.grouped_proofs > FILE``.
+"""What exact proofs of many bodies cost: ``python -m validation.make.grouped_proofs --out FILE``.
 
 Processor time and memory of certified steps of boxes that do not touch each other, each a group of
 its own, and of boxes that do; next to that with ``certify = "residual"``. Each scene is measured in
@@ -17,6 +17,7 @@ import sys
 import time
 from collections import Counter
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -28,6 +29,7 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.scenes.at_random import divided
 from quasistatic_ref.lab.scenes.piles import SIDE, Pile, pile
 from quasistatic_ref.lab.study.measuring.environment import machine
@@ -41,8 +43,8 @@ from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.groups import groups
 from tests.oracles.random_steps import mixed_step
-from validation.make.large_steps import print_table, promises_kept
-from validation.tools.scripts import asked
+from validation.make.large_steps import promises
+from validation.tools.scripts import asked, shown
 
 SAME = (
     "delta_q",
@@ -216,11 +218,11 @@ def alone(scene: Scene, certify: str) -> Cost:
         return pool.apply(cost, (scene, certify))
 
 
-def table(scenes: list[Scene]) -> dict[str, Cost]:
-    """Print what some scenes cost; by their names."""
+def costs(scenes: list[Scene]) -> tuple[list[str], dict[str, Cost]]:
+    """The table of what some scenes cost, and the same by their names."""
     head = "scene, contacts, coordinates, groups, first [s], later [s], memory [MB], exact, "
     head += "later with residual [s], memory with residual [MB], ratio of times"
-    rows = [head.split(", ")]
+    rows = []
     found = {}
     for scene in scenes:
         full = alone(scene, "full")
@@ -231,8 +233,7 @@ def table(scenes: list[Scene]) -> dict[str, Cost]:
         measured = [f"{full.first:.3g}", f"{full.later:.3g}", f"{full.memory:.0f}"]
         rows.append([scene.name, *sizes, *measured, f"{full.exact} of {1 + STEPS}"])
         rows[-1] += [f"{said.later:.3g}", f"{said.memory:.0f}", f"{ratio:.1f}"]
-    print_table(rows)
-    return found
+    return markdown_table(head.split(", "), rows), found
 
 
 def random_case(seed: int) -> StepData:
@@ -266,8 +267,8 @@ def unlike(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
     return [name for name in names if bits(getattr(one, name)) != bits(getattr(whole, name))]
 
 
-def compared(random: int, every: int) -> list[str]:
-    """Print on how many steps whole and groups were compared; what differs, in words."""
+def compared(random: int, every: int) -> tuple[list[str], list[str]]:
+    """The table of how many steps were compared, whole and by group; what differs, in words."""
     found = Counter[str]()
     wrong = []
     for seed in range(random):
@@ -279,30 +280,24 @@ def compared(random: int, every: int) -> list[str]:
         for k in range(0, run.steps, every):
             found[f"steps of {name}"] += 1
             wrong += [f"{name}, step {k}: {fault}" for fault in faults(run.step_data(k))]
-    print_table([["steps", "compared"], *([what, str(n)] for what, n in sorted(found.items()))])
-    return wrong
+    return markdown_table(("steps", "compared"), sorted(found.items())), wrong
 
 
 def main() -> int:
-    """Measure, compare, and print the page."""
-    options = asked(__doc__, random=1000, every=30)
+    """Measure, compare, and write the page."""
+    options = asked(__doc__, random=1000, every=30, out=Path)
     # Of the processes that measure: a thread of BLAS that waits for another counts as time.
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
     m = machine()
-    print("# Proofs by group, and of connected scenes")
-    print(
-        f"\nWritten by `python -m validation.make.grouped_proofs` on {m['processor']}, "
+    words = (
+        f"Written by `python -m validation.make.grouped_proofs` on {m['processor']}, "
         f"{m['cores']} cores, Python {m['python']}: processor time of a step with `fast`, the "
         f"median of {STEPS} after the first, and the peak memory of its process, in which BLAS has "
         "one thread. Four contacts a pair, six rows a contact."
     )
-    print("\n## Boxes that do not touch each other\n")
-    found = table([*SEPARATE, *COPIED])
-    print("\n## Boxes that do\n")
-    connected = table(CONNECTED)
-    print("\n## The same bits\n")
-    print("`delta_q`, `A'lam`, slacks and what is said of them, by group and of the whole step:\n")
-    wrong = compared(options.random, options.every)
+    separate, found = costs([*SEPARATE, *COPIED])
+    touching, connected = costs(CONNECTED)
+    steps, wrong = compared(options.random, options.every)
     measured = []
     for how in ("aligned", "yawed"):
         few, many, most = (found[f"{n} separate boxes, {how}"] for n in ("10", "40", "1,000"))
@@ -314,7 +309,16 @@ def main() -> int:
         if one.contacts in HUNDRED:
             measured.append((f"{name}: over residual", one.over_residual, OVER_RESIDUAL))
     measured.append(("steps whose bits differ", float(len(wrong)), 0.0))
-    kept = promises_kept(measured)
+    promised, kept = promises(measured)
+    same = "`delta_q`, `A'lam`, slacks and what is said of them, by group and of the whole step:"
+    lines = [
+        "# Proofs by group, and of connected scenes", "", words,
+        "", "## Boxes that do not touch each other", "", *separate,
+        "", "## Boxes in contact", "", *touching,
+        "", "## The same bits", "", same, "", *steps,
+        "", "## Promises", "", *promised,
+    ]  # fmt: skip
+    shown("\n".join(lines), options.out)
     print(*wrong, sep="\n", file=sys.stderr)
     return int(not kept)
 

@@ -1,4 +1,4 @@
-"""Large steps by backend, dense and sparse: ``python -m validation.make.large_steps > FILE``.
+"""Large steps by backend, dense and sparse: ``python -m validation.make.large_steps --out FILE``.
 
 Processor time, so that other programs hardly matter; two minutes. From it follow the numbers of
 entries from which steps are sparse (``SPARSE_FROM`` and others in tolerances.py), and which backend
@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from quasistatic_ref.lab.study.measuring.environment import machine
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import constants
 from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
+from validation.tools.scripts import asked, shown
 
 Shape = tuple[int, int, int]
 ROWS: tuple[Shape, ...] = tuple((n, 1, 1) for n in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48))
@@ -113,26 +115,19 @@ def name(shape: Shape) -> str:
     return str(shape[0]) if shape[1:] == (1, 1) else " x ".join(map(str, shape))
 
 
-def print_table(rows: Sequence[Sequence[str]]) -> None:
-    """A Markdown table, whose first row is its head."""
-    print(*markdown_table(rows[0], rows[1:]), sep="\n", flush=True)
-
-
-def promises_kept(measured: Iterable[tuple[str, float, float]]) -> bool:
-    """Print what is promised, with what was measured and its limit; whether all of it holds."""
-    print("\n## Promises\n")
-    rows = [("promise", "measured", "at most", "verdict")]
+def promises(measured: Iterable[tuple[str, float, float]]) -> tuple[list[str], bool]:
+    """The table of what is promised, measured and its limit; whether all of it holds."""
+    rows = []
     for promise, value, limit in measured:
         verdict = "holds" if value <= limit else "FAILS"
         rows.append((promise, f"{value:.3g}", f"{limit:g}", verdict))
-    print_table(rows)
-    return all(row[3] == "holds" for row in rows[1:])
+    table = markdown_table(("promise", "measured", "at most", "verdict"), rows)
+    return table, all(row[3] == "holds" for row in rows)
 
 
-def by_way() -> None:
-    """Medians of every way at every size."""
-    print("\n## Dense and sparse, nothing certified [ms]\n")
-    rows = [["boxes", "entries of J", *WAYS]]
+def by_way() -> list[str]:
+    """The table of medians of every way at every size."""
+    rows = []
     for shape in (*ROWS, *HEAPS):
         found = []
         entries = 0
@@ -145,15 +140,14 @@ def by_way() -> None:
             lost = f" ({some.unsolved} unsolved)" if some.unsolved else ""
             found.append(f"{some.median:.2f}{lost}")
         rows.append([name(shape), f"{entries:,}", *found])
-    print_table(rows)
+    return markdown_table(("boxes", "entries of J", *WAYS), rows)
 
 
-def large() -> tuple[dict[str, float], float]:
-    """Sparse steps of many bodies; the exponents in bodies, and the largest heap's first [ms]."""
-    print("\n## Sparse steps\n")
+def large() -> tuple[list[str], dict[str, float], float]:
+    """The table of sparse steps, the exponents in bodies, and the largest heap's first [ms]."""
     head = "boxes, backend, contacts, coordinates, rows, first [ms], off [ms], off p99 [ms], "
     head += "residual [ms], residual p99 [ms], largest error bound, without bound, unsolved"
-    rows = [head.split(", ")]
+    rows = []
     times = dict[str, list[float]]()
     heap = 0.0
     for shape in (*((n, 1, 1) for n in CHAINS), LARGEST):
@@ -168,8 +162,8 @@ def large() -> tuple[dict[str, float], float]:
             rows[-1] += [str(without), str(off.unsolved + said.unsolved)]
             times.setdefault(backend, []).append(off.median)
             heap = off.first if backend == "piqp" else heap
-    print_table(rows)
-    return {b: slope(CHAINS, t[:-1]) for b, t in times.items()}, heap
+    table = markdown_table(head.split(", "), rows)
+    return table, {b: slope(CHAINS, t[:-1]) for b, t in times.items()}, heap
 
 
 def in_contacts() -> dict[str, float]:
@@ -183,22 +177,30 @@ def in_contacts() -> dict[str, float]:
 
 
 def main() -> int:
-    """Measure, and print the page."""
+    """Measure, and write the page."""
+    options = asked(__doc__, out=Path)
     m = machine()
-    print("# Large steps, by backend")
-    print(
-        f"\nWritten by `python -m validation.make.large_steps` on {m['processor']}, {m['cores']} "
+    words = (
+        f"Written by `python -m validation.make.large_steps` on {m['processor']}, {m['cores']} "
         f"cores, Python {m['python']}: processor time, medians of {STEPS} steps or more after the "
         "first, natively, accuracy 1e-12, no row compiled. Boxes are pulled over a floor, four "
         "contacts a pair. The first are the third to the seventh step: as a "
         "heap spreads, its steps take more iterations."
     )
-    by_way()
-    bodies, heap = large()
+    dense = by_way()
+    sparse, bodies, heap = large()
     measured = [(f"heap of {name(LARGEST)}, first [ms]", heap, HEAP_LIMIT)]
     for what, found in (("bodies", bodies), ("contacts", in_contacts())):
         measured += [(f"exponent in {what}, {b}", v, EXPONENT_LIMIT) for b, v in found.items()]
-    return int(not promises_kept(measured))
+    table, kept = promises(measured)
+    lines = [
+        "# Large steps, by backend", "", words,
+        "", "## Dense and sparse, nothing certified [ms]", "", *dense,
+        "", "## Sparse steps", "", *sparse,
+        "", "## Promises", "", *table,
+    ]  # fmt: skip
+    shown("\n".join(lines), options.out)
+    return int(not kept)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,6 @@ from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
 from quasistatic_ref.step.data import Array
-from validation.make.random_mechanisms import error
 from validation.tools.scripts import asked, shown
 
 PACKAGES = ("gymnasium==1.4.0", "dm_control==1.0.50")
@@ -64,6 +63,11 @@ class Differences(NamedTuple):
     inertia: float
     distance: float
     curved: float
+
+
+def error(a: Array, b: Array) -> float:
+    """Largest difference of two arrays, over the largest entry of the second."""
+    return float(np.abs(a - b).max(initial=0.0) / (np.abs(b).max(initial=0.0) or 1.0))
 
 
 def system_of(path: Path) -> tuple[System, Any]:

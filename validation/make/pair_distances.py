@@ -1,11 +1,11 @@
 """Signed distance, witness points and normal of every pair of shapes, on 1,000 poses each.
 
-    python -m validation.make.pair_distances [--count POSES]
+    python -m validation.make.pair_distances [--count POSES] [--out FILE]
 
-The reference is computed another way (tests/oracles/closest.py). For each pair, the largest of:
-- phi: |phi - reference| [m], where there is an exact one;
-- inside: where there is none (curved solids in penetration), by how much the gap along some of
-  4,000 directions exceeds phi [m]: a shallower way out than the one found;
+For each pair, the largest of:
+- phi: |phi - reference| [m], where the plain program has a closed form (tests/oracles/closest.py);
+- inside: where it has none, by how much the gap along some of 4,000 directions exceeds phi [m]: in
+  penetration a shallower way out than the one found; apart, normal and points prove phi;
 - normal: |s(n) - phi| [m], the gap along the normal against the distance;
 - points: distance of the witness points from the surfaces, and |beta - alpha - phi n| [m];
 - moved: |phi' - (phi + d)| [m] after moving beta's body by d = 1 mm along n.
@@ -13,24 +13,25 @@ The reference is computed another way (tests/oracles/closest.py). For each pair,
 
 from __future__ import annotations
 
-import sys
 import time
+from pathlib import Path
 
 import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.shapes.placed_shape import HalfSpace, Shape
+from quasistatic_ref.lab.page.markdown import markdown_table
+from quasistatic_ref.shapes.placed_shape import Shape
 from tests.oracles import closest
-from validation.tools.scripts import asked
+from validation.tools.scripts import asked, shown
 
 COLUMNS = ("phi", "inside", "normal", "points", "moved")
 STEP = 1e-3
-WORDS = """Refused: curved solids that meet, and whose answer could not be proved. Of curved solids
-apart the reference is a cone program in float64: at the largest difference, of a cone and an
-ellipsoid, the gap along n, a lower bound of the distance, exceeds the reference. Microseconds
-are upper bounds: the machine did other work meanwhile.
+WORDS = """{count} poses a pair, half of them degenerate; errors in metres, sizes of 0.1 m.
+
+Refused: curved solids that meet, and whose answer could not be proved. Microseconds are
+upper bounds: the machine did other work meanwhile.
 """
 
 
@@ -42,12 +43,15 @@ def points_off(a: Shape, b: Shape, R: np.ndarray, t: np.ndarray, found: Witness)
     return float(max(abs(on_a), abs(on_b), apart))
 
 
-def pair_errors(a: Shape, b: Shape, count: int) -> tuple[dict[str, float], int, int]:
+def pair_errors(names: tuple[str, str], count: int) -> tuple[dict[str, float], int, int]:
     """Largest errors over some poses, how many were in penetration, how many were refused."""
+    solids = closest.solids()
+    a, b = (solids[name] for name in names)
+    tables = [closest.TABLES[name] for name in names]
     random = np.random.default_rng(0)
     directions = random.normal(size=(4000, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    worst = dict.fromkeys(COLUMNS, 0.0)
+    worst: dict[str, float] = {}
     inside = refused = 0
     here = ShapeInWorld(a, np.eye(3), np.zeros(3))
     for R, t in closest.poses(count, 0):
@@ -60,38 +64,33 @@ def pair_errors(a: Shape, b: Shape, count: int) -> tuple[dict[str, float], int, 
         phi = found.phi
         n = found.n
         inside += phi < 0
-        reference = closest.signed_distance(a, b, R, t)
+        reference = closest.signed_distance(names, R, t)
         errors = {
             "points": points_off(a, b, R, t, found),
             "moved": abs(moved.phi - phi - STEP),
             "normal": abs(n @ n - 1),
         }
-        if not (isinstance(a, HalfSpace) or isinstance(b, HalfSpace)):
-            along = float(closest.gap(a, b, R, t, n[None])[0])
+        if "half-space" not in names:
+            along = float(closest.gap(*tables, R, t, n[None])[0])
             errors["normal"] = max(errors["normal"], abs(along - phi))
         if reference is not None:
             errors["phi"] = abs(phi - reference)
-        elif phi < closest.MEETING:
-            errors["inside"] = float(closest.gap(a, b, R, t, directions).max()) - phi
         else:
-            errors["phi"] = phi  # the reference says that they meet
+            errors["inside"] = float(closest.gap(*tables, R, t, directions).max()) - phi
         for name, error in errors.items():
-            worst[name] = max(worst[name], float(error))
+            worst[name] = max(worst.get(name, 0.0), float(error))
     return worst, inside, refused
 
 
-def main() -> int:
-    """Print the table."""
-    count = asked(__doc__, count=1000).count
+def main() -> None:
+    """Write the table."""
+    options = asked(__doc__, count=1000, out=Path)
     solids = closest.solids()
-    print(f"{count} poses a pair, half of them degenerate; errors in metres, sizes of 0.1 m.\n")
-    print(WORDS)
-    print("| pair | " + " | ".join(COLUMNS) + " | in penetration | refused | us |")
-    print("|---" * (len(COLUMNS) + 4) + "|")
+    rows = []
     for first, second in closest.pairs():
         a = solids[first]
         b = solids[second]
-        worst, inside, refused = pair_errors(a, b, count)
+        worst, inside, refused = pair_errors((first, second), options.count)
         poses = list(closest.poses(50, 1))
         start = time.perf_counter()
         for R, t in poses:
@@ -100,11 +99,11 @@ def main() -> int:
             except ContactError:
                 continue
         cost = (time.perf_counter() - start) / len(poses) * 1e6
-        cells = [f"{worst[name]:.0e}" if worst[name] else "0" for name in COLUMNS]
-        cells += [str(inside), str(refused), f"{cost:.0f}"]
-        print(f"| {first} - {second} | " + " | ".join(cells) + " |", flush=True)
-    return 0
+        cells = [f"{worst[name]:.0e}" if name in worst else "-" for name in COLUMNS]
+        rows.append([f"{first} - {second}", *cells, inside, refused, f"{cost:.0f}"])
+    table = markdown_table(("pair", *COLUMNS, "in penetration", "refused", "us"), rows)
+    shown("\n".join([WORDS.format(count=options.count), *table]), options.out)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -45,12 +45,12 @@ def identified_ratios(record: Record) -> Figure:
     ratio = 1e3 * np.array([e["ratio"] for e in own])
     ends = 1e3 * np.array([[e["low"], e["high"]] for e in own]).T
     axes.errorbar(ratio, rows, xerr=np.abs(ends - ratio), fmt="o", color="black",
-                  markersize=scaled(3.5), label="from loads, 95 %")  # fmt: skip
-    _marks(axes, 1e3 * np.array([e["reverse"] for e in own]), rows, "<", 4, "loads from motions")
+                  markersize=scaled(3.5), label="identified, 95 %")  # fmt: skip
+    _marks(axes, 1e3 * np.array([e["reverse"] for e in own]), rows, "<", 4, "reverse")
     _marks(axes, 1e3 * np.array([e["published"] for e in record.values()]), rows, "s", 5.5,
-           "published ellipsoid")  # fmt: skip
+           "published")  # fmt: skip
     _marks(axes, 1e3 * np.array([e["uniform"] for e in record.values()]), rows, "|", 8,
-           "uniform pressure")  # fmt: skip
+           "uniform")  # fmt: skip
     _named(axes, list(record))
     axes.set_xlim(left=0)
     labelled(axes, r"$\mu_\omega / \mu_v$ [mm]")
@@ -77,14 +77,14 @@ def errors_by_pair(record: Record) -> Figure:
     figure, both = panels(6.3, 4.8, columns=2)
     names = list(record["pairs"])
     entries = [record["pairs"][name] for name in names]
-    for k, (axes, unit) in enumerate(zip(both, ("place [mm]", "angle [deg]"), strict=True)):
+    for k, (axes, unit) in enumerate(zip(both, ("position [mm]", "rotation [deg]"), strict=True)):
         _spans(axes, [e["error"] for e in entries], k, -0.15, marker="o", label="ellipsoid, 95 %")
         _spans(axes, [e["published"] for e in entries], k, 0.15, marker="s", markerfacecolor="none",
                label="published simulator")  # fmt: skip
         shown = ["mean over pairs" if name == "all" else name for name in names]
         _named(axes, [""] * len(shown) if k else shown)
         axes.set_xlim(left=0)
-        labelled(axes, f"mean error of the {unit}", key=False)
+        labelled(axes, f"mean error of {unit}", key=False)
     legend_below(both, both[0].get_legend_handles_labels()[0])
     return figure
 
@@ -93,11 +93,11 @@ def ablations(record: Record, names: Sequence[str]) -> Figure:
     """Mean errors over pairs of some variants, with intervals."""
     figure, both = panels(6.3, 0.9 + 0.24 * len(names), columns=2)
     entries = [record["variants"][name]["error"] for name in names]
-    for k, (axes, unit) in enumerate(zip(both, ("place [mm]", "angle [deg]"), strict=True)):
+    for k, (axes, unit) in enumerate(zip(both, ("position [mm]", "rotation [deg]"), strict=True)):
         _spans(axes, entries, k, 0.0, marker="o")
         _named(axes, [""] * len(names) if k else names)
         axes.set_xlim(left=0)
-        labelled(axes, f"error of the {unit}", key=False)
+        labelled(axes, f"error of {unit}", key=False)
     return figure
 
 
@@ -117,10 +117,9 @@ def tripods(record: Record) -> Figure:
             shares = [100 * record["variants"][name][s]["median error over median turn"]
                       for s in sets]  # fmt: skip
             _marks(axes, shares, range(len(sets)), mark, 5, label if name == own[0] else "")
-    axes.axvline(100 / 3, color="black", linestyle=":", linewidth=scaled(1))
-    _named(axes, [f"{name}{', calibrated' if k == 0 else ''}" for k, name in enumerate(sets)])
+    _named(axes, [f"{name}{', identification' if k == 0 else ''}" for k, name in enumerate(sets)])
     axes.set_xlim(left=0)
-    labelled(axes, "median error of the turn over the median turn [%]")
+    labelled(axes, "median error of rotation over median rotation [%]")
     return figure
 
 

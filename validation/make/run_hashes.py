@@ -1,6 +1,6 @@
 """SHA-256 of q of every scenario's run, on code for several processors, and with several NumPys.
 
-    python -m validation.make.run_hashes [--steps STEPS] [--python PYTHON] [--log FILE]
+    python -m validation.make.run_hashes [--steps STEPS] [--python PYTHON] [--log FILE] [--out FILE]
 
 Runs are taken in processes of their own: with the kernels of OpenBLAS for other processors
 (``OPENBLAS_CORETYPE``), without the vector code of NumPy and of the C library
@@ -32,7 +32,7 @@ from tqdm import tqdm
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.scenario.scenario import load_scenario
-from validation.tools.scripts import asked, environment
+from validation.tools.scripts import asked, environment, shown
 
 ROOT = Path(__file__).parents[2]
 KERNELS = ("SkylakeX", "Haswell", "Nehalem")
@@ -153,10 +153,10 @@ def report(steps: int | None, python: str | None, path: Path | None) -> tuple[st
 
 
 def main() -> int:
-    """Print the result."""
-    options = asked(__doc__, steps=int, python=str, log=Path)
+    """Write the result."""
+    options = asked(__doc__, steps=int, python=str, log=Path, out=Path)
     text, equal = report(options.steps, options.python, options.log)
-    print(text)
+    shown(text, options.out)
     return int(not equal)
 
 

@@ -1,12 +1,12 @@
 """Closest points of solids in compiled code, which are to have the bits of the plain path.
 
-    python -m validation.make.solid_pairs [--count POSES]
+    python -m validation.make.solid_pairs [--count POSES] [--out FILE]
 
 Of each pair of shapes, as many poses: random ones, axes along each other's, tilts of a millionth
 (tests/oracles/closest.py), three in four of them put so that the solids touch, or nearly, or are
 1 mm deep, some with their middles in one place; anywhere in the world. One, 4 or 16 contacts;
 either solid is alpha. What compiled code leaves to Python is counted; of what it says every bit is
-compared. Writes validation/results/solid_pairs.md; ``--count`` tries so many, and writes nothing.
+compared. Exit status 1 if a bit differs.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.distance import joined, pair_closest_points
+from quasistatic_ref.contact.distance import joined_contacts, pair_closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import solid_pair
@@ -32,8 +32,6 @@ from tests.oracles import closest
 from validation.tools.scripts import asked, shown
 
 Array = np.ndarray
-PAGE = Path(__file__).parents[1] / "results" / "solid_pairs.md"
-COUNT = 10_000
 GAPS = (0.0, 1e-16, 1e-13, -1e-13, 1e-9, -1e-9, 1e-6, -1e-3)
 """Signed distances at which solids are put [m]; in between they stay where they are."""
 MIDDLES = (0.0, 1e-13, 1e-10)
@@ -93,7 +91,7 @@ def tried(a: Shape, b: Shape, count: int, seed: int) -> Counter[str]:
         found, (decided,) = by_c[i](R, t)
         between = time.perf_counter()
         try:
-            expected = joined([pair_closest_points(pairs[i], R, t)])
+            expected = joined_contacts([pair_closest_points(pairs[i], R, t)])
         except ContactError:
             expected = None
         tally["plain"] += time.perf_counter() - between
@@ -109,20 +107,20 @@ def tried(a: Shape, b: Shape, count: int, seed: int) -> Counter[str]:
 
 
 def main() -> int:
-    """Try all pairs; exit status 1 if a bit differs."""
-    count = asked(__doc__, count=int).count
+    """Try all pairs, and write the page; exit status 1 if a bit differs."""
+    options = asked(__doc__, count=10_000, out=Path)
     solids = closest.solids()
     rows = []
     different = 0
     for seed, (first, second) in enumerate(compiled_pairs()):
-        tally = tried(solids[first], solids[second], count or COUNT, seed)
+        tally = tried(solids[first], solids[second], options.count, seed)
         numbers = [tally[name] for name in COLUMNS[:4]]
         us = [f"{1e6 * tally[name] / tally['poses']:.0f}" for name in ("compiled", "plain")]
         rows.append((f"{first} - {second}", *numbers, *us))
         different += tally["different"]
         print(*rows[-1], flush=True)
     table = markdown_table(("pair", *COLUMNS), rows)
-    shown("\n".join([INTRODUCTION, *table]), PAGE if count is None else None)
+    shown("\n".join([INTRODUCTION, *table]), options.out)
     return int(different > 0)
 
 

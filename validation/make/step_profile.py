@@ -1,38 +1,38 @@
 """The time of a step in numbers: the table behind the figure of the claim ``step_time``.
 
-Run ``python -m validation.make.step_profile > validation/results/step_profile.md`` (ten seconds;
-the extra ``test`` brings DAQP). docs/speed.md compares it with the paper's Fig. 4.
+Run ``python -m validation.make.step_profile --out FILE`` (ten seconds; the extra ``test`` brings
+DAQP). docs/speed.md compares it with the paper's Fig. 4.
 """
 
 from __future__ import annotations
 
-import sys
+from pathlib import Path
 
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.lab.study.bench.profile import PARTS, SOLVE, Microseconds, measured, share
 from quasistatic_ref.lab.study.measuring.environment import machine
+from validation.tools.scripts import asked, shown
 
 
-def main() -> int:
-    """Measure, and print the page."""
+def main() -> None:
+    """Measure, and write the page."""
+    options = asked(__doc__, out=Path)
     found = measured()
     m = machine()
-    print("# The time of a step")
-    print()
-    print(
+    words = (
         f"Written by `python -m validation.make.step_profile` on {m['processor']}, {m['cores']} "
         f"cores, Python {m['python']}. Every step of `bunny_grasp`, native engine, "
         "accuracy 1e-12; wall time [us], share of the lap `solve` and of the solver's call alone "
         f"[%]. By brute force a step evaluates {found['all']} signed distances, with the tracker "
         f"{found['tracked']:.0f} in the mean."
     )
+    lines = ["# The time of a step", "", words]
     for title, of_profile in (("Medians", "typical"), ("Means", "mean")):
-        print(f"\n## {title}\n")
         names = ("backend, distances", *PARTS, "step", "solve [%]", "call alone [%]")
         profiles = found["profiles"].all
         rows = [(profile.name, *_row(getattr(profile, of_profile))) for profile in profiles]
-        print(*markdown_table(names, rows), sep="\n")
-    return 0
+        lines += ["", f"## {title}", "", *markdown_table(names, rows)]
+    shown("\n".join(lines), options.out)
 
 
 def _row(times: Microseconds) -> list[str]:
@@ -41,4 +41,4 @@ def _row(times: Microseconds) -> list[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -61,7 +61,7 @@ STUDY: Final = (
     "quasistatic-ref study pack study",
     "quasistatic-ref study problems export study/problems --to parquet --out qpbenchmark",
     "quasistatic-ref study problems check",
-    "quasistatic-ref study problems export --to npz --families wedge --every 20 --out problems",
+    "quasistatic-ref study problems export --to npz --families limits --every 20 --out problems",
     "quasistatic-ref study run sequences --quick --out sequences",
 )
 

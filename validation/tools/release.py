@@ -42,27 +42,18 @@ class Result:
         Committed files or folders that it makes, relative to the root.
     copied : tuple of (str, str)
         What is copied after it from the temporary folder: a pattern, and a committed folder.
-    printed : bool
-        Whether the one file that it makes is its standard output.
     """
 
     name: str
     command: str
     writes: tuple[str, ...]
     copied: tuple[tuple[str, str], ...] = ()
-    printed: bool = False
 
 
 def to_file(name: str, ending: str = "md", command: str = "") -> Result:
     """What a command, else the script of that name, writes to the file that it is given."""
     path = f"validation/results/{name}.{ending}"
     return Result(name, f"{command or f'validation.make.{name}'} --out {path}", (path,))
-
-
-def printed(name: str) -> Result:
-    """What the script of that name prints, kept in a file."""
-    path = f"validation/results/{name}.md"
-    return Result(name, f"validation.make.{name}", (path,), printed=True)
 
 
 RESULTS = (
@@ -82,14 +73,13 @@ RESULTS = (
         ("docs/figures",),
         (("*.png", "docs/figures"),),
     ),
-    printed("large_steps"),
-    printed("grouped_proofs"),
+    to_file("large_steps"),
+    to_file("grouped_proofs"),
     to_file("proved_problems"),
-    printed("pair_distances"),
+    to_file("pair_distances"),
     to_file("solid_pairs"),
-    printed("step_profile"),
-    printed("random_mechanisms"),
-    printed("run_hashes"),
+    to_file("step_profile"),
+    to_file("run_hashes"),
     to_file("attacks"),
     to_file("verifier", command="validation.tools.check_verifier --all"),
     to_file("confirmed_bits", "txt"),
@@ -103,8 +93,7 @@ RESULTS = (
     ),
     to_file("mjcf"),
     to_file("environments"),
-    to_file("aligned_poses"),
-    printed("forces_by_hand"),
+    to_file("forces_by_hand"),
     to_file("forces"),
     to_file("outputs"),
     Result("mutations", "validation.tools.mutations --stale", ("validation/results/mutations.md",)),
@@ -133,7 +122,6 @@ RESULTS = (
         ("validation/results/benchmarks",),
     ),
     to_file("installs", command="validation.tools.check_installs"),
-    to_file("exit_codes"),
     *(
         Result(
             f"study_{name}",
@@ -149,12 +137,9 @@ def made(result: Result) -> bool:
     """Run a result's command, and put what it made where it belongs; False if it failed."""
     with tempfile.TemporaryDirectory() as temporary:
         command = [sys.executable, "-m", *shlex.split(result.command.format(temporary=temporary))]
-        output = subprocess.PIPE if result.printed else None
-        done = subprocess.run(command, cwd=ROOT, stdout=output, check=False)
+        done = subprocess.run(command, cwd=ROOT, check=False)
         if done.returncode:
             return False  # what it would have written is left as it was
-        if result.printed:
-            (ROOT / result.writes[0]).write_bytes(done.stdout)
         for pattern, folder in result.copied:
             for file in sorted(Path(temporary).glob(pattern)):
                 shutil.copy(file, ROOT / folder / file.name)

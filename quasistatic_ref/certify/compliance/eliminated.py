@@ -22,7 +22,7 @@ from quasistatic_ref.certify.compliance.faces import (
 )
 from quasistatic_ref.certify.exact import nearest_numbers
 from quasistatic_ref.certify.farkas import farkas_vector
-from quasistatic_ref.certify.minimiser import Minimiser, ball_form
+from quasistatic_ref.certify.minimiser import Minimiser, form_in_balls
 from quasistatic_ref.certify.rational import (
     Dyadic,
     ExactForm,
@@ -127,7 +127,7 @@ class EliminatedStep:
             under = in_integers(H, g, self.own[:, :n], -self.own[:, n], fmpq(1))
             working = tuple(first_own + i for i in self._active(under, held))
         return Candidate(
-            Minimiser(form, ball_form(form), working), first_own, form.slack_unit / scale
+            Minimiser(form, form_in_balls(form), working), first_own, form.slack_unit / scale
         )
 
     def _active(self, under: ExactForm, held: Sequence[int]) -> tuple[int, ...]:

@@ -139,9 +139,9 @@ def contact_forces(
 
 def _of_group(step: StepData, compliance: float, near: tuple[Array, Array] | None) -> ContactForces:
     """The forces of a step by itself, or of a group of bodies of one."""
-    kind = cone(step.cone)
-    if isinstance(kind, CurvedCone):
-        return kind.forces(step, compliance, near)
+    friction_cone = cone(step.cone)
+    if isinstance(friction_cone, CurvedCone):
+        return friction_cone.forces(step, compliance, near)
     assert near is not None
     faces, held = without_warnings(guessed_faces, step, compliance, near)
     optimum = eliminated_optimum(step, compliance, faces, held)

@@ -76,7 +76,7 @@ def _figures(
 def _table(report: dict[str, dict[str, object]]) -> list[tuple[str, ...]]:
     lift = f"t = {CLOSED:g} to {TOP:g} s"
     labels = {
-        "rotation_deg": (f"rotation of the bunny, {lift}, at most [deg]", "{:.3f}"),
+        "rotation_deg": (f"largest rotation of the bunny, {lift} [deg]", "{:.3f}"),
         "lift_mm": (f"lift height, {lift} [mm]", "{:.2f}"),
         "drag_share": ("largest drag / friction that contacts can bear [-]", "{:.3f}"),
         "certified": ("certified", "{}"),

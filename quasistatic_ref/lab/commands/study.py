@@ -21,7 +21,7 @@ ACTIONS = {
     "run": "run a study; one that was interrupted goes on where it stopped",
     "report": "write what a study says: a self-contained HTML page, Markdown, figures",
     "ask": "run one solver on one problem, in a process of its own, and grade the answer",
-    "problems": "sets of problems with exact answers: list, export, check, make",
+    "problems": "sets of problems with exact answers: list, export, check",
     "merge": "join the results of several machines into one store",
     "pack": "write a study's rows compressed, their numbers shortened, to be kept",
 }

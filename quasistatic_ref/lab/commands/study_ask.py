@@ -46,7 +46,7 @@ def _lines(one: Any, row: dict[str, Any]) -> list[tuple[str, str]]:
     form = one.problem.form
     facts = one.problem.facts
     seconds = row["seconds"]
-    options = options_words(one.solver.settings_of(one.setting, one.limits.call))
+    options = options_words(one.solver.settings_of(one.setting, one.limits.time_limit))
     false = [
         words
         for words, holds in (

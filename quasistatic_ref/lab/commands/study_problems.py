@@ -13,7 +13,6 @@ ACTIONS = {
     "list": "the families of a set, their dials, and how many problems they have",
     "export": "write problems as npz, parquet (qpbenchmark), mat (MATLAB), json or qps",
     "check": "compare a set's files with its hashes; with --exact prove every answer again",
-    "make": "make contact-qp-2 from its scenes, with exact answers; an interrupted one goes on",
 }
 UNITS = ("raw", "natural")
 FORMATS = ("npz", "parquet", "mat", "json", "qps")
@@ -40,14 +39,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parsers["check"].add_argument(
         "--exact", action="store_true", help="prove every answer again (minutes, no solver)"
     )
-    shared.add(parsers["make"], "--out", default=Path(CONTACT_QP_2))
     for name in ("list", "check"):
         shared.add(parsers[name], "--json")
 
 
 def run_problems(options: argparse.Namespace) -> int:
     """Run the action that was named."""
-    runs = {"list": _list, "export": _export, "check": _check, "make": _make}
+    runs = {"list": _list, "export": _export, "check": _check}
     return runs[options.problems](options)
 
 
@@ -119,11 +117,3 @@ def _check(options: argparse.Namespace) -> int:
     for sentence in (*(f"{name}: {why}" for name, why in wrong.items()), *filter(None, [other])):
         print(f"quasistatic-ref: {sentence}", file=sys.stderr)
     return int(bool(wrong or other))
-
-
-def _make(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.study.problems.recipe import edition_made
-
-    problems = edition_made(options.out, not options.quiet)
-    print(f"wrote {options.out}: {len(problems)} problems")
-    return 0

@@ -17,7 +17,6 @@ ACTIONS = {
     "own": "write this package's own float64 answers, as anybody else's",
     "pack": "write the vectors as one archive to be kept, with its SHA-256",
     "export": "write the quadratic programs for qpbenchmark (Parquet) and as one .npz bundle",
-    "harvest": "collect the steps of scenarios again: for a release of the vectors",
 }
 OUT = {"own": "answers", "report": "conformance", "pack": "."}
 """Where an action writes; ``vectors`` otherwise."""
@@ -131,15 +130,10 @@ def _show_case(options: argparse.Namespace, source: Path) -> None:
 def _generate(options: argparse.Namespace) -> int:
     from quasistatic_ref.lab.vectors.generate import generated
 
-    return _counted(generated(vectors_given(options), options.out, not options.quiet), options.out)
-
-
-def _harvest(options: argparse.Namespace) -> int:
-    from quasistatic_ref.lab.vectors.harvest import harvested
-
-    source = vectors_given(options)
-    counts = harvested(source, options.out, lambda said: shared.progress_line(options, said))
-    return _counted(counts, options.out)
+    counts = generated(vectors_given(options), options.out, not options.quiet)
+    shared.print_rows([("layer", "cases"), *((name, str(n)) for name, n in counts.items())])
+    print(f"wrote {sum(counts.values())} cases to {options.out}")
+    return 0
 
 
 def _own(options: argparse.Namespace) -> int:
@@ -162,13 +156,6 @@ def _export(options: argparse.Namespace) -> int:
     return 0
 
 
-def _counted(counts: dict[str, int], folder: Path) -> int:
-    rows: list[tuple[str, ...]] = [("layer", "cases")]
-    shared.print_rows([*rows, *((name, str(count)) for name, count in counts.items())])
-    print(f"wrote {sum(counts.values())} cases to {folder}")
-    return 0
-
-
 RUNS: dict[str, Callable[[argparse.Namespace], int]] = {
     "check": _check,
     "report": run_report,
@@ -177,5 +164,4 @@ RUNS: dict[str, Callable[[argparse.Namespace], int]] = {
     "own": _own,
     "pack": run_pack,
     "export": _export,
-    "harvest": _harvest,
 }

@@ -5,10 +5,8 @@ A shape that several cases use, such as a cloud of 992 points, stands once in th
 """
 
 import json
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -18,15 +16,12 @@ from quasistatic_ref.formats.files import json_read, plain, text_written
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from quasistatic_ref.lab.vectors.trees import nodes, tables_replaced
 
 VERSION: Final = 1
-INPUTS, EXPECTED, ANSWERS = (
-    f"quasistatic-ref/vectors-{k}" for k in ("inputs", "expected", "answers")
-)
+INPUTS: Final = "quasistatic-ref/vectors-inputs"
+EXPECTED: Final = "quasistatic-ref/vectors-expected"
+ANSWERS: Final = "quasistatic-ref/vectors-answers"
 SHARED: Final = "shared"
-LARGE: Final = ("cloud", "convex")
-"""Shapes that may be shared."""
 
 
 @dataclass(frozen=True)
@@ -47,11 +42,6 @@ class Case:
     provenance: str
     input: Json
 
-    @property
-    def json(self) -> dict[str, Json]:
-        """The case as it stands in the file."""
-        return {"id": self.id, "provenance": self.provenance, "input": self.input}
-
 
 def lines(record: dict[str, Json], listed: Sequence[str] = ("cases", "answers")) -> str:
     """A JSON object with sorted keys; of the fields in `listed`, one entry a line."""
@@ -70,21 +60,6 @@ def line(value: Any) -> str:
     return json.dumps(plain(value), sort_keys=True, allow_nan=False, ensure_ascii=False)
 
 
-def inputs_text(layer: str, cases: Sequence[Case]) -> str:
-    """The file of a layer's inputs; shapes that are met twice are moved to its table."""
-    shapes = _shapes_met_twice([case.input for case in cases])
-    named = partial(_named, shapes)
-    record: dict[str, Json] = {
-        "format": INPUTS,
-        "version": VERSION,
-        "layer": layer,
-        "cases": [{**case.json, "input": tables_replaced(case.input, named)} for case in cases],
-    }
-    if shapes:
-        record["shapes"] = {name: json.loads(text) for text, name in shapes.items()}
-    return lines(record)
-
-
 def inputs_read(folder: str | Path, layer: str) -> list[Case]:
     """The inputs of a layer from a folder of vectors, shared shapes in their places.
 
@@ -96,11 +71,11 @@ def inputs_read(folder: str | Path, layer: str) -> list[Case]:
     path = Path(folder) / "inputs" / f"{layer}.json"
     try:
         top = opened(path, INPUTS, layer)
-        placed = partial(_placed, top.take("shapes", {}))
+        shapes = top.take("shapes", {})
         cases = []
         for i, entry in enumerate(top.sequence("cases")):
             one = Fields(entry, f"cases[{i}]")
-            given = tables_replaced(one.take("input"), placed)
+            given = _whole(one.take("input"), shapes)
             cases.append(Case(one.text("id"), one.text("provenance"), given))
             one.close()
         top.close()
@@ -160,25 +135,15 @@ def _check_ids(ids: Sequence[str]) -> None:
         raise InputError("is the id of two cases", field="id", value=twice)
 
 
-def _shapes_met_twice(inputs: Sequence[Json]) -> dict[str, str]:
-    """Names of the large shapes that occur more than once, by their text."""
-    tables = (table for given in inputs for _, table in nodes(given) if isinstance(table, dict))
-    counts = Counter(line(table) for table in tables if table.get("kind") in LARGE)
-    often = [text for text, count in counts.items() if count > 1]
-    return {text: f"{json.loads(text)['kind']}_{i}" for i, text in enumerate(often)}
-
-
-def _named(names: dict[str, str], table: Json) -> Json:
-    """A reference in the place of a shape that has a name."""
-    name = names.get(line(table)) if table.get("kind") in LARGE else None
-    return None if name is None else {"kind": SHARED, "name": name}
-
-
-def _placed(shapes: Json, table: Json) -> Json:
-    """The shape in the place of a reference."""
-    if table.get("kind") != SHARED:
-        return None
-    name = Fields(table).text("name")
+def _whole(value: Json, shapes: Json) -> Json:
+    """A case with the shapes that its file keeps in a table."""
+    if isinstance(value, list):
+        return [_whole(one, shapes) for one in value]
+    if not isinstance(value, dict):
+        return value
+    if value.get("kind") != SHARED:
+        return {key: _whole(one, shapes) for key, one in value.items()}
+    name = Fields(value).text("name")
     if name not in shapes:
         raise InputError("is not a shape of this file", field="shapes", value=name)
     return shapes[name]

@@ -16,11 +16,6 @@ def nodes(value: Json, path: Path = ()) -> Iterator[tuple[Path, Json]]:
         yield from nodes(inner, (*path, key))
 
 
-def named(value: Json, name: str) -> Iterator[Json]:
-    """Every value of a field, at any depth."""
-    return (inner for path, inner in nodes(value) if path[-1:] == (name,))
-
-
 def mapped(value: Json, leaf: Callable[[Json], Json], kept: Collection[str] = ()) -> Json:
     """The same nesting with another value in the place of each leaf; fields `kept` stay."""
     if isinstance(value, dict):
@@ -28,13 +23,3 @@ def mapped(value: Json, leaf: Callable[[Json], Json], kept: Collection[str] = ()
     if isinstance(value, list | tuple):
         return [mapped(v, leaf, kept) for v in value]
     return leaf(value)
-
-
-def tables_replaced(value: Json, rule: Callable[[Json], Json]) -> Json:
-    """The same nesting with another value in the place of each table for which a rule gives one."""
-    if isinstance(value, dict):
-        other = rule(value)
-        if other is not None:
-            return other
-        return {key: tables_replaced(v, rule) for key, v in value.items()}
-    return [tables_replaced(v, rule) for v in value] if isinstance(value, list) else value

@@ -68,7 +68,7 @@ def smoothed(
     points = simulator.closest_points(kinematics)
     step = simulator.step_data(q, q_bar_a, force, points, kinematics)
     found = barrier_step(step, kappa)
-    statistics = SolverStatistics("barrier", "solved", None, None, kappa, engine="none")
+    statistics = SolverStatistics("barrier", "solved", None, None, kappa, interface="none")
     solution = step_solution(step, found.x, found.lam, Certificate("none"), statistics, alone=False)
     q_next = simulator.system.integrate(q, found.x)
     result = StepResult(q_next, step, solution, points, {})

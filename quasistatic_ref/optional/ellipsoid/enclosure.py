@@ -19,7 +19,7 @@ from flint import arb, arb_mat, ctx, fmpq
 from quasistatic_ref.certify.gap import duality_gap, fractions
 from quasistatic_ref.certify.minimiser import (
     BallForm,
-    ball_form,
+    form_in_balls,
     inner,
     rational_solution,
     rounded_solution,
@@ -143,7 +143,7 @@ def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
     Enclosure or None
     """
     form = exact_form(step)
-    balls = ball_form(form)
+    balls = form_in_balls(form)
     nothing = np.zeros(form.m)
     if apex_refutation(step, form, (), nothing) is None:  # no contact bears load
         delta_q, _, net, _ = rounded_solution(form, rational_solution(form, ()))
@@ -192,7 +192,7 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
         Precision, five times as many as the gap has.
     """
     form = exact_form(step)
-    balls = ball_form(form)
+    balls = form_in_balls(form)
     with ctx.workprec(bits):
         frame = scaled_blocks(step, form, balls)
         pair = interior_point(frame.problem, gap)

@@ -26,7 +26,7 @@ from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
 from quasistatic_ref.solve.through_cvxpy import CANON
-from quasistatic_ref.solve.units import STANDSTILL, Units, from_natural, natural_units, to_natural
+from quasistatic_ref.solve.units import STANDSTILL, Units, in_si, natural_step, natural_units
 from quasistatic_ref.step.cones import cone, frictionless
 from quasistatic_ref.step.data import Array, Extra, StepData, no_rows
 from quasistatic_ref.step.extension import Extension, Own, Symbols, none
@@ -121,7 +121,7 @@ def extended_step(
     if isinstance(solver, Solver):
         problem = "takes linear constraints only; for a cost or a nonlinear constraint pass "
         problem += "the name of a backend"
-        raise BackendError(problem, field="solver", value=f"{solver.name}, {solver.engine}")
+        raise BackendError(problem, field="solver", value=f"{solver.name}, {solver.interface}")
     name = DEFAULT if solver is None else solver
     return extended_solution(step, extension, name, accuracy, certify)
 
@@ -181,7 +181,7 @@ def extended_solution(
     units = natural_units(step)
     if units.size <= STANDSTILL:  # nothing but the extension drives the step
         units = units._replace(size=1.0)
-    natural = to_natural(step, units)
+    natural = natural_step(step, units)
     problem = CvxpyProblem(natural, *_own_terms(extension, step, units))
     problem.fill(natural)
     if extension.without_stiffness:  # nothing is left of Eq. (1)
@@ -189,13 +189,13 @@ def extended_solution(
             parameter.value = np.zeros(parameter.shape)
     failure: StepNotSolved | None = None
     for relaxed in (k * accuracy for k in RELAXED):
-        for options in backend(name).attempts(relaxed):
+        for options in backend(name).option_sets(relaxed):
             try:
                 certificate, statistics = _solved(step, problem, name, relaxed, dict(options))
             except StepNotSolved as failed:
                 failure = failed
                 continue
-            delta_q, lam = from_natural(problem.primal(), problem.dual(), units)
+            delta_q, lam = in_si(problem.primal(), problem.dual(), units)
             claimed = Certificate("none") if certify == "off" else certificate
             return step_solution(step, delta_q, lam, claimed, statistics, alone=False)
     assert failure is not None  # a backend has at least one set of options

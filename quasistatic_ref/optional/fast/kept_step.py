@@ -1,22 +1,22 @@
-"""A step in natural units, with what is known of them before."""
+"""A step in both units, with what is known of them before."""
 
 import numpy as np
 
-from quasistatic_ref.solve.natural_step import DenseStep, check_units, out_of_range
-from quasistatic_ref.solve.units import NaturalHessian, Units, natural_hessian, units_of
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits, check_units, out_of_range
+from quasistatic_ref.solve.units import HessianInBothUnits, Units, hessian_in_both_units, units_of
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 
-class KeptStep(DenseStep):
-    """A step in natural units that takes over what is known of them.
+class KeptStepInBothUnits(DenseStepInBothUnits):
+    """A step in SI and natural units that takes over what is known of them.
 
     Parameters
     ----------
-    step : StepData
-    template : NaturalHessian or None
+    si_step : StepData
+    hessian : HessianInBothUnits or None
         Of an earlier step: taken over if H is the same array.
-    form : StandardForm, optional
+    si_form : StandardForm, optional
         That of the step, where it is known.
     units : Units, optional
         Its natural units, where they are known.
@@ -24,19 +24,18 @@ class KeptStep(DenseStep):
 
     def __init__(
         self,
-        step: StepData,
-        template: NaturalHessian | None,
-        form: StandardForm | None = None,
+        si_step: StepData,
+        hessian: HessianInBothUnits | None,
+        si_form: StandardForm | None = None,
         units: Units | None = None,
     ) -> None:
-        self.step = step
-        self.form = standard_form(step) if form is None else form
+        self.si_step = si_step
+        self.si_form = standard_form(si_step) if si_form is None else si_form
         try:
-            same = template is not None and template.H is self.form.H
-            self.metric = (
-                template if template is not None and same else natural_hessian(self.form.H)
-            )
-            self.units = units_of(self.form, self.metric) if units is None else units
+            if hessian is None or hessian.H is not self.si_form.H:
+                hessian = hessian_in_both_units(self.si_form.H)
+            self.hessian = hessian
+            self.units = units_of(self.si_form, hessian) if units is None else units
         except np.linalg.LinAlgError:
-            raise out_of_range(step) from None
-        check_units(self.units, step, self.metric.usable)
+            raise out_of_range(si_step) from None
+        check_units(self.units, si_step, hessian.usable)

@@ -17,7 +17,7 @@ from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, Spa
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import NaturalHessian, Units, reach
+from quasistatic_ref.solve.units import HessianInBothUnits, Units, reach
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import FAR
@@ -60,7 +60,7 @@ class NativeSolver(BackendSolver):
         If the backend has no native interface, or does not take the cone.
     """
 
-    engine = "native"
+    interface = "native"
     remembers = True
     fixed = ("n_a", "n_u", "cone", "contacts.rows", "extra")
 
@@ -71,7 +71,7 @@ class NativeSolver(BackendSolver):
         module = import_module(f"quasistatic_ref.optional.fast.adapters.{name}")
         self.adapter: type[Adapter] = getattr(module, BACKENDS[name].adapter)
         self.sizes = sizes(template)
-        self.metric: NaturalHessian | None = None
+        self.hessian: HessianInBothUnits | None = None
         self.program: Program | SparseProgram = self.empty()
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -93,47 +93,47 @@ class NativeSolver(BackendSolver):
         alike = step.layout is self.template.layout and sizes(step) == self.sizes
         return alike or super().takes(step)
 
-    def write(self, scaled: Any) -> NDArray[np.bool_] | None:
+    def write(self, both: Any) -> NDArray[np.bool_] | None:
         """Write the program in natural units; tell which rows, shape (m,), are out of reach."""
-        self.write_program(scaled)
+        self.write_program(both)
         program = self.program
         if not self.adapter.NEAR or program.b.min(initial=0.0) >= -FAR:
             return None
-        least = -reach_of_rows(scaled.step, scaled.units)
+        least = -reach_of_rows(both.si_step, both.units)
         np.maximum(program.b, least, out=program.b)
         return np.asarray(program.b == least)
 
-    def write_program(self, scaled: Any) -> None:
+    def write_program(self, both: Any) -> None:
         """Write the program in natural units as it is; H only where it is another array."""
-        form = scaled.form
+        form = both.si_form
         program = self.program
-        S = scaled.units.coordinate
-        ell = scaled.units.length
-        rho = scaled.units.size
-        if self.metric is None or self.metric.H is not scaled.metric.H:
-            program.H[:] = scaled.metric.natural
-            self.metric = scaled.metric
+        S = both.units.coordinate
+        ell = both.units.length
+        rho = both.units.size
+        if self.hessian is None or self.hessian.H is not both.hessian.H:
+            program.H[:] = both.hessian.natural_H
+            self.hessian = both.hessian
         np.multiply(form.g, S / -rho, out=program.f)
         np.multiply(form.A, S / ell, out=program.A)
         np.multiply(form.b, 1 / (rho * ell), out=program.b)
 
-    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
+    def reply(self, option_set: OptionSet, both: Any) -> Reply:
         """One attempt: from the answer before, if there is one; cold if not, or if that fails."""
         program = self.program
         if isinstance(program, Program) and not program.b.size:  # not every backend takes that
             x = np.asarray(np.linalg.solve(program.H, -program.f), dtype=np.float64)
             return Reply(x, np.zeros(0), True, "optimal", 0)
-        held: _SetUpAdapter | None = attempt.kept
-        attempt.kept = None  # an adapter that raises is set up again
+        held: _SetUpAdapter | None = option_set.kept
+        option_set.kept = None  # an adapter that raises is set up again
         if held is None:
-            held = _SetUpAdapter(self.adapter(program, attempt.options), self.metric)
+            held = _SetUpAdapter(self.adapter(program, option_set.options), self.hessian)
         warm = self.adapter.WARM and held.warm
-        reply = held.adapter.reply(held.metric is self.metric, warm)
+        reply = held.adapter.reply(held.hessian is self.hessian, warm)
         if warm and not reply.solved:
             reply = held.adapter.reply(False, False)
-        held.metric = self.metric
+        held.hessian = self.hessian
         held.warm = reply.solved
-        attempt.kept = held
+        option_set.kept = held
         return reply
 
 
@@ -154,5 +154,5 @@ class _SetUpAdapter:
     """An adapter, the H that it has, and whether it can start from its answer."""
 
     adapter: Adapter
-    metric: NaturalHessian | None
+    hessian: HessianInBothUnits | None
     warm: bool = False

@@ -7,14 +7,14 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined
+from quasistatic_ref.certify.exact import ExactOptimum, check_length, group_optimum, joined_optimum
 from quasistatic_ref.certify.norm import EnergyNorm, Norm
 from quasistatic_ref.certify.warm import warm_rows
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
 from quasistatic_ref.optional.fast.guess.far import Solved, far_slacks, with_far
-from quasistatic_ref.optional.fast.kept_step import KeptStep
+from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.posed import (
     Constants,
     PosedContacts,
@@ -22,9 +22,9 @@ from quasistatic_ref.optional.fast.posed import (
     constants,
     posed,
 )
-from quasistatic_ref.solve.natural_step import DenseStep, NaturalStep
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits, StepInBothUnits
 from quasistatic_ref.solve.solver import NaturalAnswer
-from quasistatic_ref.solve.units import NaturalHessian
+from quasistatic_ref.solve.units import HessianInBothUnits
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
 from quasistatic_ref.step.groups import Group, extra_rows, group_steps, groups, split
@@ -52,13 +52,13 @@ class GroupNorm:
 
     parts: list[tuple[Indices, EnergyNorm]]
 
-    def displacement(self, v: Array) -> float:
+    def of_displacement(self, v: Array) -> float:
         """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
-        return math.hypot(*(norm.displacement(v[own]) for own, norm in self.parts))
+        return math.hypot(*(norm.of_displacement(v[own]) for own, norm in self.parts))
 
-    def impulse(self, p: Array) -> float:
+    def of_impulse(self, p: Array) -> float:
         """||H^-1 p||_H of an impulse p, shape (n_v,) [N s, N m s]."""
-        return math.hypot(*(norm.impulse(p[own]) for own, norm in self.parts))
+        return math.hypot(*(norm.of_impulse(p[own]) for own, norm in self.parts))
 
 
 class Kept:
@@ -66,9 +66,9 @@ class Kept:
 
     def __init__(self) -> None:
         self.hessian: BallHessian | None = None
-        self.metric: NaturalHessian | None = None
+        self.hessian_in_both_units: HessianInBothUnits | None = None
         self._alone: Any = None
-        self._of_alone: NaturalHessian | None = None
+        self._of_alone: HessianInBothUnits | None = None
 
     def hessian_of(self, step: StepData) -> BallHessian:
         """H of a step in balls: the one that is kept, if it is the same.
@@ -88,25 +88,25 @@ class Kept:
         assert self.hessian is not None
         return self.hessian.norm
 
-    def alone(self, scaled: DenseStep, lam: Array, slack: Array) -> Any:
+    def alone(self, both: DenseStepInBothUnits, lam: Array, slack: Array) -> Any:
         """What C proves of a step that is one group, as of :meth:`proved`; None if it does not."""
         in_c = compiled("certificate")
         if in_c is None:
             return None
-        if self._of_alone is not scaled.metric:
-            self._of_alone = scaled.metric
-            self._alone = in_c.undivided(scaled)
-        self._alone.optimum(scaled, lam, slack)
+        if self._of_alone is not both.hessian:
+            self._of_alone = both.hessian
+            self._alone = in_c.undivided(both)
+        self._alone.optimum(both, lam, slack)
         return self._alone.proofs[0]
 
     def proved(
-        self, scaled: DenseStep, lam: Array, slack: Array, in_c: Any
+        self, both: DenseStepInBothUnits, lam: Array, slack: Array, in_c: Any
     ) -> tuple[ExactOptimum | None, list[int]]:
         """The optimum of a step, proved on the rows that an answer presses: in C, or in balls.
 
         Parameters
         ----------
-        scaled : DenseStep
+        both : DenseStepInBothUnits
         lam, slack : ndarray, shape (m,)
             Of the answer, both in natural units [-].
         in_c : GroupProof or None
@@ -119,30 +119,30 @@ class Kept:
         list of int
             Where the exact method is then to start.
         """
-        step = scaled.step
+        step = both.si_step
         in_balls = cache(lambda: BallStep(step, self.hessian_of(step)))
-        in_c = self.alone(scaled, lam, slack) if in_c is None else in_c
+        in_c = self.alone(both, lam, slack) if in_c is None else in_c
 
         def proof(guess: Indices) -> Proof:
-            found: Proof = None if in_c is None else in_c.optimum(step, guess, scaled.units)
+            found: Proof = None if in_c is None else in_c.optimum(step, guess, both.units)
             return in_balls().confirmed(guess) if found is None else found
 
-        guess = _guess(scaled, lam, slack)
-        found, last = proved_nearby(proof, guess, scaled.form, scaled.metric.inverse)
+        guess = _guess(both, lam, slack)
+        found, last = proved_nearby(proof, guess, both.si_form, both.hessian.H_inverse)
         if found is None and last is guess:
-            return None, warm_rows(scaled.natural_form.A, lam, slack)
+            return None, warm_rows(both.natural_form.A, lam, slack)
         return found, last.tolist()
 
 
-def _guess(scaled: DenseStep, lam: Array, slack: Array) -> Indices:
+def _guess(both: DenseStepInBothUnits, lam: Array, slack: Array) -> Indices:
     """The rows that an answer presses, ascending, made independent where it presses many."""
-    if np.count_nonzero(lam) > scaled.step.n_v:  # rows that depend on each other
-        return np.array(sorted(warm_rows(scaled.natural_form.A, lam, slack)), dtype=np.int64)
+    if np.count_nonzero(lam) > both.si_step.n_v:  # rows that depend on each other
+        return np.array(sorted(warm_rows(both.natural_form.A, lam, slack)), dtype=np.int64)
     return np.flatnonzero(lam > np.maximum(slack, 0))  # as warm_rows has it
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class KeptGroup:
     """A group of a step, and what its steps have in common.
 
     Parameters
@@ -158,7 +158,7 @@ class Part:
     constant: Constants | None
     kept: Kept
 
-    def optimum(self, whole: NaturalStep, lam: Array, slack: Array, in_c: Any) -> ExactOptimum:
+    def optimum(self, whole: StepInBothUnits, lam: Array, slack: Array, in_c: Any) -> ExactOptimum:
         """The exact optimum of the group; parameters of the `whole` step as of :class:`Kept`'s.
 
         Raises
@@ -167,12 +167,14 @@ class Part:
         """
         found: ExactOptimum | None = None if in_c is None else in_c.decided()
         if found is None:
-            own = self.scaled(whole)
+            own = self.in_both_units(whole)
             rows = self.group.rows
             found, start = self.kept.proved(own, lam[rows], slack[rows], in_c)
-        return group_optimum(whole.step, self.group, own.step, start) if found is None else found
+        return (
+            group_optimum(whole.si_step, self.group, own.si_step, start) if found is None else found
+        )
 
-    def scaled(self, whole: NaturalStep) -> DenseStep:
+    def in_both_units(self, whole: StepInBothUnits) -> DenseStepInBothUnits:
         """The step of the group in its own natural units, from the `whole` step.
 
         Raises
@@ -180,12 +182,12 @@ class Part:
         StepDataError
             If M_u is not positive definite.
         """
-        scaled = whole
-        if self.constant is not None or not isinstance(scaled, DenseStep):
-            scaled = KeptStep(self.step(whole.step), self.kept.metric)
-            self.kept.metric = scaled.metric
-        self.kept.hessian_of(scaled.step)
-        return scaled
+        both = whole
+        if self.constant is not None or not isinstance(both, DenseStepInBothUnits):
+            both = KeptStepInBothUnits(self.step(whole.si_step), self.kept.hessian_in_both_units)
+            self.kept.hessian_in_both_units = both.hessian
+        self.kept.hessian_of(both.si_step)
+        return both
 
     def step(self, step: StepData) -> StepData:
         """The step of the group, from the whole `step`."""
@@ -218,12 +220,12 @@ class Proofs:
 
     Attributes
     ----------
-    parts : list of Part
+    parts : list of KeptGroup
         The groups of the last step.
     """
 
     def __init__(self) -> None:
-        self.parts: list[Part] = []
+        self.parts: list[KeptGroup] = []
         self._of_parts: Coupling = []
         self._of_small: Coupling = []
         self._small: Mask | None = None
@@ -235,30 +237,30 @@ class Proofs:
         norms = [(part.group.coordinates, part.kept.norm) for part in self.parts]
         return norms[0][1] if len(norms) == 1 else GroupNorm(norms)
 
-    def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum: proved on a guess of its working set, or found by the exact method.
 
         Raises
         ------
         StepInfeasible, StepIllPosed
         """
-        step = scaled.step
-        form = scaled.natural_form
+        step = both.si_step
+        form = both.natural_form
         lam, slack = np.zeros((2, step.m))
         if answer is not None:
-            lam = answer.lam
-            slack = form.A @ answer.delta_q - form.b
+            lam = answer.natural_lam
+            slack = form.A @ answer.natural_delta_q - form.b
         coupling = _coupling(step)
         near = self._near(step, coupling, lam, slack)
         while True:
             parts = self.divided(step, near, coupling)
-            prover = self._prover(scaled)
-            optimum = None if prover is None else prover.optimum(scaled, lam, slack)
+            prover = self._prover(both)
+            optimum = None if prover is None else prover.optimum(both, lam, slack)
             if optimum is None:
                 tried = [None] * len(parts) if prover is None else prover.proofs
                 each = zip(parts, tried, strict=True)
-                optima = [part.optimum(scaled, lam, slack, in_c) for part, in_c in each]
-                optimum = joined(step, [part.group for part in parts], optima)
+                optima = [part.optimum(both, lam, slack, in_c) for part, in_c in each]
+                optimum = joined_optimum(step, [part.group for part in parts], optima)
             if near is None:
                 break
             points = list[Solved]()
@@ -271,34 +273,34 @@ class Proofs:
                 optimum = with_far(step, optimum, near, slacks)
                 break
             near = _unless_all(near | doubtful)
-        if self._may_be_long(scaled, optimum.delta_q):
+        if self._may_be_long(both, optimum.delta_q):
             check_length(step, optimum.delta_q, group_steps(step))
         return optimum
 
-    def _prover(self, scaled: NaturalStep) -> Any:
+    def _prover(self, both: StepInBothUnits) -> Any:
         """What proves all groups of a dense step in C; None where nothing does."""
         in_c = compiled("certificate")
-        if in_c is None or not isinstance(scaled, DenseStep):
+        if in_c is None or not isinstance(both, DenseStepInBothUnits):
             return None
         if self.prover is None:
-            groups = [(part.group, part.scaled(scaled)) for part in self.parts]
-            self.prover = in_c.Prover(scaled.step, groups)
+            groups = [(part.group, part.in_both_units(both)) for part in self.parts]
+            self.prover = in_c.Prover(both.si_step, groups)
         return self.prover
 
-    def _may_be_long(self, scaled: NaturalStep, delta_q: Array) -> bool:
+    def _may_be_long(self, both: StepInBothUnits, delta_q: Array) -> bool:
         """Whether delta_q (n_v,) may be absurdly long in one of the groups; mostly it is not."""
         # Of three loads' steps the longest is at least a third of their sum's.
         most = ILL_POSED / 4
-        g = scaled.form.g
-        if isinstance(scaled, DenseStep):
-            norm = scaled.metric.norm  # whose factor has the blocks of H: the groups
+        g = both.si_form.g
+        if isinstance(both, DenseStepInBothUnits):
+            norm = both.hessian.norm  # whose factor has the blocks of H: the groups
             moved = np.bincount(self._group, np.abs(norm.L.T.dot(delta_q / norm.unit)))
             free = np.bincount(self._group, np.abs(norm.inverse.dot(g * norm.unit)))
             # A vector's length is at most the sum of its entries, and that root n of the length.
             return not (math.sqrt(len(g)) * moved <= most * free).all()
         norms = [(part.group.coordinates, part.kept.norm) for part in self.parts]
         return not all(
-            norm.displacement(delta_q[v]) <= most * norm.impulse(g[v]) for v, norm in norms
+            norm.of_displacement(delta_q[v]) <= most * norm.of_impulse(g[v]) for v, norm in norms
         )
 
     def _near(self, step: StepData, coupling: Coupling, lam: Array, slack: Array) -> Mask | None:
@@ -320,7 +322,7 @@ class Proofs:
         touching = (slack[:m] <= TOUCHING) | (lam[:m] > slack[:m])
         return _unless_all(self._small | np.logical_or.reduceat(touching, step.offsets[:-1]))
 
-    def divided(self, step: StepData, near: Mask | None, coupling: Coupling) -> list[Part]:
+    def divided(self, step: StepData, near: Mask | None, coupling: Coupling) -> list[KeptGroup]:
         """The groups of a step: those of the last step, if the same couples its coordinates.
 
         Parameters
@@ -365,12 +367,12 @@ def _same(one: list[Any], two: list[Any]) -> bool:
     return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in changed)
 
 
-def _parts(step: StepData, near: Mask | None, before: list[Part]) -> list[Part]:
+def _parts(step: StepData, near: Mask | None, before: list[KeptGroup]) -> list[KeptGroup]:
     """The groups of a step; those of equal constants share what is kept, also with the `before`."""
     found = groups(step, near)
     if len(found) == 1 and near is None:
         kept = before[0].kept if len(before) == 1 else Kept()
-        return [Part(found[0], None, kept)]
+        return [KeptGroup(found[0], None, kept)]
     known = {_key(part.constant): part for part in before if part.constant is not None}
     parts = []
     for group in found:
@@ -379,8 +381,8 @@ def _parts(step: StepData, near: Mask | None, before: list[Part]) -> list[Part]:
         M_u = step.inertia(u)
         rows = step.contacts.rows[group.contacts]
         constant = constants(step.h, K_q, len(a), M_u, rows, step.cone)
-        alike = known.setdefault(_key(constant), Part(group, constant, Kept()))
-        parts.append(Part(group, alike.constant, alike.kept))
+        alike = known.setdefault(_key(constant), KeptGroup(group, constant, Kept()))
+        parts.append(KeptGroup(group, alike.constant, alike.kept))
     return parts
 
 

@@ -37,20 +37,20 @@ class ConeSolver(NativeSolver):
         assert isinstance(program, Program)
         return Program(program.H, program.f, program.A, program.b, self.template.contacts.n_c)
 
-    def write(self, scaled: Any) -> Mask | None:
+    def write(self, both: Any) -> Mask | None:
         """Write the program in natural units; a contact out of reach bears no impulse at all."""
-        idle = super().write(scaled)
-        self.mu = coefficients(scaled.step)
+        out_of_reach = super().write(both)
+        self.mu = coefficients(both.si_step)
         assert isinstance(self.program, Program)
         self.program.A[:] *= self.mu[:, None]
-        if idle is not None:
-            contacts = idle[: 4 * scaled.step.contacts.n_c].reshape(-1, 4)
+        if out_of_reach is not None:
+            contacts = out_of_reach[: 4 * both.si_step.contacts.n_c].reshape(-1, 4)
             contacts[:] = contacts[:, :1]
-        return idle
+        return out_of_reach
 
-    def reply(self, attempt: OptionSet, scaled: Any) -> Reply:
+    def reply(self, option_set: OptionSet, both: Any) -> Reply:
         """One attempt, its multipliers those of the unscaled rows: impulses (n, d1, d2, spin)."""
-        reply = super().reply(attempt, scaled)
+        reply = super().reply(option_set, both)
         if reply.lam is not None:
             reply.lam = self.mu * reply.lam
         return reply

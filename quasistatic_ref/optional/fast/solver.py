@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.norm import Norm
 from quasistatic_ref.optional.fast.backends import fast_backend
-from quasistatic_ref.optional.fast.kept_step import KeptStep
+from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.native import NativeSolver, native_backends
 from quasistatic_ref.optional.fast.proofs import Kept, Proofs
 from quasistatic_ref.optional.fast.second_order import ConeSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.backends import RESIDUAL
-from quasistatic_ref.solve.natural_step import DenseStep, NaturalStep
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits, StepInBothUnits
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
 from quasistatic_ref.solve.units import Units, in_natural
 from quasistatic_ref.step.cones import CurvedCone, cone
@@ -75,44 +75,44 @@ class FastSolver(NativeSolver):
         self.bound: Any = None
         self.written: Units | None = None
 
-    def scaled(self, step: StepData) -> NaturalStep:
-        """The step in natural units; what H gives of them is kept while H is the same array."""
-        return KeptStep(step, self.metric)
+    def in_both_units(self, step: StepData) -> StepInBothUnits:
+        """The step in both units; what H gives of them is kept while H is the same array."""
+        return KeptStepInBothUnits(step, self.hessian)
 
-    def write_program(self, scaled: DenseStep) -> None:
+    def write_program(self, both: DenseStepInBothUnits) -> None:
         """Write the program in natural units, unless compiled code has."""
-        if self.written is not scaled.units:
-            super().write_program(scaled)
+        if self.written is not both.units:
+            super().write_program(both)
         self.written = None
 
-    def write(self, scaled: DenseStep) -> NDArray[np.bool_] | None:
+    def write(self, both: DenseStepInBothUnits) -> NDArray[np.bool_] | None:
         """Write the program, mostly the natural standard form; rows out of reach, shape (m,)."""
-        idle = super().write(scaled)
+        out_of_reach = super().write(both)
         p: Any = self.program
-        if idle is None and self.adapter.ORDER == "C":
-            scaled.natural_form = StandardForm(p.H, -p.f, p.A, p.b)  # until the next step
-        return idle
+        if out_of_reach is None and self.adapter.ORDER == "C":
+            both.natural_form = StandardForm(p.H, -p.f, p.A, p.b)  # until the next step
+        return out_of_reach
 
-    def norm(self, scaled: NaturalStep) -> Norm:
+    def norm(self, both: StepInBothUnits) -> Norm:
         """The norm ||.||_H of a step."""
-        assert isinstance(scaled, DenseStep)
-        return scaled.metric.norm
+        assert isinstance(both, DenseStepInBothUnits)
+        return both.hessian.norm
 
-    def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum: proved on a guess of its working set, or found by the exact method."""
-        return self.proofs.optimum(scaled, answer)
+        return self.proofs.optimum(both, answer)
 
-    def error_bound(self, scaled: NaturalStep, delta_q: Array, lam: Array) -> float:
+    def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
         """A bound of the relative error [-]: in float64, and in balls where that is open."""
-        assert isinstance(scaled, DenseStep)
-        form = scaled.natural_form
-        S, ell, rho = scaled.units
-        hessian = self.whole.hessian_of(scaled.step)
+        assert isinstance(both, DenseStepInBothUnits)
+        form = both.natural_form
+        S, ell, rho = both.units
+        hessian = self.whole.hessian_of(both.si_step)
         if self.bound is None or not self.bound.serves(hessian.inverse, S):
             bounds = needed_part("large.rounded_bound", RESIDUAL)
             self.bound = bounds.FloatBound(hessian.inverse, hessian.h, form.H, S)
-        x, y = in_natural(delta_q, lam, scaled.units)
-        error: float | None = self.bound.error(scaled.step, form, (ell, rho), x, y)
+        x, y = in_natural(delta_q, lam, both.units)
+        error: float | None = self.bound.error(both.si_step, form, (ell, rho), x, y)
         if error is not None and error <= BOUNDED:
             return error
-        return super().error_bound(scaled, delta_q, lam)
+        return super().error_bound(both, delta_q, lam)

@@ -17,7 +17,7 @@ from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import BACKENDS, Options
-from quasistatic_ref.solve.natural_step import NaturalStep
+from quasistatic_ref.solve.both_units import StepInBothUnits
 from quasistatic_ref.solve.solver import NaturalAnswer, OptionSet
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.tolerances import FAR
@@ -70,11 +70,11 @@ class SparseSolver(NativeSolver):
         self.proofs = Proofs()
         super().__init__(template, name)
 
-    def optimum(self, scaled: NaturalStep, answer: NaturalAnswer | None) -> ExactOptimum:
+    def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum."""
-        return self.proofs.optimum(scaled, answer)
+        return self.proofs.optimum(both, answer)
 
-    def norm(self, scaled: NaturalStep) -> Norm:
+    def norm(self, both: StepInBothUnits) -> Norm:
         """The norm ||.||_H of a step."""
         return self.proofs.norm()
 
@@ -94,28 +94,29 @@ class SparseSolver(NativeSolver):
         """In what a step is not like the one that the pattern was made for."""
         return [*super().differences(step), "H or the pattern of A"]
 
-    def attempts(self, accuracy: float) -> list[OptionSet]:
+    def option_sets(self, accuracy: float) -> list[OptionSet]:
         """The sets of options, none of which asks for a gap that rounding hides."""
-        if accuracy not in self._attempts:
-            for attempt in super().attempts(accuracy):
-                attempt.options = reachable(attempt.options, len(self.program.b))
-        return self._attempts[accuracy]
+        if accuracy not in self._option_sets:
+            for option_set in super().option_sets(accuracy):
+                option_set.options = reachable(option_set.options, len(self.program.b))
+        return self._option_sets[accuracy]
 
-    def scaled(self, step: StepData) -> NaturalStep:
-        """The step in natural units."""
-        scaled: NaturalStep = self.kind.scaled(step)
-        return scaled
+    def in_both_units(self, step: StepData) -> StepInBothUnits:
+        """The step in SI units and in natural units."""
+        both: StepInBothUnits = self.kind.in_both_units(step)
+        return both
 
-    def error_bound(self, scaled: Any, delta_q: Array, lam: Array) -> float:
+    def error_bound(self, both: Any, delta_q: Array, lam: Array) -> float:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
-        return float(scaled.error_bound(delta_q, lam))
+        return float(both.error_bound(delta_q, lam))
 
-    def write(self, scaled: Any) -> Mask:
+    def write(self, both: Any) -> Mask:
         """Write g, A and b; tell which rows are out of reach, shape (m,)."""
         program = self.program
-        squares = np.bincount(scaled.A.indices, scaled.A.data**2, minlength=len(scaled.b))
+        _, g, A, b = both.natural_form
+        squares = np.bincount(A.indices, A.data**2, minlength=len(b))
         reach = -FAR * np.maximum(1.0, np.sqrt(squares))
-        program.f[:] = -scaled.g
-        program.A.data[:] = scaled.A.data
-        np.maximum(scaled.b, reach, out=program.b)
-        return np.asarray(scaled.b < reach)
+        program.f[:] = -g
+        program.A.data[:] = A.data
+        np.maximum(b, reach, out=program.b)
+        return np.asarray(b < reach)

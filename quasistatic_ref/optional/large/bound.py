@@ -22,7 +22,7 @@ from flint import arb, arb_mat, ctx, fmpq
 from quasistatic_ref.certify.minimiser import (
     PRECISION,
     BallForm,
-    ball_form,
+    form_in_balls,
     inner,
     square_root,
 )
@@ -75,7 +75,7 @@ def error_bound(step: StepData, delta_q: Array, lam: Array) -> ErrorBound:
     if not (np.isfinite(delta_q).all() and np.isfinite(lam).all()):
         return UNKNOWN
     form = exact_form(step)
-    balls = ball_form(form)
+    balls = form_in_balls(form)
     with ctx.workprec(PRECISION):
         x = _column(delta_q, form.x_unit)
         y = _column(np.maximum(lam, 0.0), form.lam_unit)

@@ -1,6 +1,6 @@
 """Large steps of one kind in natural units, and the sparse standard form of each.
 
-As :mod:`~quasistatic_ref.solve.natural_step`, in time and memory that grow with the number of
+As :mod:`~quasistatic_ref.solve.both_units`, in time and memory that grow with the number of
 entries that are not zero. :class:`~quasistatic_ref.optional.fast.sparse_solver.SparseSolver`
 hands them to a backend.
 """
@@ -15,7 +15,7 @@ from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.optional.large.sizes import sizes_of
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
-from quasistatic_ref.solve.natural_step import check_units
+from quasistatic_ref.solve.both_units import check_units
 from quasistatic_ref.solve.units import coordinate_units, in_natural, small_power, units_from
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm
@@ -59,13 +59,13 @@ class LargeSteps:
         """Whether a step is of this kind."""
         return self.pattern.fits(step)
 
-    def scaled(self, step: StepData) -> "SparseStep":
-        """A step of this kind in natural units."""
+    def in_both_units(self, step: StepData) -> "SparseStep":
+        """A step of this kind in both units."""
         return SparseStep(step, self)
 
 
 class SparseStep:
-    """A large step in its natural units.
+    """A large step in SI and natural units.
 
     Parameters
     ----------
@@ -80,8 +80,8 @@ class SparseStep:
     """
 
     def __init__(self, step: StepData, kind: LargeSteps) -> None:
-        self.step = step
-        self.metric = kind.H
+        self.si_step = step
+        self.hessian = kind.H
         form = sparse_form(step, kind.pattern)
         S = kind.coordinate
         rows = form.A.data * S[kind.pattern.column]
@@ -89,23 +89,23 @@ class SparseStep:
         y = form.g * S
         power = small_power(y)
         near_one = np.ldexp(y, -power)
-        energy = math.sqrt(max(float(near_one @ kind.H.factor.solve(near_one)), 0.0))
-        length = math.ldexp(energy, power)  # ||H^-1 g||_H
-        self.units = units = units_from(S, np.sort(squares), length, form.b)
+        square = max(float(near_one @ kind.H.factor.solve(near_one)), 0.0)
+        free_length = math.ldexp(math.sqrt(square), power)  # ||H^-1 g||_H
+        self.units = units = units_from(S, np.sort(squares), free_length, form.b)
         check_units(units, step)
-        self.A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
-        self.g = y / units.size
-        self.b = form.b / (units.size * units.length)
-        self.form: Any = form
-        self.natural_form: Any = StandardForm(kind.H.H, self.g, self.A, self.b)
+        self.si_form: Any = form
+        A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
+        b = form.b / (units.size * units.length)
+        self.natural_form: Any = StandardForm(kind.H.H, y / units.size, A, b)
 
-    def residuals(self, delta_q: Array, lam: Array) -> Residuals:
+    def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
         return optimality_residuals(self.natural_form, delta_q, lam)
 
     def error_bound(self, delta_q: Array, lam: Array) -> float:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
         units = self.units
-        sizes = sizes_of(self.step, units.coordinate, units.length, units.size)
-        form = LargeForm(self.metric, self.g, self.A, self.b, sizes)
+        sizes = sizes_of(self.si_step, units.coordinate, units.length, units.size)
+        _, g, A, b = self.natural_form
+        form = LargeForm(self.hessian, g, A, b, sizes)
         return sparse_error_bound(form, *in_natural(delta_q, lam, units))

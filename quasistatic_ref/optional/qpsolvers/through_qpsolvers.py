@@ -9,7 +9,7 @@ import numpy as np
 import qpsolvers
 
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
-from quasistatic_ref.solve.natural_step import DenseStep
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
 from quasistatic_ref.solve.units import within_reach
@@ -33,21 +33,21 @@ class QpsolversSolver(BackendSolver):
         Of the backend, with ``qpsolvers:``.
     """
 
-    engine = "qpsolvers"
+    interface = "qpsolvers"
     fixed = ("cone",)
 
-    def write(self, scaled: DenseStep) -> Mask:
+    def write(self, both: DenseStepInBothUnits) -> Mask:
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
-        natural = scaled.natural
+        natural = both.natural_step
         contacts = natural.contacts
         near = replace(contacts, phi=within_reach(natural))
         self.form = standard_form(natural.replace(contacts=near))
         return np.repeat(near.phi < contacts.phi, natural.counts)
 
-    def reply(self, attempt: OptionSet, scaled: DenseStep) -> Reply:
+    def reply(self, option_set: OptionSet, both: DenseStepInBothUnits) -> Reply:
         """What the backend says, from a cold start."""
         name = self.name.removeprefix(QPSOLVERS)
-        reply = qpsolvers_reply(self.form, name, attempt.options)
+        reply = qpsolvers_reply(self.form, name, option_set.options)
         reply.lam = None if reply.lam is None else reply.lam.reshape(-1)
         return reply
 

@@ -15,7 +15,7 @@ from quasistatic_ref.optional.runs.saved_files import EVERY, SavedSteps, first_s
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.simulate.goals import needed_arguments
 from quasistatic_ref.simulate.law import COULOMB
-from quasistatic_ref.simulate.recorder import Part, Recorder, program
+from quasistatic_ref.simulate.recorder import Recorder, StepArrays, program
 from quasistatic_ref.simulate.rollout import start_cold
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
@@ -94,7 +94,7 @@ class _Again:
     record: str
     cold: int
 
-    def posed(self, part: Part, recorder: Recorder) -> Part:
+    def posed(self, part: StepArrays, recorder: Recorder) -> StepArrays:
         """What a full record adds to the steps of a part, which follow those of the recorder."""
         rows: list[dict[str, Array]] = []
         for i, q in enumerate([recorder.q, *part["q"][:-1]]):

@@ -33,7 +33,7 @@ from quasistatic_ref.solve.backends import QPSOLVERS
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.recorder import Part, Recorder
+    from quasistatic_ref.simulate.recorder import Recorder, StepArrays
     from quasistatic_ref.simulate.simulator import Simulator
 
 FORMAT = "quasistatic-ref/saved-steps"
@@ -135,7 +135,7 @@ class SavedSteps(Observer):
         self._there = steps_in(path)
         self.written = self.path
 
-    def parts(self) -> Iterator[tuple[Part, tuple[str, ...]]]:
+    def parts(self) -> Iterator[tuple[StepArrays, tuple[str, ...]]]:
         """The saved steps in order, each part with the names of an extension's rows.
 
         Raises
@@ -152,7 +152,7 @@ class SavedSteps(Observer):
             yield part, extra
             self._saved += 1
 
-    def _checked(self, top: Fields, part: Part, expected: int) -> tuple[str, ...]:
+    def _checked(self, top: Fields, part: StepArrays, expected: int) -> tuple[str, ...]:
         """Names of an extension's rows, of a part that begins with the expected step."""
         top.text("format", choices=(FORMAT,))
         fits = top.integer("version") == VERSION and top.integer("first") == expected

@@ -153,7 +153,7 @@ def test_a_compliance_that_is_none_is_refused(compliance):
 
 
 def test_whatever_should_not_matter_does_not(monkeypatch):
-    """A sample of validation/make/forces.py, with its method in 60 digits; and a planted fault."""
+    """A sample of validation/make/forces.py, with its proof by fractions; and a planted fault."""
     monkeypatch.setattr(checks, "BACKENDS", ("daqp", "none"))
     for _, step in checks.random_steps(5):
         assert not any(checks.differences(step, oracle=False).values())

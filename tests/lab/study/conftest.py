@@ -8,17 +8,16 @@ import pytest
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.lab.folders import CONTACT_QP_1, CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.page.markdown import markdown_page
-from quasistatic_ref.lab.study.file.study_file import solver_study
+from quasistatic_ref.lab.study.file.study_file import Limits, solver_study
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.measuring.measure import measured
 from quasistatic_ref.lab.study.measuring.run import run_study
 from quasistatic_ref.lab.study.problems.folder import set_read
-from quasistatic_ref.lab.study.problems.making import problem_of
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study import made_store
 from tests.lab.study.plain_report import parsed
-from tests.lab.study.planted import ANY, FAKES, setting, slab
+from tests.lab.study.planted import ANY, FAKES, setting
 
 
 @pytest.fixture
@@ -38,7 +37,8 @@ SMALL = """
 time_limit = 20.0
 repetitions = 2
 [problems]
-families = { contacts = 2, mass_ratio = 3 }
+set = "contact-qp-2"
+families = { contacts = { count = 2, most = 12 }, mass_ratio = 3 }
 [solvers.mine]
 callable = "planted_solvers:liar"
 options.default = {}
@@ -85,7 +85,8 @@ def run(study, tmp_path):
 @pytest.fixture(scope="session")
 def problem():
     """One problem of 12 contacts with its exact answer."""
-    return problem_of(slab())
+    (found,) = set_read(problem_set_folder(CONTACT_QP_2), ids=["mass_ratio/11.3113/35"])
+    return found
 
 
 @pytest.fixture(scope="session")

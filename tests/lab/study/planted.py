@@ -1,10 +1,6 @@
-"""Solvers that are broken on purpose, and the problems that they are given."""
+"""Solvers that are broken on purpose."""
 
-import numpy as np
-
-from quasistatic_ref.lab.scenes.slabs import slab_step
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
-from quasistatic_ref.lab.study.problems.families.made import Made
 
 FAKES = '''
 import ctypes, gc, os, signal, subprocess, sys, time
@@ -151,9 +147,3 @@ ANY = Solver("any", "callable", "planted_solvers:any_of", {one: {"name": one} fo
 def setting(name):
     """The setting of ``ANY`` that is one of the harmless solvers."""
     return Setting(name, None, 3.0)
-
-
-def slab(seed=5):
-    """One step of the scaled family, with its name."""
-    step = slab_step(np.random.default_rng(seed), 12, 10.0, 0.01)
-    return Made(f"slab/{seed}", "slab", step, 10.0, 0)

@@ -46,6 +46,6 @@ def test_the_default_study_selects_from_every_family():
     assert {problem.facts["family"] for problem in problems} == families
     assert len(problems) == sum(study.problems.families.values()) == 310
     assert len({problem.id for problem in problems}) == 310
-    assert study.repetitions >= 5
+    assert study.limits.repetitions >= 5
     trivial = [p for p in problems if p.feasible and not p.answer.x.any()]
     assert len(trivial) <= 0.05 * len(problems)

@@ -9,14 +9,14 @@ import runpy
 import numpy as np
 import pytest
 
+from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.scenes.piles import pile
-from quasistatic_ref.lab.study.problems.making import problem_of
+from quasistatic_ref.lab.study.problems.folder import set_read
 from quasistatic_ref.optional.qpsolvers.through_qpsolvers import qpsolvers_reply
 from quasistatic_ref.solve.through_cvxpy import CANON
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, planted_step
-from tests.lab.study.planted import slab
 from validation.programs.engines.judge import RESULTS
 from validation.programs.engines.reproduce import FOLDER
 
@@ -37,11 +37,11 @@ def test_highs_still_does_not_solve_each_of_20_contact_problems():
 
 
 def test_proxqp_still_calls_problems_infeasible_that_have_an_exact_answer():
-    claims = []
-    for seed in (1, 25, 63, 88, 138):
-        problem = problem_of(slab(seed))
-        assert problem.feasible
-        claims.append(qpsolvers_reply(problem.natural.form, "proxqp", {}).status)
+    names = ("mass_ratio/7.99853/30", "mass_ratio/775.59/96", "limits/0.000769265/8",
+             "gaps/0.00152334/19", "bodies/5/33")  # fmt: skip
+    problems = set_read(problem_set_folder(CONTACT_QP_2), ids=names)
+    assert all(problem.feasible for problem in problems)
+    claims = [qpsolvers_reply(one.natural.form, "proxqp", {}).status for one in problems]
     assert "PROXQP_PRIMAL_INFEASIBLE" in claims
 
 

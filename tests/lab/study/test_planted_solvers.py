@@ -10,12 +10,13 @@ import time
 import pytest
 
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
+from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.keeper import Keeper, Request
-from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.measuring.measure import measured
 from quasistatic_ref.lab.study.measuring.worker import GRACE
-from quasistatic_ref.lab.study.problems.families.dials import one_turned
-from quasistatic_ref.lab.study.problems.making import problem_of
+from quasistatic_ref.lab.study.problems.folder import set_read
 from tests.lab.study.planted import FAKES
 
 DEFAULT = SETTINGS[0]
@@ -259,7 +260,7 @@ def test_the_first_call_of_a_shape_is_outside_of_the_time_limit(folder, problem)
 @pytest.fixture(scope="module")
 def none_to_find():
     """A problem without a solution."""
-    found = problem_of(one_turned("infeasible", 1e-2, 0, 1))
+    (found,) = set_read(problem_set_folder(CONTACT_QP_2), ids=["infeasible/0.01/0"])
     assert not found.feasible
     return found
 

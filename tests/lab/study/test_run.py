@@ -47,11 +47,11 @@ def test_the_making_of_problems_may_be_interrupted(tmp_path, monkeypatch, capsys
     store = tmp_path / "store"
     path.write_text('format = "quasistatic-ref/study"\nversion = 1\n' + HARVESTED)
 
-    def interrupted(form):
+    def interrupted(*_):
         raise KeyboardInterrupt
 
     with monkeypatch.context() as patched:
-        patched.setattr(making, "dense_answer", interrupted)
+        patched.setattr(making, "exact_answer", interrupted)
         assert main(command(path, store)[3:]) == 130
     assert "interrupted; what was measured is in" in capsys.readouterr().err
     assert main([*command(path, store)[3:], "--quiet"]) == 0
@@ -99,7 +99,8 @@ warm_up = 1.0
 budget = 5.0
 repetitions = 2
 [problems]
-families = { contacts = 5 }
+set = "contact-qp-2"
+families = { contacts = { count = 5, most = 12 } }
 [solvers.slow]
 callable = "planted_solvers:slow"
 [solvers.missing]

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.study.problems.families.dials import turned
 from quasistatic_ref.lab.study.problems.for_study import study_problems
 from quasistatic_ref.lab.study.problems.selection import chosen, problems_taken
 
@@ -75,10 +74,3 @@ def test_what_cannot_be_taken_is_said(study, tmp_path, text, words):
         study_problems(
             study(f"[problems]\n{text}\n[[runs]]\nsolvers = ['qpsolvers:daqp']").problems, tmp_path
         )
-
-
-def test_a_dial_of_a_study_without_a_set_may_end_elsewhere(study):
-    text = "[problems]\nfamilies = { contacts = { count = 4, most = 27 }, mass_ratio = 2 }"
-    test_set = study(f"{text}\n[[runs]]\nsolvers = ['qpsolvers:daqp']").problems
-    found = [one.step.contacts.n_c for one in turned("contacts", 4, 1, test_set.most["contacts"])]
-    assert found == [2, 5, 11, 27]  # 2 (27 / 2)^(i / 3): 2, 4.76, 11.34, 27

@@ -14,7 +14,7 @@ MINE = '[solvers.mine]\ncallable = "planted_solvers:honest"\n'
 
 BAD = {
     "an unknown field": ("tim_limit = 1", "tim_limit: is unknown; did you mean 'time_limit'?"),
-    "no problems": ("problems.families.contacts = 0", "problems.families: must name at least one"),
+    "no problems": ("problems.families.scenarios = 0", "problems.families: must name at least one"),
     "an unknown scenario": ('problems.scenarios = ["bunny"]', "did you mean 'bunny_grasp'?"),
     "an unknown solver": ('[[runs]]\nsolvers = ["qpsolvers:dapq"]', "did you mean 'daqp'?"),
     "an unknown interface": ('[[runs]]\nsolvers = ["a:daqp"]', "runs[0].solvers: holds no solver"),
@@ -69,7 +69,7 @@ def test_a_tighter_accuracy_never_asks_for_less(name):
 
 def test_all_solvers_are_run_on_a_problem_before_the_next_and_take_turns(study):
     spec = study(
-        "[problems]\nfamilies.contacts = 6\n[[runs]]\n"
+        "[problems]\nfamilies.scenarios = 6\n[[runs]]\n"
         'solvers = ["qpsolvers:daqp", "qpsolvers:osqp", "qpsolvers:clarabel"]\nagain = 1'
     )
     problems = [(f"p{i}", "f") for i in range(6)]
@@ -84,7 +84,7 @@ def test_all_solvers_are_run_on_a_problem_before_the_next_and_take_turns(study):
 
 def test_settings_come_in_an_order_that_is_drawn_for_each_problem(study):
     text = 'settings = ["default", "low", "mid", "high", "tuned"]\nagain = 0\n'
-    spec = study(f"[problems]\nfamilies.contacts = 8\n{RUN}{text}")
+    spec = study(f"[problems]\nfamilies.scenarios = 8\n{RUN}{text}")
     problems = [(f"p{i}", "f") for i in range(8)]
     planned = plan(spec, problems)
     orders = {tuple(m.setting.name for m in planned[i : i + 5]) for i in range(0, 40, 5)}
@@ -95,16 +95,17 @@ def test_settings_come_in_an_order_that_is_drawn_for_each_problem(study):
 
 def test_a_measurement_that_two_tables_contain_is_made_once(study):
     once = RUN + "again = 0\n"
-    spec = study("[problems]\nfamilies.contacts = 4\n" + once + once + "every = 2\nunits = ['raw']")
+    four = "[problems]\nfamilies.scenarios = 4\n"
+    spec = study(four + once + once + "every = 2\nunits = ['raw']")
     planned = plan(spec, [(f"p{i}", "f") for i in range(4)])
     assert sorted(m.units for m in planned) == ["natural"] * 4 + ["raw"] * 2
-    again = study("[problems]\nfamilies.contacts = 4\n" + once + once)
+    again = study(four + once + once)
     assert len(plan(again, [(f"p{i}", "f") for i in range(4)])) == 4
 
 
 def test_only_solvers_that_take_a_start_are_called_warm(study):
     spec = study(
-        "[problems]\nfamilies.contacts = 1\n[[runs]]\nagain = 0\nwarm = [false, true]\n"
+        "[problems]\nfamilies.scenarios = 1\n[[runs]]\nagain = 0\nwarm = [false, true]\n"
         'solvers = ["qpsolvers:daqp", "qpsolvers:piqp"]'
     )
     planned = plan(spec, [("p", "f")])

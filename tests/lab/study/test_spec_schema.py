@@ -112,7 +112,7 @@ budget = 90.0
 warm_up = 5
 memory = 2.5
 repetitions = 7
-problems = {{ seed = 0, scenarios = ["stack"], families = {{ scenarios = 1, contacts = 2 }} }}
+problems = {{ seed = 0, scenarios = ["stack"], families.scenarios = 3 }}
 settings = {{ tight = {{ accuracy = 1e-11, promised = 5 }}, high = {{ tuned = true }} }}
 solvers.mine = {{ callable = "my_module:solve", options.tight = {{ a = [1, "b"] }} }}
 solvers.other.executable = ["true", "--flag"]

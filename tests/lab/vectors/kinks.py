@@ -4,8 +4,7 @@ Lengths, masses and forces are sums of few powers of two, so that ties and limit
 ties without rounding: in units of N = m h^2 g and the like.
 """
 
-from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, UPRIGHT, at, link
-from quasistatic_ref.lab.vectors.families.step_scenes import on, scene
+from quasistatic_ref.lab.vectors.tables import ORIGIN, UPRIGHT, at, link, on, scene
 
 H = 0.125
 G = [0.0, 0.0, -8.0]

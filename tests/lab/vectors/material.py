@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from quasistatic_ref.formats.files import text_written
 from quasistatic_ref.lab.vectors.check.answers import Answers
 from quasistatic_ref.lab.vectors.check.folder import layer_report
 from quasistatic_ref.lab.vectors.files import expected_read, inputs_read
@@ -40,10 +41,16 @@ def right_answers(layer):
 
 
 @functools.cache
+def by_size(layer):
+    """The inputs of a layer, the shortest first."""
+    return tuple(sorted(cases(layer), key=lambda case: len(str(case.input))))
+
+
+@functools.cache
 def small_cases(layer):
     """Every third case of a layer, and of the steps the 24 with the least input."""
     if layer in ("step", "derivative"):
-        return tuple(sorted(cases(layer), key=lambda case: len(str(case.input)))[:24])
+        return by_size(layer)[:24]
     return cases(layer)[:: 1 if len(cases(layer)) < 60 else 3]
 
 
@@ -52,6 +59,13 @@ def report_on(layer, outputs, **declared):
     given = [case for case in cases(layer) if case.id in outputs]
     known = {case.id: expected(layer)[case.id] for case in given}
     return layer_report(layer, given, known, Answers(outputs, "test", **declared))
+
+
+def inputs_file(folder, layer, chosen):
+    """Write a file of inputs, with shapes where they are."""
+    head = {"format": "quasistatic-ref/vectors-inputs", "version": 1, "layer": layer}
+    text = json.dumps(head | {"cases": [vars(case) for case in chosen]})
+    text_written(folder / "inputs" / f"{layer}.json", text)
 
 
 def answer_file(folder, layer, outputs, **head):

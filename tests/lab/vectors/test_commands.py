@@ -7,19 +7,17 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.lab.vectors.files import inputs_text, line
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from tests.lab.vectors.material import cases
+from tests.lab.vectors.material import by_size, cases, inputs_file
 
 
 @pytest.fixture
 def few(tmp_path):
     """A folder of vectors with two cases of each layer, generated."""
     for layer in LAYERS:
-        shortest = sorted(cases(layer), key=lambda case: len(line(case.json)))
         # The first quadratic programs have a solution.
-        chosen = cases("qp")[:2] if layer == "qp" else shortest[:2]
-        text_written(tmp_path / "source" / "inputs" / f"{layer}.json", inputs_text(layer, chosen))
+        chosen = cases("qp") if layer == "qp" else by_size(layer)
+        inputs_file(tmp_path / "source", layer, chosen[:2])
     source = str(tmp_path / "source")
     out = str(tmp_path / "vectors")
     assert main(["vectors", "generate", "--vectors", source, "--out", out]) == 0

@@ -15,8 +15,8 @@ import pytest
 from flint import fmpq, fmpz_mat
 
 from quasistatic_ref.lab.vectors.exact.precision import vector
-from quasistatic_ref.lab.vectors.families.step_scenes import FLOOR
 from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.lab.vectors.tables import FLOOR
 from quasistatic_ref.lab.vectors.unrounded.dependent import dependence_breaks
 from quasistatic_ref.lab.vectors.unrounded.derivatives import PROVED, derivatives
 from quasistatic_ref.lab.vectors.unrounded.differences import base, quotient

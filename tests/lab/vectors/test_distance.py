@@ -12,9 +12,8 @@ from quasistatic_ref.lab.program.rotation import turn
 from quasistatic_ref.lab.vectors.distances.shapes import placed
 from quasistatic_ref.lab.vectors.distances.solid_pair import pair_witness
 from quasistatic_ref.lab.vectors.exact.precision import cos_sin, number, vector
-from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
-from quasistatic_ref.lab.vectors.families.step_scenes import FLOOR
 from quasistatic_ref.lab.vectors.layers import distance
+from quasistatic_ref.lab.vectors.tables import FLOOR, ORIGIN, at
 from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
 from tests.lab.vectors.material import cases, expected
 

@@ -12,12 +12,11 @@ from jsonschema import Draft202012Validator
 from quasistatic_ref.certify.certificate import verify
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.formats.files import text_written
-from quasistatic_ref.formats.resources import scenario_names
-from quasistatic_ref.lab.vectors.files import inputs_read, inputs_text, line
+from quasistatic_ref.lab.vectors.files import line
 from quasistatic_ref.lab.vectors.generate import expected_record, generated, own_written
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.layers.qp import claimed, cone_step, step_of
-from tests.lab.vectors.material import ROOT, VECTORS, cases, expected
+from tests.lab.vectors.material import ROOT, VECTORS, by_size, cases, expected, inputs_file
 
 MEBIBYTES = 25
 """Promised size of the folder."""
@@ -94,20 +93,6 @@ def test_what_is_computed_again_is_what_is_committed_byte_for_byte(layer):
         assert line(expected_record(layer, case)) in records, case.id
 
 
-@pytest.mark.parametrize("layer", LAYERS)
-def test_a_case_is_of_a_scenario_or_stands_before_all_of_them(layer):
-    of_runs = ["of the scenario" in case.provenance for case in cases(layer)]
-    named = [case.id.split("/")[1] in scenario_names() for case in cases(layer)]
-    assert of_runs == named == sorted(named)
-
-
-def test_every_scenario_is_in_every_layer_but_selection():
-    names = {path.stem for path in (ROOT / "models").glob("*/*.toml")}
-    # Clouds alone have a selection; where faces are parallel, float64 has no derivative.
-    for layer in set(LAYERS) - {"selection", "derivative"}:
-        assert names <= {case.id.split("/")[1] for case in cases(layer)}
-
-
 def test_every_quadratic_program_is_verified_again_without_a_solver():
     refused = {}
     for case in cases("qp"):
@@ -126,8 +111,7 @@ def test_every_quadratic_program_is_verified_again_without_a_solver():
 
 def test_generating_twice_or_in_place_gives_identical_bytes(tmp_path):
     for layer in LAYERS:
-        few = sorted(cases(layer), key=lambda case: len(line(case.json)))[:3]
-        text_written(tmp_path / "a" / "inputs" / f"{layer}.json", inputs_text(layer, few))
+        inputs_file(tmp_path / "a", layer, by_size(layer)[:3])
     for path in ("README.md", "LICENSE.md", "schemas/rows.schema.json"):
         text_written(tmp_path / "a" / path, (VECTORS / path).read_text())
     counts = generated(tmp_path / "a", tmp_path / "b", progress=False)
@@ -172,8 +156,10 @@ print("done")
     assert (run.returncode, run.stdout.strip()) == (0, "done"), run.stderr
 
 
-def test_a_shape_that_cases_share_stands_once_and_is_put_back(tmp_path):
-    text = (VECTORS / "inputs" / "step.json").read_text()
-    shared = json.loads(text)["shapes"]
-    assert sum(len(shape.get("points", [])) == 992 for shape in shared.values()) == 1
-    assert inputs_text("step", inputs_read(VECTORS, "step")) == text
+def test_a_shape_that_cases_share_stands_once_and_is_put_back():
+    shared = json.loads((VECTORS / "inputs" / "step.json").read_text())["shapes"]
+    (cloud,) = (shape for shape in shared.values() if len(shape.get("points", [])) == 992)
+    holders = [case for case in cases("step") if case.id.startswith("step/bunny_grasp")]
+    assert len(holders) > 1
+    for case in holders:
+        assert cloud in [entry["shape"] for entry in case.input["shapes"].values()]

@@ -5,7 +5,7 @@ import copy
 import pytest
 
 from quasistatic_ref.lab.vectors.check.case import case_verdict
-from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
+from quasistatic_ref.lab.vectors.tables import ORIGIN, at
 from tests.lab.vectors.material import cases, expected, right_answers
 
 SQUARE = {"H": [[1.0, 0.0], [0.0, 1.0]], "g": [0.0, 0.0], "A": [], "b": []}

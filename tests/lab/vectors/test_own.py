@@ -5,9 +5,9 @@ import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.exact.entered import entered
-from quasistatic_ref.lab.vectors.families.mechanisms import follower, free_body, link
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.own.system import own_system
+from quasistatic_ref.lab.vectors.tables import follower, free_body, link
 from tests.lab.vectors.material import cases, report_on
 
 

@@ -11,7 +11,14 @@ from quasistatic_ref.lab.vectors.check.patched import patched_texts, program
 from quasistatic_ref.lab.vectors.check.table import FACTOR, MISTAKES
 from quasistatic_ref.lab.vectors.check.table import PATCHES as TABLE
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
-from tests.lab.vectors.material import cases, expected, report_on, right_answers, small_cases
+from tests.lab.vectors.material import (
+    by_size,
+    cases,
+    expected,
+    report_on,
+    right_answers,
+    small_cases,
+)
 from validation.make import planted_bugs
 
 IMPOSSIBLE = (ArithmeticError, LookupError, TypeError, ValueError)
@@ -32,10 +39,6 @@ NAMED = {
 ALIKE = ["spin sign", "spin rows exchanged"]
 """Of a wrench: each is the other sign of the torque."""
 BUGS = {bug["name"]: bug for bug in planted_bugs.bugs()}
-
-
-def by_size(layer):
-    return sorted(cases(layer), key=lambda case: len(str(case.input)))
 
 
 def answered(layer, asked, patch):

@@ -56,6 +56,7 @@ HEIGHT 1
 VIEWPOINT 0 0 0 1 0 0 0
 POINTS 2
 DATA """
+PCD_BODY = b"255 0.1 -0.2 0.3\n\n0 1.0 2e-3 -0.5\n"
 
 
 def pcd(kind: str, body: bytes, header: str = PCD_HEADER) -> bytes:
@@ -86,7 +87,18 @@ GOOD: dict[str, tuple[str, bytes]] = {
     "csv with columns moved": (".csv", b'id,"Z",X,y\n0,0.3,0.1,-0.2\n1,-0.5,1.0,2e-3\n'),
     "ascii ply": (".ply", PLY_ASCII.encode()),
     "binary ply in float64": (".ply", binary_ply("double", "d")),
-    "ascii pcd": (".pcd", pcd("ascii", b"255 0.1 -0.2 0.3\n\n0 1.0 2e-3 -0.5\n")),
+    "ply of edges with properties": (
+        ".ply",
+        PLY_ASCII.replace("property list uchar int vertex_indices", "property int a").encode(),
+    ),
+    "ascii pcd": (".pcd", pcd("ascii", PCD_BODY)),
+    "pcd with an empty line": (".pcd", pcd("ascii", PCD_BODY, f"\n{PCD_HEADER}")),
+    "pcd without POINTS": (".pcd", pcd("ascii", PCD_BODY, PCD_HEADER.replace("POINTS 2\n", ""))),
+    "pcd without WIDTH": (".pcd", pcd("ascii", PCD_BODY, PCD_HEADER.replace("WIDTH 2\n", ""))),
+    "pcd without COUNT": (
+        ".pcd",
+        pcd("ascii", PCD_BODY, PCD_HEADER.replace("COUNT 1 1 1 1\n", "")),
+    ),
     "binary pcd": (".pcd", pcd("binary", binary_body("<B3d"))),
     "npy": (".npy", npy(POINTS)),
     "npy of another order": (".npy", npy(np.asfortranarray(POINTS))),
@@ -132,6 +144,16 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         ".pcd",
         pcd("binary", b"", PCD_HEADER.replace("y z", "y w")),
         "FIELDS: must name z once",
+    ),
+    "pcd with a line twice": (
+        ".pcd",
+        pcd("ascii", PCD_BODY, PCD_HEADER.replace("COUNT", "SIZE 1 4 4 4\nCOUNT")),
+        "line 6: must begin with one of",
+    ),
+    "pcd with a width of nothing": (
+        ".pcd",
+        pcd("ascii", PCD_BODY, PCD_HEADER.replace("WIDTH 2", "WIDTH")),
+        "WIDTH: must be a whole number",
     ),
     "npy of a pickle": (
         ".npy",
@@ -182,6 +204,11 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         ".ply",
         PLY_ASCII.replace("property uchar red", "property list uchar int red").encode(),
         "line 8: is not understood",
+    ),
+    "a property before any element": (
+        ".ply",
+        PLY_ASCII.replace("element vertex", "property double w\nelement vertex").encode(),
+        "line 4: is not understood",
     ),
     "faces first": (
         ".ply",

@@ -137,7 +137,7 @@ def test_where_no_solution_is_found_a_run_ends_and_claims_nothing():
     assert failed.value.step.contacts.phi == pytest.approx(1e-6)  # the step as it was posed
 
 
-def test_what_the_law_does_not_take_is_refused_in_a_sentence(tmp_path):
+def test_what_the_law_does_not_take_is_refused_in_a_sentence():
     with pytest.raises(InputError, match=r"law: is not a choice; did you mean 'coulomb'\?"):
         slot(0.0, law="coulom")
     with pytest.raises(InputError, match=r'law: needs certify = "full", not "off"'):

@@ -12,10 +12,10 @@ from quasistatic_ref.shapes.placed_shape import (
     Capsule,
     Cylinder,
     HalfSpace,
-    PlacedShape,
     Sphere,
 )
 from quasistatic_ref.simulate.simulator import Simulator
+from tests.contact.still import placed
 from tests.lab.vectors.material import cases
 
 H = 0.01
@@ -36,10 +36,9 @@ def free(shape, xyz, *fixed, k=1, mu=(0.5, 0.01), rpy=(0.0, 0.0, 0.0), base="flo
     """(simulator, q) of one free body on shapes that are fixed in the world: (shape, xyz)."""
     solid = shape if isinstance(shape, Box | Sphere | Cylinder | Capsule) else Sphere(0.05)
     system = System([Body.of_shape("body", solid, 0.3, xyz=xyz, rpy=rpy, base=base)])
-    placed = PlacedShape("body", system.link("body"), np.eye(3), np.zeros(3), shape)
+    own = placed(shape, system.link("body"))
     pairs = [
-        ContactPair(f"c{i}", PlacedShape(f"f{i}", 0, np.eye(3), np.array(at), s), placed, *mu, 6, k)
-        for i, (s, at) in enumerate(fixed)
+        ContactPair(f"c{i}", placed(s, t=at), own, *mu, 6, k) for i, (s, at) in enumerate(fixed)
     ]
     return Simulator(system, pairs, h=H, K_q=np.zeros((0, 0)), fast=True), system.q_start
 

@@ -113,7 +113,7 @@ def test_a_normal_along_an_axis_is_no_kink_of_the_pyramid():
     assert verdict(simulator, q, np.array([1.0, 0.2, 0, 0, 0, 0]))[1] == set()
 
 
-def test_a_target_half_a_turn_away_is_named(tmp_path):
+def test_a_target_half_a_turn_away_is_named():
     system = System([Body("rail", WHEEL, actuated=("turn",))])
     simulator = Simulator(system, [], h=H, K_q=np.eye(1), fast=True)
     found = derivatives(simulator, np.array([1.0, 0.0]), np.array([-1.0, 0.0]))

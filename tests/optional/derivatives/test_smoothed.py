@@ -9,7 +9,7 @@ from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from quasistatic_ref.shapes.placed_shape import Sphere
-from quasistatic_ref.step.data import Contacts
+from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.optional.derivatives.free_bodies import vector_scene
 from tests.oracles.differences import rate, unit
 from tests.tolerances import DIFFERENCE_OF_STEPS
@@ -64,16 +64,6 @@ def test_what_cannot_be_smoothed_is_refused():
     simulator, q = resting(Sphere(RADIUS), RADIUS)
     with pytest.raises(InputError, match="greater than 0"):
         smoothed(simulator, q, NONE, 0.0)
-    step = simulator.step(q, NONE).step
-    closed = step.replace(contacts=two_walls(step.contacts))
+    closed = point_between_walls([EAST, WEST], -1e-3)
     with pytest.raises(StepNotSolved, match="strictly inside"):
         barrier_step(closed, 1e-6)
-
-
-def two_walls(c):
-    """The contact, closed, and another one from the opposite side: they contradict each other."""
-    return Contacts(
-        ("a", "b"), np.array([-1e-3, -1e-3]), np.stack([c.n[0], -c.n[0]]),
-        np.stack([c.d1[0], c.d1[0]]), np.stack([c.d2[0], -c.d2[0]]), np.stack([c.J[0], c.J[0]]),
-        np.full(2, 0.4), np.full(2, 0.01), np.array([6, 6]),
-    )  # fmt: skip

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat
 
-from quasistatic_ref.certify.minimiser import ball_form
+from quasistatic_ref.certify.minimiser import form_in_balls
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     Checked,
@@ -29,7 +29,7 @@ def posed(step=None):
     step = point_on_floor(M, MU, PHI, FORCE, H_STEP) if step is None else step
     step = step.replace(cone="ellipsoid")
     form = exact_form(step)
-    balls = ball_form(form)
+    balls = form_in_balls(form)
     return step, form, balls, scaled_blocks(step, form, balls)
 
 

@@ -10,7 +10,6 @@ from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.errors import InputError, StepNotSolved
-from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.large.bound import error_bound
@@ -18,10 +17,10 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.tolerances import ENCLOSED
+from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.helpers import (
     pinch,
     point_on_floor,
-    random_step,
 )
 from tests.tolerances import EXACT, MULTIPLIERS, ROUNDING
 
@@ -75,7 +74,7 @@ def test_a_sticking_point_is_exact_and_carries_the_load():
     assert verified(step, answer)
 
 
-def test_without_load_on_contacts_the_unconstrained_step_is_exact(rng):
+def test_without_load_on_contacts_the_unconstrained_step_is_exact():
     step = round_step(point_on_floor(phi=1.0, force=(1.0, 0.0, -1.0)))
     answer = solve_step(step)
     assert answer.certificate.kind == "exact"
@@ -126,12 +125,7 @@ def test_an_exact_claim_is_checked_to_the_last_bit():
 
 def test_a_set_without_interior_is_reported_as_uncertified():
     # Two walls without friction, opposite, both touching: only the plane between them is left.
-    step = random_step(np.random.default_rng(0), 3, 4, rows=())
-    J = np.zeros((2, 4, 7))
-    J[:, 2, 0] = 1.0
-    frames = [np.eye(3), np.diag([1.0, -1.0, -1.0])]
-    walls = contacts_of(0.0, frames, J, 0.0, 0.0, (4, 4))
-    step = round_step(step.replace(contacts=walls))
+    step = round_step(point_between_walls([EAST, WEST], 0.0, force=(1.0, 2.0, 3.0)))
     answer = solve_step(step)
     assert enclosure(step) is None
     assert answer.certificate.kind == "residual"
@@ -141,11 +135,8 @@ def test_a_set_without_interior_is_reported_as_uncertified():
 
 
 def test_an_infeasible_step_is_not_solved():
-    step = random_step(np.random.default_rng(0), 3, 4, rows=(4,))
-    J = np.zeros((1, 4, 7))
-    contacts = replace(step.contacts, J=J, phi=np.array([-1.0]))
     with pytest.raises(StepNotSolved):
-        solve_step(round_step(step.replace(contacts=contacts)))
+        solve_step(round_step(point_between_walls([EAST, WEST], -1e-3)))
 
 
 def test_rows_of_the_user_s_own_stand_beside_the_ellipsoid():

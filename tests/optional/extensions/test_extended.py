@@ -9,7 +9,7 @@ from quasistatic_ref.optional.extensions import extended
 from quasistatic_ref.optional.extensions.extended import _symbols, extended_solution, with_rows
 from quasistatic_ref.solve.backends import cone_backend
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
-from quasistatic_ref.solve.units import natural_units, to_natural
+from quasistatic_ref.solve.units import natural_step, natural_units
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
@@ -33,7 +33,7 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
     units = natural_units(step)
     form = standard_form(step)
     assert units.length > 2
-    natural = to_natural(step, units)
+    natural = natural_step(step, units)
     problem = CvxpyProblem(natural)
     delta_q = rng.normal(size=7)
     problem.fill(natural)

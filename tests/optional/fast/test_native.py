@@ -11,10 +11,10 @@ from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.fast.adapters.daqp import Daqp
 from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.solve.backends import installed
-from quasistatic_ref.solve.natural_step import DenseStep
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.units import natural_units, to_natural, within_reach
+from quasistatic_ref.solve.units import natural_step, natural_units, within_reach
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, error, planted_step, random_step, unconstrained
@@ -28,12 +28,12 @@ every_backend = pytest.mark.parametrize("backend", installed("native"))
 def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backend, far, rng):
     # Written again, it holds nothing of the step before.
     solver = NativeSolver(random_step(rng), backend)
-    solver.answer(DenseStep(random_step(rng)), 1e-9)
+    solver.answer(DenseStepInBothUnits(random_step(rng)), 1e-9)
     step = random_step(rng)
     if far:
         step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0, 2e-4]))
-    solver.answer(DenseStep(step), 1e-9)
-    natural = to_natural(step, natural_units(step))
+    solver.answer(DenseStepInBothUnits(step), 1e-9)
+    natural = natural_step(step, natural_units(step))
     if solver.adapter.NEAR:
         natural = natural.replace(contacts=changed(natural.contacts, phi=within_reach(natural)))
     expected = standard_form(natural)

@@ -25,11 +25,11 @@ from validation.make.grouped_proofs import unlike
 def optimum_of(step):
     """The optimum by the proofs of `fast`, and the greatest number of groups that they made."""
     solver = solver_for(step, "daqp", fast=True)
-    scaled = solver.scaled(step)
+    both = solver.in_both_units(step)
     answer = None
     with suppress(StepNotSolved):  # of the backend: the exact method starts from cold
-        answer = solver.answer(scaled, ACCURACY)
-    return solver.optimum(scaled, answer), len(solver.proofs.parts)
+        answer = solver.answer(both, ACCURACY)
+    return solver.optimum(both, answer), len(solver.proofs.parts)
 
 
 @pytest.mark.parametrize("touching", [proofs.TOUCHING, -np.inf])

@@ -3,8 +3,8 @@
 import numpy as np
 
 from quasistatic_ref.optional.fast.second_order import ConeSolver, coefficients
-from quasistatic_ref.solve.natural_step import DenseStep
-from quasistatic_ref.solve.units import from_natural
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits
+from quasistatic_ref.solve.units import in_si
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, random_step
@@ -26,24 +26,24 @@ def test_rows_are_multiplied_by_their_coefficients_and_own_rows_are_not(rng):
     mu = np.array([1, v, v, omega, 1, w, w, 0, 1])
     np.testing.assert_allclose(coefficients(step), mu, rtol=EXACT, atol=EXACT)
     solver = ConeSolver(step, "clarabel")
-    scaled = DenseStep(step)
-    assert solver.write(scaled) is None
-    expected = mu[:, None] * scaled.natural_form.A
+    both = DenseStepInBothUnits(step)
+    assert solver.write(both) is None
+    expected = mu[:, None] * both.natural_form.A
     np.testing.assert_allclose(solver.program.A, expected, rtol=EXACT, atol=EXACT)
 
 
 def test_all_rows_of_a_contact_out_of_reach_are_idle(rng):
     step = two_contacts(rng, [1e-4, 1e6])
-    idle = ConeSolver(step, "clarabel").write(DenseStep(step))
+    idle = ConeSolver(step, "clarabel").write(DenseStepInBothUnits(step))
     assert idle.tolist() == [False] * 4 + [True] * 4 + [False]
 
 
 def test_impulses_balance_the_step(rng):
     """H delta_q - g = A'lam, the rows A being the motion along n, d1, d2 and about n."""
     step = two_contacts(rng, [-1e-2, -2e-2])
-    scaled = DenseStep(step)
-    answer = ConeSolver(step, "clarabel").answer(scaled, 1e-9)
-    delta_q, lam = from_natural(answer.delta_q, answer.lam, scaled.units)
+    both = DenseStepInBothUnits(step)
+    answer = ConeSolver(step, "clarabel").answer(both, 1e-9)
+    delta_q, lam = in_si(answer.natural_delta_q, answer.natural_lam, both.units)
     form = standard_form(step)
     push = form.H @ delta_q - form.g
     size = np.abs(push).max()

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.solve.solve import solve_step
+from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.helpers import point_on_floor
-from tests.oracles.forged_scenes import facing
 from tests.oracles.solution_truth import least_bound
 
 STEP = point_on_floor(force=(4.0, 1.0, -2.943))  # it slides: some rows bear load, some none
@@ -76,9 +76,8 @@ def test_in_the_ellipsoid_no_bound_is_proved():
 
 
 def test_a_free_step_has_a_bound_and_an_infeasible_one_has_none():
-    none = free_step(np.eye(3), np.ones(3), contacts_of((), (), np.zeros((0, 4, 3)), ()), 1.0)
+    none = free_step(np.eye(3), np.ones(3), no_contacts(3), 1.0)
     assert bound_verdict(none, np.ones(3), np.zeros(0), 0.0)
     assert not bound_verdict(none, np.ones(3) + 1e-15, np.zeros(0), 0.0)
-    walls = contacts_of(-1e-3, facing(2), np.tile(np.eye(4, 3), (2, 1, 1)), 0.0)
-    step = free_step(np.eye(3), np.ones(3), walls, 1.0)
+    step = point_between_walls([EAST, WEST], -1e-3, force=np.ones(3))
     assert "no solution" in bound_verdict(step, np.zeros(3), np.ones(8), 1.0).reason

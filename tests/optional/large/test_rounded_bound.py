@@ -12,9 +12,9 @@ from quasistatic_ref.optional.large import rounded_bound
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.rounded_bound import FloatBound
-from quasistatic_ref.solve.natural_step import DenseStep
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.units import Units, from_natural, in_natural, to_natural
+from quasistatic_ref.solve.units import Units, in_natural, in_si, natural_step
 from tests.helpers import point_on_floor
 from tests.oracles.random_steps import any_step
 from validation.make.confirmed_bits import CONES
@@ -30,16 +30,16 @@ def small_step(rng):
     if rng.random() < 0.5:
         return step
     units = 2.0 ** rng.integers(-20, 21, step.n_v), 2.0 ** int(rng.integers(-20, 21)), 1.0
-    return to_natural(step, Units(*units))
+    return natural_step(step, Units(*units))
 
 
 class Judged:
     """A step and an answer, with what the bound makes of it; x and lam in natural units."""
 
     def __init__(self, step, x, lam):
-        self.step, scaled = step, DenseStep(step)
-        self.form = scaled.natural_form
-        self.units = scaled.units
+        self.step, both = step, DenseStepInBothUnits(step)
+        self.form = both.natural_form
+        self.units = both.units
         S, ell, rho = self.units
         self.x, self.y = x, np.maximum(lam, 0.0)
         hessian = BallHessian(step)
@@ -52,7 +52,7 @@ class Judged:
         """A x - b, H x - g - A'y and ||H^-1 g||_H^2 in natural units, without rounding."""
         S, ell, rho = self.units
         form = exact_form(self.step)
-        delta_q, lam = from_natural(self.x, self.y, self.units)
+        delta_q, lam = in_si(self.x, self.y, self.units)
         x = fmpq_mat(form.n, 1, fractions(delta_q, form.x_unit))
         y = fmpq_mat(form.m, 1, fractions(lam, form.lam_unit))
         A = fmpq_mat(form.A)
@@ -87,7 +87,7 @@ class Judged:
 
 def some_answer(rng, step):
     """An answer that is nearly right, or anything."""
-    scaled = DenseStep(step)
+    both = DenseStepInBothUnits(step)
     n = step.n_v
     m = int(step.offsets[-1])
     x = rng.standard_normal(n)
@@ -96,7 +96,7 @@ def some_answer(rng, step):
         answer = solve_step(step, "none")
     except StepNotSolved:
         return x, lam
-    right = in_natural(answer.delta_q, answer.lam, scaled.units)
+    right = in_natural(answer.delta_q, answer.lam, both.units)
     size = rng.choice([0.0, 1e-14, 1e-9, 1e-3])
     return right[0] + size * x, right[1] + size * lam
 
@@ -116,7 +116,7 @@ def test_no_answer_of_random_steps_has_a_false_bound():
         step = small_step(rng)
         judged = Judged(step, *some_answer(rng, step))
         if judged.error is not None and judged.error <= 1:
-            delta_q, lam = from_natural(judged.x, judged.y, judged.units)
+            delta_q, lam = in_si(judged.x, judged.y, judged.units)
             assert bound_verdict(step, delta_q, lam, judged.error)
             bounded += 1
     assert bounded > FUZZED / 3
@@ -128,7 +128,7 @@ def test_units_out_of_range_are_left_to_balls():
     assert Judged(step, *answer).error is not None
     for units in ((2.0**110, 1.0, 1.0), (1.0, 2.0**220, 1.0), (1.0, 1.0, 2.0**110)):
         coordinate, *others = units
-        far = to_natural(step, Units(np.full(3, coordinate), *others))
+        far = natural_step(step, Units(np.full(3, coordinate), *others))
         assert Judged(far, *answer).error is None
 
 

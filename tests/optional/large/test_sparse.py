@@ -126,12 +126,12 @@ def test_columns_that_do_not_ascend_are_refused(column):
 
 
 def test_a_gap_is_not_asked_to_be_less_than_rounding_leaves_of_it():
-    tight = BACKENDS["clarabel"].attempts(1e-12)[0]
+    tight = BACKENDS["clarabel"].option_sets(1e-12)[0]
     assert tight["tol_gap_abs"] == 1e-14
     large = reachable(tight, 1000)
     assert large["tol_gap_abs"] == large["tol_gap_rel"] == 1000 * 2.0**-52
     changed = {"tol_gap_abs", "tol_gap_rel", "max_iter"}
     assert {name for name in tight if tight[name] != large[name]} == changed
     assert reachable(tight, 10) == tight | {"max_iter": MOST_ITERATIONS}
-    split = BACKENDS["osqp"].attempts(1e-12)[0]
+    split = BACKENDS["osqp"].option_sets(1e-12)[0]
     assert reachable(split, 1000) == split  # it has no gap, and needs its many iterations

@@ -18,12 +18,12 @@ from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.solve.solve import solve_step
 from tests.helpers import always_in_blocks, changed, error, in_blocks, random_step
 from tests.optional.large.test_bound import made_up, within
+from tests.optional.large.test_sparse import step_after
 from tests.oracles.random_steps import any_step
 
 FUZZED = 60
 """Random steps with answers made to look good."""
 
-NO_TARGET = np.zeros(0)
 RIGHT_OR_WRONG = {"least": -17, "balanced": 0.3, "factors": (1.0, 1.0, 0.5, 2.0, -1.0)}
 
 
@@ -31,7 +31,7 @@ def bound_of(step, delta_q, lam):
     """The bound of an answer in SI units by the sparse path; infinite where none is known."""
     sparse = in_blocks(step)
     solver = SparseSolver(sparse, "clarabel")
-    return solver.error_bound(solver.scaled(sparse), delta_q, lam)
+    return solver.error_bound(solver.in_both_units(sparse), delta_q, lam)
 
 
 def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
@@ -57,10 +57,7 @@ def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
 def test_a_sparse_answer_has_a_bound_as_good_as_that_of_a_dense_one(monkeypatch):
     always_in_blocks(monkeypatch)
     some = pile((2, 1, 2), backend="clarabel", certify="residual")
-    q = some.q
-    for _ in range(3):
-        result = some.simulator.step(q, NO_TARGET, some.force)
-        q = result.q
+    result = step_after(some, 3)
     step = result.step
     answer = result.solution
     assert type(step.contacts) is SparseContacts

@@ -9,6 +9,7 @@ from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.scenes.systems import RAIL
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.optional.runs.scene_file import scenario_written
+from tests.contact.still import placed
 
 TURNED = rotation(np.array([0.3, -0.2, 1.1]))
 STANDING = (
@@ -21,10 +22,6 @@ STANDING = (
 )
 
 
-def placed(name, link, shape, R=None, t=(0.0, 0.0, 0.0)):
-    return qr.PlacedShape(name, link, np.eye(3) if R is None else R, np.array(t), shape)
-
-
 def scene(changes=(), **settings):
     """A finger on a rail, a ball that it pushes, solids that stand, a capsule and a cloud."""
     rail = qr.Body("rail", RAIL, actuated=["slide"], xyz=(-0.2, 0, 0.05))
@@ -32,16 +29,16 @@ def scene(changes=(), **settings):
     system = qr.System([rail, ball])
     finger = system.link("rail/finger")
     body = system.link("ball/solid")
-    floor = placed("floor", 0, qr.HalfSpace((0, 0, 1), 0.0))
+    floor = placed(qr.HalfSpace((0, 0, 1), 0.0), name="floor")
+    cloud = placed(qr.PointCloud(0.04 * np.eye(3)), body, name="points")
     pairs = [
         qr.ContactPair("rest", floor, system.shapes[0], 0.5, 0.01, 6, 1),
-        qr.ContactPair("push", placed("tip", finger, qr.Capsule(0.02, 0.03), None, (0.1, 0, 0)),
+        qr.ContactPair("push", placed(qr.Capsule(0.02, 0.03), finger, t=(0.1, 0, 0), name="tip"),
                        system.shapes[0], 0.2, 0.0, 4, 1),
-        qr.ContactPair("points", floor, placed("points", body, qr.PointCloud(0.04 * np.eye(3))),
-                       0.1, 0.0, 4, 2),
+        qr.ContactPair("points", floor, cloud, 0.1, 0.0, 4, 2),
     ]  # fmt: skip
     for number, shape in enumerate(STANDING):
-        stands = placed(f"solid{number}", 0, shape, TURNED, (number, 2.0, 0.1))
+        stands = placed(shape, 0, TURNED, (number, 2.0, 0.1), f"solid{number}")
         pairs.append(qr.ContactPair(f"far {number}", stands, system.shapes[0], 0.5, 0.0, 4, 1))
     K_q = np.array([[300.0]])
     return qr.Simulator(system, [*pairs, *changes], **({"h": 0.02, "K_q": K_q} | settings))
@@ -88,10 +85,9 @@ ON_BALL = 3
     ],
 )
 def test_what_no_file_holds_is_refused_and_nothing_is_written(tmp_path, changes, settings, words):
-    floor = placed("floor", 0, qr.HalfSpace((0, 0, 1), 0.0))
+    floor = placed(qr.HalfSpace((0, 0, 1), 0.0), name="floor")
     pairs = [
-        qr.ContactPair("more", floor, placed("extra", ON_BALL, shape), 0.1, 0.0, 4, 1)
-        for shape in changes
+        qr.ContactPair("more", floor, placed(shape, ON_BALL), 0.1, 0.0, 4, 1) for shape in changes
     ]
     with pytest.raises(InputError, match=words):
         scenario_written(scene(pairs, **settings), tmp_path / "scene.toml", steps=1)
@@ -102,8 +98,8 @@ def test_a_rotation_that_no_angles_give_is_refused_by_name(tmp_path):
     R = TURNED @ TURNED @ TURNED  # rounded otherwise than any roll, pitch and yaw
     beta = scene().pairs[0].beta
     for skew, words in (
-        (placed("skew", 0, STANDING[0], R), "is not what any roll, pitch and yaw give"),
-        (placed("skew", 2, STANDING[0], TURNED), "is rounded where a URDF is read"),
+        (placed(STANDING[0], 0, R, name="skew"), "is not what any roll, pitch and yaw give"),
+        (placed(STANDING[0], 2, TURNED, name="skew"), "is rounded where a URDF is read"),
     ):
         more = qr.ContactPair("more", skew, beta, 0.1, 0.0, 4, 1)
         with pytest.raises(InputError, match=rf"skew\.R: {words}"):

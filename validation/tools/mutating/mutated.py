@@ -31,7 +31,7 @@ SETS = {
     "CURVED": "curved_pair settle faces by_coal contact/distance",
     "PAIRS": "cloud tied_faces contact/distance pairs jacobian",
     "SPARSE": "mass_in_blocks sparse solver",
-    "CLOUDS": "clouds cloud_headers mesh_files",
+    "CLOUDS": "clouds mesh_files",
     "URDF": "urdf urdf_refusals urdf_file mesh_files",
     "DATA": "arrays posed_data data plain_data step_files",
     "SYSTEM": "system system_forces system_refusals random_mechanisms",
@@ -175,7 +175,7 @@ model/world.py
 optional/fast/adapters/clarabel.py optional/fast/adapters/daqp.py optional/fast/adapters/osqp.py
 optional/fast/adapters/piqp.py optional/fast/adapters/program.py optional/fast/adapters/quadprog.py
 solve/backends.py
-optional/extensions/extended.py solve/natural_step.py solve/units.py
+optional/extensions/extended.py solve/both_units.py solve/units.py
     SOLVERS
 solve/cvxpy_problem.py
     standard_form problem SOLVERS

@@ -12,8 +12,8 @@ from quasistatic_ref.lab.claims.claim import Claim, Evidence, comparison
 from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.program.step import step
 from quasistatic_ref.lab.scenes.contacts import GRAVITY
-from quasistatic_ref.lab.vectors.families.mechanisms import at
 from quasistatic_ref.lab.vectors.own.step import posed_case, wrench_force
+from quasistatic_ref.lab.vectors.tables import at
 from quasistatic_ref.step.data import Array
 
 M = 0.3

@@ -211,12 +211,12 @@ def _highs_model(highspy: Any, form: StandardForm, m: int, n: int) -> Any:
     return model
 
 
-def _no_attempts(_: float) -> tuple[Options, ...]:
+def _no_options(_: float) -> tuple[Options, ...]:
     """No step was ever solved with a guest."""
     return ({},)
 
 
-Line = partial(Guest, attempts=_no_attempts, steps=False, cvxpy=False)
+Line = partial(Guest, option_sets=_no_options, steps=False, cvxpy=False)
 GUESTS: dict[str, Guest] = {
     one.name: one
     for one in (

@@ -12,7 +12,7 @@ from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, SETTINGS
-from quasistatic_ref.lab.study.problems.families.dials import DIALS, OTHERS, ends
+from quasistatic_ref.lab.study.problems.dials import DIALS
 from quasistatic_ref.lab.study.problems.problem import UNITS
 from quasistatic_ref.tolerances import LARGE
 
@@ -86,19 +86,20 @@ TABLES = WholeTables({
         "runs": Field("list of tables", "solvers, and in which way", default=[{}], least=1, of=RUN),
     },
     PROBLEMS: {
-        "seed": Field("integer", "everything else is a function of it", default=1, least=0,
-                      most=2**32 - 1),
-        "scenarios": Field("list of words", "whose steps are harvested; else those of all that "
-                           "come along", default=None),
+        "seed": Field("integer", "the order in which problems are run is a function of it",
+                      default=1, least=0, most=2**32 - 1),
+        "scenarios": Field("list of words", "whose steps problems are made of: names, or files in "
+                           "the study's folder; else all that come along", default=None),
         "set": Field("text", "what problems are taken from, \"contact-qp-2\", \"contact-qp-1\" "
-                     "or the folder of another set; else they are made", default=None),
+                     "or the folder of another set; else they are steps of scenarios",
+                     default=None),
         "families": Field("table", "how many problems of each", default={"scenarios": 20},
                           of=COUNTS),
     },
     COUNTS: {
         "scenarios": _family("steps of the scenarios"),
-        **{name: _family("dial: {name}, {first:g} to {most:g} {unit}".format(**own))
-           for name in (*OTHERS, *DIALS) if (own := ends(name))},
+        **{name: _family("of a set; dial: {name}, {first:g} to {most:g} {unit}".format(**own))
+           for name, own in DIALS.items()},
     },
     COUNT: {
         "count": Field("integer", "how many problems", least=0, most=MOST_PROBLEMS),

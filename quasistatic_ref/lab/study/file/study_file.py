@@ -23,7 +23,7 @@ from quasistatic_ref.lab.study.file.fields import (
     VERSION,
 )
 from quasistatic_ref.lab.study.file.solver_lists import chosen_solvers, own_solvers
-from quasistatic_ref.lab.study.problems.families.dials import DIALS, SCENARIOS
+from quasistatic_ref.lab.study.problems.dials import SCENARIOS
 from quasistatic_ref.lab.study.problems.for_study import TestSet
 from quasistatic_ref.lab.study.problems.problem import UNITS
 
@@ -62,6 +62,31 @@ class Part:
 
 
 @dataclass(frozen=True)
+class Limits:
+    """What calls may take, as study files have it by default.
+
+    Parameters
+    ----------
+    time_limit : float
+        Of one call [s].
+    warm_up : float
+        Of the first call of a shape, at a setting, in a process, which is not counted [s].
+    repetitions : int
+        Calls of a measurement that are timed; more where they are short.
+    budget : float
+        Of one solver [s], for all its calls, and as much for its starts and its calls that warm up.
+    memory : float
+        Of one solver's processes [bytes].
+    """
+
+    time_limit: float = 2.0
+    warm_up: float = 10.0
+    repetitions: int = 5
+    budget: float = 600.0
+    memory: float = 4 * GB
+
+
+@dataclass(frozen=True)
 class Study:
     """A study file, read.
 
@@ -69,26 +94,13 @@ class Study:
     ----------
     path : Path
     problems : TestSet
-    time_limit : float
-        Of one problem [s].
-    budget : float
-        Of one solver, all its calls together [s].
-    warm_up : float
-        Of the first call of a shape, which is not counted [s].
-    memory : float
-        Of one solver [bytes].
-    repetitions : int
-        Calls of a measurement that are timed.
+    limits : Limits
     parts : tuple of Part
     """
 
     path: Path
     problems: TestSet
-    time_limit: float
-    budget: float
-    warm_up: float
-    memory: float
-    repetitions: int
+    limits: Limits
     parts: tuple[Part, ...]
 
     @property
@@ -150,25 +162,28 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
     """
     try:
         top = TABLES.all_values(Fields(tables), SOLVERS)
-        problems = _problems(top["problems"], quick)
+        problems = _problems(top["problems"], path.parent, quick)
         settings = _settings(top["settings"])
         own = own_solvers(top["solvers"], settings)
         parts = tuple(
             _part(Fields(part, f"runs[{i}]"), settings, own) for i, part in enumerate(top["runs"])
         )
-        return Study(
-            path, problems, top["time_limit"], top["budget"], top["warm_up"],
-            top["memory"] * GB, top["repetitions"], parts,
-        )  # fmt: skip
+        limits = Limits(top["time_limit"], top["warm_up"], top["repetitions"], top["budget"],
+                        top["memory"] * GB)  # fmt: skip
+        return Study(path, problems, limits, parts)
     except InputError as error:
         raise error.in_file(path) from None
 
 
-def _problems(table: Fields, quick: bool) -> TestSet:
+def _problems(table: Fields, folder: Path, quick: bool) -> TestSet:
     given = TABLES.all_values(table, PROBLEMS)
     known = scenario_names()
     scenarios = known if given["scenarios"] is None else given["scenarios"]
-    _check_known(table, "scenarios", scenarios, known)
+    files = [name for name in scenarios if name.endswith(".toml")]
+    _check_known(table, "scenarios", scenarios, [*known, *files])
+    if len({Path(name).stem for name in scenarios}) < len(scenarios):
+        raise table.fail("scenarios", "must have different names", scenarios)
+    scenarios = [str(folder / name) if name in files else name for name in scenarios]
     source = given["set"] or ""
     families, most = _counts(given["families"], bool(source))
     if quick:
@@ -185,10 +200,10 @@ def _counts(table: Fields, of_a_set: bool) -> tuple[dict[str, int], dict[str, fl
     for name, own in TABLES.all_values(table, COUNTS).items():
         inner = Fields({"count": own} if isinstance(own, int) else own, table.name(name))
         count = TABLES.all_values(inner, COUNT)
-        if count["count"] and not of_a_set and name not in (SCENARIOS, *DIALS):
+        if count["count"] and not of_a_set and name != SCENARIOS:
             words = 'is a family of sets; say set = "contact-qp-2", or "contact-qp-1"'
             raise table.fail(name, words)
-        if count["most"] is not None and not (of_a_set or name in DIALS):
+        if count["most"] is not None and not of_a_set:
             raise table.fail(name, "has no dial to be turned, unless it is taken from a set")
         if count["count"]:
             counts[name] = count["count"]

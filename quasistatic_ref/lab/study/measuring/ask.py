@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -12,18 +12,14 @@ from quasistatic_ref.lab.folders import EDITIONS, problem_set_folder
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.file.fields import MODULE
 from quasistatic_ref.lab.study.file.solver_lists import BY_INTERFACE, PACKAGE, solvers_named
+from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from quasistatic_ref.lab.study.measuring.measure import Limits, measured
+from quasistatic_ref.lab.study.measuring.measure import measured
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, set_read
 from quasistatic_ref.lab.study.problems.for_study import FOLDER
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.store.continued import solver_label
 from quasistatic_ref.lab.study.store.store import contents
-
-LIMITS = Limits(2.0, 10.0, 5)
-"""Of a call that belongs to no study, as study files have them by default."""
-MEMORY = 4e9
-"""[bytes]"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,8 +34,6 @@ class Question:
     units : str
     warm : bool
     limits : Limits
-    memory : float
-        [bytes]
     """
 
     problem: Problem
@@ -48,7 +42,6 @@ class Question:
     units: str
     warm: bool
     limits: Limits
-    memory: float
 
 
 def question(
@@ -82,23 +75,21 @@ def question(
     if store is None:
         own = solver_named(solver)
         settings = list(SETTINGS)
-        limits = LIMITS
-        memory = MEMORY
+        limits = Limits()
     else:
         study = contents(store).study
         if study["kind"] != "solvers":
             raise InputError("holds a sweep, and no solvers", file=store)
         own = _of_store(solver, study)
         settings = [Setting(**s) for s in study["settings"]]
-        limits = Limits(study["time_limit"], study["warm_up"], study["repetitions"])
-        memory = study["memory"]
+        limits = Limits(**{one.name: study[one.name] for one in fields(Limits)})
     known = {one.name: one for one in settings if own.takes(one)}
     if setting not in known:
         hint = suggestion(setting, known)
         raise InputError(f"is not a setting that {own.label} takes{hint}", value=setting)
     if warm and not own.warm:
         raise InputError(f"cannot be used with {own.label}, which takes no start", field="--warm")
-    return Question(found, own, known[setting], units, warm, limits, memory)
+    return Question(found, own, known[setting], units, warm, limits)
 
 
 def measured_again(one: Question) -> dict[str, Any]:
@@ -114,7 +105,7 @@ def measured_again(one: Question) -> dict[str, Any]:
     InputError
         If the solver cannot be imported.
     """
-    with Keeper(one.solver, memory=one.memory, settings=(one.setting,)) as keeper:
+    with Keeper(one.solver, memory=one.limits.memory, settings=(one.setting,)) as keeper:
         return measured(keeper, one.problem, one.setting, one.units, one.warm, one.limits)
 
 

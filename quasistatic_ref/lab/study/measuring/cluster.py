@@ -8,8 +8,8 @@ from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.calling.solvers import Solver
+from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from quasistatic_ref.lab.study.measuring.measure import Limits
 from quasistatic_ref.lab.study.measuring.schedule import (
     BLOCK,
     Answered,
@@ -43,7 +43,7 @@ def measure_on_cluster(work: Work, address: str) -> None:
     """
 
     def answered(solver: Solver) -> Answered:
-        return partial(_elsewhere, work.folder, work.memory, solver)
+        return partial(_elsewhere, work.folder, solver)
 
     with executor_of(address) as (executor, slots):
         measure_all(work, executor, slots, answered, BLOCK)
@@ -69,12 +69,10 @@ def executor_of(address: str) -> Iterator[tuple[Executor, int]]:
         client.close()
 
 
-def _elsewhere(
-    folder: str, memory: float, solver: Solver, block: Block, limits: Limits, left: Left
-) -> list[Row]:
+def _elsewhere(folder: str, solver: Solver, block: Block, limits: Limits, left: Left) -> list[Row]:
     """The rows of one block, on a worker of the cluster, in a process of its own."""
     settings = tuple(dict.fromkeys(m.setting for m, _ in block))
-    with Keeper(solver, folder, memory, settings) as keeper:
+    with Keeper(solver, folder, limits.memory, settings) as keeper:
         return block_rows(keeper, block, limits, left)
 
 

@@ -66,7 +66,7 @@ def prepared(problem: Problem) -> Prepared:
     natural = problem.natural
     form = natural.form
     norm = energy_norm(form.H)
-    free = float(norm.impulses(form.g[None])[0])
+    free = float(norm.of_impulses(form.g[None])[0])
     return Prepared({RAW: problem.form, NATURAL: form}, problem.units, natural.answer, norm, free)
 
 
@@ -150,6 +150,12 @@ def ungraded(
     }
 
 
+def not_run(feasible: bool) -> dict[str, Any]:
+    """The same fields of a call that the budget did not reach."""
+    row = ungraded(NOT_RUN, "not run (budget)", None, feasible)
+    return row | {"seconds": row["seconds"] | {"spent": 0.0}}
+
+
 def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array | None]:
     """Outcome, and the numbers if they can be judged."""
     if reply.x is None:
@@ -165,7 +171,7 @@ def _usable(form: StandardForm, reply: Reply) -> tuple[str, Array | None, Array 
 
 def _digits(of: Prepared, answer: Answer, x: Array, lam: Array | None) -> dict[str, float | None]:
     digits: dict[str, float | None] = {
-        "delta_q": _digits_of(of.norm.displacement(x - answer.x), of, answer.error),
+        "delta_q": _digits_of(of.norm.of_displacement(x - answer.x), of, answer.error),
         "net_wrench": None,
         "multipliers": None,
     }
@@ -175,7 +181,7 @@ def _digits(of: Prepared, answer: Answer, x: Array, lam: Array | None) -> dict[s
         bound = answer.error
         net = A.T @ lam - answer.net
         negative = A.T @ np.minimum(lam, 0.0)
-        off, below = of.norm.impulses(np.array([net, negative]))
+        off, below = of.norm.of_impulses(np.array([net, negative]))
         digits["net_wrench"] = _digits_of(float(off), of, bound)
         # Slacks of the exact answer that rounding alone may have made are none. What multipliers
         # of others add to the dual's gap bounds an error by strong convexity, as a gap does.

@@ -15,7 +15,14 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab import processes
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.measuring.grade import CRASHED, MEMORY, TIMEOUT
-from quasistatic_ref.lab.study.measuring.messages import HEAD, Response, Unreadable, from_bytes
+from quasistatic_ref.lab.study.measuring.messages import (
+    HEAD,
+    KEPT,
+    READY,
+    Response,
+    Unreadable,
+    from_bytes,
+)
 from quasistatic_ref.lab.supervised import Supervised
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.standard_form import StandardForm
@@ -31,9 +38,6 @@ EXTRA = 0.5
 
 LOOK = 0.02
 """How often the memory of a process is looked at while it computes [s]."""
-
-KEPT = 2
-"""Programs that a process keeps: one in raw and in natural units."""
 
 PINGS = 9
 """Exchanges without a call, whose median is what an exchange takes."""
@@ -115,6 +119,8 @@ class Keeper:
         """What an exchange without a call takes [s]."""
         self.seen: set[object] = set()
         """What has been warmed up since the process started."""
+        self.modes: tuple[str, ...] = ()
+        """In which the solver can be called on sequences, as its process finds them."""
 
     def answer(self, form: StandardForm, request: Request) -> tuple[Response, float]:
         """What the process says, and the seconds until it did by the clock of this one.
@@ -221,14 +227,15 @@ class Keeper:
         self._sent.clear()
         self.seen.clear()
         self.exchange = 0.0
-        trouble = "its process did not start"
+        said = "its process did not start"
         with contextlib.suppress(EOFError, OSError):
             self._outbox.send((self.solver, self.folder, () if self.starts > 1 else self.settings))
             if self._inbox.poll(START):
-                trouble = self._inbox.recv_bytes(HEAD).decode(errors="replace")
-        if trouble:
+                said = self._inbox.recv_bytes(HEAD).decode(errors="replace")
+        if not said.startswith(READY):
             self.close()
-            raise InputError(trouble, field=f"solvers.{self.solver.name}")
+            raise InputError(said, field=f"solvers.{self.solver.name}")
+        self.modes = tuple(said.removeprefix(READY).split(","))
 
     def _ended(self) -> str:
         """How the process came to its end; it is cleared away."""

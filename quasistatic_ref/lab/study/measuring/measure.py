@@ -10,7 +10,7 @@ with a warm start cannot be confirmed, as the solves that they start from are in
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -20,13 +20,14 @@ from quasistatic_ref.lab import processes
 from quasistatic_ref.lab.study.calling.calls import neighbour
 from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
 from quasistatic_ref.lab.study.calling.solvers import Setting
+from quasistatic_ref.lab.study.file.study_file import Limits
 from quasistatic_ref.lab.study.measuring.grade import (
     CRASHED,
     MEMORY,
-    NOT_RUN,
     TIMEOUT,
     Prepared,
     grades,
+    not_run,
     prepared,
     ungraded,
 )
@@ -49,25 +50,6 @@ NOISE = 2e-4
 NEARER = 1e3
 """Ratio of its errors from which an answer is to the step before, and not to its own: both are of
 one solver, so that errors of its own differ less."""
-
-
-@dataclass(frozen=True)
-class Limits:
-    """What a call may take.
-
-    Parameters
-    ----------
-    call : float
-        Time of a call [s].
-    warm_up : float
-        Of the first call of a shape, at a setting, in a process [s].
-    repetitions : int
-        Calls of a measurement that are timed; more where they are short.
-    """
-
-    call: float
-    warm_up: float = 10.0
-    repetitions: int = 5
 
 
 def measured(
@@ -112,7 +94,9 @@ def measured(
             keeper.seen.add(shape)
             seconds["warm_up"] = perf_counter() - begin
         begin = perf_counter()
-        row = _graded(keeper, ready, Request(setting, limits.call, start=start), units, limits)
+        row = _graded(
+            keeper, ready, Request(setting, limits.time_limit, start=start), units, limits
+        )
         memory = None if keeper.pid is None else processes.peak(keeper.pid)
     except Ended as end:
         if seconds["warm_up"] is None and shape not in keeper.seen:
@@ -165,11 +149,10 @@ def sequence_measured(
         x: Array | None = None
         for place, one in enumerate(ready):
             first = not turn or turn[-1]["outcome"] in (CRASHED, TIMEOUT, MEMORY)
-            request = Request(setting, limits.call, mode=mode, first=first)
+            request = Request(setting, limits.time_limit, mode=mode, first=first)
             shape = (*one.forms[units].A.shape, setting.name, units, mode, min(place, 1))
             if left <= 0:
-                row = ungraded(NOT_RUN, "not run (budget)", None, not one.answer.farkas)
-                row["seconds"]["spent"] = 0.0
+                row = not_run(not one.answer.farkas)
             else:
                 last = x
                 row, x = _step(keeper, one, request, units, shape, limits.warm_up)
@@ -187,7 +170,7 @@ def _repeats(one: Prepared, before: Prepared, x: Array | None, last: Array | Non
     old = before.answer.x
     if x is None or not x.shape == exact.shape == old.shape or np.array_equal(exact, old):
         return None
-    off, off_before = (one.norm.displacement(x - answer) for answer in (exact, old))
+    off, off_before = (one.norm.of_displacement(x - answer) for answer in (exact, old))
     same = last is not None and np.array_equal(x, last)
     return same or bool(NEARER * off_before <= off)
 

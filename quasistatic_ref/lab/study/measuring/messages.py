@@ -13,9 +13,14 @@ import numpy as np
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 
+KEPT = 2
+"""Programs that a solver's process keeps: one in raw and in natural units."""
 HEAD = 1 << 16
 """Largest line of JSON [bytes]."""
 NOTHING = Reply(None, None, False, "not called")
+READY = "ready: "
+"""What a worker says first, before the modes that its solver can be called in; else why it cannot
+be called."""
 
 
 class Unreadable(Exception):

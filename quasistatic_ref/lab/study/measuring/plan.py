@@ -15,6 +15,7 @@ import numpy as np
 
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
 from quasistatic_ref.lab.study.file.study_file import Part, Study
+from quasistatic_ref.lab.study.store.rows import key_of
 
 Sequences = Mapping[str, Sequence[tuple[str, str]]]
 Modes = Mapping[str, tuple[str, ...]]
@@ -55,6 +56,11 @@ class Measurement:
         if self.sequence:
             return self.sequence, self.setting.name, self.units, self.mode
         return self.problem, str(self.repetition)
+
+    @property
+    def key(self) -> tuple[Any, ...]:
+        """That of its row."""
+        return key_of(self.fields())
 
     def fields(self) -> dict[str, Any]:
         """What a row says about itself."""
@@ -105,19 +111,19 @@ def plan(
                 stride = part.every * (part.again if repetition else 1)
                 if part.modes or not stride or place % stride:
                     continue
-                here |= {_key(m): m for m in _measurements(part, *problems[int(p)], repetition)}
+                here |= {m.key: m for m in _measurements(part, *problems[int(p)], repetition)}
             solvers = list(dict.fromkeys(m.solver.label for m in here.values()))
             turn = {label: i for i, label in enumerate(rng.permutation(solvers).tolist())}
             scattered = [list(here.values())[i] for i in rng.permutation(len(here))]
             for m in sorted(scattered, key=lambda m: turn[m.solver.label]):
-                planned.setdefault(_key(m), m)
+                planned.setdefault(m.key, m)
     names = list(sequences)
     for place, i in enumerate(rng.permutation(len(names))):
         for part in study.parts:
             if part.modes and not place % part.every:
                 ways = list(_in_order(part, modes, names[i], sequences[names[i]]))
                 for j in rng.permutation(len(ways)):
-                    planned |= {_key(m): m for m in ways[j]}
+                    planned |= {m.key: m for m in ways[j]}
     return list(planned.values())
 
 
@@ -138,7 +144,3 @@ def _in_order(
         if solver.takes(setting) and mode in modes.get(solver.label, ()):
             yield [Measurement(problem, family, solver, setting, units, False, 0, mode, sequence)
                    for problem, family in problems]  # fmt: skip
-
-
-def _key(m: Measurement) -> tuple[object, ...]:
-    return m.problem, m.solver.label, m.setting.name, m.units, m.warm, m.repetition, m.mode

@@ -6,29 +6,23 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import writable_folder
-from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Solver
 from quasistatic_ref.lab.study.file.study_file import Study
 from quasistatic_ref.lab.study.measuring.environment import machine, versions
-from quasistatic_ref.lab.study.measuring.keeper import START, Ended, Keeper, Request
-from quasistatic_ref.lab.study.measuring.measure import Limits
+from quasistatic_ref.lab.study.measuring.keeper import Keeper
 from quasistatic_ref.lab.study.measuring.plan import Measurement, plan
 from quasistatic_ref.lab.study.measuring.schedule import Work, measure_here
 from quasistatic_ref.lab.study.problems.for_study import fact_of, problems_record, study_problems
 from quasistatic_ref.lab.study.problems.problem import Problem
-from quasistatic_ref.lab.study.store.rows import Row, key_of, label_of
+from quasistatic_ref.lab.study.store.rows import Row, label_of
 from quasistatic_ref.lab.study.store.store import Store
-from quasistatic_ref.step.standard_form import StandardForm
 
 
 def run_study(
     study: Study,
     folder: str | Path,
     *,
-    problems: Sequence[Problem] | None = None,
     jobs: int | None = None,
     scheduler: str | None = None,
     progress: bool = True,
@@ -40,8 +34,6 @@ def run_study(
     study : Study
     folder : str or Path
         The store; one that was begun with the same study is continued.
-    problems : sequence of Problem, optional
-        In place of those that the study file names.
     jobs : int, optional
         Solvers called at once; by default as many as there are cores.
     scheduler : str, optional
@@ -59,8 +51,7 @@ def run_study(
         If the folder holds another study, or a solver cannot be reached.
     """
     folder = writable_folder(folder)
-    if problems is None:
-        problems = study_problems(study.problems, folder, progress)
+    problems = study_problems(study.problems, folder, progress)
     by_id = {one.id: one for one in problems}
     place = str(study.path.resolve().parent)
     unreached: dict[str, str] = {}
@@ -68,10 +59,8 @@ def run_study(
     facts = [fact_of(one) for one in problems]
     with Store(folder, study_record(study, problems), facts) as store:
         done = store.keys
-        todo = [m for m in planned if key_of(m.fields()) not in done]
-        limits = Limits(study.time_limit, study.warm_up, study.repetitions)
-        work = Work(store, todo, by_id, place, limits, study.budget, study.memory, progress,
-                    unreached)  # fmt: skip
+        todo = [m for m in planned if m.key not in done]
+        work = Work(store, todo, by_id, place, study.limits, progress, unreached)
         if scheduler is None:
             measure_here(work, jobs or os.cpu_count() or 1)
         else:
@@ -93,39 +82,18 @@ def _planned(
             sequences.setdefault(own["name"], []).append(one)
     modes = {}
     for solver in {s.label: s for part in study.parts if part.modes for s in part.solvers}.values():
-        try:
-            modes[solver.label] = modes_of_solver(solver, folder)
-        except InputError as error:
-            unreached[solver.label] = error.problem
+        with Keeper(solver, folder) as keeper:
+            try:
+                keeper.start()
+            except InputError as error:
+                unreached[solver.label] = error.problem
+            else:
+                modes[solver.label] = keeper.modes
     steps = {
         name: [_named(one) for one in sorted(own, key=lambda one: one.facts["sequence"]["place"])]
         for name, own in sequences.items()
     }
     return plan(study, [_named(one) for one in problems], steps, modes)
-
-
-def modes_of_solver(solver: Solver, folder: str = ".") -> tuple[str, ...]:
-    """The modes in which a solver can be called, as a process of its own finds them.
-
-    Parameters
-    ----------
-    solver : Solver
-    folder : str
-        Where callables are looked for.
-
-    Raises
-    ------
-    InputError
-        If it cannot be imported, or does not answer.
-    """
-    one = np.ones((1, 1))
-    form = StandardForm(one, one[0], one, one[0])
-    with Keeper(solver, folder) as keeper:
-        try:
-            response, _ = keeper.answer(form, Request(SETTINGS[0], START, count=0))
-        except Ended as end:
-            raise InputError(f"did not say what it takes: {end.words}", value=solver.name) from None
-    return tuple(response.reply.status.split(","))
 
 
 def _named(problem: Problem) -> tuple[str, str]:
@@ -142,17 +110,13 @@ def study_record(study: Study, problems: Sequence[Problem]) -> dict[str, Any]:
     solvers = []
     for s in study.solvers:
         own = {t.name: t for t in study.settings if s.takes(t)}
-        options = {name: s.settings_of(t, study.time_limit) for name, t in own.items()}
+        options = {name: s.settings_of(t, study.limits.time_limit) for name, t in own.items()}
         promised = {name: s.promises(t) for name, t in own.items()}
         solvers.append({"name": s.name, "interface": s.interface, "target": s.target,
                         "options": options, "promised": promised})  # fmt: skip
     return {
         "kind": "solvers",
-        "time_limit": study.time_limit,
-        "budget": study.budget,
-        "warm_up": study.warm_up,
-        "memory": study.memory,
-        "repetitions": study.repetitions,
+        **asdict(study.limits),
         "runs": parts,
         "settings": [asdict(s) for s in study.settings],
         "solvers": solvers,

@@ -12,9 +12,10 @@ from itertools import groupby
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
-from quasistatic_ref.lab.study.measuring.grade import NOT_RUN, ungraded
+from quasistatic_ref.lab.study.file.study_file import Limits
+from quasistatic_ref.lab.study.measuring.grade import not_run
 from quasistatic_ref.lab.study.measuring.keeper import Keeper
-from quasistatic_ref.lab.study.measuring.measure import Limits, measured, sequence_measured
+from quasistatic_ref.lab.study.measuring.measure import measured, sequence_measured
 from quasistatic_ref.lab.study.measuring.plan import Measurement
 from quasistatic_ref.lab.study.problems.problem import Problem
 from quasistatic_ref.lab.study.store.rows import Row, label_of
@@ -68,17 +69,11 @@ def _measured_together(keeper: Keeper, block: Block, limits: Limits, left: Left)
     rows: list[Row] = []
     for m, problem in block:
         if min(_less(left, rows)) <= 0:
-            rows.append(unmeasured(m, problem.feasible))
+            row = not_run(problem.feasible)
         else:
             row = measured(keeper, problem, m.setting, m.units, m.warm, limits)
-            rows.append(m.fields() | row)
+        rows.append(m.fields() | row)
     return rows
-
-
-def unmeasured(m: Measurement, feasible: bool) -> Row:
-    """The row of a measurement that the budget did not reach."""
-    row = ungraded(NOT_RUN, "not run (budget)", None, feasible)
-    return m.fields() | row | {"seconds": row["seconds"] | {"spent": 0.0}}
 
 
 def _less(left: Left, rows: Iterable[Row]) -> Left:
@@ -105,11 +100,6 @@ class Work:
     folder : str
         Where callables and executables are looked for.
     limits : Limits
-        Of a call.
-    budget : float
-        Of a solver [s], for its calls, and as much for its starts and its calls that warm up.
-    memory : float
-        Of a solver [bytes].
     progress : bool
     unreached : dict of str to str
         Solvers that could not be imported, or refuse an option, with the reason; they are found
@@ -121,8 +111,6 @@ class Work:
     problems: Mapping[str, Problem]
     folder: str
     limits: Limits
-    budget: float
-    memory: float = 4e9
     progress: bool = True
     unreached: dict[str, str] = field(default_factory=dict)
 
@@ -194,7 +182,7 @@ def measure_here(work: Work, jobs: int) -> None:
     def answered(solver: Solver) -> Answered:
         if solver.label not in keepers:
             settings = work.settings_of(solver)
-            keepers[solver.label] = Keeper(solver, work.folder, work.memory, settings)
+            keepers[solver.label] = Keeper(solver, work.folder, work.limits.memory, settings)
         keeper = keepers[solver.label]
         return lambda block, limits, left: block_rows(keeper, block, limits, left)
 
@@ -224,4 +212,5 @@ def _left(work: Work, labels: Iterable[str]) -> dict[str, Left]:
     for row in work.store.rows:
         if (label := label_of(row)) in own:
             own[label].append(row)
-    return {label: _less((work.budget, work.budget), rows) for label, rows in own.items()}
+    whole = work.limits.budget, work.limits.budget
+    return {label: _less(whole, rows) for label, rows in own.items()}

@@ -22,12 +22,10 @@ from quasistatic_ref.lab.processes import adopt_orphans
 from quasistatic_ref.lab.study.calling.calls import Crashed, Options, call_of, on_path, tried
 from quasistatic_ref.lab.study.calling.sessions import kept, modes_of
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
-from quasistatic_ref.lab.study.measuring.messages import NOTHING, Response, to_bytes
+from quasistatic_ref.lab.study.measuring.messages import KEPT, NOTHING, READY, Response, to_bytes
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
-KEPT = 2
-"""Programs that are kept, as :class:`~.keeper.Keeper` knows."""
 TINY = StandardForm(np.eye(1), np.ones(1), np.eye(1), np.zeros(1))
 """min 1/2 x^2 - x, x >= 0."""
 PATIENCE = 10.0
@@ -49,7 +47,7 @@ def serve(read: int, write: int) -> None:
         try:
             called = Called(solver, folder)
             called.check_options(settings)
-            outbox.send_bytes(b"")
+            outbox.send_bytes((READY + ",".join(modes_of(solver))).encode())
         except QuasistaticError as error:
             outbox.send_bytes(str(error).encode())
             return
@@ -98,7 +96,7 @@ class Called:
                     raise InputError(f"{words}; leave them out, or take another interface")
 
     def response(self, form: StandardForm, request: dict[str, Any]) -> Response:
-        """What is sent back; a request for no call gets the modes that the solver can be called in.
+        """What is sent back.
 
         Parameters
         ----------
@@ -106,8 +104,6 @@ class Called:
         request : dict
             The fields of a :class:`~.keeper.Request`.
         """
-        if not request["count"]:
-            return Response(Reply(None, None, False, ",".join(modes_of(self.solver))))
         options = self.solver.settings_of(request["setting"], float(request["limit"]))
         measured = self._next if request["mode"] else self._alone
         try:

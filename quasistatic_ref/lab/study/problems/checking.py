@@ -6,9 +6,8 @@ from scipy.sparse import csc_matrix
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
-from quasistatic_ref.lab.study.problems.families.short import framed
 from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
@@ -55,7 +54,8 @@ def cone_step(one: Problem) -> StepData:
     """The step in the ellipsoid, friction being 1, whose blocks of rows a problem has."""
     A = one.A.toarray().reshape(-1, 4, len(one.g))
     phi = -one.b.reshape(-1, 4)[:, 0]
-    contacts = framed(A[:, [1, 2, 0, 3]], phi, 1.0, 1.0, 6)
+    own_frames = np.tile(np.eye(3), (len(A), 1, 1))
+    contacts = contacts_of(phi, own_frames, A[:, [1, 2, 0, 3]], 1.0, 1.0, 6)
     H = one.H.toarray()
     return actuated_step(H, one.g, np.zeros(len(one.g)), contacts, 1.0).replace(cone=ELLIPSOID)
 
@@ -65,7 +65,7 @@ def _not_enclosed(one: Problem) -> str | None:
     if again is None:
         return "its answer cannot be enclosed"
     norm = energy_norm(one.H.toarray())
-    far = norm.displacement(again.delta_q - one.answer.x) / norm.impulse(one.g)
+    far = norm.of_displacement(again.delta_q - one.answer.x) / norm.of_impulse(one.g)
     close = far <= 2 * (again.error + one.answer.error) + 1e-16
     return None if close else f"x is off by {far:.1g}"
 

@@ -54,26 +54,24 @@ def measures(one: Problem) -> dict[str, Any]:
     rank = _rank(natural, active)
     sharp = one.answer.error == 0
     norm = energy_norm(natural.H.toarray())
-    free = norm.impulse(natural.g)
+    free = norm.of_impulse(natural.g)
     found |= {
         "active": len(active),
         "rank": rank,
         "dependent": len(active) - rank,
         "smallest_slack": float(idle.min()) if sharp and idle.size else None,
         "smallest_multiplier": float(bearing.min()) if sharp and bearing.size else None,
-        "size": norm.displacement(natural.answer.x) / free if free > 0 else None,
+        "size": norm.of_displacement(natural.answer.x) / free if free > 0 else None,
     }
     return _rounded(found)
 
 
-def tags(one: Problem, own: tuple[str, ...], found: dict[str, Any]) -> list[str]:
+def tags(one: Problem, found: dict[str, Any]) -> list[str]:
     """Words that a problem is chosen by.
 
     Parameters
     ----------
     one : Problem
-    own : tuple of str
-        Of its family.
     found : dict
         Its :func:`measures`.
     """
@@ -88,7 +86,7 @@ def tags(one: Problem, own: tuple[str, ...], found: dict[str, Any]) -> list[str]
         "close call": _close(found),
         "penetrating": bool((one.b > 0).any()),
     }
-    return list(dict.fromkeys([*own, *(word for word, holds in said.items() if holds)]))
+    return [word for word, holds in said.items() if holds]
 
 
 def _close(found: dict[str, Any]) -> bool:

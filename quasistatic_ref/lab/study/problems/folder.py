@@ -5,12 +5,9 @@ a family, one problem after the other. Any NumPy opens it; see its README.
 """
 
 import hashlib
-import io
 import json
 import lzma
-import zipfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
@@ -22,13 +19,13 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import (
     bytes_read,
-    bytes_written,
     json_read,
     json_text,
     text_written,
+    written_whole,
 )
 from quasistatic_ref.formats.npz import npz_arrays
-from quasistatic_ref.lab.study.problems.families.dials import ends
+from quasistatic_ref.lab.study.problems.dials import DIALS
 from quasistatic_ref.lab.study.problems.problem import Answer, Problem
 from quasistatic_ref.solve.units import Units
 
@@ -42,58 +39,41 @@ ANSWERS: Final = ("x", "net", "slack", "lam")
 UNREADABLE: Final = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
                      RecursionError, lzma.LZMAError)  # fmt: skip
 """What reading raises of files that agree with their manifest, and are something else."""
-DATE = (1980, 1, 1, 0, 0, 0)
-"""Of every member of an archive: the same bytes whenever it is written."""
 
 
-def family_written(folder: Path, family: str, problems: Sequence[Problem]) -> None:
-    """Write the problems that a family has so far: its numbers, and its lines apart."""
-    lines = "".join(json_text(_line(one)) + "\n" for one in problems)
-    bytes_written(folder / NUMBERS / f"{family}.npz", _archive(_flat(problems)))
-    text_written(_begun(folder, family), lines)
-
-
-def problems_begun(folder: Path) -> dict[str, Problem]:
-    """The problems by name of a set that is not yet whole."""
-    found: list[Problem] = []
-    with readable(folder):
-        for path in sorted((folder / NUMBERS).glob("*.jsonl")):
-            found += _problems(folder, path.stem, _lines(path))
-    return {one.id: one for one in found}
-
-
-def set_written(
-    folder: Path, name: str, every: Mapping[str, Sequence[Problem]], **more: Any
-) -> None:
-    """Write the lines of all families and the manifest; the numbers are there.
+def set_written(folder: Path, name: str, problems: Sequence[Problem], **more: Any) -> None:
+    """Write a set: the numbers of each family, the lines of all, and the manifest.
 
     Parameters
     ----------
     folder : Path
     name : str
         Of the set, with its version.
-    every : mapping of str to sequence of Problem
-        Its families, in order.
+    problems : sequence of Problem
+        In the order of their families.
     more : object
         What else the manifest says.
     """
-    lines = "".join(json_text(_line(one)) + "\n" for part in every.values() for one in part)
-    text_written(folder / FACTS, lines)
-    for family in every:
-        _begun(folder, family).unlink(missing_ok=True)
+    every: dict[str, list[Problem]] = {}
+    for one in problems:
+        every.setdefault(str(one.facts["family"]), []).append(one)
+    text_written(folder / FACTS, "".join(json_text(_line(one)) + "\n" for one in problems))
+    paths = [folder / FACTS]
+    for family, own in every.items():
+        paths.append(_numbers_written(folder / NUMBERS / f"{family}.npz", own))
     families = {
-        family: {"count": len(part), "dial": ends(family)} for family, part in every.items()
+        family: {"count": len(own), "dial": DIALS.get(family)} for family, own in every.items()
     }
     head = {
         "format": FORMAT,
         "version": VERSION,
         "name": name,
-        "count": sum(map(len, every.values())),
+        "count": len(problems),
         "families": families,
         **more,
         "files": [
             {"path": path.relative_to(folder).as_posix(), "sha256": _hash(bytes_read(path))}
-            for path in [folder / FACTS, *(folder / NUMBERS / f"{one}.npz" for one in every)]
+            for path in paths
         ],
     }
     text_written(folder / MANIFEST, json.dumps(head, indent=1) + "\n")
@@ -115,39 +95,32 @@ def set_read(
     for name in families or ():
         if name not in known:
             raise InputError(f"is not a family of the set; it has {', '.join(known)}", value=name)
-    found: list[Problem] = []
-    with readable(folder):
-        lines = _lines(folder / FACTS)
-        names = {line["id"] for line in lines}
-        for name in ids or ():
-            if name not in names:
-                raise InputError("is not a problem of the set", field="id", value=name)
-        for family in known:
-            part = [line for line in lines if line["family"] == family]
-            wanted = ids is None or any(line["id"] in ids for line in part)
-            if (families is None or family in families) and wanted:
-                problems = _problems(folder, family, part)
-                found += [one for one in problems if ids is None or one.id in ids]
-    return found
-
-
-@contextmanager
-def readable(folder: Path) -> Iterator[None]:
-    """Say that the files are no set where reading them fails.
-
-    Raises
-    ------
-    InputError
-    """
     try:
-        yield
+        return _some(folder, list(known), families, ids)
+    except InputError:
+        raise
     except UNREADABLE as error:
-        if isinstance(error, InputError):
-            raise
-        words = f"{type(error).__name__}: {error}"
-        raise InputError(
-            f"holds files that are no set of problems: {words}"[:200], file=folder
-        ) from None
+        words = f"holds files that are no set of problems: {type(error).__name__}: {error}"
+        raise InputError(words[:200], file=folder) from None
+
+
+def _some(
+    folder: Path, known: list[str], families: Sequence[str] | None, ids: Sequence[str] | None
+) -> list[Problem]:
+    """The problems of some of the families that a set has, or of some names."""
+    lines = _lines(folder / FACTS)
+    names = {line["id"] for line in lines}
+    for name in ids or ():
+        if name not in names:
+            raise InputError("is not a problem of the set", field="id", value=name)
+    found: list[Problem] = []
+    for family in known:
+        part = [line for line in lines if line["family"] == family]
+        wanted = ids is None or any(line["id"] in ids for line in part)
+        if (families is None or family in families) and wanted:
+            problems = _problems(folder, family, part)
+            found += [one for one in problems if ids is None or one.id in ids]
+    return found
 
 
 def manifest(folder: Path) -> dict[str, Any]:
@@ -178,10 +151,6 @@ def manifest(folder: Path) -> dict[str, Any]:
     return dict(head)
 
 
-def _begun(folder: Path, family: str) -> Path:
-    return folder / NUMBERS / f"{family}.jsonl"
-
-
 def _hash(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
@@ -200,8 +169,8 @@ def _lines(path: Path) -> list[dict[str, Any]]:
     return [json.loads(line) for line in text.splitlines()]
 
 
-def _flat(problems: Sequence[Problem]) -> dict[str, NDArray[Any]]:
-    """The numbers of a family, arrays of one kind after one another."""
+def _numbers_written(path: Path, problems: Sequence[Problem]) -> Path:
+    """Write the numbers of a family, arrays of one kind after one another."""
     parts: dict[str, list[NDArray[Any]]] = {}
     for one in problems:
         solved = not one.answer.farkas
@@ -215,19 +184,8 @@ def _flat(problems: Sequence[Problem]) -> dict[str, NDArray[Any]]:
         answers = {name: getattr(one.answer, name) + 0.0 for name in ANSWERS}
         for name, values in (vectors | answers if solved else vectors).items():
             parts.setdefault(name, []).append(values)
-    return {name: np.concatenate(arrays) for name, arrays in parts.items()}
-
-
-def _archive(arrays: Mapping[str, NDArray[Any]]) -> bytes:
-    """An .npz of them, packed by LZMA: NumPy opens it as any other."""
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_LZMA) as archive:
-        for name, array in arrays.items():
-            part = io.BytesIO()
-            np.lib.format.write_array(part, array, version=(1, 0))
-            info = zipfile.ZipInfo(f"{name}.npy", DATE)
-            archive.writestr(info, part.getvalue(), zipfile.ZIP_LZMA)
-    return content.getvalue()
+    arrays: dict[str, Any] = {name: np.concatenate(own) for name, own in parts.items()}
+    return written_whole(path, lambda file: np.savez_compressed(file, **arrays))
 
 
 def _problems(folder: Path, family: str, lines: Sequence[Mapping[str, Any]]) -> list[Problem]:

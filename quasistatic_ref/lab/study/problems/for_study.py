@@ -1,30 +1,17 @@
-"""The problems of a study: taken from a set, or made from a seed, and kept in its folder."""
+"""The problems of a study: taken from a set, or steps of scenarios, and kept in its folder."""
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
-from quasistatic_ref.lab.study.problems.families.dials import DIALS, SCENARIOS
-from quasistatic_ref.lab.study.problems.families.harvest import Count, harvested, scenario_of
-from quasistatic_ref.lab.study.problems.folder import (
-    MANIFEST,
-    family_written,
-    manifest,
-    set_read,
-    set_written,
-)
-from quasistatic_ref.lab.study.problems.making import (
-    Family,
-    Kept,
-    dial_problems,
-    problem_of,
-    set_made,
-)
+from quasistatic_ref.lab.study.problems.dials import SCENARIOS
+from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest, set_read, set_written
+from quasistatic_ref.lab.study.problems.making import harvested
 from quasistatic_ref.lab.study.problems.problem import INFEASIBLE, Problem
 from quasistatic_ref.lab.study.problems.selection import problems_taken, set_identity
 
@@ -39,10 +26,11 @@ class TestSet:
     Parameters
     ----------
     seed : int
+        Of the order in which they are run.
     families : mapping of str to int
         Number of problems of each.
     scenarios : tuple of str
-        Those that are harvested.
+        Those of whose steps problems are made: names, or files.
     source : str
         The set of problems that they are taken from: a name, or a folder; else they are made.
     most : mapping of str to float
@@ -74,7 +62,7 @@ def study_problems(test_set: TestSet, study: str | Path, progress: bool = True) 
     InputError
         If the folder holds another test set.
     KeyboardInterrupt
-        After Ctrl-C. The problems made so far are kept.
+        After Ctrl-C. Problems that were made by then are made again.
     """
     folder = Path(study) / FOLDER
     made_of = _made_of(test_set)
@@ -84,32 +72,10 @@ def study_problems(test_set: TestSet, study: str | Path, progress: bool = True) 
             raise InputError(words, file=folder)
         return set_read(folder)
     if test_set.source:
-        taken = problems_taken(test_set.source, test_set.families, test_set.most)
-        every: dict[str, list[Problem]] = {}
-        for one in taken:
-            every.setdefault(str(one.facts["family"]), []).append(one)
-        for family, own in every.items():
-            family_written(folder, family, own)
-        set_written(folder, FOLDER, every, made_of=made_of)
-        return taken
-    counts = {name: count for name, count in test_set.families.items() if count}
-    runs = test_set.scenarios[: counts.get(SCENARIOS, 0)]
-    total = sum(counts.values()) + sum(scenario_of(name).steps for name in runs)
-    families = {name: _family(test_set, name, count) for name, count in counts.items()}
-    return set_made(FOLDER, families, folder, total, progress, made_of=made_of)
-
-
-def _family(test_set: TestSet, family: str, count: int) -> Family:
-    seed = test_set.seed
-    most = test_set.most.get(family)
-
-    def problems(kept: Kept, count_steps: Count) -> Iterator[Problem]:
-        if family in DIALS:
-            yield from dial_problems(family, count, seed, kept, most)
-            return
-        for one in harvested(test_set.scenarios, count, count_steps):
-            yield problem_of(one, kept)
-
+        problems = problems_taken(test_set.source, test_set.families, test_set.most)
+    else:
+        problems = harvested(test_set.scenarios, test_set.families[SCENARIOS], progress)
+    set_written(folder, FOLDER, problems, made_of=made_of)
     return problems
 
 

@@ -1,137 +1,100 @@
-"""Problems made with their answers, family by family: resumed where the making stopped."""
+"""Problems made of steps, those of the runs of scenarios, with their exact answers."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Sequence
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from quasistatic_ref.lab.study.problems.answers import dense_answer
+from quasistatic_ref.errors import RunFailed
+from quasistatic_ref.lab.study.problems.answers import exact_answer
+from quasistatic_ref.lab.study.problems.dials import SCENARIOS
 from quasistatic_ref.lab.study.problems.difficulty import measures, tags
-from quasistatic_ref.lab.study.problems.families.dials import DIALS, one_turned, turned
-from quasistatic_ref.lab.study.problems.families.harvest import Count
-from quasistatic_ref.lab.study.problems.families.made import Made
-from quasistatic_ref.lab.study.problems.folder import family_written, problems_begun, set_written
-from quasistatic_ref.lab.study.problems.problem import QP, Answer, Problem
+from quasistatic_ref.lab.study.problems.problem import QP, Problem
+from quasistatic_ref.lab.study.problems.selection import evenly
+from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.progress import progress_bar
-from quasistatic_ref.solve.units import Units, natural_hessian, units_of
-from quasistatic_ref.step.standard_form import StandardForm, standard_form
-
-ATTEMPTS = 10
-"""Draws of a problem, until it has a solution where its family has, and one that is not zero."""
-Kept = Mapping[str, Problem]
-"""Problems by name that were made before."""
-NOTHING: Kept = MappingProxyType({})
-Family = Callable[[Kept, Count], Iterator[Problem]]
-"""(problems made before, count of simulated steps) -> the problems of a family."""
+from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.solve.units import hessian_in_both_units, units_of
+from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.standard_form import standard_form
 
 
-def set_made(
-    name: str,
-    families: Mapping[str, Family],
-    folder: Path,
-    total: int,
-    progress: bool = True,
-    **more: Any,
-) -> list[Problem]:
-    """Make a set and write its folder; no answer that was found before is sought again.
+def harvested(scenarios: Sequence[str], total: int, progress: bool = True) -> list[Problem]:
+    """Steps of the runs of scenarios, evenly spaced and never twice.
 
     Parameters
     ----------
-    name : str
-    families : mapping of str to callable
-    folder : Path
+    scenarios : sequence of str
+        Names, or files.
     total : int
-        Problems, and steps of the runs that they are taken from: what a bar counts.
+        At most so many, shared among the scenarios.
     progress : bool
-        Whether to show it on standard error, where that is a terminal.
-    more : object
-        What else the manifest says.
+        Whether to show a bar on standard error, where that is a terminal.
 
     Raises
     ------
     KeyboardInterrupt
-        After Ctrl-C. The problems made so far are kept.
+        After Ctrl-C.
+    RunFailed
+        If a step of a run fails.
     """
-    kept = problems_begun(folder)
-    every: dict[str, list[Problem]] = {}
-    with progress_bar(total=total, unit="step", words="exact answers", shown=progress) as bar:
-        for family, problems_of in families.items():
-            own = every[family] = []
-            try:
-                for one in problems_of(kept, bar.update):
-                    own.append(one)
-                    bar.update()
-            except KeyboardInterrupt:
-                before = {k: one for k, one in kept.items() if one.facts["family"] == family}
-                family_written(folder, family, list((before | {p.id: p for p in own}).values()))
-                raise
-            family_written(folder, family, own)
-    set_written(folder, name, every, **more)
-    return [one for own in every.values() for one in own]
+    found = []
+    with progress_bar(total=total, unit="problem", words="exact answers", shown=progress) as bar:
+        for i, name in enumerate(scenarios[:total]):
+            scenario = load_scenario(name, record="full", fast=True)
+            run = _run(scenario)
+            k = max(pair.k for pair in scenario.pairs)
+            share = total // len(scenarios) + (i < total % len(scenarios))
+            for s in evenly(run.steps, share):
+                one = f"{SCENARIOS}/{Path(name).stem}/{s}"
+                lam = run["lam"][s]
+                pressed = np.flatnonzero(lam[np.isfinite(lam)])
+                found.append(problem_of(run.step_data(s), one, k, pressed.tolist()))
+                bar.update()
+    return found
 
 
-def dial_problems(
-    family: str, count: int, seed: int, kept: Kept = NOTHING, most: float | None = None
-) -> Iterator[Problem]:
-    """The problems of a family whose number is turned, up to `most` [its unit] or its hard end."""
-    for i, one in enumerate(turned(family, count, seed, most)):
-        yield _good(one, i, seed, kept)
+def _run(scenario: Scenario) -> Trajectory:
+    """Its run, each step exact: the same bits whatever the machine's solvers."""
+    try:
+        return scenario.run(progress=False)
+    except RunFailed as failure:
+        if isinstance(failure.__cause__, KeyboardInterrupt):
+            raise KeyboardInterrupt from None
+        raise
 
 
-def _good(one: Made, i: int, seed: int, kept: Kept) -> Problem:
-    """The problem, or another in its place that has a solution if it should."""
-    dial = DIALS[one.family]
-    for again in range(ATTEMPTS):
-        if again:
-            assert one.dial is not None  # of every family in DIALS
-            one = one_turned(one.family, one.dial, i, seed, again)
-        found = problem_of(one, kept)
-        if found.feasible == dial.solvable and (not found.feasible or found.answer.x.any()):
-            return found
-    raise AssertionError(f"{one.id}: no draw is a problem of its family")
-
-
-def problem_of(one: Made, kept: Kept = NOTHING) -> Problem:
-    """A problem from a step, with its answer and what is measured of it.
+def problem_of(step: StepData, name: str, k: int = 0, warm: Sequence[int] = ()) -> Problem:
+    """A problem from a step: what it is, how hard it is, its exact answer.
 
     Parameters
     ----------
-    one : Made
-    kept : mapping of str to Problem
-        Made before; one of the same name and numbers is taken.
+    step : StepData
+    name : str
+        Of the problem; its first part is the family.
+    k : int
+        Closest points per pair; 0 where nothing was selected.
+    warm : sequence of int
+        Rows that the exact method starts from, such as those that bear load in the exact step: in
+        its float64 numbers, of which the problem is, they are nearly the same.
     """
-    form = standard_form(one.step)
-    before = kept.get(one.id)
-    if before is not None and _same(before, form):
-        return before
-    units = units_of(form, natural_hessian(form.H))
-    return _measured(one, form, units, dense_answer(form))
-
-
-def _same(problem: Problem, form: StandardForm) -> bool:
-    pairs = zip(problem.form, form, strict=True)
-    return all(np.array_equal(one, other) for one, other in pairs)
-
-
-def _measured(one: Made, form: StandardForm, units: Units, answer: Answer) -> Problem:
-    """The problem with its line: what it is, how hard it is, how its answer is known."""
+    form = standard_form(step)
     H, g, A, b = form
-    sequence = one.sequence and {"name": one.sequence[0], "place": one.sequence[1]}
+    answer = exact_answer(form, warm)
     facts: dict[str, Any] = {
-        "id": one.id,
-        "family": one.family,
+        "id": name,
+        "family": name.partition("/")[0],
         "kind": QP,
         "n": len(g),
         "m": len(b),
-        "contacts": one.step.contacts.n_c,
-        "h": one.step.h,
-        "k": one.k,
-        "mass_ratio": one.mass_ratio,
-        "dial": one.dial,
-        "sequence": sequence,
+        "contacts": step.contacts.n_c,
+        "h": step.h,
+        "k": k,
+        "mass_ratio": mass_ratio(step),
+        "dial": None,
+        "sequence": None,
         "status": answer.status,
         "answer": {
             "kind": answer.kind,
@@ -140,9 +103,19 @@ def _measured(one: Made, form: StandardForm, units: Units, answer: Answer) -> Pr
             "unique_multipliers": answer.unique,
             "differentiable": answer.differentiable,
         },
-        "tags": list(one.tags),
+        "tags": [],
     }
+    units = units_of(form, hessian_in_both_units(form.H))
     problem = Problem(facts, csr_matrix(H), g + 0.0, csr_matrix(A), b + 0.0, units, answer)
     found = measures(problem)
-    facts |= {"tags": tags(problem, one.tags, found), "measures": found}
+    facts |= {"tags": tags(problem, found), "measures": found}
     return problem
+
+
+def mass_ratio(step: StepData) -> float:
+    """Largest over smallest diagonal entry of M_u; 1 where nothing is un-actuated [-].
+
+    Entries have different units, so a single body has one too.
+    """
+    masses = np.diag(step.M_u)
+    return float(masses.max() / masses.min()) if masses.size else 1.0

@@ -40,7 +40,7 @@ class Answer:
         Of an infeasible problem, in place of the rest: y_i > 0 by row as ``"p/q"``, with A'y = 0
         and b'y > 0 without rounding.
     walks : int
-        Rows that the exact method adds from no rows; 0 where it was not used.
+        Rows that the exact method added to those it began with; 0 where it was not used.
     unique, differentiable : bool or None
         Whether lam is the only one, and x is differentiable with respect to g; None: not known.
     """

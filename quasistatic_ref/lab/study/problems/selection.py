@@ -9,7 +9,7 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read
 from quasistatic_ref.lab.folders import problem_set_folder
-from quasistatic_ref.lab.study.problems.families.dials import ends
+from quasistatic_ref.lab.study.problems.dials import DIALS
 from quasistatic_ref.lab.study.problems.folder import MANIFEST, manifest, set_read
 from quasistatic_ref.lab.study.problems.problem import Problem
 
@@ -67,19 +67,20 @@ def chosen(
     most : float, optional
         Where the dial ends [its unit].
     """
-    dial = ends(family)
+    dial = DIALS.get(family)
     if most is not None and dial is not None:
         up = dial["first"] < dial["most"]
         own = [one for one in own if (one.facts["dial"] <= most) == up or one.facts["dial"] == most]
     if own and own[0].facts["sequence"] is not None:
         names = list(dict.fromkeys(one.facts["sequence"]["name"] for one in own))
         length = len(own) // len(names)
-        kept = {names[i] for i in _evenly(len(names), max(count // length, 1))}
+        kept = {names[i] for i in evenly(len(names), max(count // length, 1))}
         return [one for one in own if one.facts["sequence"]["name"] in kept]
     order = own if dial is None else sorted(own, key=lambda one: float(one.facts["dial"]))
-    return [order[i] for i in _evenly(len(order), count)]
+    return [order[i] for i in evenly(len(order), count)]
 
 
-def _evenly(there: int, count: int) -> list[int]:
+def evenly(there: int, count: int) -> list[int]:
+    """At most `count` places of those `there`, first and last among them."""
     places = np.linspace(0, there - 1, min(count, there)).round().astype(int)
     return [int(i) for i in np.unique(places)]

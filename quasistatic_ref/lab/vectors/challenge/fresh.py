@@ -12,33 +12,32 @@ import numpy as np
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.scenes.at_random import Rng, random_contacts, random_frames
 from quasistatic_ref.lab.scenes.at_random import random_step as random_program
-from quasistatic_ref.lab.scenes.contacts import repeated
+from quasistatic_ref.lab.scenes.contacts import NUMBERS, repeated
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step
-from quasistatic_ref.lab.vectors.challenge.simpler import rounded_case
-from quasistatic_ref.lab.vectors.challenge.terms import terms
-from quasistatic_ref.lab.vectors.challenge.valid import is_valid
-from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.derivative import (
+from quasistatic_ref.lab.vectors.challenge.random_derivatives import (
     derivative_at_random,
     hangs_on_rounding,
     is_tame,
 )
-from quasistatic_ref.lab.vectors.families.mechanisms import (
+from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
     few_digits,
-    follower,
-    free_body,
-    link,
     random_pose,
     random_q,
     random_step,
     random_tree,
 )
-from quasistatic_ref.lab.vectors.families.random_scenes import random_scene
-from quasistatic_ref.lab.vectors.families.steps import PLACE, program, rows_input, wrench_input
+from quasistatic_ref.lab.vectors.challenge.random_scenes import random_scene
+from quasistatic_ref.lab.vectors.challenge.simpler import rounded_case
+from quasistatic_ref.lab.vectors.challenge.terms import terms
+from quasistatic_ref.lab.vectors.challenge.valid import is_valid
+from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.layers import step as step_layer
+from quasistatic_ref.lab.vectors.layers.rows import by_contact
+from quasistatic_ref.lab.vectors.tables import follower, free_body, link
 from quasistatic_ref.step.cones import cone as cone_of
-from quasistatic_ref.step.data import Contacts
+from quasistatic_ref.step.data import Contacts, StepData
+from quasistatic_ref.step.standard_form import standard_form
 
 CONES: Final = (
     "pyramid",
@@ -151,53 +150,76 @@ def _contacts(rng: Rng, level: int, n_v: int) -> Contacts:
     return repeated(found, [0, *range(n_c - 1)] if kind == 7 else range(n_c), **changes)
 
 
+def _contact_entries(at: Contacts, keys: tuple[str, ...]) -> Json:
+    """The contacts as a case holds them: a list of tables with these fields."""
+    return [{key: getattr(at, key)[j].tolist() for key in keys} for j in range(at.n_c)]
+
+
+def _program(given: StepData) -> Json:
+    """H, g, A, b of a step, in float64, as a case holds them; second-order cones likewise."""
+    form = standard_form(given)
+    H = form.H.tolist()
+    g = form.g.tolist()
+    if given.cone != "ellipsoid":
+        return {"H": H, "g": g, "A": form.A.tolist(), "b": form.b.tolist()}
+    at = given.contacts
+    torsion = np.where(at.rows == 6, at.mu_omega, 0.0)
+    mu = np.stack([np.ones(at.n_c), at.mu_v, at.mu_v, torsion], axis=1)
+    F = form.A.reshape(at.n_c, 4, -1) * mu[:, :, None]
+    blocks = [
+        {"F": F_j.tolist(), "f": [phi, 0.0, 0.0, 0.0]}
+        for F_j, phi in zip(F, at.phi.tolist(), strict=True)
+    ]
+    return {"H": H, "g": g, "second_order": blocks}
+
+
 def _rows(rng: Rng, level: int) -> Json:
     at = _contacts(rng, level, int(rng.integers(1, 3 if level == EASY else 9)))
-    return rows_input(at, str(rng.choice(CONES)))
+    return {"cone": str(rng.choice(CONES)), "contacts": _contact_entries(at, NUMBERS)}
 
 
 def _qp(rng: Rng, level: int) -> Json:
     if level == HARD and rng.integers(4) == 0:
-        return program(aligned_grasp_step(rng, grip=int(rng.integers(2, 6)), floor=2))
+        return _program(aligned_grasp_step(rng, grip=int(rng.integers(2, 6)), floor=2))
     n_a, n_u = (int(v) for v in rng.integers(0, 2 if level == EASY else 4, 2))
     n_u += n_a + n_u == 0
     if level == PLAIN and rng.integers(4) == 0:
         at = _contacts(rng, PLAIN, n_a + n_u)
         at = repeated(at, range(at.n_c), phi=abs(at.phi))
-        return program(random_program(rng, n_a, n_u, at, cone="ellipsoid"))
+        return _program(random_program(rng, n_a, n_u, at, cone="ellipsoid"))
     kind = int(rng.integers(3)) if level == HARD else -1  # one trouble at a time
     ratio = 10.0 ** int(rng.integers(9)) if kind == 0 else 1.0
     at = _contacts(rng, HARD if kind == 1 else min(level, PLAIN), n_a + n_u)
-    found = program(random_program(rng, n_a, n_u, at, ratio))
+    found = _program(random_program(rng, n_a, n_u, at, ratio))
     if kind == 2:  # a row and its opposite, that leave no room
         found["A"].append([-x for x in found["A"][0]])
         found["b"].append(-found["b"][0] + 1e-3)
     return found
 
 
-def random_loads(rng: Rng, n_c: int, cone: str) -> Json:
-    """The input with multipliers at random, on contacts between three bodies and the world."""
-    at = random_contacts(rng, n_c, 1)
+def _wrench(rng: Rng, level: int) -> Json:
+    """Multipliers at random, on contacts between three bodies and the world."""
+    cone = "pyramid" if level == EASY else str(rng.choice([*CONES, "ellipsoid"]))
+    at = random_contacts(rng, 1 if level == EASY else int(rng.integers(1, 6)), 1)
+    contacts = _contact_entries(at, ("n", "d1", "d2", "mu_v", "mu_omega", "rows"))
     names = [None, "a", "b", "c"]
-    points = []
-    for n, phi in zip(at.n, at.phi, strict=True):
+    touched = set()
+    for contact, n, phi in zip(contacts, at.n, at.phi, strict=True):
         one, two = rng.choice(4, 2, replace=False)
         alpha = 0.2 * rng.standard_normal(3)
-        place = (names[one], names[two], alpha.tolist(), (alpha + phi * n).tolist())
-        points.append(dict(zip(PLACE, place, strict=True)))
-    touched = {point[body] for point in points for body in PLACE[:2]} - {None}
-    bodies = {body: {"point": rng.uniform(-1, 1, 3).tolist()} for body in sorted(touched)}
+        contact |= {"alpha_body": names[one], "beta_body": names[two]}
+        contact |= {"alpha": alpha.tolist(), "beta": (alpha + phi * n).tolist()}
+        touched |= {names[one], names[two]}
+    points = {body: rng.uniform(-1, 1, 3).tolist() for body in names[1:] if body in touched}
     count = int(cone_of(cone).counts(at.rows).sum())
     lam = rng.random(count) * (rng.random(count) < 0.6)
     if cone == "ellipsoid":
-        lam = lam.reshape(-1, 4) * [4, 0.1, -0.1, 0.001]
-    return wrench_input(at, cone, 0.01, lam.ravel() + 0.0, points, bodies)
-
-
-def _wrench(rng: Rng, level: int) -> Json:
-    cone = "pyramid" if level == EASY else str(rng.choice([*CONES, "ellipsoid"]))
-    case = random_loads(rng, 1 if level == EASY else int(rng.integers(1, 6)), cone)
-    return {**case, "h": float(rng.choice([0.01, 0.02, 0.005, 0.1]))}
+        lam = (lam.reshape(-1, 4) * [4, 0.1, -0.1, 0.001]).ravel() + 0.0
+    for contact, part in zip(contacts, by_contact(lam.tolist(), cone, contacts), strict=True):
+        contact["lam"] = part
+    bodies = {body: {"point": point} for body, point in points.items()}
+    h = float(rng.choice([0.01, 0.02, 0.005, 0.1]))
+    return {"h": h, "cone": cone, "contacts": contacts, "bodies": bodies}
 
 
 def _tree(rng: Rng, level: int) -> Json:

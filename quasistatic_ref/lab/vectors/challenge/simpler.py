@@ -16,7 +16,7 @@ from quasistatic_ref.lab.vectors.challenge.removals import (
     replaced,
 )
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, UPRIGHT
+from quasistatic_ref.lab.vectors.tables import ORIGIN, UPRIGHT
 from quasistatic_ref.lab.vectors.trees import mapped, nodes
 
 KEPT: Final = ("rows", "k", "n", "d1", "d2", "actuated", "joint")

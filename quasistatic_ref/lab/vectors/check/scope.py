@@ -16,7 +16,7 @@ from quasistatic_ref.lab.vectors.check.verdict import DIGITS
 from quasistatic_ref.lab.vectors.distances.shapes import SHAPES
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
-from quasistatic_ref.lab.vectors.trees import named
+from quasistatic_ref.lab.vectors.trees import nodes
 from quasistatic_ref.step.cones import cone
 
 FORMAT: Final = "quasistatic-ref/scope"
@@ -59,7 +59,7 @@ class Scope:
         record : dict
             What is expected.
         """
-        kinds = {kind for kind in named(case, "kind") if kind in SHAPES}
+        kinds = {kind for path, kind in nodes(case) if path[-1:] == ("kind",)} & set(SHAPES)
         cones = {case["cone"]} if "cone" in case else set()
         cones |= {ROUND} if "second_order" in case else set()
         return (

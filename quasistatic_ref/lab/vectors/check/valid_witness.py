@@ -12,7 +12,7 @@ from quasistatic_ref.lab.program.rotation import frame
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
 from quasistatic_ref.lab.vectors.exact.precision import rounded
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.mechanisms import ORIGIN, at
+from quasistatic_ref.lab.vectors.tables import ORIGIN, at
 from quasistatic_ref.step.data import Array
 
 TILTED = 1e-9

@@ -12,8 +12,9 @@ from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.certify.rounding import nearest_in
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.lab.vectors.exact.conditioning import ROUNDINGS, floors
 from quasistatic_ref.lab.vectors.exact.precision import DIGITS, dyadic_fraction
-from quasistatic_ref.lab.vectors.exact.rational import tolerance
+from quasistatic_ref.lab.vectors.exact.rational import UNIT, tolerance
 from quasistatic_ref.lab.vectors.expected import Expected
 from quasistatic_ref.optional.ellipsoid.enclosure import BITS as PROVED
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, enclosed_error
@@ -22,10 +23,11 @@ from quasistatic_ref.step.data import StepData
 GAP: Final = arb(2) ** -280
 """Duality gap at which to stop: an error of 2^-140, 1e-42 of the unconstrained step."""
 BITS: Final = 1536
-LAM: Final = arb(2) ** -20
+LAM: Final = Fraction(1, 2**20)
 """Relative tolerance of the multipliers, which are one choice of many: that of the interior."""
-ROOT: Final = arb(2) ** -26
-"""||x - x*||_H^2 is at most twice the duality gap, and float64 leaves 2^-53 of that."""
+LOOSER: Final = Fraction(1, 2**26) / (ROUNDINGS * UNIT)
+"""||x - x*||_H^2 is at most twice the duality gap, of which float64 leaves 2^-53: x is off by 2^-26
+of the unconstrained step, in place of some roundings."""
 
 
 def enclosed(step: StepData) -> Expected:
@@ -34,7 +36,7 @@ def enclosed(step: StepData) -> Expected:
     Raises
     ------
     InputError
-        If no displacement strictly inside of all cones is found: such a case is not harvested.
+        If no displacement strictly inside of all cones is found: there is no such case.
     """
     form = exact_form(step)
     found = checked_pair(step, GAP, BITS)
@@ -54,22 +56,16 @@ def enclosed(step: StepData) -> Expected:
         }
         lam = [float(v * form.lam_unit) + 0.0 for v in found.lam]
         output = {name: [_nearest(v) for v in values] for name, values in balls.items()}
-        # Of anything off by ||x - x*||_H = e: sqrt(M H^-1 M') e, entry by entry.
-        e = ROOT * found.free
-        reach = {
-            "delta_q": _largest([e * inverse[v, v].sqrt() * form.x_unit for v in range(form.n)]),
-            "A_lam": _largest([e * H[v, v].sqrt() * form.net_unit for v in range(form.n)]),
-            "slack": _largest(
-                [
-                    e * (A * inverse * A.transpose())[i, i].sqrt() * form.slack_unit
-                    for i in range(form.m)
-                ]
-            ),
-            "lam": _largest([arb(v) * LAM for v in lam]),
-        }
     with ctx.workprec(PROVED):  # what `verify` proves, in the precision that it works in
         again = checked_pair(step)
         error = inf if again is None else enclosed_error(form, again, np.array(output["delta_q"]))
+    x_off, net_off, slack_off = (LOOSER * bound for bound in floors(form))
+    reach = {
+        "delta_q": x_off,
+        "A_lam": net_off,
+        "slack": slack_off,
+        "lam": LAM * Fraction(np.abs(lam).max(initial=0.0)),
+    }
     why = "a duality gap of 1e-16, which float64 leaves, is an error of 1e-8 in the H norm"
     return Expected(
         output={**output, "lam": lam, "certificate": {"kind": "enclosure", "error_bound": error}},
@@ -93,7 +89,3 @@ def _nearest(ball: arb) -> float:
 
 def _digits(ball: arb) -> str:
     return decimal_string(Fraction(0) if ball.contains(0) else dyadic_fraction(ball.mid()), DIGITS)
-
-
-def _largest(balls: list[arb]) -> Fraction:
-    return max((abs(dyadic_fraction(ball.upper())) for ball in balls), default=Fraction(0))

@@ -39,12 +39,16 @@ def own_shape(shape: dict[str, Any]) -> Shape:
             raise InputError("is not a kind of shape", field="shape.kind", value=shape["kind"])
 
 
+def own_shape_in_world(case: dict[str, Any], side: str) -> ShapeInWorld:
+    """The shape of a case that is its ``"alpha"`` or its ``"beta"``."""
+    pose = case[f"pose_{side}"]
+    return ShapeInWorld(own_shape(case[side]), rotation(pose["quaternion"]), np.array(pose["xyz"]))
+
+
 def own_closest_points(case: dict[str, Any]) -> dict[str, Any]:
     """phi, alpha, beta, n of a case; of a cloud, lists over its points."""
-    a, b = (
-        ShapeInWorld(own_shape(case[side]), rotation(pose["quaternion"]), np.array(pose["xyz"]))
-        for side, pose in (("alpha", case["pose_alpha"]), ("beta", case["pose_beta"]))
-    )
+    a = own_shape_in_world(case, "alpha")
+    b = own_shape_in_world(case, "beta")
     if isinstance(b.shape, PointCloud):
         phi, foot, point, n = _points_on_solid(a, b, b.shape.points)
         found = {"phi": phi, "alpha": foot, "beta": point, "n": n}

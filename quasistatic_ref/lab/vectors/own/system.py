@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.lab.program.mechanism import ENTRIES
 from quasistatic_ref.lab.program.rotation import rotation
 from quasistatic_ref.lab.scenes.systems import joint_text, link_text, robot_text, system_of, words
-from quasistatic_ref.lab.vectors.converters import UNITS
+from quasistatic_ref.lab.vectors.converters import UNITS, places
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
 
@@ -73,22 +72,21 @@ def own_system(mechanism: dict[str, Any]) -> OwnSystem:
         members = [k for k, body in enumerate(bodies) if tree[body["name"]] == root]
         texts[f"t{root}"], settings[f"t{root}"] = _tree(bodies, root, members)
     system = system_of(texts, **settings)
-    names = {f"t{tree[body['name']]}/{_joint(body, k)}": k for k, body in enumerate(bodies)}
-    joints = {names[joint.name]: joint for joint in system.joints}
+    joints = {joint.name: joint for joint in system.joints}
+    numbers = {body["name"]: k for k, body in enumerate(bodies)}
     q: list[int] = []
     v: list[int] = []
     units = []
-    for actuated in (True, False):
-        for k, body in enumerate(bodies):
-            if k in joints and joints[k].actuated == actuated:
-                if joints[k].kind in UNITS:
-                    start = len(q) + UNITS[joints[k].kind]
-                    units.append(slice(start, len(q) + ENTRIES[body["joint"]][0]))
-                q += range(joints[k].q.start, joints[k].q.stop)
-                v += range(joints[k].v.start, joints[k].v.stop)
-    links: dict[str | None, int] = {None: 0}
-    for k, body in enumerate(bodies):
-        links[body["name"]] = system.link(f"t{tree[body['name']]}/b{k}")
+    for body, own, _ in places(mechanism):
+        if body["joint"] == "fixed":
+            continue
+        joint = joints[f"t{tree[body['name']]}/{_joint(body, numbers[body['name']])}"]
+        if joint.kind in UNITS:
+            units.append(slice(own.start + UNITS[joint.kind], own.stop))
+        q += range(joint.q.start, joint.q.stop)
+        v += range(joint.v.start, joint.v.stop)
+    links = {name: system.link(f"t{tree[name]}/b{k}") for name, k in numbers.items()}
+    links[None] = 0
     return OwnSystem(system, np.array(q, np.int64), np.array(v, np.int64), tuple(units), links)
 
 

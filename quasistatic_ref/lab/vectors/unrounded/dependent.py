@@ -18,7 +18,7 @@ from quasistatic_ref.lab.vectors.exact.rational import rationals
 from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient
 from quasistatic_ref.lab.vectors.unrounded.grid import STEP
 from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, blocks, nearest
-from quasistatic_ref.lab.vectors.unrounded.step import Contact, Rows, rows
+from quasistatic_ref.lab.vectors.unrounded.step import Contact, Solved, rows
 
 CLOSE: Final = fmpq(1, 1 << 50)
 """A row that moves by more along a change of 8e-31 has jumped with the tangents [m per unit]."""
@@ -43,9 +43,9 @@ def dependence_breaks(one: Base, found: Iterable[Quotient]) -> bool:
     together = _null(A.transpose()) if moves else []
     if not together:
         return False
-    own = _blocks(one, one.contacts, one.step.rows)
+    own = _blocks(one, one.contacts, one.step)
     for step, contacts in (side for change in found for side in change.sides):
-        rates = _rates(one, own, contacts, _blocks(one, contacts, step.rows))
+        rates = _rates(one, own, contacts, _blocks(one, contacts, step))
         for mu in together:
             pulled = mu @ np.array([rates[i] for i in tight])
             if any(abs(pulled @ z) > BEND for z in moves):
@@ -60,9 +60,10 @@ def _null(A: fmpz_mat) -> list[Vector]:
     return [rationals(column) / max(map(abs, column)) for column in columns]
 
 
-def _blocks(one: Base, contacts: Sequence[Contact], table: Rows) -> list[Matrix]:
+def _blocks(one: Base, contacts: Sequence[Contact], step: Solved) -> list[Matrix]:
     """The rows of each contact."""
-    A = rationals(table.A) / table.denominator
+    form = step.form
+    A = rationals(form.A) * (form.slack_unit / form.x_unit)
     return [A[block] for block in blocks(one.at.case, contacts)]
 
 

@@ -18,10 +18,15 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.vectors.exact.precision import Vector
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.unrounded import moved_inputs
 from quasistatic_ref.lab.vectors.unrounded.dependent import dependence_breaks
 from quasistatic_ref.lab.vectors.unrounded.differences import Base, Quotient, quotient
 from quasistatic_ref.lab.vectors.unrounded.grid import OTHER_STEP
+from quasistatic_ref.lab.vectors.unrounded.moved_inputs import (
+    with_force,
+    with_number,
+    with_q,
+    with_target,
+)
 from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, reasons, switches
 
 PROVED: Final = fmpq(1, 10**16)
@@ -64,14 +69,14 @@ def moves(one: Base) -> dict[str, list[Move]]:
     _, n_a, n = slices(case["mechanism"])
     masses = [k for k, body in enumerate(case["mechanism"]["bodies"]) if "mass" in body]
     found: dict[str, list[Move]] = {
-        "q": [partial(moved_inputs.with_q, way) for way in np.eye(n, dtype=int)],
-        "q_bar_a": [partial(moved_inputs.with_target, way) for way in np.eye(n_a, dtype=int)],
-        "tau": [partial(moved_inputs.with_force, way) for way in np.eye(n, dtype=int)],
-        "mu_v": [partial(moved_inputs.with_friction, "mu_v", p) for p in pairs],
-        "mu_omega": [partial(moved_inputs.with_friction, "mu_omega", p) for p in pairs],
-        "K_q": [partial(moved_inputs.with_stiffness, j) for j in range(n_a)],
-        "h": [moved_inputs.with_time],
-        "m": [partial(moved_inputs.with_mass, k) for k in masses],
+        "q": [partial(with_q, way) for way in np.eye(n, dtype=int)],
+        "q_bar_a": [partial(with_target, way) for way in np.eye(n_a, dtype=int)],
+        "tau": [partial(with_force, way) for way in np.eye(n, dtype=int)],
+        "mu_v": [partial(with_number, ("pairs", p, "mu_v")) for p in pairs],
+        "mu_omega": [partial(with_number, ("pairs", p, "mu_omega")) for p in pairs],
+        "K_q": [partial(with_number, ("K_q", j, j)) for j in range(n_a)],
+        "h": [partial(with_number, ("h",))],
+        "m": [partial(with_number, ("mechanism", "bodies", k, "mass")) for k in masses],
     }
     for name in ("mu_v", "mu_omega"):
         if not all(pair[name] > 0 for pair in case["pairs"]):

@@ -44,27 +44,9 @@ def with_held_wrenches(case: Json) -> Json:
     return {**at.case, "gravity": list(vector(case["gravity"])), "wrenches": [], "tau": tau}
 
 
-def with_friction(name: str, pair: int, case: Json, by: Real) -> Json:
-    """The case with another coefficient of one of its pairs, ``mu_v`` or ``mu_omega``."""
-    pairs = [dict(one) for one in case["pairs"]]
-    pairs[pair][name] = number(pairs[pair][name]) + by
-    return {**case, "pairs": pairs}
-
-
-def with_stiffness(j: int, case: Json, by: Real) -> Json:
-    """The case with another K_q[j][j]."""
-    K = [vector(row) for row in case["K_q"]]
-    K[j][j] += by
-    return {**case, "K_q": K}
-
-
-def with_time(case: Json, by: Real) -> Json:
-    """The case with another h [s]."""
-    return {**case, "h": number(case["h"]) + by}
-
-
-def with_mass(body: int, case: Json, by: Real) -> Json:
-    """The case with another mass [kg] of a body, its centre of mass and inertia kept."""
-    bodies = copy.deepcopy(case["mechanism"]["bodies"])
-    bodies[body]["mass"] = number(bodies[body]["mass"]) + by
-    return {**case, "mechanism": {"bodies": bodies}}
+def with_number(place: tuple[str | int, ...], case: Json, by: Real) -> Json:
+    """The case with another number in one place: a coefficient, K_q[j][j], h or a mass."""
+    key, *rest = place
+    moved = copy.copy(case)
+    moved[key] = with_number(tuple(rest), case[key], by) if rest else number(case[key]) + by
+    return moved

@@ -55,36 +55,18 @@ class Contact:
 
 
 @dataclass(frozen=True, eq=False)
-class Rows:
-    """A x >= b in integers: both sides times the denominator, b in rational numbers yet.
-
-    Parameters
-    ----------
-    A : fmpz_mat
-    denominator : int
-    b : vector
-    """
-
-    A: fmpz_mat
-    denominator: int
-    b: Vector
-
-
-@dataclass(frozen=True, eq=False)
 class Solved:
     """A step, before (+).
 
     Parameters
     ----------
     form : ExactForm
-    rows : Rows
     optimum : Optimum
     delta_q : vector
         On the grid [m, rad].
     """
 
     form: ExactForm
-    rows: Rows
     optimum: Optimum
     delta_q: Vector
 
@@ -130,12 +112,11 @@ def solved(at: World, contacts: Sequence[Contact], warm: Sequence[int] = ()) -> 
     """
     with working():
         H, g = map(on_grid, objective(at.case, *at.loads))
-    own = integer_rows(len(g), *rows(at.case, contacts))
-    form = form_of(H, g, own)
+    form = form_of(H, g, *rows(at.case, contacts))
     optimum = dual_active_set(form, warm)
     if isinstance(optimum, Farkas):
         raise InputError("the step has no solution", field="pairs")
-    return Solved(form, own, optimum, delta_q(form, optimum))
+    return Solved(form, optimum, delta_q(form, optimum))
 
 
 def delta_q(form: ExactForm, optimum: Optimum) -> Vector:
@@ -144,23 +125,18 @@ def delta_q(form: ExactForm, optimum: Optimum) -> Vector:
     return on_grid(form.x_unit * rationals(found.x) / found.denominator)
 
 
-def integer_rows(n: int, A: Sequence[Vector], b: Sequence[Real]) -> Rows:
-    """The rows of a program of n unknowns in integers."""
-    table = np.array(A, dtype=object).reshape(len(A), n)
-    denominator = _denominator(table)
-    return Rows(_integers(table, denominator), denominator, np.array(b, dtype=object))
-
-
-def form_of(H: Matrix, g: Vector, rows: Rows) -> ExactForm:
+def form_of(H: Matrix, g: Vector, A: Sequence[Vector], b: Sequence[Real]) -> ExactForm:
     """The program min 1/2 x'Hx - g'x s.t. A x >= b in integers."""
+    rows = np.array(A, dtype=object).reshape(len(A), len(g))
+    limits = np.array(b, dtype=object)
     dH = _denominator(H)
-    dA = rows.denominator
-    D = _denominator(np.append(g * dH, rows.b * dA))
+    dA = _denominator(rows)
+    D = _denominator(np.append(g * dH, limits * dA))
     return ExactForm(
         H=_integers(H, dH),
         g=_integers(g[:, None], dH * D),
-        A=rows.A,
-        b=_integers(rows.b[:, None], dA * D),
+        A=_integers(rows, dA),
+        b=_integers(limits[:, None], dA * D),
         x_unit=fmpq(1, D),
         slack_unit=fmpq(1, dA * D),
         lam_unit=fmpq(dA, dH * D),

@@ -104,7 +104,9 @@ def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | N
         size = float(np.linalg.norm(L.T @ x))
         if mu == kappa and share == 1 and length <= SETTLED * size + NOTHING:
             return Barrier(x, lam, slack)
-        least, nearest = (length, Barrier(x, lam, slack)) if length < least else (least, nearest)
+        if share == 1 and length < least:  # after a whole step s = A x - b
+            least = length
+            nearest = Barrier(x, lam, slack)
     if nearest is not None and mu == kappa and least <= 1e5 * SETTLED * size:
         return nearest
     return None

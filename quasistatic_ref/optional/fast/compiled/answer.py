@@ -6,7 +6,7 @@ from quasistatic_ref.certify.solution import SolverStatistics, StepSolution
 from quasistatic_ref.optional.fast.posed import posed
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.solve import NOTHING_CLAIMED
-from quasistatic_ref.solve.units import Units, from_natural
+from quasistatic_ref.solve.units import Units, in_si
 from quasistatic_ref.step.arrays import finite, read_only, without_warnings
 from quasistatic_ref.step.data import StepData
 
@@ -46,18 +46,24 @@ def as_said(
 def _as_said(
     step: StepData, solver: FastSolver, units: Units, accuracy: float
 ) -> StepSolution | None:
-    attempt = solver.attempts(accuracy)[0]
+    option_set = solver.option_sets(accuracy)[0]
     try:
-        reply = solver.reply(attempt, None)
+        reply = solver.reply(option_set, None)
     except Exception:  # whatever another package raises: `solved` tries again
         return None
     if not reply.solved or reply.x is None or reply.lam is None:
         return None
-    delta_q, lam = from_natural(reply.x, reply.lam, units)
+    delta_q, lam = in_si(reply.x, reply.lam, units)
     if not (finite(delta_q) and finite(lam)):
         return None
     solver.written = None
-    cost = reply.iterations, reply.seconds, attempt.accuracy
-    statistics = SolverStatistics(solver.name, "optimal", *cost, None, solver.engine)
+    statistics = SolverStatistics(
+        solver.name,
+        "optimal",
+        reply.iterations,
+        reply.seconds,
+        option_set.accuracy,
+        interface=solver.interface,
+    )
     own = {"delta_q": read_only(delta_q), "lam": read_only(lam), "step": step}
     return posed(StepSolution, SAME, {**own, "backend": solver.name, "statistics": statistics})

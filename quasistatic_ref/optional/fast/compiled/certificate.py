@@ -11,7 +11,7 @@ from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
 from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, combined, zeros
-from quasistatic_ref.solve.natural_step import DenseStep
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, RowLayout, StepData
@@ -49,7 +49,7 @@ class GroupProof:
     Parameters
     ----------
     group : Group
-    own : DenseStep
+    own : DenseStepInBothUnits
         The step of the group, in a polyhedral cone, without rows of a user's own, of at most
         LARGEST coordinates.
 
@@ -61,10 +61,10 @@ class GroupProof:
         Whether H can be written in fixed point.
     """
 
-    def __init__(self, group: Group, own: DenseStep) -> None:
+    def __init__(self, group: Group, own: DenseStepInBothUnits) -> None:
         found = library()
-        step = own.step
-        metric = own.metric
+        step = own.si_step
+        hessian = own.hessian
         self._prove = found.proof
         self.code = NOT_POSED
         n_a = step.n_a
@@ -78,7 +78,7 @@ class GroupProof:
                 "n_a": n_a, "n_v": n, "n_c": n_c, "rows": m, "working": 0,
                 "coordinates": group.coordinates, "contacts": group.contacts,
                 "rows_of_step": group.rows, "natural": self._natural.address,
-                "h": np.array([step.h]), "coordinate": metric.coordinate,
+                "h": np.array([step.h]), "coordinate": hessian.coordinate,
                 "K_q": step.K_q, "M_u": step.M_u, "guess": np.zeros(n, np.int64),
                 "cone": cone_matrix(step.cone), "integers": combined(step.cone),
                 **places(step.layout),
@@ -96,8 +96,8 @@ class GroupProof:
         self._natural.put(
             {
                 "n": n, "m": m, **{name: s[name] for name in ("g", "A", "b", "units")},
-                "coordinate": metric.coordinate, "squared": metric.squared,
-                "inverse": metric.inverse, "squares": np.zeros(m),
+                "coordinate": hessian.coordinate, "squared": hessian.squared,
+                "inverse": hessian.H_inverse, "squares": np.zeros(m),
             }
         )  # fmt: skip
         self.usable = bool(found.hessian(s.address))
@@ -179,7 +179,7 @@ class Prover:
     ----------
     step : StepData
         One of them.
-    groups : sequence of (Group, DenseStep)
+    groups : sequence of (Group, DenseStepInBothUnits)
         Its groups, each with its own step in natural units.
 
     Attributes
@@ -188,7 +188,9 @@ class Prover:
         None of a group that is not proved here.
     """
 
-    def __init__(self, step: StepData, groups: Sequence[tuple[Group, DenseStep]]) -> None:
+    def __init__(
+        self, step: StepData, groups: Sequence[tuple[Group, DenseStepInBothUnits]]
+    ) -> None:
         found = library()
         self._prove = found.groups_proved
         self.proofs = [group_proof(*each) for each in groups]
@@ -209,19 +211,19 @@ class Prover:
             }
         )  # fmt: skip
 
-    def optimum(self, scaled: DenseStep, lam: Array, slack: Array) -> ExactOptimum | None:
+    def optimum(self, both: DenseStepInBothUnits, lam: Array, slack: Array) -> ExactOptimum | None:
         """The exact optimum on the rows that an answer presses; None unless C proves all groups.
 
         Parameters
         ----------
-        scaled : DenseStep
+        both : DenseStepInBothUnits
         lam, slack : ndarray, shape (m,)
             Of the answer, both in natural units [-].
         """
         s = self.s
-        step = scaled.step
+        step = both.si_step
         contacts = step.contacts
-        form = scaled.form
+        form = both.si_form
         s["tau"][: step.n_a] = step.tau_a
         s["tau"][step.n_a :] = step.tau_u
         s["delta_q_bar_a"][:] = step.delta_q_bar_a
@@ -241,16 +243,16 @@ class Prover:
         return _optimum(s, np.flatnonzero(s["lam"]).tolist(), Degeneracy(not idle, True))
 
 
-def undivided(scaled: DenseStep) -> Prover:
+def undivided(both: DenseStepInBothUnits) -> Prover:
     """The proofs of steps like one, all of which is a group."""
-    step = scaled.step
+    step = both.si_step
     sizes = step.n_v, step.contacts.n_c, len(step.extra.names), step.m
-    return Prover(step, [(Group(*map(np.arange, sizes)), scaled)])
+    return Prover(step, [(Group(*map(np.arange, sizes)), both)])
 
 
-def group_proof(group: Group, own: DenseStep) -> GroupProof | None:
+def group_proof(group: Group, own: DenseStepInBothUnits) -> GroupProof | None:
     """The proofs of a group, or None of one that C does not prove."""
-    if own.step.extra.names or own.step.n_v > LARGEST:
+    if own.si_step.extra.names or own.si_step.n_v > LARGEST:
         return None
     proof = GroupProof(group, own)
     return proof if proof.usable else None

@@ -7,7 +7,7 @@ from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.scene import Scene
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.solver import FastSolver
-from quasistatic_ref.solve.units import NaturalHessian, Units
+from quasistatic_ref.solve.units import HessianInBothUnits, Units
 from quasistatic_ref.step.data import StepData
 
 NUMBERS = ("n", "m", "row", "column")
@@ -31,17 +31,17 @@ class NaturalProgram:
     solver : FastSolver
     program : Program
         That of the solver.
-    metric : NaturalHessian
+    hessian : HessianInBothUnits
         Of H.
     """
 
     def __init__(
-        self, scene: Scene, solver: FastSolver, program: Program, metric: NaturalHessian
+        self, scene: Scene, solver: FastSolver, program: Program, hessian: HessianInBothUnits
     ) -> None:
         found = library()
         self._write = found.natural_program
         self._solver = solver
-        self._metric = metric
+        self._hessian = hessian
         self._structure = s = Structure(NUMBERS, ARRAYS, found.natural_size)
         m, n = program.A.shape
         row, column = (stride // program.A.itemsize for stride in program.A.strides)
@@ -49,8 +49,8 @@ class NaturalProgram:
             {
                 "n": n, "m": m, "row": row, "column": column,
                 **{name: scene[name] for name in ("g", "A", "b")},
-                "coordinate": metric.coordinate, "squared": metric.squared,
-                "inverse": metric.inverse,
+                "coordinate": hessian.coordinate, "squared": hessian.squared,
+                "inverse": hessian.H_inverse,
                 "squares": np.zeros(m), "scale": np.zeros(n), "units": np.zeros(2),
                 "f": program.f, "natural_b": program.b,
                 # In either order of memory; `row` and `column` say in which:
@@ -63,8 +63,8 @@ class NaturalProgram:
     def fits(self, solver: FastSolver, step: StepData) -> bool:
         """Whether a step can be written into a solver's arrays: both have the H of this program."""
         own = self._solver
-        metric = self._metric
-        return solver is own and own.metric is metric and metric.H is step.H
+        hessian = self._hessian
+        return solver is own and own.hessian is hessian and hessian.H is step.H
 
     def written(self) -> Units | None:
         """Write the program of the step that the scene holds, and return its natural units.
@@ -76,7 +76,7 @@ class NaturalProgram:
         """
         if not self._write(self._structure.address):
             return None
-        units = Units(self._metric.coordinate, *self._units.tolist())
+        units = Units(self._hessian.coordinate, *self._units.tolist())
         self._solver.written = units
         return units
 
@@ -85,6 +85,6 @@ def natural_program(scene: Scene, solver: FastSolver, step: StepData) -> Natural
     """What writes the steps of a scene that are like one into the arrays of a solver, or None."""
     if not isinstance(solver.program, Program):
         return None
-    if solver.metric is None or solver.metric.H is not step.H or step.n_v > MOST:
+    if solver.hessian is None or solver.hessian.H is not step.H or step.n_v > MOST:
         return None
-    return NaturalProgram(scene, solver, solver.program, solver.metric)
+    return NaturalProgram(scene, solver, solver.program, solver.hessian)

@@ -19,7 +19,7 @@ from quasistatic_ref.optional.fast.compiled.scene import Scene
 from quasistatic_ref.optional.fast.compiled.screws import Screws
 from quasistatic_ref.optional.fast.compiled.solids import measured
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
-from quasistatic_ref.optional.fast.kept_step import KeptStep
+from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.native import native_backends
 from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep, posed
 from quasistatic_ref.optional.fast.solver import FastSolver
@@ -206,8 +206,8 @@ class CompiledStep:
         said = as_said(step, solver, units, accuracy) if certify == "off" else None
         if said is not None:
             return said
-        scaled = without_warnings(KeptStep, step, solver.metric, form, units)
-        return without_warnings(solved, scaled, solver, accuracy, certify)
+        both = without_warnings(KeptStepInBothUnits, step, solver.hessian, form, units)
+        return without_warnings(solved, both, solver, accuracy, certify)
 
     def units(self, solver: FastSolver, step: StepData) -> Units | None:
         """The natural units in which the program of the step is written; None if it is not."""

@@ -14,7 +14,7 @@ import numpy as np
 from quasistatic_ref.contact.distance import (
     ClosestPoints,
     check_finite,
-    joined,
+    joined_contacts,
     pair_closest_points,
 )
 from quasistatic_ref.contact.pairs import ContactPair
@@ -101,13 +101,13 @@ class ContactTracker:
             If a pair has no trustworthy normal, a pose is not finite, or a distance is no number.
         """
         check_finite(R, t)
-        of_clouds = self.of_clouds(R, t) if self.lists else joined([])
+        of_clouds = self.of_clouds(R, t) if self.lists else joined_contacts([])
         if len(self.lists) == len(self.pairs):
             return of_clouds
         found, decided = self.of_solids(R, t)
         put(of_clouds, found, self.on_cloud)
         for i in np.flatnonzero(~(decided | self.has_cloud)).tolist():
-            own = joined([pair_closest_points(self.pairs[i], R, t)])
+            own = joined_contacts([pair_closest_points(self.pairs[i], R, t)])
             put(own, found, slice(self.start[i], self.start[i + 1]))
         return found
 

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.contact.distance import closest_points
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
@@ -22,9 +21,9 @@ from quasistatic_ref.shapes.placed_shape import (
     Cone,
     Cylinder,
     HalfSpace,
-    PlacedShape,
     Sphere,
 )
+from tests.contact.still import pair, placed
 from tests.oracles.differences import rate
 from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
 
@@ -34,12 +33,8 @@ TANGENTS = np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])
 
 def pair_of(system, fixed, moving, first, k):
     """A fixed shape at the origin and one of the body, either of them being alpha's."""
-    sides = [
-        PlacedShape("fixed", 0, np.eye(3), np.zeros(3), fixed),
-        PlacedShape("body", system.link("body"), np.eye(3), np.zeros(3), moving),
-    ]
-    alpha, beta = sides if first == "fixed" else sides[::-1]
-    return ContactPair("c", alpha, beta, 0.5, 0.01, 6, k)
+    sides = [placed(fixed), placed(moving, system.link("body"))]
+    return pair(*(sides if first == "fixed" else sides[::-1]), k)
 
 
 def body(xyz, rpy=(0.0, 0.0, 0.0)):

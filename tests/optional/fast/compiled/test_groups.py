@@ -14,7 +14,7 @@ from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import proofs
 from quasistatic_ref.optional.fast.compiled.certificate import DECIDED, NOT_POSED, REFUTED
 from quasistatic_ref.optional.fast.proofs import Proofs
-from quasistatic_ref.solve.natural_step import DenseStep
+from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.solver import NaturalAnswer, solver_for
 from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import changed
@@ -26,17 +26,21 @@ from validation.make.grouped_proofs import unlike
 pytestmark = needs_compiler
 
 
-def in_balls(monkeypatch, scaled, answer):
+def in_balls(monkeypatch, both, answer):
     """The optimum as it is proved without compiled code, by proofs that have kept nothing."""
     with monkeypatch.context() as without:
         without.setattr(proofs, "compiled", lambda name: None)
-        return Proofs().optimum(scaled, answer)
+        return Proofs().optimum(both, answer)
 
 
 def spoilt(rng, answer):
     """An answer of which some rows press, and others do not, that did otherwise."""
-    lam = np.where(rng.random(len(answer.lam)) < 0.1, rng.random(len(answer.lam)), answer.lam)
-    return NaturalAnswer(answer.delta_q, lam, answer.statistics)
+    lam = np.where(
+        rng.random(len(answer.natural_lam)) < 0.1,
+        rng.random(len(answer.natural_lam)),
+        answer.natural_lam,
+    )
+    return NaturalAnswer(answer.natural_delta_q, lam, answer.statistics)
 
 
 def test_groups_that_merge_and_split_have_the_bits_of_each_by_itself(monkeypatch):
@@ -56,14 +60,14 @@ def test_groups_that_merge_and_split_have_the_bits_of_each_by_itself(monkeypatch
                 step = divided(rng, whole, int(rng.integers(1, 7)))
             away = np.where(rng.random(12) < 0.4, 1.0, 0.0)
             step = step.replace(contacts=changed(step.contacts, phi=whole.contacts.phi + away))
-            scaled = DenseStep(step)
+            both = DenseStepInBothUnits(step)
             try:
-                answer = solver_for(step, "daqp", fast=True).answer(scaled, ACCURACY)
+                answer = solver_for(step, "daqp", fast=True).answer(both, ACCURACY)
                 answer = spoilt(rng, answer) if k % 4 == 3 else answer
-                found = kept.optimum(scaled, answer)
+                found = kept.optimum(both, answer)
             except (StepNotSolved, StepInfeasible, StepIllPosed):
                 continue
-            assert differing(found, in_balls(monkeypatch, scaled, answer)) == [], (seed, k)
+            assert differing(found, in_balls(monkeypatch, both, answer)) == [], (seed, k)
             assert unlike(found, form_optimum(exact_form(step))) == [], (seed, k)
             of_groups = kept.prover.s["code"].tolist()
             codes.update(of_groups)
@@ -98,11 +102,11 @@ def test_zeros_are_not_taken_over_by_other_rows_or_another_guess(monkeypatch, be
         J = np.zeros((len(planes), 4, 3))
         J[:, :3] = np.eye(3)
         contacts = contacts_of(0.0, [PLANES[name] for name in planes], J, 0.0)
-        scaled = DenseStep(free_step(np.eye(3), force, contacts, 0.01))
-        lam = np.zeros(scaled.step.m)
+        both = DenseStepInBothUnits(free_step(np.eye(3), force, contacts, 0.01))
+        lam = np.zeros(both.si_step.m)
         lam[pressed] = 1.0
         answer = NaturalAnswer(np.zeros(3), lam, None)
-        found = kept.optimum(scaled, answer)
-        assert differing(found, in_balls(monkeypatch, scaled, answer)) == []
+        found = kept.optimum(both, answer)
+        assert differing(found, in_balls(monkeypatch, both, answer)) == []
         smooth.append(found.differentiable)
     assert smooth == [True, True, False]

@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.compiled import compiled
-from quasistatic_ref.solve.units import natural_hessian, units_of
+from quasistatic_ref.solve.units import hessian_in_both_units, units_of
 from quasistatic_ref.step.standard_form import StandardForm
 from tests.optional.fast.compiled.test_fast import needs_compiler
 
@@ -19,13 +19,13 @@ HALF = np.sqrt(2.0)
 def units(H, g, A, b):
     """Units by C, and by NumPy; and the program that C has written, None if it has not."""
     H, g, A, b = (np.array(values, dtype=np.float64) for values in (H, g, A, b))
-    of_H = natural_hessian(H)
+    hessian = hessian_in_both_units(H)
     solver = SimpleNamespace(written=None)
     program = Program(H, np.zeros(len(g)), np.zeros(A.shape), np.zeros(len(b)))
-    made = compiled("natural").NaturalProgram({"g": g, "A": A, "b": b}, solver, program, of_H)
+    made = compiled("natural").NaturalProgram({"g": g, "A": A, "b": b}, solver, program, hessian)
     found = made.written()
     with np.errstate(all="ignore"):
-        expected = units_of(StandardForm(H, g, A, b), of_H)
+        expected = units_of(StandardForm(H, g, A, b), hessian)
     assert solver.written is found
     return found, expected, program
 

@@ -35,12 +35,6 @@ def incline():
     return scenario, scenario.run(progress=False)
 
 
-@pytest.fixture(scope="module")
-def spun():
-    scenario = load_scenario("sphere_spin", ["steps=20"], fast=True)
-    return scenario, scenario.run(progress=False)
-
-
 @pytest.fixture
 def page():
     figure, (axes,) = panels(4.6, 4.0)
@@ -76,7 +70,7 @@ def test_the_last_moment_is_counted_from_the_end_and_others_are_refused(incline)
             moment(scenario, run, k)
 
 
-def test_the_ellipsoid_s_rim_is_a_circle(spun):
+def test_the_ellipsoid_s_rim_is_a_circle():
     scenario = load_scenario("sphere_spin", ["steps=2", "cone=ellipsoid"], fast=True)
     (contact,) = moment(scenario, scenario.run(progress=False), -1).contacts
     across = contact.rim - contact.f_n * contact.frame[2]

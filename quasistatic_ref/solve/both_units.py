@@ -1,4 +1,4 @@
-"""A step with its natural units."""
+"""A step in SI units and in natural units."""
 
 import math
 from functools import cached_property
@@ -10,10 +10,10 @@ from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.solve.units import (
     Units,
+    hessian_in_both_units,
     natural_form,
-    natural_hessian,
+    natural_step,
     squared_lengths,
-    to_natural,
     units_of,
 )
 from quasistatic_ref.step.cones import cone
@@ -21,31 +21,30 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
 
-class NaturalStep(Protocol):
-    """A step, its natural units, and the judge of answers in these."""
+class StepInBothUnits(Protocol):
+    """A step in SI units and in its natural units, in which answers are judged."""
 
-    step: StepData
+    si_step: StepData
     units: Units
 
     @property
-    def form(self) -> StandardForm:
+    def si_form(self) -> StandardForm:
         """Its standard form in SI units; H and A may be sparse."""
 
     @property
     def natural_form(self) -> StandardForm:
         """The same in natural units."""
 
-    def residuals(self, delta_q: Array, lam: Array) -> Residuals:
+    def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of delta_q (n_v,) and lam (m,), all in natural units [-]."""
 
 
-class DenseStep:
-    """A step of dense matrices in its natural units, with its standard form.
+class DenseStepInBothUnits:
+    """A step of dense matrices, with its standard form, in SI units and in natural units.
 
     Parameters
     ----------
-    step : StepData
-        SI units.
+    si_step : StepData
 
     Raises
     ------
@@ -53,39 +52,39 @@ class DenseStep:
         If products of its numbers leave the range of float64.
     """
 
-    def __init__(self, step: StepData) -> None:
-        self.step = step
-        self.form = standard_form(step)
+    def __init__(self, si_step: StepData) -> None:
+        self.si_step = si_step
+        self.si_form = standard_form(si_step)
         try:
-            self.metric = natural_hessian(self.form.H)
-            self.units = units_of(self.form, self.metric)
+            self.hessian = hessian_in_both_units(self.si_form.H)
+            self.units = units_of(self.si_form, self.hessian)
         except np.linalg.LinAlgError:
-            raise out_of_range(step) from None
-        check_units(self.units, step, self.metric.usable)
+            raise out_of_range(si_step) from None
+        check_units(self.units, si_step, self.hessian.usable)
 
     @cached_property
-    def natural(self) -> StepData:
+    def natural_step(self) -> StepData:
         """The step in its natural units."""
         try:
-            return to_natural(self.step, self.units)
+            return natural_step(self.si_step, self.units)
         except StepDataError:
-            raise out_of_range(self.step) from None
+            raise out_of_range(self.si_step) from None
 
     @cached_property
     def natural_form(self) -> StandardForm:
         """Its standard form in natural units."""
-        return natural_form(self.form, self.units, self.metric.natural)
+        return natural_form(self.si_form, self.units, self.hessian.natural_H)
 
     @property
-    def unlike(self) -> float:
+    def row_ratio(self) -> float:
         """Length of the longest row over that of the shortest, rows of zeros left out [-]."""
-        squares = squared_lengths(self.form, self.metric)
+        squares = squared_lengths(self.si_form, self.hessian)
         first = int(squares.searchsorted(0.0, side="right"))
         return math.sqrt(squares[-1] / squares[first]) if first < len(squares) else 1.0
 
-    def residuals(self, delta_q: Array, lam: Array) -> Residuals:
+    def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
-        judge = cone(self.step.cone).judge(self.step)
+        judge = cone(self.si_step.cone).judge(self.si_step)
         return optimality_residuals(self.natural_form, delta_q, lam, judge)
 
 

@@ -10,19 +10,16 @@ import numpy as np
 
 from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.scenes.at_random import Rng
-from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.mechanisms import (
+from quasistatic_ref.lab.vectors.challenge.random_mechanisms import (
     few_digits,
-    follower,
-    free_body,
-    link,
     mass,
     random_q,
     random_quaternion,
     random_tree,
 )
-from quasistatic_ref.lab.vectors.families.step_scenes import GRAVITY, on, scene
+from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.step import shape_pose
+from quasistatic_ref.lab.vectors.tables import GRAVITY, follower, free_body, link, on, scene
 
 CONES: Final = ("pyramid", "pyramid", "pyramid", "product", "facets-6", "frictionless")
 GAPS: Final = (0.0005, 0.0, -0.0005, 0.01)

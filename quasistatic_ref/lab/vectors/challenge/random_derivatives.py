@@ -2,31 +2,23 @@
 
 from functools import cache
 
-from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.lab.folders import vectors_folder
 from quasistatic_ref.lab.scenes.at_random import Rng
+from quasistatic_ref.lab.vectors.challenge.random_mechanisms import few_digits
+from quasistatic_ref.lab.vectors.challenge.random_scenes import random_scene
 from quasistatic_ref.lab.vectors.expected import Json
-from quasistatic_ref.lab.vectors.families.mechanisms import few_digits
-from quasistatic_ref.lab.vectors.families.random_scenes import random_scene
-from quasistatic_ref.lab.vectors.families.step_scenes import ball_scene
 from quasistatic_ref.lab.vectors.files import Case, inputs_read
 from quasistatic_ref.lab.vectors.layers import layer
+from quasistatic_ref.lab.vectors.tables import FLOOR, UPRIGHT, link, on, scene
 
 WILD = 1e3
 """Largest entry of dq+/dq [-, rad/m] in a case."""
-
-
-def kinds_of(table: Json) -> set[str] | None:
-    """Kinds of the reasons why q+ has no derivative; None of a case that asks nothing."""
-    try:
-        output = layer("derivative").expected(table).output
-        if output["differentiable"] and hangs_on_rounding(table):
-            return None
-    except (QuasistaticError, ArithmeticError, LookupError):
-        return None
-    if not is_tame(output):
-        return None
-    return {reason["kind"] for reason in output["reasons"]}
+BALL: Json = {"kind": "sphere", "radius": 0.05}
+MASS: Json = {
+    "mass": 0.5,
+    "com": [0.0, 0.0, 0.0],
+    "inertia": [[0.001, 0.0, 0.0], [0.0, 0.0012, 0.0], [0.0, 0.0, 0.0014]],
+}
 
 
 def hangs_on_rounding(table: Json) -> bool:
@@ -87,3 +79,13 @@ def is_tame(output: Json) -> bool:
     """
     entries = [abs(x) for row in output.get("dq_dq", []) for x in row]
     return max(entries, default=0.0) < WILD
+
+
+def ball_scene(wrench: Json) -> Json:
+    """A ball on a floor, and a wrench on it."""
+    ball = link("ball", None, "floating", **MASS)
+    shapes = {"floor": on(None, FLOOR), "ball": on("ball", BALL)}
+    friction = {"mu_v": 0.5, "mu_omega": 0.01, "rows": 6}
+    pair = {"name": "floor", "alpha": "floor", "beta": "ball", **friction, "k": 1}
+    q = [0.0, 0.0, 0.05, *UPRIGHT]
+    return scene([ball], shapes, q, pairs=[pair], wrenches=[{"body": "ball", **wrench}])

@@ -1,6 +1,6 @@
-"""Mechanisms that the families share: named ones for each corner, and random trees.
+"""Mechanisms at random: trees of all kinds of joints, and their configurations.
 
-Numbers come from a seeded generator, rounded to few digits, so that the cases can be read.
+Numbers are rounded to few digits, so that cases can be read.
 """
 
 from typing import Any
@@ -10,15 +10,9 @@ import numpy as np
 from quasistatic_ref.lab.program.mechanism import slices
 from quasistatic_ref.lab.scenes.at_random import Rng
 from quasistatic_ref.lab.vectors.expected import Json
+from quasistatic_ref.lab.vectors.tables import at, link
 
-UPRIGHT = [0.0, 0.0, 0.0, 1.0]
-ORIGIN: Json = {"xyz": [0.0, 0.0, 0.0], "quaternion": UPRIGHT}
 KINDS = ("revolute", "prismatic", "continuous", "fixed")
-
-
-def at(x: float, y: float, z: float) -> Json:
-    """A pose at x, y, z [m]."""
-    return {"xyz": [x, y, z], "quaternion": UPRIGHT}
 
 
 def few_digits(values: Any, digits: int = 3) -> list[float]:
@@ -34,13 +28,6 @@ def random_quaternion(rng: Rng) -> list[float]:
 def random_pose(rng: Rng, size: float = 1.0) -> Json:
     """A pose within a cube of half the side `size` [m]."""
     return {"xyz": few_digits(rng.uniform(-size, size, 3)), "quaternion": random_quaternion(rng)}
-
-
-def link(name: str, parent: str | None, joint: str, **more: Any) -> Json:
-    """One body of a mechanism, massless and at the parent's origin by default."""
-    table: Json = {"name": name, "parent": parent, "placement": ORIGIN, "joint": joint}
-    table |= {"axis": [0.0, 0.0, 1.0], "actuated": False}
-    return table | more
 
 
 def mass(rng: Rng) -> Json:
@@ -81,14 +68,6 @@ def random_tree(rng: Rng, count: int, base: str = "fixed", masses: bool = False)
     return {"bodies": bodies}
 
 
-def follower(joint: str, parent: str | None = None, **more: Any) -> list[Json]:
-    """A revolute or prismatic joint, and one that follows it backwards at half its pace."""
-    follow = {"of": "drive", "multiplier": -0.5, "offset": 0.35}
-    moves = {"axis": [1.0, 0.0, 0.0] if joint == "prismatic" else [0.0, 1.0, 0.0], **more}
-    drive = link("drive", parent, joint, **moves)
-    return [drive, link("finger", parent, joint, mimic=follow, **moves)]
-
-
 def random_q(rng: Rng, mechanism: Json) -> list[float]:
     """A configuration in the paper's order; quaternions and (cos, sin) not normalised."""
     q: list[float] = []
@@ -116,9 +95,3 @@ def random_step(rng: Rng, mechanism: Json, size: float) -> list[float]:
     """Some delta_q of few significant digits, of about the `size` [m, rad]."""
     _, _, n_v = slices(mechanism)
     return [float(f"{x:.3g}") for x in rng.uniform(-size, size, n_v)]
-
-
-def free_body(name: str = "object", **more: Any) -> Json:
-    """One floating body."""
-    inertia = [[0.002, 0.0, 0.0], [0.0, 0.003, 0.0], [0.0, 0.0, 0.004]]
-    return link(name, None, "floating", mass=1.0, com=[0.0] * 3, inertia=inertia, **more)

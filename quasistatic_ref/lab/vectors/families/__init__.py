@@ -1,1 +1,0 @@
-"""Inputs written by rule (closed forms, seeded random numbers, corners) and from scenarios."""
