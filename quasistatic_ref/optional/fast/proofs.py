@@ -355,7 +355,8 @@ def _coupling(step: StepData) -> Coupling:
         moving = b"".join(where.tobytes() for where in step.contacts.entries()[:2])
     else:
         moving = J.any(axis=1).tobytes()
-    own = (step.extra.A != 0).tobytes()
+    A = step.extra.A
+    own = (A != 0).tobytes() if A.size else b""
     return [step.h, step.K_q, vars(step)["M_u"], moving, own, step.layout.counts]
 
 

@@ -240,7 +240,7 @@ class Prover:
                 if proof is not None:
                     proof.code = code
             return None
-        return _optimum(s, np.flatnonzero(s["lam"]).tolist(), Degeneracy(not idle, True))
+        return _optimum(s, s["lam"].nonzero()[0].tolist(), Degeneracy(not idle, True))
 
 
 def undivided(both: DenseStepInBothUnits) -> Prover:
