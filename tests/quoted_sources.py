@@ -219,6 +219,12 @@ def interfaces():
     return json.loads(text("benchmarks/bench.json"))["interfaces"]["microseconds"]
 
 
+def solvers():
+    """The solver's call over MuJoCo's step, by scene."""
+    scenes = json.loads(text("benchmarks/bench.json"))["solids"]
+    return {name: own["solver_over_mujoco"] for name, own in scenes.items()}
+
+
 @cache
 def solids():
     return table("benchmarks/bench.md", "Scenes of solids")

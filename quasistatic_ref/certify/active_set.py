@@ -66,7 +66,7 @@ def most_violated(minimiser: Minimiser) -> tuple[int | None, list[int]]:
     Any violated row would do. With the most violated one (of equal ones that of least index) a
     grasp takes, from a cold start, a fifth of the walks that it takes with :func:`least_index`.
     """
-    shown = [i for i, sign in enumerate(minimiser.slack_signs) if sign == -1]
+    shown = [i for i, sign in enumerate(minimiser.shown_slack_signs) if sign == -1]
     if shown and minimiser.balls is not None:
         slack = minimiser.balls.slack
         return min(shown, key=lambda i: slack[i].mid()), []

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
-from quasistatic_ref.certify.dependence import idle_rows
+from quasistatic_ref.certify.dependence import tight_rows
 from quasistatic_ref.certify.exact import ExactOptimum
 from quasistatic_ref.certify.minimiser import RationalSolution, rational_solution, rounded_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
@@ -228,7 +228,7 @@ def _wrong_claim(
     unique = smooth = True
     slacks: list[float] = []
     for form, working, solution, slack in solved:
-        spanned, unspanned = idle_rows(form, working, solution.slack)
+        spanned, unspanned = tight_rows(form, working, solution.slack)
         smooth = smooth and differentiable(form, working, unspanned)
         unique = unique and multipliers_unique(form, working, spanned, unspanned)
         slacks += [float(slack[i]) for i, s in enumerate(solution.slack) if s]

@@ -58,7 +58,7 @@ def implied(form: ExactForm, working: Sequence[int], rows: Sequence[Row]) -> lis
     return follow(form.equations(working), rows)
 
 
-def idle_rows(
+def tight_rows(
     form: ExactForm, working: Sequence[int], slack: Sequence[fmpz]
 ) -> tuple[list[int], list[int]]:
     """Rows outside of the working set whose slack is zero: those that it implies, and the others.
@@ -71,10 +71,10 @@ def idle_rows(
     slack : sequence of fmpz, length m
         Of the minimiser on them [any unit].
     """
-    idle = [i for i, s in enumerate(slack) if not s and i not in working]
-    spans = implied(form, working, form.equations(idle)) if idle else []
-    at = dict(zip(idle, spans, strict=True))
-    return [i for i in idle if at[i]], [i for i in idle if not at[i]]
+    tight = [i for i, s in enumerate(slack) if not s and i not in working]
+    spans = implied(form, working, form.equations(tight)) if tight else []
+    at = dict(zip(tight, spans, strict=True))
+    return [i for i in tight if at[i]], [i for i in tight if not at[i]]
 
 
 def follow(held: Sequence[Row], rows: Sequence[Row]) -> list[bool]:

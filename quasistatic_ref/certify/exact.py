@@ -110,10 +110,10 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     minimiser = end.minimiser
     working = minimiser.working
     signs = np.array(end.slack_signs, dtype=np.int64)
-    inside = np.flatnonzero(signs)
-    idle = [int(i) for i in np.flatnonzero(signs == 0) if i not in working]
-    spanned = minimiser.spanned(idle)
-    unspanned = [i for i in idle if i not in spanned]
+    inactive = np.flatnonzero(signs)
+    tight = [int(i) for i in np.flatnonzero(signs == 0) if i not in working]
+    spanned = minimiser.spanned(tight)
+    unspanned = [i for i in tight if i not in spanned]
     smooth = differentiable(form, working, unspanned)
 
     coordinates = range(form.n)
@@ -121,8 +121,8 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     slack = np.zeros(form.m)
     lam_w = nearest_numbers(minimiser, lambda s: s.lam, form.lam_unit, range(len(working)))
     lam[list(working)] = lam_w
-    slack[inside] = nearest_numbers(minimiser, lambda s: s.slack, form.slack_unit, inside)
-    least = float(slack[inside].min()) if inside.size else None
+    slack[inactive] = nearest_numbers(minimiser, lambda s: s.slack, form.slack_unit, inactive)
+    least = float(slack[inactive].min()) if inactive.size else None
     return ExactOptimum(
         delta_q=nearest_numbers(
             minimiser, lambda s: s.x, form.x_unit, coordinates, minimiser.zero_coordinates

@@ -11,7 +11,7 @@ from functools import cached_property
 from typing import Final, cast
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpq_mat, fmpz, fmpz_mat
+from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.dependence import implied
 from quasistatic_ref.certify.rational import ExactForm
@@ -180,16 +180,16 @@ def rounded_solution(
         A'lam [N s, N m s].
     slack : ndarray, shape (m,)
     """
-    x, lam, net, slack = (
-        np.array([nearest_fraction(unit * v / solution.denominator) for v in values])
-        for unit, values in (
-            (form.x_unit, solution.x),
-            (form.lam_unit, solution.lam),
-            (form.net_unit, solution.net),
-            (form.slack_unit, solution.slack),
-        )
+
+    def nearest(unit: fmpq, numerators: list[fmpz]) -> Array:
+        return np.array([nearest_fraction(unit * v / solution.denominator) for v in numerators])
+
+    return (
+        nearest(form.x_unit, solution.x),
+        nearest(form.lam_unit, solution.lam),
+        nearest(form.net_unit, solution.net),
+        nearest(form.slack_unit, solution.slack),
     )
-    return x, lam, net, slack
 
 
 class Minimiser:
@@ -240,7 +240,7 @@ class Minimiser:
         return tuple(i for i, ball in zip(self.working, self.balls.lam, strict=True) if ball > 0)
 
     @cached_property
-    def slack_signs(self) -> list[int | None]:
+    def shown_slack_signs(self) -> list[int | None]:
         """Signs of all slacks as the balls show them: 1, -1, or None where they do not."""
         if self.balls is None:
             return [None] * self.form.m
@@ -249,7 +249,7 @@ class Minimiser:
     @cached_property
     def decided_slack_signs(self) -> list[int]:
         """Exact signs of all slacks."""
-        signs = list(self.slack_signs)
+        signs = list(self.shown_slack_signs)
         for i in self.working:
             signs[i] = 0
         for i in self.spanned([i for i, sign in enumerate(signs) if sign is None]):

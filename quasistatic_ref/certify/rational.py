@@ -26,7 +26,6 @@ from flint import fmpq, fmpz, fmpz_mat
 from numpy.typing import NDArray
 
 from quasistatic_ref.certify.arithmetic import check_arithmetic
-from quasistatic_ref.step.arrays import positive_definite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Contacts, StepData
 from quasistatic_ref.step.friction import row_gaps
@@ -210,14 +209,7 @@ def h_times_load(step: StepData) -> Dyadic:
 
 
 def h_times_hessian(step: StepData) -> Dyadic:
-    """The matrix h H of Eq. :eq:`eq-13` without rounding, shape (n_v, n_v); positive definite.
-
-    Raises
-    ------
-    StepDataError
-        If M_u, which a simulator poses unchecked, is not positive definite.
-    """
-    positive_definite("M_u", step.M_u)
+    """The matrix h H of Eq. :eq:`eq-13` without rounding, shape (n_v, n_v); positive definite."""
     h = dyadic(step.h)
     return block_diagonal(h * h * dyadic(step.K_q), dyadic(step.M_u))  # Eq. (13)
 
@@ -233,7 +225,7 @@ def exact_friction_rows(contacts: Contacts, name: str, which: Which = ALL) -> Dy
     """The rows n~' J + d~_i' J of Eq. :eq:`eq-4`, all of each contact, shape (n_c, R, n_v)."""
     motion = contact_motion(contacts, which)
     friction_cone = cone(name)
-    mu = dyadic(friction_cone.in_rows(contacts.mu[which]))
+    mu = dyadic(friction_cone.row_coefficients(contacts.mu[which]))
     J_n, J_1, J_2, J_w = (motion[:, i : i + 1] for i in range(4))
     mu_v = mu[:, :1, None]
     mu_omega = mu[:, 2:, None]

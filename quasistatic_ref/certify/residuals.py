@@ -70,4 +70,9 @@ def optimality_residuals(
     balance = H @ delta_q - g - A.T @ lam  # Eq. (9), as (13) has it
     slack = A @ delta_q - b
     short, pull, work = judge(slack, lam)  # Eqs. (10)-(12)
-    return Residuals(*map(largest, (np.abs(balance), short, pull, np.abs(work))))
+    return Residuals(
+        stationarity=largest(np.abs(balance)),
+        primal=largest(short),
+        dual=largest(pull),
+        complementarity=largest(np.abs(work)),
+    )

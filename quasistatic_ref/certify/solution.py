@@ -145,8 +145,8 @@ class StepSolution(Plain, Shown):
         It is the proof's: one of several where multipliers are not unique.
         """
         step = self.step
-        of_step = step.contacts, self.lam, step.h, step.cone
-        return read_only(without_warnings(contact_wrenches, *of_step))
+        wrench = without_warnings(contact_wrenches, step.contacts, self.lam, step.h, step.cone)
+        return read_only(wrench)
 
     @property
     def cone(self) -> str:
@@ -173,6 +173,14 @@ def step_solution(
     `net_impulse`, shape (n_v,) [N s, N m s], is A'lam where it is proved.
     """
     m = int(step.offsets[-1])
-    backend = statistics.backend
-    of_step = step, backend, certificate, statistics, net_impulse, alone
-    return StepSolution(delta_q, lam[:m], lam[m:], *of_step)
+    return StepSolution(
+        delta_q,
+        lam=lam[:m],
+        lam_extra=lam[m:],
+        step=step,
+        backend=statistics.backend,
+        certificate=certificate,
+        statistics=statistics,
+        net_impulse=net_impulse,
+        alone=alone,
+    )

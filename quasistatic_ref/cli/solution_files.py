@@ -209,7 +209,7 @@ def rounded_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     kind = cone(name)
     exact = np.frompyfunc(Fraction, 1, 1)
     of_rows = impulses(contacts, lam, name)
-    mu = kind.in_rows(contacts.mu)
+    mu = kind.row_coefficients(contacts.mu)
     wrench = wrenches(exact(of_rows), exact(kind.matrix), exact(mu)) / Fraction(h)
     return np.array([_nearest(x) for x in wrench.ravel()]).reshape(-1, 4) + 0.0
 

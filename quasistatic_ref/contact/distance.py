@@ -16,7 +16,6 @@ Two solids:
 
 from collections.abc import Sequence
 from dataclasses import replace
-from operator import itemgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -65,7 +64,7 @@ class ClosestPoints(NamedTuple):
 
     def chosen(self, index: Indices) -> "ClosestPoints":
         """The contacts of an `index` of shape (k,), in its order."""
-        return ClosestPoints(*map(itemgetter(index), self))
+        return ClosestPoints._make(field[index] for field in self)
 
 
 def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> ClosestPoints:
@@ -114,7 +113,7 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     if pair.n_c == 1:
         return nearest
     candidates = every_candidate(pair, a, b, nearest)
-    order = closest(np.where(late(candidates, pair.k), np.inf, candidates.phi), pair.k)
+    order = closest(np.where(ranked_last(candidates, pair.k), np.inf, candidates.phi), pair.k)
     kept = candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
     far = nearest._replace(phi=np.array([FILLED]), tie=np.array([OWN]))
     missing = np.arange(pair.n_c - len(order))
@@ -157,17 +156,21 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
         a = in_world(pair.alpha, R, t)
         b = in_world(pair.beta, R, t)
         every = every_candidate(whole, a, b, nearest_of_solids(whole, a, b))
-        phi = every.phi[~late(every, 1)]  # without the closest pair, if a corner is as near
+        phi = every.phi[~ranked_last(every, 1)]  # without the closest pair, if a corner is as near
     return int(np.count_nonzero(phi <= phi.min() + within))
 
 
 def nearest_of_solids(pair: ContactPair, a: ShapeInWorld, b: ShapeInWorld) -> ClosestPoints:
     """The closest pair of two solids, numbered after the corners if several contacts are kept."""
     found, tie = pair_normal(pair.name, a, b)
-    phi = np.array([found.phi])
-    point = np.array([pair.corners if pair.n_c > 1 else 0])
-    ends = found.alpha[None], found.beta[None]
-    return ClosestPoints(phi, *ends, found.n[None], point, np.array([tie]))
+    return ClosestPoints(
+        phi=np.array([found.phi]),
+        alpha=found.alpha[None],
+        beta=found.beta[None],
+        n=found.n[None],
+        point=np.array([pair.corners if pair.n_c > 1 else 0]),
+        tie=np.array([tie]),
+    )
 
 
 def every_candidate(
@@ -224,7 +227,7 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
     return local if on_rim and norm(way[:2]) > UPRIGHT else way
 
 
-def late(candidates: ClosestPoints, k: int) -> Mask:
+def ranked_last(candidates: ClosestPoints, k: int) -> Mask:
     """Which candidates rank last: repetitions, a closest pair if k others are as near, crossings.
 
     These do if k corners are as near as the closest pair, so that rounding does not decide whether

@@ -94,13 +94,13 @@ def corner_surface(solid: ShapeInWorld, x: Array, n: Array, within: float) -> Su
         return Surface(phi, normal, tie)
     # Another corner is outside, and nearest to a face that faces n: nothing else to choose.
     near = OVER_FACE * shape.extent + within
-    open_ = np.flatnonzero((phi <= near) | (dot(normal, n) < TURNED))
+    undecided = np.flatnonzero((phi <= near) | (dot(normal, n) < TURNED))
     phi = phi.copy()
     own = normal
     normal = normal.copy()
     block = max(1, CHUNK // max(1, shape.faces(x[:1])[0].size))
-    for start in range(0, len(open_), block):
-        some = open_[start : start + block]
+    for start in range(0, len(undecided), block):
+        some = undecided[start : start + block]
         over, phi[some], normal[some] = _facing(shape, x[some], n, phi[some], normal[some], within)
         edge = some[~over]
         gap = dot(x[edge], n) - shape.support_value(n[None])
@@ -173,12 +173,12 @@ def cloud_surface(
     if not heights.size:
         return Surface(phi, normal, tie)
     highest, rivals = faces_apart(heights, normals, within)
-    open_ = np.flatnonzero(rivals.any(axis=1))
-    if not len(open_):
+    undecided = np.flatnonzero(rivals.any(axis=1))
+    if not len(undecided):
         return Surface(phi, normal, tie)
     normal = normal.copy()
     decided: dict[bytes, tuple[Array, int]] = {}
-    for i in open_.tolist():
+    for i in undecided.tolist():
         ways = distinct([normals[i, highest[i]], *normals[i, rivals[i]]])
         if ways.tobytes() not in decided:
             decided[ways.tobytes()] = _of_cloud(name, solid, cloud, relative, ways, within)

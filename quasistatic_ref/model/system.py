@@ -215,7 +215,8 @@ class System(Shown):
 
     def _change(self, q: Array, q_next: Array, n: int) -> Array:
         """The first n entries of q_next (-) q, which are those of whole joints."""
-        q, q_next = (with_shape(x, "q", (self.n_q,)) for x in (q, q_next))
+        q = with_shape(q, "q", (self.n_q,))
+        q_next = with_shape(q_next, "q", (self.n_q,))
         delta_q = np.zeros(self.n_v)
         here = q.tolist()
         there = q_next.tolist()

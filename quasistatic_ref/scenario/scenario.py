@@ -233,7 +233,9 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         check_names(top, TOP)
     top.check_format(FORMAT, VERSION)
     check_names(top, TOP)
-    h, gravity, fast = (value(top, TOP, name) for name in ("h", "gravity", "fast"))
+    h = value(top, TOP, "h")
+    gravity = value(top, TOP, "gravity")
+    fast = value(top, TOP, "fast")
     named = cone(value(top, TOP, "cone")).name
     solver = value(top, TOP, "solver")
     if "engine" in solver.names():

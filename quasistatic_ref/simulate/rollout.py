@@ -10,24 +10,24 @@ import numpy as np
 
 from quasistatic_ref.errors import InputError, QuasistaticError, RunFailed, StepNotSolved
 from quasistatic_ref.parts import needed_part, part
-from quasistatic_ref.simulate.goals import (
-    Force,
-    Target,
-    force_function,
-    target_function,
-)
 from quasistatic_ref.simulate.interrupt import Interrupt
 from quasistatic_ref.simulate.observer import Observer, doctors
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory
+from quasistatic_ref.simulate.user_functions import (
+    Force,
+    Target,
+    force_function,
+    target_function,
+)
 from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
     from quasistatic_ref.simulate.result import StepResult
     from quasistatic_ref.simulate.simulator import Simulator
 
-STRETCH = 1000
+COLD_EVERY = 1000
 """Steps after which the solver starts cold: what it keeps of earlier steps decides the last bits of
 multipliers, and of answers that are not certified, and a run that is resumed has to make it again.
 """
@@ -111,31 +111,33 @@ def rollout(
     if isinstance(steps, bool) or not isinstance(steps, int | np.integer) or steps < 0:
         raise InputError("must be a whole number, 0 or more", field="steps", value=steps)
     recorder = Recorder(simulator, q, record, [*doctors(printed=progress), *observers])
-    q_bar_a = target_function(simulator.system, simulator.h, target, steps)
-    pushed = force_function(simulator.system, force)
+    q_bar_a_at = target_function(simulator.system, simulator.h, target, steps)
+    force_at = force_function(simulator.system, force)
     saved = None
     if save is not None:
-        given = {"target": (target, q_bar_a), "force": (force, pushed)}
+        given = {"target": (target, q_bar_a_at), "force": (force, force_at)}
         runs = needed_part("runs.resume", "save")
-        saved = runs.begun_or_resumed(save, save_every, resume, steps, recorder, given, STRETCH)
-    left = range(recorder.steps, steps)
+        saved = runs.begun_or_resumed(save, save_every, resume, steps, recorder, given, COLD_EVERY)
+    remaining = range(recorder.steps, steps)
     # Of a run that takes long, it prints that `fast` would shorten it.
     if progress and (fast := part("fast.pace")) is not None:
-        recorder.observers.append(fast.Pace(simulator.fast, len(left)))
-    bar: Any = progress_bar(left, unit="step", total=steps, done=left.start, shown=progress)
+        recorder.observers.append(fast.Pace(simulator.fast, len(remaining)))
+    bar: Any = progress_bar(
+        remaining, unit="step", total=steps, done=remaining.start, shown=progress
+    )
     last: StepResult | None = None
     with Interrupt() as interrupt:
         for k in bar:
             t = recorder.t
             q = recorder.q
-            if k % STRETCH == 0:
+            if k % COLD_EVERY == 0:
                 start_cold(simulator)
             try:
                 interrupt.check()
                 for observer in recorder.observers:
                     observer.before(recorder)
-                goal = q_bar_a(t, q, last)
-                last = simulator.step(q, goal, pushed(t, q, last))
+                q_bar_a = q_bar_a_at(t, q, last)
+                last = simulator.step(q, q_bar_a, force_at(t, q, last))
             except (QuasistaticError, KeyboardInterrupt) as failure:
                 interrupted = isinstance(failure, KeyboardInterrupt)
                 reason = f"step {k}: {'interrupted' if interrupted else failure}"
@@ -143,7 +145,7 @@ def rollout(
                 trajectory = recorder.trajectory(reason, interrupted)
                 file = None if saved is None else saved.written
                 raise RunFailed(reason, trajectory, step, file) from failure
-            recorder.add(goal, last)
+            recorder.add(q_bar_a, last)
     return recorder.trajectory()
 
 

@@ -315,7 +315,7 @@ class Simulator(Shown):
         solution: StepSolution = extended.simulated_solution(self, step, self.extension(q))
         return solution
 
-    def fitting(self, step: StepData) -> Solver:
+    def fitting_solver(self, step: StepData) -> Solver:
         """The solver of the last step if it fits this step, else a new one."""
         if self.solver is None or not self.solver.fits(step):
             self.solver = solver_for(step, self.backend, self.fast)
@@ -323,7 +323,7 @@ class Simulator(Shown):
 
     def solution(self, step: StepData) -> StepSolution:
         """A step solved under the simulator's law, by the solver that is kept."""
-        solver = self.fitting(step)
+        solver = self.fitting_solver(step)
         if self.law == COULOMB:
             found: StepSolution = coulomb().simulated_solution(step, solver, self.accuracy)
             return found

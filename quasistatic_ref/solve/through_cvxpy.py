@@ -12,7 +12,7 @@ from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import within_reach
+from quasistatic_ref.solve.units import phi_within_reach
 from quasistatic_ref.step.data import KIND, Array, Mask, StepData
 
 CANON = cp.CPP_CANON_BACKEND
@@ -53,7 +53,7 @@ class CvxpySolver(BackendSolver):
     def write(self, both: DenseStepInBothUnits) -> Mask:
         """Fill the parameters; tell which rows are out of reach, shape (m,)."""
         natural = both.natural_step
-        near = within_reach(natural)
+        near = phi_within_reach(natural)
         self.problem.fill(natural)
         self.problem.parameters["phi"].value = near
         return np.repeat(near < natural.contacts.phi, natural.counts)
@@ -89,16 +89,16 @@ def cvxpy_reply(compiled: CompiledProgram, name: str, options: Options, warm: bo
     seconds = perf_counter() - begin
     status = str(problem.status)
     stats = problem.solver_stats
-    own, setup = (None if t is None else float(t) for t in (stats.solve_time, stats.setup_time))
+    own = None if stats.solve_time is None else float(stats.solve_time)
     known = all(x.value is not None for x in problem.variables() if x.size)
     return Reply(
-        compiled.primal() if known else None,
-        compiled.dual() if known else None,
-        status == cp.OPTIMAL,
-        status,
-        None if stats.num_iters is None else int(stats.num_iters),
-        own,
-        seconds,
-        own,
-        setup,
+        x=compiled.primal() if known else None,
+        lam=compiled.dual() if known else None,
+        solved=status == cp.OPTIMAL,
+        status=status,
+        iterations=None if stats.num_iters is None else int(stats.num_iters),
+        seconds=own,
+        call_seconds=seconds,
+        own=own,
+        setup=None if stats.setup_time is None else float(stats.setup_time),
     )

@@ -219,7 +219,7 @@ def natural_step(step: StepData, units: Units) -> StepData:
     )
 
 
-def within_reach(natural: StepData) -> Array:
+def phi_within_reach(natural: StepData) -> Array:
     """The phi of each contact, shape (n_c,) [-]; at most :func:`reach`, as solvers need it."""
     return np.minimum(natural.contacts.phi, reach(natural.contacts.J))
 

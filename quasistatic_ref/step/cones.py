@@ -73,7 +73,7 @@ class Cone:
     name : str
     row_names : tuple of str
         A name for each number of lam that a contact with torsion has.
-    short : int
+    without_torsion : int
         How many of these numbers a contact has whose mu_omega is not used.
     function : callable
         (gap, slip_1, slip_2, spin) -> the rows.
@@ -86,7 +86,7 @@ class Cone:
 
     name: str
     row_names: tuple[str, ...]
-    short: int
+    without_torsion: int
     function: ConeFunction
     claims: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: CLAIMS)
     unproved: tuple[str, ...] = ()
@@ -107,9 +107,9 @@ class Cone:
 
     def counts(self, rows: Indices) -> Indices:
         """How many multipliers each contact has, from its ``rows``, shape (n_c,)."""
-        return np.where(rows == 6, len(self.row_names), self.short)
+        return np.where(rows == 6, len(self.row_names), self.without_torsion)
 
-    def in_rows(self, mu: Array) -> Array:
+    def row_coefficients(self, mu: Array) -> Array:
         """What slips and spin are multiplied by in the rows, (n_c, 3) [-, -, m]: `mu`, (n_c, 3)."""
         return mu
 

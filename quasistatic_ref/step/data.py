@@ -94,7 +94,7 @@ def row_layout(cone_name: str, rows: bytes) -> RowLayout:
     counts = cone_of(cone_name).counts(np.frombuffer(rows, np.int64))
     mask = np.arange(len(cone_of(cone_name).row_names)) < counts[:, None]
     offsets = np.concatenate([[0], np.cumsum(counts)])
-    return RowLayout(*map(read_only, (counts, mask, offsets)))
+    return RowLayout(read_only(counts), read_only(mask), read_only(offsets))
 
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
@@ -278,7 +278,9 @@ def hessian(h: float, K_q: Array, M_u: Array) -> Array:
     n_a = len(K_q)
     n_v = len(K_q) + len(M_u)
     H = np.zeros((n_v, n_v))
-    H[:n_a, :n_a], H[n_a:, n_a:] = hessian_blocks(h, K_q, M_u)
+    of_actuated, of_unactuated = hessian_blocks(h, K_q, M_u)
+    H[:n_a, :n_a] = of_actuated
+    H[n_a:, n_a:] = of_unactuated
     return read_only(H)
 
 

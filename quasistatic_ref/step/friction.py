@@ -58,7 +58,7 @@ def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
     """Eq. :eq:`eq-4` for any columns of J, shape (n_c, 4, w): all of them, or those of blocks."""
     J_n, J_1, J_2, J_w = frame_jacobian(contacts, J)
     friction_cone = cone(name)
-    mu_v, _, mu_omega = friction_cone.in_rows(contacts.mu).T[:, :, None]
+    mu_v, _, mu_omega = friction_cone.row_coefficients(contacts.mu).T[:, :, None]
     rows = friction_cone.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
     return np.array(rows).swapaxes(0, 1)
 
@@ -94,7 +94,9 @@ def contact_wrenches(contacts: Contacts, lam: Array, h: float, name: str = PYRAM
     """
     friction_cone = cone(name)
     of_rows = impulses(contacts, lam, name)
-    wrench: Array = wrenches(of_rows, friction_cone.matrix, friction_cone.in_rows(contacts.mu))
+    wrench: Array = wrenches(
+        of_rows, friction_cone.matrix, friction_cone.row_coefficients(contacts.mu)
+    )
     return wrench / h
 
 

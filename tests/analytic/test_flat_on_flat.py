@@ -5,17 +5,24 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import BISECTOR, OF_CLOUD, SAYS
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.shapes.placed_shape import Box, PlacedShape, PointCloud
-from quasistatic_ref.simulate.simulator import Simulator
+from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.tolerances import CLOSED_FORM
-from validation.make.forces_by_hand import FAMILIES, UP, attempts, elsewhere, wrong
+from validation.make.forces_by_hand import (
+    BOX,
+    EDGE,
+    FAMILIES,
+    HALF,
+    STRAIGHT,
+    UP,
+    Scene,
+    attempts,
+    elsewhere,
+    step_of,
+    wrong,
+)
 
-SIDE = 0.1
-CUBE = Box(np.full(3, SIDE / 2))
 LAST, EVERY = 60, 31
 """Of the scenes by hand: other contacts, insets and depths in each family."""
 
@@ -28,30 +35,25 @@ def test_forces_are_those_by_hand(number, name):
     assert set(said) == {""}
 
 
-def side_by_side(way, shape=CUBE):
+def side_by_side(way, shape=BOX):
     """The step, without a load, of a body that is moved from a fixed cube's place."""
-    system = System([Body.of_shape("top", CUBE, 1.0, xyz=way)])
-    low = PlacedShape("low", 0, np.eye(3), np.zeros(3), CUBE)
-    top = PlacedShape("top", system.link("top/solid"), np.eye(3), np.zeros(3), shape)
-    pair = ContactPair("p", low, top, 0.0, 0.0, 4, 8)
-    none = np.zeros((0, 0))
-    simulator = Simulator(system, [pair], h=0.01, K_q=none, gravity=[0, 0, 0], backend="none")
-    return simulator.step(system.q_start, np.zeros(0))
+    bodies = [(shape, STRAIGHT, np.array(way)), (BOX, STRAIGHT, np.zeros(3))]
+    return step_of(Scene(bodies, {(1, 0): UP}, np.zeros((1, 6)), np.zeros(6)), 8, 0.0)
 
 
 def test_equal_gaps_of_zero_have_the_normal_between_and_deeper_ones_none():
-    across = side_by_side([SIDE, 0.0, SIDE])
+    across = side_by_side([EDGE, 0.0, EDGE])
     np.testing.assert_allclose(across.points.n, [[np.sqrt(0.5), 0, np.sqrt(0.5)]] * 8, atol=1e-15)
     assert {*across.tied.values()} == {SAYS[BISECTOR]}
-    with pytest.raises(ContactError, match=r"p: the bodies are as deep .* along \[1., 0., 0.\] as"):
-        side_by_side([SIDE - 1e-3, 0.0, SIDE - 1e-3])
+    with pytest.raises(ContactError, match=r"the bodies are as deep .* along \[1., 0., 0.\] as"):
+        side_by_side([EDGE - 1e-3, 0.0, EDGE - 1e-3])
 
 
 def test_a_cloud_takes_the_face_along_which_it_is_farthest_out():
     # Side by side the cloud's face x = 0.05 is flush with the box's, and so are y and z.
     for way in np.eye(3):
-        result = side_by_side(SIDE * way, shape=PointCloud(CUBE.corners(UP)[0]))
-        near = result.points.phi < SIDE / 2
+        result = side_by_side(EDGE * way, shape=PointCloud(BOX.corners(UP)[0]))
+        near = result.points.phi < HALF
         assert near.sum() == 4
         np.testing.assert_allclose(result.points.n[near], [way] * 4, atol=CLOSED_FORM)
         assert [*result.tied.values()] == [SAYS[OF_CLOUD]] * 4

@@ -78,12 +78,6 @@ def test_pairs_follow_one_another_each_nearest_first(rng):
         start += one.n_c
 
 
-def test_no_pairs_have_no_closest_points():
-    found = closest_points([], standing())
-    assert found.phi.shape == found.point.shape == (0,)
-    assert found.alpha.shape == found.beta.shape == found.n.shape == (0, 3)
-
-
 def test_a_pose_that_is_not_finite_is_refused() -> None:
     still = Kinematics(np.full((1, 3, 3), np.nan), np.zeros((1, 3)), np.zeros((6, 0)))
     with pytest.raises(ContactError, match="poses: must be finite"):

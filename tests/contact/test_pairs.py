@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.pairs import ContactPair, contact_layout
+from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import Box, HalfSpace, PointCloud, Sphere
@@ -24,6 +24,7 @@ REFUSALS = {
     "two clouds": ((CLOUD, CLOUD), {}, "grip: two clouds cannot touch"),
     "one link": ((BOX, BALL), {"link_alpha": 2, "link_beta": 2}, "grip: both shapes are fixed to"),
     "two shapes of the world": ((FLOOR, BOX), {"link_beta": 0}, "grip: both shapes are fixed to"),
+    "no contacts": ((FLOOR, BOX), {"k": 0}, "grip.k: must be a whole number, 1 or more (got 0)"),
     "two half-spaces": ((FLOOR, FLOOR), {}, "grip: two half-spaces always meet"),
 }
 
@@ -54,9 +55,3 @@ def test_a_cloud_makes_k_contacts_or_as_many_as_it_has_points():
     assert [pair(FLOOR, CLOUD, k=k).n_c for k in (1, 2, 3, 4, 100)] == [1, 2, 3, 3, 3]
     assert pair(CLOUD, FLOOR, k=2).n_c == 2
     assert pair(BOX, BALL).n_c == 1
-
-
-def test_no_pairs_have_an_empty_layout():
-    layout = contact_layout([])
-    assert layout.names == ()
-    assert layout.rows.shape == layout.mu_v.shape == layout.link_alpha.shape == (0,)

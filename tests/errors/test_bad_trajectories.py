@@ -10,6 +10,7 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.scenario.scenario import load_scenario
 from tests.errors.scene import scene_written
+from tests.oracles.spoilt_files import zip_bytes
 
 NOT_ONE = "is not a trajectory written by this program"
 
@@ -49,20 +50,12 @@ def rewritten(run, changes=None, header=None, kind=zipfile.ZIP_STORED):
         text = np.frombuffer(json.dumps(record).encode(), dtype=np.uint8)
         members["header.npy"] = npy(text)
     members |= {f"{name}.npy": content for name, content in (changes or {}).items()}
-    file = io.BytesIO()
-    with zipfile.ZipFile(file, "w", kind) as archive:
-        for name, content in members.items():
-            if content is not None:
-                archive.writestr(name, content)
-    return file.getvalue()
+    return zip_bytes([(name, one) for name, one in members.items() if one is not None], kind)
 
 
 def bomb(gibibytes):
     """A member that claims, and holds, very many zeros, in few bytes."""
-    file = io.BytesIO()
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.writestr("t.npy", bytes(2**20))
-    content = bytearray(file.getvalue())
+    content = bytearray(zip_bytes([("t.npy", bytes(2**20))], zipfile.ZIP_DEFLATED))
     at = content.find(b"PK\x01\x02")
     content[at + 24 : at + 28] = (gibibytes * 2**30).to_bytes(4, "little")
     return bytes(content)

@@ -18,17 +18,10 @@ from tests.errors.scene import SCENE, changed, scene_written
 from tests.tolerances import ROUNDING
 
 WEDGE = (
-    # The ball between two boxes, each 1 mm into it: no displacement opens both.
-    ("bodies/ball/wrenches", ...),
-    ("bodies/rail", ...),
-    ("contacts", {
-        name: {"alpha": name, "beta": "ball", "mu_v": 0.5, "rows": 4} for name in ("left", "right")
-    }),
-    ("shapes", {
-        name: {"box": {"size": [0.1, 1.0, 1.0]}, "pose": {"xyz": [0.065 + x, 0.0, 0.05]}}
-        for name, x in (("left", -0.099), ("right", 0.099))
-    }),
-)  # fmt: skip
+    # The ball between the floor and a ceiling 1 mm too low: no displacement opens both.
+    ("shapes/ceiling", {"halfspace": {"normal": [0.0, 0.0, -1.0], "offset": -0.099}}),
+    ("contacts/ceiling", {"alpha": "ceiling", "beta": "ball", "mu_v": 0.5, "rows": 4}),
+)
 SUNK = (("bodies/ball/pose/xyz", [0.065, 0.0, -0.03]),)
 THROWN = (("bodies/ball/wrenches/0/force", [0.0, 0.0, 3e4]), ("contacts", {}))
 """3e4 N on 0.3 kg: h^2 f / m = 10 m a step, straight up from 0.05 m."""
@@ -36,7 +29,7 @@ CASES = {
     # name: (changes to the scene, steps that succeed, words of the sentence)
     "without solution": (
         WEDGE, 0,
-        ("left(left, ball/ball#0)/0", "right(right, ball/ball#0)/0", "contradict each other",
+        ("floor(floor, ball/ball#0)/0", "ceiling(ceiling, ball/ball#0)/0", "contradict each other",
          "widen these gaps, or make one of the bodies compliant"),
     ),
     "too deep": (

@@ -17,15 +17,6 @@ def scenario(tmp_path_factory):
     return load_scenario(written_scenario(tmp_path_factory.mktemp("scene")), steps=1, fast=True)
 
 
-def simulator(scenario, **given):
-    return qr.Simulator(scenario.system, scenario.pairs, h=0.01, K_q=scenario.K_q, **given)
-
-
-def paired(scenario, **given):
-    same = {"name": "push", "alpha": scenario.pairs[0].alpha, "beta": scenario.pairs[0].beta}
-    return qr.ContactPair(**(same | {"mu_v": 0.5, "mu_omega": 0.0, "rows": 4, "k": 1} | given))
-
-
 def w_first(scenario):
     q = scenario.system.q_start.copy()
     q[-4:] = [1, 0, 0, 0]
@@ -34,7 +25,7 @@ def w_first(scenario):
 
 MISTAKES = {
     "an extension in place of a function": (
-        lambda s: simulator(s, extension=qr.Extension()),
+        lambda s: s.simulator(qr.Extension()),
         "extension: must be a function of q that returns an Extension, such as lambda q: own "
         "(got 'Extension')",
     ),
@@ -42,7 +33,6 @@ MISTAKES = {
         lambda s: qr.rollout(s.simulator(), s.system.q_start, s.targets, 3.0),
         "steps: must be a whole number, 0 or more (got 3.0)",
     ),
-    "no contacts": (lambda s: paired(s, k=0), "push.k: must be a whole number, 1 or more (got 0)"),
     "a misspelt array": (
         lambda s: s.run(progress=False)["wrenchs"],
         "wrenchs: is not an array of this trajectory; did you mean 'wrench'?",

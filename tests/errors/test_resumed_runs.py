@@ -17,7 +17,7 @@ from quasistatic_ref.step.extension import Extension
 from tests.errors.scene import SCENE, SUNK, changed, contents, scene_written
 
 STEPS = 9
-STRETCH = 4
+COLD_EVERY = 4
 
 
 class Killed(BaseException):
@@ -25,8 +25,8 @@ class Killed(BaseException):
 
 
 @pytest.fixture(autouse=True)
-def _short_stretches(monkeypatch):
-    monkeypatch.setattr(module, "STRETCH", STRETCH)
+def _cold_often(monkeypatch):
+    monkeypatch.setattr(module, "COLD_EVERY", COLD_EVERY)
 
 
 @pytest.fixture
@@ -73,8 +73,8 @@ def test_a_run_that_was_ended_twice_ends_with_the_bits_of_one_that_was_not(tmp_p
     whole = tmp_path / "whole.npz"
     parted = tmp_path / "parted.npz"
     ran(scenario, whole, extension=extension)
-    # Within the first stretch, and where another has just begun and gone on by two steps.
-    for killed_at in (STRETCH - 1, STRETCH + 2):
+    # Before the second cold start, and two steps after it.
+    for killed_at in (COLD_EVERY - 1, COLD_EVERY + 2):
         assert ran(scenario, parted, killed_at=killed_at, resume=True, extension=extension) is None
         assert saved_steps(parted) == killed_at
     resumed = ran(scenario, parted, resume=True, extension=extension)
@@ -130,7 +130,7 @@ def test_another_run_is_not_resumed_and_what_differs_is_named(tmp_path, scene, o
     changes, says = OTHERS[other]
     path = tmp_path / "run.npz"
     settings = {"steps": STEPS}
-    ran(load_scenario(scene, settings, fast=True), path, killed_at=STRETCH + 1)
+    ran(load_scenario(scene, settings, fast=True), path, killed_at=COLD_EVERY + 1)
     before = sorted(saved_folder(path).iterdir())
     with pytest.raises(InputError) as caught:
         ran(load_scenario(scene, settings | changes, fast=True), path, resume=True)

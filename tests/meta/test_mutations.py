@@ -64,7 +64,7 @@ SAMPLE = {
     ),
     "certify/test_certificate.py::test_a_row_without_multiplier_is_in_no_working_set": (
         f"{CLAIMS} _wrong_sign: lam_i <= 0 -> lam_i < 0",
-        f"{DEPENDENCE} idle_rows: i not in working -> i in working",
+        f"{DEPENDENCE} tight_rows: i not in working -> i in working",
     ),
     "certify/test_exact.py::test_limit_of_friction_is_a_kink": (
         f"{CONES} pyramid: gap - slip_1 -> gap + slip_1",

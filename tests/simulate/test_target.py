@@ -7,8 +7,8 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.scenario.scenario import load_scenario
-from quasistatic_ref.simulate.target import JointTrack, Targets, piecewise_linear
-from tests.tolerances import DIFFERENCE, EXACT, ROUNDING
+from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
+from tests.tolerances import DIFFERENCE, ROUNDING
 
 TIMES = np.array([1.0, 2.0, 4.0])
 VALUES = np.array([[0.0, 5.0], [10.0, 5.0], [-10.0, 6.0]])
@@ -61,17 +61,6 @@ def test_a_base_follows_the_screw_between_its_waypoints(scene, rng):
         np.testing.assert_allclose(
             transform(track.at(t)), expected, rtol=DIFFERENCE, atol=DIFFERENCE
         )
-
-
-def test_joints_without_a_track_keep_their_start(scene):
-    start = scene.q_start[: scene.n_q_a]
-    slide = scene.joint("desk/slide")
-    track = JointTrack(scene, slide, np.array([0.0, 1.0]), np.array([[0.0], [0.4]]))
-    q_bar_a = Targets(start, [track])(0.5)
-    expected = start.copy()
-    expected[slide.q] = 0.2
-    np.testing.assert_allclose(q_bar_a, expected, rtol=ROUNDING)
-    np.testing.assert_allclose(start, scene.q_start[: scene.n_q_a], rtol=EXACT)
 
 
 @pytest.mark.parametrize("times", [[0.0, 0.0], [1.0, 0.5]])

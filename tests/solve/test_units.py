@@ -15,7 +15,7 @@ from quasistatic_ref.solve.units import (
     natural_form,
     natural_step,
     natural_units,
-    within_reach,
+    phi_within_reach,
 )
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
@@ -132,10 +132,10 @@ def test_a_deep_penetration_sets_the_size_where_the_load_is_small(depth):
 def test_contacts_out_of_reach_are_moved_nearer_and_the_others_are_not():
     step = sphere_on_floor(phi=0.0, wrench=(0, 0, -1.0, 0, 0, 0))
     natural = natural_step(step, natural_units(step))
-    assert (within_reach(natural) == natural.contacts.phi).all()
+    assert (phi_within_reach(natural) == natural.contacts.phi).all()
     far = natural.replace(contacts=dataclasses.replace(natural.contacts, phi=np.array([1e9])))
     reach = FAR * max(1.0, np.linalg.norm(natural.contacts.J[0]))
-    np.testing.assert_allclose(within_reach(far), [reach], rtol=ROUNDING, atol=0.0)
+    np.testing.assert_allclose(phi_within_reach(far), [reach], rtol=ROUNDING, atol=0.0)
 
 
 @every_step

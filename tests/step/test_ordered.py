@@ -33,6 +33,7 @@ def test_a_product_of_matrices_is_that_of_loops(m, k, n):
     assert product(A, B[:, 0]).tobytes() == expected[:, 0].tobytes()
     assert product(A[0], B).tobytes() == expected[0].tobytes()
     assert product(A[0], B[:, 0]) == expected[0, 0]
+    assert product(np.array([A, A])[..., :0], B[:0, 0]).tolist() == np.zeros((2, m)).tolist()
 
 
 def test_points_are_turned_by_one_matrix_or_each_by_its_own():

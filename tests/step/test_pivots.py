@@ -51,6 +51,13 @@ def test_a_pivot_counts_from_its_share_on(factor, scale):
     assert positive_pivots(S) == (p > DEFINITE * (1 + p))
 
 
+def test_a_pivot_of_zero_is_none_also_where_rounding_makes_it_positive():
+    """Unless something is taken off the diagonal first, float64 finds 3e-10 of its entry."""
+    L = np.array([[1.0, 0.0, 0.0], [-1.0, 1.0, 0.0], [1.0, -1757.0, 1.0]])
+    S = 7 * L @ np.diag([1.0, 2.0**-21, 0.0]) @ L.T  # nothing is rounded
+    assert not positive_pivots(S)
+
+
 def test_a_stack_and_a_large_matrix_are_decided_block_by_block(monkeypatch):
     sizes = []
     monkeypatch.setattr(pivots, "exact_factor", lambda S, _: sizes.append(len(S)) or S)

@@ -31,15 +31,6 @@ STEPS = {
 }
 
 
-STEP_FIELDS = [
-    "format", "version", "cone", "h", "n_a", "n_u", "K_q", "M_u", "tau_a", "tau_u",
-    "delta_q_bar_a", "contacts",
-]  # fmt: skip
-
-
-CONTACT_FIELDS = ["name", "phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows"]
-
-
 def record_of(step):
     return json.loads(step_text(step))
 
@@ -53,15 +44,10 @@ def test_a_step_read_back_is_the_same_bits(tmp_path, step):
     assert step_sha256(back) == step_sha256(step)
 
 
-def test_the_file_has_the_documented_fields_in_order():
+def test_rows_of_one_s_own_stand_last_and_only_where_there_are_some():
     record = record_of(STEPS["with rows of one's own"])
-    assert list(record) == [*STEP_FIELDS, "extra"]
-    assert list(record["contacts"][0]) == CONTACT_FIELDS
+    assert list(record) == [*record_of(PLAIN), "extra"]
     assert list(record["extra"]) == ["names", "A", "b"]
-    assert "extra" not in record_of(PLAIN)
-    assert (record["format"], record["version"], record["cone"]) == (
-        "quasistatic-ref/step", 1, "pyramid",
-    )  # fmt: skip
 
 
 BY_HAND = (

@@ -130,7 +130,7 @@ class Browser:
         while not self.value(condition):
             if time.monotonic() > end:
                 sys.exit(f"in vain waited for {condition}")
-            time.sleep(0.05)
+            time.sleep(0.01)
 
     def faults(self) -> list[str]:
         """What was asked of the network, and errors, in the pages and in the console."""

@@ -3,16 +3,17 @@
 Run ``python -m validation.tools.check_layout SITE [FOLDER]``, where Debian's package chromium is;
 with FOLDER, screenshots of every page stay there.
 
-Every page is opened at each width of ``WIDTHS``. Nothing may be wider than the window or be cut by
+Every page is shown at each width of ``WIDTHS``. Nothing may be wider than the window or be cut by
 a box that does not scroll: code, tables and equations scroll inside their own boxes. At the larger
 width a command of the shell fits its box, because a comment that has to be scrolled into view is
-not read.
+not read. Listings of source, which are most of the pages, have one frame: it is loaded once.
 
 Prints one line for each fault, page and element, and exits with status 1 if there is any.
 """
 
 from __future__ import annotations
 
+import json
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -23,6 +24,8 @@ ROOT = Path(__file__).parents[2]
 WIDTHS = (400, 1280)
 """Of a phone and of a small laptop [px]."""
 HEIGHT = 900
+LISTINGS = "_modules"
+"""The folder of listings of source."""
 TYPESET = "!window.MathJax || window.typeset"
 """True when MathJax has made its formulas, or a page has none."""
 
@@ -70,6 +73,13 @@ FAULTS = """
 """JavaScript: the faults of the page that is open, one sentence each."""
 
 
+EXCHANGED = """
+(text => document.querySelector('.page').replaceWith(
+  new DOMParser().parseFromString(text, 'text/html').querySelector('.page')))
+"""
+"""JavaScript: what another page has in the frame of the page that is open."""
+
+
 def resized(browser: Browser, width: int) -> None:
     """Give the window a width [px], without scroll bars, which a phone has not."""
     browser.ask(
@@ -79,8 +89,8 @@ def resized(browser: Browser, width: int) -> None:
     browser.ask("Emulation.setScrollbarsHidden", hidden=True)
 
 
-def page_faults(browser: Browser, page: Path, pictures: Path | None = None) -> Iterator[str]:
-    """One sentence for each fault of a page, with the width at which it is one."""
+def opened(browser: Browser, page: Path) -> None:
+    """Load a page, with all formulas made and all boxes unfolded."""
     browser.open(page)
     browser.value("void window.MathJax?.startup?.promise.then(() => { window.typeset = true })")
     browser.until(TYPESET)
@@ -88,6 +98,10 @@ def page_faults(browser: Browser, page: Path, pictures: Path | None = None) -> I
     browser.value("for (const folded of document.querySelectorAll('details')) folded.open = true")
     # Formulas for screen readers: not seen, and taller than the others in Chromium 156.
     browser.value("for (const one of document.querySelectorAll('mjx-assistive-mml')) one.remove()")
+
+
+def page_faults(browser: Browser, page: Path, pictures: Path | None) -> Iterator[str]:
+    """One sentence for each fault of the page that is shown, with the width at which it is one."""
     for width in WIDTHS:
         resized(browser, width)
         for fault in browser.value(f"{FAULTS}({str(width == WIDTHS[-1]).lower()})"):
@@ -107,8 +121,14 @@ def main() -> None:
         pictures.mkdir(parents=True, exist_ok=True)
     pages = [path for path in sorted(site.rglob("*.html")) if "_static" not in path.parts]
     faults = [] if pages else [f"{site} holds no page"]
+    framed = False
     with Browser() as browser:
         for page in pages:
+            if framed and LISTINGS in page.parts:
+                browser.value(f"{EXCHANGED}({json.dumps(page.read_text('utf-8'))})")
+            else:
+                opened(browser, page)
+            framed = LISTINGS in page.parts
             where = page.relative_to(site)
             faults += [f"{where} {fault}" for fault in page_faults(browser, page, pictures)]
     found = "\n".join(faults).encode("utf-8", "replace").decode()  # a letter may be cut in half

@@ -5,9 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.cli import options as shared
-
-UNITS = ("natural", "raw")
-"""As in lab/study/problems/problem.py, which takes a while to import; a test holds them equal."""
+from quasistatic_ref.lab.study.problems.names import NATURAL, UNITS
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -17,7 +15,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("solver", metavar="SOLVER", help=words)
     words = "default (if not given), low, mid, high, tuned, or one of the study's own"
     parser.add_argument("setting", nargs="?", default="default", metavar="SETTING", help=words)
-    parser.add_argument("--units", default="natural", choices=UNITS, help="natural (default), raw")
+    parser.add_argument("--units", default=NATURAL, choices=UNITS, help="natural (default), raw")
     parser.add_argument("--warm", action="store_true", help="from the answer to a neighbour")
     words = "of a study: its problems, solvers, options and limits"
     parser.add_argument("--store", type=Path, metavar="FOLDER", help=words)

@@ -8,15 +8,13 @@ from pathlib import Path
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.cli.main import parsers_of
 from quasistatic_ref.lab.folders import CONTACT_QP_2, problem_set_folder
+from quasistatic_ref.lab.study.problems.names import FORMATS, NATURAL, RAW, UNITS
 
 ACTIONS = {
     "list": "the families of a set, their dials, and how many problems they have",
     "export": "write problems as npz, parquet (qpbenchmark), mat (MATLAB), json or qps",
     "check": "compare a set's files with its hashes; with --exact prove every answer again",
 }
-UNITS = ("raw", "natural")
-FORMATS = ("npz", "parquet", "mat", "json", "qps")
-"""As in lab/study/problems/exports.py, which takes a while to import; a test holds them equal."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -30,7 +28,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     export = parsers["export"]
     to = export.add_argument("--to", required=True, choices=FORMATS, help="which format")
     shared.completed(to, lambda: FORMATS)
-    export.add_argument("--units", default="raw", choices=UNITS, help="raw (SI) or natural")
+    export.add_argument("--units", default=RAW, choices=UNITS, help="raw (SI) or natural")
     export.add_argument("--every", type=int, default=1, metavar="N", help="each N-th problem only")
     for one, words in (("--families", "only these, commas between"), ("--tag", "only such ones"),
                        ("--id", "one problem only")):  # fmt: skip
@@ -76,7 +74,7 @@ def _export(options: argparse.Namespace) -> int:
     found = set_read(folder, families, [options.id] if options.id else None)
     found = [one for one in found if options.tag is None or options.tag in one.facts["tags"]]
     found = found[:: options.every]
-    natural = options.units == "natural"
+    natural = options.units == NATURAL
     problems = [one.natural for one in found] if natural else found
     name = manifest(folder)["name"] + ("-natural" if natural else "")
     paths = exported(name, problems, options.to, options.out)

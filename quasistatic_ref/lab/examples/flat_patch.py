@@ -8,6 +8,7 @@ sides 1 / sqrt(2). In the ellipsoid tangents do not matter.
 """
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -58,6 +59,7 @@ def patch(torque: float, angle: float, cone: str = "pyramid", mu_v: float = MU_V
     return step.replace(cone=cone)
 
 
+@cache
 def held(angle: float, precision: float, cone: str = "pyramid", mu_v: float = MU_V) -> float:
     """The least torque that turns the patch, over mu_v m g a [-], by bisection on steps.
 

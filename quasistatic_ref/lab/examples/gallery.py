@@ -9,7 +9,6 @@ EXAMPLES: Final = (
     "block_on_a_table",
     "six_rows_of_a_contact",
     "cone_surfaces",
-    "section_of_a_cone",
     "finger_spring_block",
     "the_step_loop",
     "phi_and_j_of_a_cloud",

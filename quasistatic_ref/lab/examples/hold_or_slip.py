@@ -27,8 +27,8 @@ D = 0.055
 N = 5.0
 """What they press with [N]."""
 
-MU_V = np.linspace(0.2, 0.8, 21)
-MU_OMEGA = np.linspace(0.0, 0.04, 17)
+MU_V = np.linspace(0.2, 0.8, 13)
+MU_OMEGA = np.linspace(0.0, 0.04, 9)
 """What is swept [-], [m]."""
 
 STEPS = 5

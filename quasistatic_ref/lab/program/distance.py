@@ -13,6 +13,8 @@ from .rotation import AXES, frame
 
 NEAR = 1e-3
 """Distance [m] below which the direction between two points has lost digits."""
+LEAST = 1e-15
+"""A weight below this is rounding."""
 
 
 def transformed(pose, points):
@@ -63,13 +65,13 @@ def shortest(P):
         w = np.append(w, 0.0)
         while True:
             v = affine(P[S])
-            if np.all(v > 0):
+            if np.all(v > LEAST):
                 w = v
                 break
-            low = v <= 0
+            low = v <= LEAST
             t = np.min(w[low] / np.where(w[low] - v[low] > 0, w[low] - v[low], 1.0))
             w = w + t * (v - w)
-            keep = w > 1e-15
+            keep = w > LEAST
             keep[int(np.argmin(np.where(low, w, np.inf)))] = False
             S = [s for s, k in zip(S, keep, strict=True) if k]
             w = w[keep] / w[keep].sum()

@@ -60,7 +60,7 @@ UNPROVED = (
 class EllipsoidCone(CurvedCone):
     """gap >= ||(slip_1, slip_2, spin)||: one second-order cone for each contact."""
 
-    def in_rows(self, mu: Array) -> Array:
+    def row_coefficients(self, mu: Array) -> Array:
         """1, (n_c, 3): the rows of a contact are J_n, J_1, J_2 and J_w [-]; `mu` is the cone's."""
         return np.ones_like(mu)
 

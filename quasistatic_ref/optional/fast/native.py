@@ -74,9 +74,6 @@ class NativeSolver(BackendSolver):
         self.hessian: HessianInBothUnits | None = None
         self.program: Program | SparseProgram = self.empty()
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return type(self), (self.template, self.name)
-
     def empty(self) -> Program | SparseProgram:
         """A program of the right size."""
         template = self.template

@@ -68,9 +68,16 @@ class Constants(NamedTuple):
         return PosedStep if self.M_u.ndim == 2 else BlockStep
 
     def at(self, M_u: Array) -> "Constants":
-        """The same with the M_u, shape (n_u, n_u) [kg, kg m^2], of another configuration."""
+        """The same with the M_u, shape (n_u, n_u) [kg, kg m^2], of another configuration.
+
+        Raises
+        ------
+        StepDataError
+            If M_u is not positive definite.
+        """
         if M_u is self.M_u:
             return self
+        positive_definite("M_u", M_u)
         return self._replace(M_u=M_u, H=hessian(self.h, self.K_q, M_u))
 
 

@@ -76,7 +76,7 @@ class Kept:
         Raises
         ------
         StepDataError
-            If M_u is not positive definite.
+            If H, whose entries are rounded, is not positive definite.
         """
         if self.hessian is None or not self.hessian.fits(step):
             self.hessian = BallHessian(step)

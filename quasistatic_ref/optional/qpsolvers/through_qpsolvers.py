@@ -12,7 +12,7 @@ from quasistatic_ref.solve.backends import QPSOLVERS, Options
 from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import within_reach
+from quasistatic_ref.solve.units import phi_within_reach
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 
@@ -40,7 +40,7 @@ class QpsolversSolver(BackendSolver):
         """Form H, g, A, b; tell which rows are out of reach, shape (m,)."""
         natural = both.natural_step
         contacts = natural.contacts
-        near = replace(contacts, phi=within_reach(natural))
+        near = replace(contacts, phi=phi_within_reach(natural))
         self.form = standard_form(natural.replace(contacts=near))
         return np.repeat(near.phi < contacts.phi, natural.counts)
 

@@ -13,17 +13,17 @@ import numpy as np
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.optional.runs.saved_files import EVERY, SavedSteps, first_step, run_settings
 from quasistatic_ref.parts import needed_part
-from quasistatic_ref.simulate.goals import needed_arguments
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.simulate.recorder import Recorder, StepArrays, program
 from quasistatic_ref.simulate.rollout import start_cold
+from quasistatic_ref.simulate.user_functions import needed_arguments
 from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 
 if TYPE_CHECKING:
-    from quasistatic_ref.simulate.goals import Checked
     from quasistatic_ref.simulate.simulator import Simulator
+    from quasistatic_ref.simulate.user_functions import Checked
 
 
 def begun_or_resumed(
@@ -33,7 +33,7 @@ def begun_or_resumed(
     steps: int,
     recorder: Recorder,
     given: Mapping[str, tuple[Any, Checked]],
-    stretch: int,
+    cold_every: int,
 ) -> SavedSteps:
     """The observer that saves a run, which the recorder has then; and perhaps its saved steps.
 
@@ -53,7 +53,7 @@ def begun_or_resumed(
         At the start of the run, with all other observers.
     given : mapping of str to (object, callable)
         ``"target"`` and ``"force"``, as they were given, and as functions of (t, q, last).
-    stretch : int
+    cold_every : int
         Steps after which the solver starts cold.
 
     Raises
@@ -79,7 +79,7 @@ def begun_or_resumed(
     taken = sum(len(part["t"]) for part, _ in parts)
     start_cold(simulator)
     for part, extra in parts:
-        again = _Again(simulator, target, force, recorder.record, taken // stretch * stretch)
+        again = _Again(simulator, target, force, recorder.record, taken // cold_every * cold_every)
         recorder.take(part | again.posed(part, recorder), extra)
     return saved
 
@@ -139,7 +139,9 @@ class _Again:
             simulator.solution(step)
             return
         with suppress(StepNotSolved):
-            solve_step(step, simulator.fitting(step), accuracy=simulator.accuracy, certify="off")
+            solve_step(
+                step, simulator.fitting_solver(step), accuracy=simulator.accuracy, certify="off"
+            )
 
 
 def _check(what: str, k: int, then: Array, now: Array) -> None:

@@ -2,15 +2,25 @@
 
 import numpy as np
 import pytest
+from flint import fmpq
+from scipy.optimize import nnls
 
-from quasistatic_ref.certify.compliance import forces
-from quasistatic_ref.certify.compliance.face_guess import guessed_faces
+from quasistatic_ref.certify.compliance import eliminated, forces
+from quasistatic_ref.certify.compliance.faces import (
+    exact_multipliers,
+    exact_numbers,
+    face,
+    float_multipliers,
+    nearest_face,
+    rows_of,
+)
 from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import X, repeated
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import COMPLIANCE
 from tests.helpers import changed
@@ -23,7 +33,8 @@ M = 1.0
 G = 9.81
 MU_V = 0.5
 CORNERS = [[x, y, -0.03] for x in (0.05, -0.05) for y in (0.05, -0.05)]
-CONES = ("pyramid", "product", "facets-6", "frictionless", "ellipsoid")
+POLYHEDRAL = ("pyramid", "product", "facets-6", "frictionless")
+CONES = (*POLYHEDRAL, "ellipsoid")
 
 
 def block(rows: int = 6, push: float = 0.0, mu_omega: float = 0.01, cone: str = "pyramid"):
@@ -69,35 +80,73 @@ def test_noise_of_rounding_size_does_not_change_them(cone):
     assert checks.noise_of_rounding(step, solve_step(step)) < checks.CHANGE
 
 
-def test_where_newtons_method_does_not_end_the_definition_decides(monkeypatch):
-    step = block(push=1.0)
+def walled_block():
+    """One that slides against a wall: x <= 0."""
+    return block(push=9.0).replace(extra=Extra(("wall",), -np.eye(6)[:1], np.zeros(1)))
+
+
+@pytest.mark.parametrize("step", [block(push=1.0), walled_block()])
+def test_where_newtons_method_does_not_end_the_definition_decides(step, monkeypatch):
     quick = contact_forces(step).wrench
     monkeypatch.setattr(forces, "eliminated_optimum", lambda *_: None)
     assert contact_forces(step).wrench.tobytes() == quick.tobytes()
+
+
+def never(*_):
+    raise AssertionError("what faces decide was left to the definition")
+
+
+@pytest.mark.parametrize("cone", [*POLYHEDRAL, "facets-12"])
+def test_the_nearest_face_obeys_its_conditions_and_has_the_nearest_point(cone):
+    """In small whole numbers, where many points lie on two faces; and by Lawson and Hanson's nnls.
+
+    In exact numbers the conditions of :class:`Face` are those of the optimum.
+    """
+    rng = np.random.default_rng(0)
+    C = rows_of(cone, len(cone_matrix(cone)))
+    for z in rng.integers(-3, 4, (200, 4)):
+        own = np.array([fmpq(int(x)) for x in z], dtype=object)
+        proved = face(cone, len(C), nearest_face(exact_numbers(C), own, exact_multipliers))
+        assert min(proved.integers[:-4] @ z) >= 0
+        guessed = face(cone, len(C), nearest_face(C, z * 1.0, float_multipliers, 1e-12))
+        nearest = C.T @ nnls(C.T, -z)[0]
+        for found in (proved, guessed):
+            np.testing.assert_allclose(found.floats[-4:] @ z, nearest, rtol=0, atol=1e-12)
+
+
+def test_a_row_whose_multiplier_rounding_makes_negative_is_dropped():
+    assert nearest_face(np.eye(4), -np.ones(4), lambda C_w, _: -np.ones(len(C_w))) == ()
+
+
+def test_faces_are_guessed_in_floats(monkeypatch):
+    monkeypatch.setattr(forces, "defined_optimum", never)
+    monkeypatch.setattr(eliminated, "PROOFS", 1)
+    contact_forces(walled_block())
+    for _, step in checks.random_steps(7):
+        contact_forces(step)
 
 
 def test_wrong_guesses_are_mended_in_exact_numbers(monkeypatch):
     """Faces on which no contact bears a load."""
 
     def nothing(step, compliance, near):
-        guessed_faces(step, compliance, near)
         return [()] * step.contacts.n_c, []
 
-    for _, step in checks.random_steps(2):
-        quick = contact_forces(step).wrench
+    monkeypatch.setattr(forces, "defined_optimum", never)
+    steps = dict(checks.random_steps(12))
+    for name in ("random 6", "random 9", "random 13"):
+        quick = contact_forces(steps[name]).wrench
         with monkeypatch.context() as patch:
             patch.setattr(forces, "guessed_faces", nothing)
-            assert contact_forces(step).wrench.tobytes() == quick.tobytes()
+            assert contact_forces(steps[name]).wrench.tobytes() == quick.tobytes()
 
 
 def test_a_row_of_a_user_stays_hard():
-    step = block(push=9.0)
-    names = ("wall",)
-    row = np.eye(6)[:1]
-    walled = step.replace(extra=Extra(names, -row, np.zeros(1)))  # x <= 0
-    solution = solve_step(walled)
+    step = walled_block()
+    solution = solve_step(step)
     assert solution.compliant.delta_q[0] == 0.0
     assert solution.compliant.delta_q[2] < 0.0
+    assert contact_forces(step).wrench.tobytes() == solution.forces.tobytes()
 
 
 def test_rows_that_contradict_each_other_are_proved_to():

@@ -9,10 +9,8 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.lab.commands import study_ask
 from quasistatic_ref.lab.page.markdown import markdown_page
 from quasistatic_ref.lab.study.measuring.ask import question
-from quasistatic_ref.lab.study.problems.problem import UNITS
 from quasistatic_ref.lab.study.report.report import study_report
 from quasistatic_ref.lab.study.store.store import contents
 from tests.lab.study import made_store, plain_report
@@ -73,7 +71,6 @@ def test_each_command_runs_the_same_again_and_finds_the_same(whole, monkeypatch,
 
 
 def test_a_problem_of_the_set_is_run_without_any_store(capsys):
-    assert tuple(sorted(UNITS)) == study_ask.UNITS
     assert main(["study", "ask", WEDGE, "qpsolvers:daqp", "tuned"]) == 0
     out = capsys.readouterr().out
     assert "13 coordinates, 44 rows" in out

@@ -8,15 +8,18 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from quasistatic_ref.lab import program
+from quasistatic_ref.lab.program.distance import closest_points
 from quasistatic_ref.lab.vectors.challenge.fresh import record_of
 from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
 from tests.lab.vectors.material import JAVASCRIPT, NUMPY, VECTORS, cases
+from tests.tolerances import CLOSED_FORM
 from validation.make.planted_bugs import COMMANDS, RUNNERS
 
 PROGRAM = Path(program.__file__).parent
@@ -71,6 +74,19 @@ def test_what_challenges_found_in_the_programs_is_mended(name):
                 "qp", Case(str(i), "", case), record_of("qp", case), reply.output, program.said
             )
             assert one.verdict.verdict != FAILED, one.verdict
+
+
+def test_boxes_that_touch_with_their_faces_are_not_apart():
+    """Half of 0.06 m and, after a quarter turn, half of 0.1 m are 0.08 m along x.
+
+    Differences of corners are on a grid: the point of least length needs none of some that Wolfe's
+    method tries, but for rounding.
+    """
+    box = {"kind": "box", "size": [0.06, 0.1, 0.16]}
+    turned = np.array([[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+    there = turned, np.array([-0.08, -0.03, 0.01])
+    phi, *_ = closest_points(box, (np.eye(3), np.zeros(3)), box, there)
+    np.testing.assert_allclose(phi, 0, rtol=0, atol=CLOSED_FORM)
 
 
 def test_the_plain_program_shares_no_code_with_the_package():

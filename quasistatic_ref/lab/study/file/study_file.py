@@ -25,7 +25,7 @@ from quasistatic_ref.lab.study.file.fields import (
 from quasistatic_ref.lab.study.file.solver_lists import chosen_solvers, own_solvers
 from quasistatic_ref.lab.study.problems.dials import SCENARIOS
 from quasistatic_ref.lab.study.problems.for_study import TestSet
-from quasistatic_ref.lab.study.problems.problem import UNITS
+from quasistatic_ref.lab.study.problems.names import UNITS
 
 KINDS = ("solvers", "sweep")
 GB = 1e9

@@ -15,7 +15,8 @@ from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
 from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver
-from quasistatic_ref.lab.study.problems.problem import NATURAL, RAW, Answer, Problem
+from quasistatic_ref.lab.study.problems.names import NATURAL, RAW
+from quasistatic_ref.lab.study.problems.problem import Answer, Problem
 from quasistatic_ref.lab.study.store.rows import CLOCKS, Row
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.units import Units

@@ -15,12 +15,10 @@ from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_written, json_text, text_written, written_whole
 from quasistatic_ref.lab.folders import CONTACT_QP_2, EDITIONS, problem_set_folder
+from quasistatic_ref.lab.study.problems.names import PARQUET, QPS
 from quasistatic_ref.lab.study.problems.problem import QP, SPARSE, Problem
 from quasistatic_ref.lab.vectors.parquet import Program, npz_written, parquet_written
 
-PARQUET = "parquet"
-QPS = "qps"
-FORMATS = ("npz", PARQUET, "mat", "json", QPS)
 CARRIED = ("LICENSE*", "CITATION.cff")
 """Files of a set that come with every export of it; of contact-qp-2, where a set has none."""
 WORDS = ("id", "family", "kind", "status", "dial", "tags")

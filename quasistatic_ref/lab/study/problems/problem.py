@@ -17,7 +17,6 @@ OPTIMAL = "optimal"
 INFEASIBLE = "infeasible"
 EXACT, ENCLOSED, BOUNDED = "exact", "enclosed", "bounded"
 """How an answer is known: rounded correctly; off by rounding at most; off by a proved bound."""
-RAW, NATURAL = UNITS = ("raw", "natural")
 SPARSE = "sparse"
 """The tag of problems that are too large to be dense."""
 

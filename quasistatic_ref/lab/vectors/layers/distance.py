@@ -3,16 +3,21 @@
 from collections.abc import Iterator
 from typing import Any, Final
 
+import numpy as np
+
 from quasistatic_ref.lab.vectors.distances.solid_pair import witnesses
 from quasistatic_ref.lab.vectors.distances.witness import Witness
 from quasistatic_ref.lab.vectors.exact.precision import Real, number, rounded
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
+from quasistatic_ref.lab.vectors.trees import mapped
 
 CURVED: Final = ("cylinder", "cone", "ellipsoid")
 SIMPLE: Final = ("sphere", "halfspace", "cloud")
 """Whatever meets these has its normal from one closed form."""
 
 FIELDS: Final = ("phi", "alpha", "beta", "n")
+KEPT: Final = ("kind", "vertices", "points")
+"""Fields of a shape that stay: a hull's corners would become others, and a pose moves them."""
 EPS: Final = 2.0**-52
 
 ROUNDINGS: Final = 16.0
@@ -36,10 +41,10 @@ others: corners of faces that are parallel but for rounding. A point of capsules
 def expected(case_input: Json) -> Expected:
     """Closest points; of a cloud, lists over its points."""
     output, digits, unique = answer(case_input)
+    tolerance, settled = _tolerance(case_input, output, unique)
     cloud = "cloud" in (case_input["alpha"]["kind"], case_input["beta"]["kind"])
     if not cloud:
         output, digits = ({key: value[0] for key, value in t.items()} for t in (output, digits))
-    tolerance, settled = _tolerance(case_input)
     return Expected(output, digits, {"unique": all(unique) and settled}, tolerance)
 
 
@@ -55,14 +60,15 @@ def answer(case: dict[str, Any]) -> tuple[dict[str, Json], dict[str, Json], list
     return output, digits, [one.unique for one in found]
 
 
-def _tolerance(case: dict[str, Any]) -> tuple[dict[str, Tolerance], bool]:
+def _tolerance(
+    case: dict[str, Any], output: dict[str, Json], unique: list[bool]
+) -> tuple[dict[str, Tolerance], bool]:
     """What a change of the input by its own rounding does to the answer, and twice as much.
 
     A field that the change turns to another of several answers is compared by the checker's
     rules for those, not by its value: such changes are left out. And whether there was none where
     the answer itself is unique.
     """
-    output, _, unique = answer(case)
     shapes = case["alpha"], case["beta"]
     lengths = [value for shape in shapes for key, value in shape.items() if key != "kind"]
     places = [case["pose_alpha"]["xyz"], case["pose_beta"]["xyz"], output["alpha"], output["beta"]]
@@ -115,11 +121,7 @@ def _changed(case: dict[str, Any], signs: Iterator[int], size: float) -> dict[st
             "xyz": [moved(x, size) for x in pose["xyz"]],
             "quaternion": [moved(x, longest) for x in pose["quaternion"]],
         }
-        # Vertices and points stay: a hull's corners would become others, and a pose moves them.
-        changed[side] = {
-            key: value if key in ("kind", "vertices", "points") else _each(value, moved)
-            for key, value in case[side].items()
-        }
+        changed[side] = mapped(case[side], lambda x: moved(x, abs(x)), KEPT)
     return changed
 
 
@@ -131,16 +133,9 @@ def _signs(seed: int) -> Iterator[int]:
         yield 1 if state >> 63 else -1
 
 
-def _each(value: Any, moved: Any) -> Any:
-    return (
-        [moved(x, abs(x)) for x in value] if isinstance(value, list) else moved(value, abs(value))
-    )
-
-
 def _distance(first: Any, second: Any) -> float:
     """The largest difference of two numbers in the same place."""
-    pairs = zip(_leaves(first), _leaves(second), strict=True)
-    return max(abs(x - y) for x, y in pairs)
+    return float(np.abs(np.subtract(first, second)).max())
 
 
 def _leaves(value: Any) -> list[float]:

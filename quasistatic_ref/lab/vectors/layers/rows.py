@@ -37,7 +37,7 @@ def expected(case_input: Json) -> Expected:
 
 def row_count(name: str, rows: int) -> int:
     """How many rows a contact has in a cone, its ``rows`` being 6 or 4."""
-    return len(cone(name).row_names) if rows == 6 else cone(name).short
+    return len(cone(name).row_names) if rows == 6 else cone(name).without_torsion
 
 
 def by_contact(values: Json, name: str, contacts: Json) -> list[Json]:

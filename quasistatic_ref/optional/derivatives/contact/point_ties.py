@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints, late, relative_pose
+from quasistatic_ref.contact.distance import ClosestPoints, ranked_last, relative_pose
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.shapes.placed_shape import PointCloud
@@ -40,7 +40,7 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
         phi = _cloud_distances(b, a, a.shape.points)
     else:
         every = of.candidates
-        phi = np.where(late(every, pair.k), np.inf, every.phi)
+        phi = np.where(ranked_last(every, pair.k), np.inf, every.phi)
         number = every.point
     worst = points.phi.max()
     as_near = number[np.abs(phi - worst) <= TIED * of.size]

@@ -23,10 +23,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from flint import fmpq, fmpq_mat
+from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.certificate import Certificate
-from quasistatic_ref.certify.dependence import combination, idle_rows, independent_rows
+from quasistatic_ref.certify.dependence import combination, independent_rows, tight_rows
 from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_fraction
@@ -139,33 +139,36 @@ def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
 
 
 def _active(form: ExactForm, working: tuple[int, ...]) -> Active:
-    spanned, unspanned = idle_rows(form, working, rational_solution(form, working).slack)
+    spanned, unspanned = tight_rows(form, working, rational_solution(form, working).slack)
     also = strictly_active(form, working, unspanned)
     strict = (*working, *spanned, *also)
     idle = tuple(i for i in unspanned if i not in also)
     return Active(independent_rows(form, strict), strict, idle)
 
 
+def _minimiser(form: ExactForm, basis: tuple[int, ...]) -> tuple[list[fmpq], list[fmpq]]:
+    """Return x on a basis, and its multipliers, in the form's units."""
+    solution = rational_solution(form, basis)
+    x = [fmpq(v) / solution.denominator for v in solution.x]
+    lam = [fmpq(v) / solution.denominator for v in solution.lam]
+    return x, lam
+
+
 def _derivatives(form: ExactForm, active: Active, changes: Sequence[Change]) -> fmpq_mat:
     """Return dx for every change, in the form's units per SI unit of the parameter."""
     n = form.n
     basis = active.basis
-    k = len(basis)
-    solution = rational_solution(form, basis)
-    x = [fmpq(v) / solution.denominator for v in solution.x]
-    lam = dict(zip(basis, (fmpq(v) / solution.denominator for v in solution.lam), strict=True))
-    K = fmpq_mat(n + k, n + k)
-    for i in range(n):
-        for j in range(n):
-            K[i, j] = fmpq(form.H[i, j])
-    for r, i in enumerate(basis, start=n):
-        for j in range(n):
-            K[r, j], K[j, r] = fmpq(form.A[i, j]), fmpq(-form.A[i, j])
-    right = fmpq_mat(n + k, len(changes))
+    right = fmpq_mat(n + len(basis), len(changes))
+    if not (changes and n):
+        return right
+    x, multipliers = _minimiser(form, basis)
+    lam = dict(zip(basis, multipliers, strict=True))
+    A = form.rows(basis)
+    balance = [[*row, *(-a[v] for a in A)] for v, row in enumerate(form.H.tolist())]
+    held = [[*a, *[fmpz(0)] * len(basis)] for a in A]
     per_H = form.x_unit / form.net_unit
     per_g = 1 / form.net_unit
     per_A = form.x_unit / form.slack_unit
-    per_b = 1 / form.slack_unit
     for p, change in enumerate(changes):
         top = [dg * per_g for dg in change.g] or [fmpq(0)] * n
         for (i, j), dH in change.H.items():
@@ -173,18 +176,17 @@ def _derivatives(form: ExactForm, active: Active, changes: Sequence[Change]) -> 
         for i, row in change.A.items():
             if i in lam:
                 top = [t + a * per_A * lam[i] for t, a in zip(top, row, strict=True)]
-        for v, t in enumerate(top):
-            right[v, p] = t
-        for r, i in enumerate(basis, start=n):
-            right[r, p] = _gap_rate(change, i, x, per_A, per_b)
-    return K.solve(right) if changes and n else fmpq_mat(n, len(changes))
+        for r, value in enumerate((*top, *(_gap_rate(form, change, i, x) for i in basis))):
+            right[r, p] = value
+    return fmpq_mat(fmpz_mat(balance + held)).solve(right)
 
 
-def _gap_rate(change: Change, i: int, x: Sequence[fmpq], per_A: fmpq, per_b: fmpq) -> fmpq:
+def _gap_rate(form: ExactForm, change: Change, i: int, x: Sequence[fmpq]) -> fmpq:
     """Return db_i - dA_i x."""
-    rate = change.b.get(i, fmpq(0)) * per_b
+    rate = change.b.get(i, fmpq(0)) / form.slack_unit
     if i in change.A:
-        rate -= per_A * sum((a * v for a, v in zip(change.A[i], x, strict=True)), fmpq(0))
+        moved = sum((a * v for a, v in zip(change.A[i], x, strict=True)), fmpq(0))
+        rate -= form.x_unit / form.slack_unit * moved
     return rate
 
 
@@ -200,15 +202,12 @@ def _obstacle(
         if tied:
             return f"the equations of {_names(step, tied)} would contradict each other"
     if active.idle:
-        solution = rational_solution(form, active.basis)
-        x = [fmpq(v) / solution.denominator for v in solution.x]
-        per_A = form.x_unit / form.slack_unit
-        per_b = 1 / form.slack_unit
+        x, _ = _minimiser(form, active.basis)
         opening = [
             i
             for i in active.idle
             if sum((a * v for a, v in zip(form.row(i), dx, strict=True)), fmpq(0))
-            != _gap_rate(change, i, x, per_A, per_b)
+            != _gap_rate(form, change, i, x)
         ]
         if opening:
             return f"{_names(step, opening)} touches without load: it holds on one side only"

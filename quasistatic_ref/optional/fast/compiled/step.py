@@ -201,7 +201,7 @@ class CompiledStep:
         accuracy = simulator.accuracy
         certify = simulator.certify
         if solver is None or solver is not simulator.solver:  # what fits one fits all of them
-            found = simulator.fitting(step)
+            found = simulator.fitting_solver(step)
             assert isinstance(found, FastSolver)
             self.solver = solver = found
         units = self.units(solver, step)

@@ -50,7 +50,7 @@ class BallHessian:
     Raises
     ------
     StepDataError
-        If M_u is not positive definite.
+        If H, whose entries are rounded, is not positive definite.
     """
 
     def __init__(self, step: StepData) -> None:

@@ -20,7 +20,7 @@ import numpy as np
 from flint import fmpz
 
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
-from quasistatic_ref.certify.dependence import follow, idle_rows
+from quasistatic_ref.certify.dependence import follow, tight_rows
 from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import (
     Dyadic,
@@ -86,7 +86,7 @@ def zeros(
     total = [sum(column, fmpz(0)) for column in columns]
     if not rows or all(follow(form.equations(w), [total])):
         return all_active
-    spanned, unspanned = idle_rows(form, w, solution.slack)
+    spanned, unspanned = tight_rows(form, w, solution.slack)
     unique = multipliers_unique(form, w, spanned, unspanned)
     return Degeneracy(unique, differentiable(form, w, unspanned))
 

@@ -250,6 +250,6 @@ def _rim(name: str) -> Array:
     if not kind.polyhedral:  # the ellipsoid's is a circle
         angle = np.linspace(0, 2 * np.pi, ROUND, endpoint=False)
         return np.stack([np.cos(angle), np.sin(angle), np.ones(ROUND)], axis=1)
-    flat = cone_matrix(name)[: kind.short, 1:3]
+    flat = cone_matrix(name)[: kind.without_torsion, 1:3]
     flat = flat[np.argsort(np.arctan2(flat[:, 1], flat[:, 0]))]
     return np.column_stack([flat, np.ones(len(flat))])

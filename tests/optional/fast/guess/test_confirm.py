@@ -5,12 +5,11 @@ import pytest
 
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step, grasp_step
 from quasistatic_ref.optional.fast.compiled import why_not
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
-from quasistatic_ref.step.data import Extra, StepData
+from quasistatic_ref.step.data import Extra
 from tests.certify.test_exact import resting_point
 from tests.helpers import pinch, planted_step, random_step, sphere_on_floor
 from validation.make import confirmed_bits
@@ -74,12 +73,3 @@ def test_rows_that_depend_on_each_other_are_refused():
     """All six of a contact that sticks have rank four."""
     step = sphere_on_floor(wrench=(0.0, 0.0, -3.0, 0.0, 0.0, 0.0))
     assert BallStep(step, BallHessian(step)).confirmed(range(6)) is None
-
-
-def test_a_mass_matrix_that_a_simulator_poses_is_checked():
-    """1 and 1, and between them the float64 next to 1: the determinant is less than 0."""
-    step = StepData(1.0, np.eye(0), np.eye(2), [], [0.0, 0.0], [], no_contacts(2))
-    M_u = np.array([[1.0, np.nextafter(1.0, 2.0)], [np.nextafter(1.0, 2.0), 1.0]])
-    object.__setattr__(step, "M_u", M_u)
-    with pytest.raises(StepDataError, match="M_u: must be positive definite"):
-        BallHessian(step)
