@@ -73,6 +73,8 @@ class System(Shown):
         How links move with the coordinates.
     constant_mass_matrix : bool
         Whether M_u is the same array at every q: un-actuated joints are bases of rigid bodies.
+    varying_mass : MassMatrix or None
+        What gives M_u at a configuration; None if M_u is constant.
     mass_blocks : ndarray, shape (n_u / 6, 6, 6)
         The diagonal blocks of M_u [kg, kg m, kg m^2]; no blocks unless M_u is constant.
     texts : tuple of str
@@ -154,11 +156,11 @@ class System(Shown):
         self.column_map = ColumnMap(self._model, world.frames, self._order)
         unactuated = [joint for joint in self.joints if not joint.actuated]
         self.constant_mass_matrix = constant_mass(self._model, unactuated)
-        self._mass: MassMatrix | None = None  # if M_u is constant
+        self.varying_mass: MassMatrix | None = None
         if not self.constant_mass_matrix:
             inertias = (self.masses, self.centres, self.inertias)
             at = self.kinematics(self.neutral())
-            self._mass = mass_matrix(self._model, unactuated, at, self.n_a, inertias)
+            self.varying_mass = mass_matrix(self._model, unactuated, at, self.n_a, inertias)
             unactuated = []
         self.mass_blocks = read_only(rigid_masses(self._model, unactuated))
         if not (self.constant_mass_matrix and positive_pivots(self.mass_blocks)):
@@ -254,8 +256,8 @@ class System(Shown):
 
     def M_u(self, q: Array) -> Array:
         """Un-actuated block of the mass matrix at q, shape (n_u, n_u) [kg, kg m, kg m^2]."""
-        if self._mass is not None:
-            return self._mass.at(self.kinematics(q))
+        if self.varying_mass is not None:
+            return self.varying_mass.at(self.kinematics(q))
         if self._M_u is None:
             self._M_u = whole(self.mass_blocks)
         return self._M_u
@@ -281,8 +283,8 @@ class System(Shown):
         """
         at = np.asarray(q, dtype=np.float64).tobytes()
         if self._latest is None or self._latest[0] != at:
-            poses = self._workspace.poses(self._order.model_q(q))
-            self._latest = at, Kinematics(*poses, self.column_map)
+            self._workspace.move(self._order.model_q(q))
+            self._latest = at, Kinematics(*self._workspace.poses(), self.column_map)
         return self._latest[1]
 
     def centre_of_mass_force(

@@ -97,12 +97,12 @@ class Workspace:
             self._at = at, [part.part_q(q) for part in self.parts]
         return self._at[1]
 
-    def poses(self, q: Array) -> tuple[Array, Array, Array]:
+    def poses(self) -> tuple[Array, Array, Array]:
         """R (L, 3, 3) and t (L, 3) of all links, the world first, and all joints' columns (6, n_x).
 
-        Columns are as in :class:`~quasistatic_ref.model.kinematics.Kinematics`; all are read-only.
+        They are those of the last move. Columns are as in
+        :class:`~quasistatic_ref.model.kinematics.Kinematics`; all are read-only.
         """
-        self.move(q)
         R = [WORLD]
         t = [ORIGIN]
         columns = []

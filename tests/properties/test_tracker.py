@@ -1,5 +1,8 @@
 """Contacts followed from step to step against the brute force: the same bits, whatever happens."""
 
+import copy
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
@@ -188,10 +191,12 @@ def test_a_sheet_that_comes_and_goes_above_a_floor_needs_no_new_list(rng):
 def test_pairs_of_solids_and_of_clouds_stay_in_their_order(rng):
     solid = [placed(SHAPES["box"], i) for i in (1, 2)]
     points = placed(PointCloud(cloud("random", 99, rng)), 3)
-    other = placed(SHAPES["sphere"], 3)
-    sides = [(solid[0], points), (solid[0], solid[1]), (points, solid[1]), (solid[1], other)]
+    sphere = placed(SHAPES["sphere"], 3)
+    sides = [(solid[0], points), (solid[0], solid[1]), (points, solid[1]), (solid[1], sphere)]
     pairs = [pair(*two, 3) for two in sides]
-    same_bits(ContactTracker(pairs), pairs, *poses((0, 0, 0.4), (0, 0.3, 0), (0.1, 0, 0.1)))
+    tracker = ContactTracker(pairs)
+    for other in (tracker, copy.deepcopy(tracker), pickle.loads(pickle.dumps(tracker))):
+        same_bits(other, pairs, *poses((0, 0, 0.4), (0, 0.3, 0), (0.1, 0, 0.1)))
     same_bits(ContactTracker(pairs[1::2]), pairs[1::2], *poses((0, 0, 0.4), (0, 0.3, 0), (0, 0, 0)))
 
 

@@ -32,7 +32,12 @@ from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
-from quasistatic_ref.solve.units import Units, float_inverse, natural_step, natural_units
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    Units,
+    float_inverse,
+    natural_step,
+)
 from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from tests.oracles.random_steps import mixed_step
@@ -89,8 +94,11 @@ def proof(step: StepData, rows: Indices) -> Proof:
     fast = compiled("certificate")
     if fast is None:
         return None
-    units = natural_units(step)
-    found: Proof = fast.prover(step, units.coordinate, None).optimum(step, rows, units)
+    both = DenseStepInBothUnits(step)
+    prover = fast.undivided(both)
+    prover.optimum(both, *np.zeros((2, step.m)))
+    (own,) = prover.proofs
+    found: Proof = None if own is None else own.optimum(step, rows, both.units)
     return found
 
 

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -35,6 +35,9 @@ SMALL = 24
 TOUCHING = 1e-6
 """Slack of a row, in natural units, up to which its contact may touch [-]."""
 
+Coupling: TypeAlias = "list[Array | bytes | float]"
+"""What couples the coordinates of a step, and how."""
+
 
 @dataclass(frozen=True, eq=False)
 class GroupNorm:
@@ -63,7 +66,8 @@ class Kept:
     def __init__(self) -> None:
         self.hessian: BallHessian | None = None
         self.hessian_in_both_units: HessianInBothUnits | None = None
-        self.prover: Any = None
+        self._alone: Any = None
+        self._of_alone: HessianInBothUnits | None = None
 
     def hessian_of(self, step: StepData) -> BallHessian:
         """H of a step in balls: the one that is kept, if it is the same.
@@ -83,8 +87,19 @@ class Kept:
         assert self.hessian is not None
         return self.hessian.norm
 
+    def alone(self, both: DenseStepInBothUnits, lam: Array, slack: Array) -> Any:
+        """What C proves of a step that is one group, as of :meth:`proved`; None if it does not."""
+        in_c = compiled("certificate")
+        if in_c is None:
+            return None
+        if self._of_alone is not both.hessian:
+            self._of_alone = both.hessian
+            self._alone = in_c.undivided(both)
+        self._alone.optimum(both, lam, slack)
+        return self._alone.proofs[0]
+
     def proved(
-        self, both: DenseStepInBothUnits, lam: Array, slack: Array
+        self, both: DenseStepInBothUnits, lam: Array, slack: Array, in_c: Any
     ) -> tuple[ExactOptimum | None, list[int]]:
         """The optimum of a step, proved on the rows that an answer presses: in C, or in balls.
 
@@ -93,6 +108,8 @@ class Kept:
         both : DenseStepInBothUnits
         lam, slack : ndarray, shape (m,)
             Of the answer, both in natural units [-].
+        in_c : GroupProof or None
+            What C has proved of the step already.
 
         Returns
         -------
@@ -102,16 +119,11 @@ class Kept:
             Where the exact method is then to start.
         """
         step = both.si_step
-        hessian = self.hessian_of(both.si_step)
-        in_c = compiled("certificate")
-        if in_c is not None:
-            self.prover = in_c.prover(step, both.units.coordinate, self.prover)
-        in_balls = cache(lambda: BallStep(step, hessian))
+        in_balls = cache(lambda: BallStep(step, self.hessian_of(step)))
+        in_c = self.alone(both, lam, slack) if in_c is None else in_c
 
         def proof(guess: Indices) -> Proof:
-            found: Proof = None
-            if self.prover is not None:
-                found = self.prover.optimum(step, guess, both.units)
+            found: Proof = None if in_c is None else in_c.optimum(step, guess, both.units)
             return in_balls().confirmed(guess) if found is None else found
 
         guess = _guess(both, lam, slack)
@@ -145,21 +157,42 @@ class KeptGroup:
     constant: Constants | None
     kept: Kept
 
-    def in_both_units(self, whole: StepInBothUnits) -> DenseStepInBothUnits:
-        """The step of the group in its own natural units, from the `whole` step."""
-        if self.constant is None:
-            return (
-                whole
-                if isinstance(whole, DenseStepInBothUnits)
-                else KeptStepInBothUnits(whole.si_step, None)
-            )
-        both = KeptStepInBothUnits(
-            self._step(whole.si_step, self.constant), self.kept.hessian_in_both_units
+    def optimum(self, whole: StepInBothUnits, lam: Array, slack: Array, in_c: Any) -> ExactOptimum:
+        """The exact optimum of the group; parameters of the `whole` step as of :class:`Kept`'s.
+
+        Raises
+        ------
+        StepInfeasible
+        """
+        found: ExactOptimum | None = None if in_c is None else in_c.decided()
+        if found is None:
+            own = self.in_both_units(whole)
+            rows = self.group.rows
+            found, start = self.kept.proved(own, lam[rows], slack[rows], in_c)
+        return (
+            group_optimum(whole.si_step, self.group, own.si_step, start) if found is None else found
         )
-        self.kept.hessian_in_both_units = both.hessian
+
+    def in_both_units(self, whole: StepInBothUnits) -> DenseStepInBothUnits:
+        """The step of the group in its own natural units, from the `whole` step.
+
+        Raises
+        ------
+        StepDataError
+            If M_u is not positive definite.
+        """
+        both = whole
+        if self.constant is not None or not isinstance(both, DenseStepInBothUnits):
+            both = KeptStepInBothUnits(self.step(whole.si_step), self.kept.hessian_in_both_units)
+            self.kept.hessian_in_both_units = both.hessian
+        self.kept.hessian_of(both.si_step)
         return both
 
-    def _step(self, step: StepData, constant: Constants) -> PosedStep:
+    def step(self, step: StepData) -> StepData:
+        """The step of the group, from the whole `step`."""
+        constant = self.constant
+        if constant is None:
+            return step
         group = self.group
         given = step.contacts
         a, u = split(step, group)
@@ -192,9 +225,11 @@ class Proofs:
 
     def __init__(self) -> None:
         self.parts: list[KeptGroup] = []
-        self._of_parts: list[Array | bytes | float] = []
-        self._of_small: list[Array | bytes | float] = []
-        self._small = np.zeros(0, dtype=bool)
+        self._of_parts: Coupling = []
+        self._of_small: Coupling = []
+        self._small: Mask | None = None
+        self.prover: Any = None
+        self._group = np.zeros(0, np.int64)  # of each coordinate
 
     def norm(self) -> Norm:
         """The norm ||.||_H of the last step."""
@@ -214,75 +249,113 @@ class Proofs:
         if answer is not None:
             lam = answer.natural_lam
             slack = form.A @ answer.natural_delta_q - form.b
-        near = self._near(step, lam, slack)
+        coupling = _coupling(step)
+        near = self._near(step, coupling, lam, slack)
         while True:
-            optima = list[ExactOptimum]()
-            points = list[Solved]()
-            long = False
-            for part in self.divided(step, near):
-                own = part.in_both_units(both)
-                rows = part.group.rows
-                found, start = part.kept.proved(own, lam[rows], slack[rows])
-                if found is None:
-                    found = group_optimum(step, part.group, own.si_step, start)
-                hessian = part.kept.hessian_of(own.si_step)
-                # Of three loads' steps the longest is at least a third of their sum's.
-                most = ILL_POSED / 4 * hessian.norm.of_impulse(own.si_form.g)
-                long = long or not hessian.norm.of_displacement(found.delta_q) <= most
-                optima.append(found)
-                points.append((part.group.coordinates, own.si_step, hessian, found.working_set))
-            optimum = joined_optimum(step, [part.group for part in self.parts], optima)
-            if near.all():
+            parts = self.divided(step, near, coupling)
+            prover = self._prover(both)
+            optimum = None if prover is None else prover.optimum(both, lam, slack)
+            if optimum is None:
+                tried = [None] * len(parts) if prover is None else prover.proofs
+                each = zip(parts, tried, strict=True)
+                optima = [part.optimum(both, lam, slack, in_c) for part, in_c in each]
+                optimum = joined_optimum(step, [part.group for part in parts], optima)
+            if near is None:
                 break
+            points = list[Solved]()
+            for part in parts:
+                own = part.step(step)
+                working = part.group.within(optimum.working_set)
+                points.append((part.group.coordinates, own, part.kept.hessian_of(own), working))
             slacks, doubtful = far_slacks(step, np.flatnonzero(~near), points)
             if not doubtful.any():
                 optimum = with_far(step, optimum, near, slacks)
                 break
-            near = near | doubtful
-        if long:
+            near = _unless_all(near | doubtful)
+        if self._may_be_long(both, optimum.delta_q):
             check_length(step, optimum.delta_q, group_steps(step))
         return optimum
 
-    def _near(self, step: StepData, lam: Array, slack: Array) -> Mask:
-        """Which contacts may touch, as an answer says, shape (n_c,); in small groups all do."""
+    def _prover(self, both: StepInBothUnits) -> Any:
+        """What proves all groups of a dense step in C; None where nothing does."""
+        in_c = compiled("certificate")
+        if in_c is None or not isinstance(both, DenseStepInBothUnits):
+            return None
+        if self.prover is None:
+            groups = [(part.group, part.in_both_units(both)) for part in self.parts]
+            self.prover = in_c.Prover(both.si_step, groups)
+        return self.prover
+
+    def _may_be_long(self, both: StepInBothUnits, delta_q: Array) -> bool:
+        """Whether delta_q (n_v,) may be absurdly long in one of the groups; mostly it is not."""
+        # Of three loads' steps the longest is at least a third of their sum's.
+        most = ILL_POSED / 4
+        g = both.si_form.g
+        if isinstance(both, DenseStepInBothUnits):
+            norm = both.hessian.norm  # whose factor has the blocks of H: the groups
+            moved = np.bincount(self._group, np.abs(norm.L.T.dot(delta_q / norm.unit)))
+            free = np.bincount(self._group, np.abs(norm.inverse.dot(g * norm.unit)))
+            # A vector's length is at most the sum of its entries, and that root n of the length.
+            return not (math.sqrt(len(g)) * moved <= most * free).all()
+        norms = [(part.group.coordinates, part.kept.norm) for part in self.parts]
+        return not all(
+            norm.of_displacement(delta_q[v]) <= most * norm.of_impulse(g[v]) for v, norm in norms
+        )
+
+    def _near(self, step: StepData, coupling: Coupling, lam: Array, slack: Array) -> Mask | None:
+        """Which contacts may touch, as an answer says, shape (n_c,); None if all do.
+
+        In small groups all do.
+        """
         if step.n_v <= SMALL:
-            return np.ones(step.contacts.n_c, dtype=bool)
-        coupling = _coupling(step)
+            return None
         if not _same(coupling, self._of_small):
             large = [g.contacts for g in groups(step) if len(g.coordinates) > SMALL]
-            self._small = np.ones(step.contacts.n_c, dtype=bool)
-            self._small[[j for contacts in large for j in contacts]] = False
+            small = np.ones(step.contacts.n_c, dtype=bool)
+            small[[j for contacts in large for j in contacts]] = False
+            self._small = _unless_all(small)
             self._of_small = coupling
-        if self._small.all():
-            return self._small
+        if self._small is None:
+            return None
         m = int(step.offsets[-1])
         touching = (slack[:m] <= TOUCHING) | (lam[:m] > slack[:m])
-        return self._small | np.logical_or.reduceat(touching, step.offsets[:-1])
+        return _unless_all(self._small | np.logical_or.reduceat(touching, step.offsets[:-1]))
 
-    def divided(self, step: StepData, near: Mask) -> list[KeptGroup]:
+    def divided(self, step: StepData, near: Mask | None, coupling: Coupling) -> list[KeptGroup]:
         """The groups of a step: those of the last step, if the same couples its coordinates.
 
         Parameters
         ----------
         step : StepData
-        near : ndarray of bool, shape (n_c,)
-            The contacts that count.
+        near : ndarray of bool, shape (n_c,), or None
+            The contacts that count; None if all do.
+        coupling : list
+            What couples the coordinates if all contacts count.
         """
-        coupling = [*_coupling(step), near.tobytes()]
+        coupling = [*coupling, b"" if near is None else near.tobytes()]
         if not _same(coupling, self._of_parts):
             self.parts = _parts(step, near, self.parts)
             self._of_parts = coupling
+            self.prover = None
+            self._group = np.zeros(step.n_v, np.int64)
+            for i, part in enumerate(self.parts):
+                self._group[part.group.coordinates] = i
         return self.parts
 
 
-def _coupling(step: StepData) -> list[Array | bytes | float]:
-    """What couples the coordinates of a step, and how."""
+def _unless_all(mask: Mask) -> Mask | None:
+    return None if mask.all() else mask
+
+
+def _coupling(step: StepData) -> Coupling:
+    """That of a step."""
     J = vars(step.contacts).get("J")  # None in blocks, as M_u then is
     if J is None:
         moving = b"".join(where.tobytes() for where in step.contacts.entries()[:2])
     else:
         moving = J.any(axis=1).tobytes()
-    own = (step.extra.A != 0).tobytes()
+    A = step.extra.A
+    own = (A != 0).tobytes() if A.size else b""
     return [step.h, step.K_q, vars(step)["M_u"], moving, own, step.layout.counts]
 
 
@@ -294,10 +367,10 @@ def _same(one: list[Any], two: list[Any]) -> bool:
     return all(np.array_equal(a, b) if isinstance(a, np.ndarray) else a == b for a, b in changed)
 
 
-def _parts(step: StepData, near: Mask, before: list[KeptGroup]) -> list[KeptGroup]:
+def _parts(step: StepData, near: Mask | None, before: list[KeptGroup]) -> list[KeptGroup]:
     """The groups of a step; those of equal constants share what is kept, also with the `before`."""
     found = groups(step, near)
-    if len(found) == 1 and near.all():
+    if len(found) == 1 and near is None:
         kept = before[0].kept if len(before) == 1 else Kept()
         return [KeptGroup(found[0], None, kept)]
     known = {_key(part.constant): part for part in before if part.constant is not None}

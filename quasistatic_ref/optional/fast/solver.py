@@ -94,7 +94,8 @@ class FastSolver(NativeSolver):
 
     def norm(self, both: StepInBothUnits) -> Norm:
         """The norm ||.||_H of a step."""
-        return self.proofs.norm()
+        assert isinstance(both, DenseStepInBothUnits)
+        return both.hessian.norm
 
     def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum: proved on a guess of its working set, or found by the exact method."""

@@ -1,79 +1,110 @@
-"""The exact optimum on a guessed working set, proved in compiled fixed point."""
+"""The exact optima of a step's groups on guessed working sets, proved in compiled fixed point."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum
+from quasistatic_ref.optional.fast.compiled import natural
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
 from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, combined, zeros
-from quasistatic_ref.solve.units import Units
+from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, RowLayout, StepData
+from quasistatic_ref.step.groups import Group
 
 NUMBERS = ("n_a", "n_v", "n_c", "rows", "working")
 ARRAYS = (
-    "h", "coordinate", "units",
-    "K_q", "M_u", "delta_q_bar_a", "tau_a", "tau_u",
-    "phi", "n", "d1", "d2", "J", "mu_v", "mu_omega",
+    "coordinates", "contacts", "rows_of_step",
+    "h", "coordinate", "units", "natural", "g", "A", "b", "pressure", "gap",
+    "K_q", "M_u", "delta_q_bar_a", "tau", "phi", "n", "d1", "d2", "J", "mu",
     "cone", "integers", "contact", "row", "guess",
     "hessian", "hessian_values",
-    "delta_q", "lam", "net", "slack", "idle", "still", "counts", "least",
+    "delta_q", "lam", "net", "slack", "idle", "still", "counts", "implied", "least",
 )  # fmt: skip
 """The fields of ``Proof`` in proof.h."""
 
-DECIDED, REFUTED, TO_BE_IMPLIED = 0, 6, 7
-"""Outcomes of a proof: it holds; the guess is wrong; or it holds if some numbers are proved to be
-zero."""
+OF_STEP = ("n_v", "groups")
+ARRAYS_OF_STEP = (
+    "group", "delta_q_bar_a", "tau", "phi", "n", "d1", "d2", "J", "mu", "g", "A", "b", "pressure",
+    "gap", "code", "delta_q", "lam", "net", "slack", "least",
+)  # fmt: skip
+"""The fields of ``Step`` in groups.c."""
+
+DECIDED, REFUTED, TO_BE_IMPLIED, NOT_POSED = 0, 6, 7, 8
+"""Outcomes of a proof: it holds; the guess is wrong; it holds if some numbers are proved to be
+zero; or there is none yet, of these data."""
 
 LARGEST = 256
 """Most coordinates: the time grows with the cube of their number, the memory with its square."""
 
 
-class Prover:
-    """Proofs for steps of one kind: of one H in the same units, and of the same rows.
+class GroupProof:
+    """The proofs of one group of steps that have their H, rows and groups in common.
 
     Parameters
     ----------
-    step : StepData
-        In a polyhedral cone, without rows of a user's own.
-    coordinate : ndarray, shape (n_v,)
-        Diagonal of S of its natural units [m or rad, per (N m s)^0.5].
+    group : Group
+    own : DenseStepInBothUnits
+        The step of the group, in a polyhedral cone, without rows of a user's own, of at most
+        LARGEST coordinates.
+
+    Attributes
+    ----------
+    code : int
+        What the last proof came to.
+    usable : bool
+        Whether H can be written in fixed point.
     """
 
-    def __init__(self, step: StepData, coordinate: Array) -> None:
+    def __init__(self, group: Group, own: DenseStepInBothUnits) -> None:
         found = library()
-        self.of = step.h, step.K_q, step.M_u, step.layout, coordinate
-        self._proof = found.proof
+        step = own.si_step
+        hessian = own.hessian
+        self._prove = found.proof
+        self.code = NOT_POSED
+        n_a = step.n_a
         n = step.n_v
+        n_c = step.contacts.n_c
         m = int(step.offsets[-1])
         self.s = s = Structure(NUMBERS, ARRAYS, found.proof_size)
+        self._natural = Structure(natural.NUMBERS, natural.ARRAYS, found.natural_size)
         s.put(
             {
-                "n_a": step.n_a, "n_v": n, "n_c": step.contacts.n_c, "rows": m, "working": 0,
-                "h": np.array([step.h]), "coordinate": coordinate, "units": np.zeros(2),
+                "n_a": n_a, "n_v": n, "n_c": n_c, "rows": m, "working": 0,
+                "coordinates": group.coordinates, "contacts": group.contacts,
+                "rows_of_step": group.rows, "natural": self._natural.address,
+                "h": np.array([step.h]), "coordinate": hessian.coordinate,
                 "K_q": step.K_q, "M_u": step.M_u, "guess": np.zeros(n, np.int64),
                 "cone": cone_matrix(step.cone), "integers": combined(step.cone),
                 **places(step.layout),
                 "hessian": np.zeros(n * n * found.number_size() // 8 + 1, np.int64),
-                "hessian_values": np.zeros((n, n)),
-                **{name: np.zeros(len(values)) for name, values in vectors(step).items()},
-                **{name: np.zeros(n) for name in ("delta_q", "net")},
-                "J": np.zeros(step.contacts.J.shape),
-                "lam": np.zeros(m), "slack": np.zeros(m), "idle": np.zeros(m, np.int64),
-                "still": np.zeros(n, np.int64), "counts": np.zeros(2, np.int64),
-                "least": np.zeros(2),
+                "hessian_values": np.zeros((n, n)), "A": np.zeros((m, n)),
+                "J": np.zeros((n_c, 4, n)), "delta_q_bar_a": np.zeros(n_a),
+                **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net")},
+                **{name: np.zeros((n_c, 3)) for name in ("n", "d1", "d2", "mu")},
+                **{name: np.zeros(m) for name in ("b", "pressure", "gap", "lam", "slack")},
+                "phi": np.zeros(n_c), "units": np.zeros(2), "least": np.zeros(2),
+                "idle": np.zeros(m, np.int64), "still": np.zeros(n, np.int64),
+                "counts": np.zeros(2, np.int64), "implied": np.zeros(m + n, np.int64),
             }
         )  # fmt: skip
-        self.usable = n <= LARGEST and bool(found.hessian(s.address))
+        self._natural.put(
+            {
+                "n": n, "m": m, **{name: s[name] for name in ("g", "A", "b", "units")},
+                "coordinate": hessian.coordinate, "squared": hessian.squared,
+                "inverse": hessian.H_inverse, "squares": np.zeros(m),
+            }
+        )  # fmt: skip
+        self.usable = bool(found.hessian(s.address))
 
-    def fits(self, step: StepData, coordinate: Array) -> bool:
-        """Whether a step is of that kind; its S has the diagonal `coordinate` (n_v,) [m, rad]."""
-        h, K_q, M_u, layout, unit = self.of
-        own = step.layout is layout and coordinate is unit
-        return own and h == step.h and K_q is step.K_q and M_u is step.M_u
+    @property
+    def guess(self) -> Indices:
+        """The rows that the last proof took as the working set, shape (k,)."""
+        return self.s["guess"][: self.s.number("working")]
 
     def optimum(self, step: StepData, guess: Indices, units: Units) -> Proof:
         """The exact optimum, if a guess of its working set is right and fixed point shows it.
@@ -81,7 +112,7 @@ class Prover:
         Parameters
         ----------
         step : StepData
-            That :meth:`fits`.
+            Of the group, whose data are those of the last call of :class:`Prover`.
         guess : ndarray of int, shape (k,)
             Rows, in ascending order.
         units : Units
@@ -92,72 +123,141 @@ class Prover:
         ExactOptimum, Refuted or None
             None where something stays open: nothing is known then.
         """
-        working = guess.tolist()
         s = self.s
-        if not self.usable or len(working) > step.n_v:
+        if len(guess) > step.n_v:
             return None
-        s.put({"working": len(working)})
-        s["guess"][: len(working)] = guess
-        s["units"][:] = units.length, units.size
-        s["J"][:] = step.contacts.J
-        for name, values in vectors(step).items():
-            s[name][:] = values
-        code = self._proof(s.address)
+        if self.code == NOT_POSED or not np.array_equal(guess, self.guess):
+            s.put({"working": len(guess)})
+            s["guess"][: len(guess)] = guess
+            s["units"][:] = units.length, units.size
+            s["implied"][:] = 0
+            self.code = self._prove(s.address)
         rows, coordinates = s["counts"].tolist()
-        if code == REFUTED:
+        idle = s["idle"][:rows]
+        still = s["still"][:coordinates]
+        if self.code == REFUTED:
             return Refuted(guess, s["lam"][guess], s["slack"].copy())
-        least_slack, least_multiplier = s["least"].tolist()
-        if code not in (DECIDED, TO_BE_IMPLIED):
+        if self.code == TO_BE_IMPLIED:
+            means = zeros(step, guess.tolist(), idle.tolist(), still.tolist())
+            if means is not None and means.implied:
+                s["implied"][idle] = 1
+                s["implied"][len(s["slack"]) + still] = 1
+            return None if means is None else _optimum(s, guess.tolist(), means)
+        return self.decided()
+
+    def decided(self) -> ExactOptimum | None:
+        """The exact optimum, if the last proof has shown it."""
+        if self.code != DECIDED:
             return None
-        means: Degeneracy | None = Degeneracy(unique=not rows, smooth=True)
-        if code == TO_BE_IMPLIED:
-            means = zeros(
-                step, working, s["idle"][:rows].tolist(), s["still"][:coordinates].tolist()
-            )
-        if means is None:
-            return None
-        inactive = least_slack if least_slack < math.inf else None
-        return ExactOptimum(
-            delta_q=s["delta_q"].copy(),
-            lam=s["lam"].copy(),
-            net=s["net"].copy(),
-            slack=s["slack"].copy(),
-            working_set=tuple(working),
-            multipliers_unique=means.unique,
-            differentiable=means.smooth,
-            smallest_inactive_slack=inactive if means.smooth else 0.0,
-            smallest_active_multiplier=least_multiplier if working else None,
-            walks=0,
-        )
+        unique = not self.s["counts"][0]
+        return _optimum(self.s, self.guess.tolist(), Degeneracy(unique, smooth=True))
 
 
-def vectors(step: StepData) -> dict[str, Array]:
-    """What changes from step to step, apart from J: flat arrays of shape (their size,)."""
-    contacts = step.contacts
-    mu = contacts.mu
-    return {
-        "delta_q_bar_a": step.delta_q_bar_a, "tau_a": step.tau_a, "tau_u": step.tau_u,
-        "phi": contacts.phi, "mu_v": mu[:, 0], "mu_omega": mu[:, 2],
-        "n": contacts.n.ravel(), "d1": contacts.d1.ravel(), "d2": contacts.d2.ravel(),
-    }  # fmt: skip
+def _optimum(s: Structure, working: Sequence[int], means: Degeneracy) -> ExactOptimum:
+    """The optimum that C has written, of a group or of a step."""
+    least_slack, least_multiplier = s["least"].tolist()
+    inactive = least_slack if least_slack < math.inf else None
+    return ExactOptimum(
+        delta_q=s["delta_q"].copy(),
+        lam=s["lam"].copy(),
+        net=s["net"].copy(),
+        slack=s["slack"].copy(),
+        working_set=tuple(working),
+        multipliers_unique=means.unique,
+        differentiable=means.smooth,
+        smallest_inactive_slack=inactive if means.smooth else 0.0,
+        smallest_active_multiplier=least_multiplier if working else None,
+        walks=0,
+    )
+
+
+class Prover:
+    """The proofs of all groups of steps that have their H, rows and groups in common.
+
+    Parameters
+    ----------
+    step : StepData
+        One of them.
+    groups : sequence of (Group, DenseStepInBothUnits)
+        Its groups, each with its own step in natural units.
+
+    Attributes
+    ----------
+    proofs : list of GroupProof or None
+        None of a group that is not proved here.
+    """
+
+    def __init__(
+        self, step: StepData, groups: Sequence[tuple[Group, DenseStepInBothUnits]]
+    ) -> None:
+        found = library()
+        self._prove = found.groups_proved
+        self.proofs = [group_proof(*each) for each in groups]
+        addresses = [0 if proof is None else proof.s.address for proof in self.proofs]
+        n = step.n_v
+        m = step.m
+        n_c = step.contacts.n_c
+        self.s = Structure(OF_STEP, ARRAYS_OF_STEP, found.step_size)
+        self.s.put(
+            {
+                "n_v": n, "groups": len(groups),
+                "group": np.array(addresses, np.int64), "code": np.zeros(len(groups), np.int64),
+                "delta_q_bar_a": np.zeros(step.n_a), "J": np.zeros((n_c, 4, n)),
+                "A": np.zeros((m, n)), "phi": np.zeros(n_c), "least": np.zeros(2),
+                **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net")},
+                **{name: np.zeros((n_c, 3)) for name in ("n", "d1", "d2", "mu")},
+                **{name: np.zeros(m) for name in ("b", "pressure", "gap", "lam", "slack")},
+            }
+        )  # fmt: skip
+
+    def optimum(self, both: DenseStepInBothUnits, lam: Array, slack: Array) -> ExactOptimum | None:
+        """The exact optimum on the rows that an answer presses; None unless C proves all groups.
+
+        Parameters
+        ----------
+        both : DenseStepInBothUnits
+        lam, slack : ndarray, shape (m,)
+            Of the answer, both in natural units [-].
+        """
+        s = self.s
+        step = both.si_step
+        contacts = step.contacts
+        form = both.si_form
+        s["tau"][: step.n_a] = step.tau_a
+        s["tau"][step.n_a :] = step.tau_u
+        s["delta_q_bar_a"][:] = step.delta_q_bar_a
+        for name in ("phi", "n", "d1", "d2", "J", "mu"):
+            s[name][:] = getattr(contacts, name)
+        s["g"][:] = form.g
+        s["A"][:] = form.A
+        s["b"][:] = form.b
+        s["pressure"][:] = lam
+        s["gap"][:] = slack
+        idle = self._prove(s.address)
+        if idle < 0:
+            for proof, code in zip(self.proofs, s["code"].tolist(), strict=True):
+                if proof is not None:
+                    proof.code = code
+            return None
+        return _optimum(s, s["lam"].nonzero()[0].tolist(), Degeneracy(not idle, True))
+
+
+def undivided(both: DenseStepInBothUnits) -> Prover:
+    """The proofs of steps like one, all of which is a group."""
+    step = both.si_step
+    sizes = step.n_v, step.contacts.n_c, len(step.extra.names), step.m
+    return Prover(step, [(Group(*map(np.arange, sizes)), both)])
+
+
+def group_proof(group: Group, own: DenseStepInBothUnits) -> GroupProof | None:
+    """The proofs of a group, or None of one that C does not prove."""
+    if own.si_step.extra.names or own.si_step.n_v > LARGEST:
+        return None
+    proof = GroupProof(group, own)
+    return proof if proof.usable else None
 
 
 def places(layout: RowLayout) -> dict[str, Indices]:
     """The contact of each row, and its number there; each of shape (m,)."""
     contact, row = np.nonzero(layout.mask)
     return {"contact": contact, "row": row}
-
-
-def prover(step: StepData, coordinate: Array, kept: Prover | None) -> Prover | None:
-    """What proves steps of this kind: the one that is kept, if it does; None if nothing does.
-
-    Parameters
-    ----------
-    step : StepData
-    coordinate : ndarray, shape (n_v,)
-        Diagonal of S of its natural units [m or rad, per (N m s)^0.5].
-    kept : Prover or None
-    """
-    if step.extra.names:
-        return None
-    return kept if kept is not None and kept.fits(step, coordinate) else Prover(step, coordinate)

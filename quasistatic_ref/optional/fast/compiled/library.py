@@ -34,8 +34,8 @@ NONE = "none"
 SOURCE = Path(__file__).parent / "source"
 SOURCES = (
     "closest.c", "hull.c", "solids.c", "candidates.c", "polytopes.c", "crossings.c", "rows.c",
-    "screws.c", "natural.c", "certificate.c", "kkt.c", "contraction.c", "span.c", "rounding.c",
-    "arithmetic.c",
+    "screws.c", "natural.c", "groups.c", "certificate.c", "kkt.c", "contraction.c", "span.c",
+    "rounding.c", "arithmetic.c",
 )  # fmt: skip
 HEADERS = ("solid.h", "solids.h", "scene.h", "proof.h", "fixed_point.h")
 SELFTEST = "selftest.py"
@@ -70,6 +70,7 @@ FUNCTIONS = {
     "natural_program": ctypes.c_int,
     "hessian": ctypes.c_int,
     "proof": ctypes.c_int,
+    "groups_proved": ctypes.c_int,
 }
 """What each function returns; its one argument is the address of a structure."""
 

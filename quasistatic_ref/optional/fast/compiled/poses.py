@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
 from quasistatic_ref.step.data import Array
 
@@ -27,6 +28,7 @@ class Poses:
 
     def __init__(self, system: System) -> None:
         self.workspace = system.workspace()
+        self.column_map = system.column_map
         self.order = system.column_map.order
         self.q = system.q_start.copy()
         self._world = np.eye(3), np.zeros(3)
@@ -47,17 +49,24 @@ class Poses:
         self.columns = np.array(columns)
         self.gravity = np.array(gravity)[self.order.v]
         self._at: bytes | None = None
+        self._kinematics: Kinematics | None = None
 
     def move(self, q: Array) -> None:
         """Have the poses of a configuration, shape (n_q,), written, unless they are there."""
         at = q.tobytes()
         if at == self._at:
             return
-        self._at = None  # of a failure
+        self._at = self._kinematics = None  # of a failure
         self._model_q = self.order.model_q(q).copy()  # whoever has q may write into it
         self.q[:] = q
         self.workspace.move(self._model_q)
         self._at = at
+
+    def kinematics(self) -> Kinematics:
+        """That of the configuration whose poses are written."""
+        if self._kinematics is None:
+            self._kinematics = Kinematics(*self.workspace.poses(), self.column_map)
+        return self._kinematics
 
     def weigh(self, gravity: tuple[float, ...]) -> None:
         """Have gravity [m/s^2] at that configuration written."""

@@ -128,7 +128,7 @@ class CompiledStep:
         system = simulator.system
         q = np.asarray(q, dtype=np.float64)
         self.poses.move(q)
-        self.find_points(simulator, q)
+        self.find_points(simulator)
         lap("distances")
         points, step, form, gap = self.step_data(simulator, q, q_bar_a, force)
         if self.equal is None:
@@ -152,15 +152,14 @@ class CompiledStep:
         lap("integrate")
         return StepResult(q_next, step, solution, points, lap.seconds, q, simulator.scene)
 
-    def find_points(self, simulator: FastSimulator, q: Array) -> None:
-        """Write the closest points at q; the tracker's where C does not decide them."""
+    def find_points(self, simulator: FastSimulator) -> None:
+        """Write the closest points of the poses; the tracker's where C does not decide them."""
         scene = self.scene
         scene.relist()
         if scene.listed and self.find(scene.address):
             simulator.tracker.steps += 1
             return
-        kinematics = simulator.system.kinematics(q)
-        points = simulator.closest_points(kinematics)
+        points = simulator.closest_points(self.poses.kinematics())
         for name in WRITTEN:
             scene[name][:] = getattr(points, name)
 
@@ -172,7 +171,10 @@ class CompiledStep:
         The arrays A and b of the matrices are overwritten by the next step.
         """
         scene = self.scene
-        constant = simulator.constant.at(simulator.system.M_u(q))
+        system = simulator.system
+        mass = system.varying_mass
+        M_u = system.M_u(q) if mass is None else mass.at(self.poses.kinematics())
+        constant = simulator.constant.at(M_u)
         delta_q_bar_a = self.screws.actuated_difference(q_bar_a)
         delta_q_bar_a.setflags(write=False)
         self.target[:] = delta_q_bar_a

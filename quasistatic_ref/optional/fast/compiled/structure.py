@@ -32,6 +32,10 @@ class Structure:
         """One of its arrays, which C may write."""
         return self._arrays[name]
 
+    def number(self, name: str) -> int:
+        """One of its integers."""
+        return int(getattr(self._fields, name))
+
     def put(self, values: Mapping[str, Any]) -> None:
         """Set some fields: integers, and arrays of float64 or int64, copied if not contiguous."""
         for name, value in values.items():

@@ -44,10 +44,13 @@ class Degeneracy(NamedTuple):
         Whether the multipliers are.
     smooth : bool
         Whether delta_q is differentiable in g.
+    implied : bool
+        Whether these rows have no slack whatever the loads are.
     """
 
     unique: bool
     smooth: bool
+    implied: bool = False
 
 
 def zeros(
@@ -73,7 +76,7 @@ def zeros(
     every = (*working, *rows)
     k = len(working)
     if _implied(step, _Claim(_numbers(step, every), k, every, tuple(coordinates))):
-        return all_active
+        return all_active._replace(implied=True)
     form = form_on(step, *_some_rows(step, every))
     w = tuple(range(k))
     solution = rational_solution(form, w)

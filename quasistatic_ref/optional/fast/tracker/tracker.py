@@ -49,7 +49,8 @@ class ContactTracker:
     """What :func:`~quasistatic_ref.contact.distance.closest_points` returns, in less time.
 
     A tracker remembers which points of the clouds can come among the closest, so each run has a
-    tracker of its own. Poses may jump; that costs time only. Pairs of two solids are measured
+    tracker of its own. Poses may jump; that costs time only. A copy, or one that was pickled, makes
+    its lists again. Pairs of two solids are measured
     at each step: the number of their contacts is fixed, and the distance of each is part of the
     step, near or far.
 
@@ -81,6 +82,9 @@ class ContactTracker:
         in_c = compiled("solids")
         some = len(self.lists) < len(self.pairs)
         self.solids: Any = in_c.PosedSolids(self.pairs) if in_c is not None and some else None
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.pairs,)
 
     @property
     def lists_made(self) -> int:

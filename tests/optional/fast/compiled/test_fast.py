@@ -125,7 +125,7 @@ def compared(system, pairs, cone, rng):
         goal = system.integrate(q, move)[: system.n_q_a]
         expected = arrays(*of_numpy(other, q, goal, force))
         one.compiled.poses.move(q)
-        one.compiled.find_points(one, q)
+        one.compiled.find_points(one)
         *data, gap = one.compiled.step_data(one, q, goal, force)
         found = arrays(*data)
         assert gap == expected["phi"].min()

@@ -32,7 +32,7 @@ static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double
         }
         nu[i] = carried(&sum, lost);
     }
-    double mu[4] = {1.0, s->mu_v[c], s->mu_v[c], s->mu_omega[c]};
+    const double *of_c = s->mu + 3 * c, mu[4] = {1.0, of_c[0], of_c[1], of_c[2]};
     for (int a = 0; a < 4; a++) {
         Sum sum;
         clear(&sum);
@@ -203,6 +203,17 @@ static void refined(const Proof *s, Room *m, int bits, int *lost)
         m->rest[i] = value(m->r + i) * UP;
 }
 
+/* Whether it is known that the guess implies all that may be zero. */
+static int implied(const Proof *s)
+{
+    int all = 1;
+    for (int64_t i = 0; i < s->counts[0]; i++)
+        all = all && s->implied[s->idle[i]];
+    for (int64_t i = 0; i < s->counts[1]; i++)
+        all = all && s->implied[s->rows + s->still[i]];
+    return all;
+}
+
 static int proved(Proof *s, Room *m)
 {
     int lost = 0, code = OPEN_NUMBER;
@@ -231,7 +242,7 @@ static int proved(Proof *s, Room *m)
         code = rounded(s, m, &lost);
         if (of_lam == OPEN_NUMBER || of_slack == OPEN_NUMBER)
             code = OPEN_NUMBER;
-        if (code == DECIDED && (s->counts[1] || !spanned(s, m->table, m->pivot)))
+        if (code == DECIDED && !implied(s) && (s->counts[1] || !spanned(s, m->table, m->pivot)))
             code = TO_BE_IMPLIED;
     }
     return lost ? LOST : code;

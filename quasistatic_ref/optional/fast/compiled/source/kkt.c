@@ -40,7 +40,7 @@ void load(const Proof *s, Number *g, int *lost)
     for (int64_t i = 0; i < s->n_v; i++) {
         Sum sum;
         clear(&sum);
-        Float tau = scaled(i < n_a ? s->tau_a[i] : s->tau_u[i - n_a], s->coordinate[i] / rho, lost);
+        Float tau = scaled(s->tau[i], s->coordinate[i] / rho, lost);
         add_float(&sum, &tau, 1);
         for (int64_t j = 0; i < n_a && j < n_a; j++) {
             double K = s->K_q[i * n_a + j], to = s->delta_q_bar_a[j];
@@ -61,9 +61,9 @@ void load(const Proof *s, Number *g, int *lost)
 static void direction(const Proof *s, int64_t c, int64_t row, Number *out, int *lost)
 {
     const double *cone = s->cone + 4 * row;
-    Float gap = exact(cone[0], lost), mu_v = exact(s->mu_v[c], lost);
+    Float gap = exact(cone[0], lost), mu_v = exact(s->mu[3 * c], lost);
     Float slip_1 = exact(cone[1], lost), slip_2 = exact(cone[2], lost);
-    Float spin = exact(cone[3], lost), mu_omega = exact(s->mu_omega[c], lost);
+    Float spin = exact(cone[3], lost), mu_omega = exact(s->mu[3 * c + 2], lost);
     Number along_1 = number_of(&slip_1), along_2 = number_of(&slip_2), turn = number_of(&spin);
     along_1 = product(&along_1, &mu_v, lost);
     along_2 = product(&along_2, &mu_v, lost);

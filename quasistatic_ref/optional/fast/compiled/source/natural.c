@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 /* One for one the fields of Natural in natural.py. */
-typedef struct {
+typedef struct Natural {
     int64_t n, m;
     /* From row to row, and from column to column, of A as it is written. */
     int64_t row, column;
@@ -130,14 +130,20 @@ static double size_unit(const Natural *s, double length)
     return power_of_two(low, high);
 }
 
+/* The units; 0 where they are open. */
+int natural_units(Natural *s)
+{
+    s->units[0] = length_unit(s);
+    s->units[1] = s->units[0] > 0.0 ? size_unit(s, s->units[0]) : 0.0;
+    return s->units[1] > 0.0;
+}
+
 /* The units, and the program in them; 0 where they are open, and nothing is written. */
 int natural_program(Natural *s)
 {
-    double length = length_unit(s), size = length > 0.0 ? size_unit(s, length) : 0.0;
-    if (!(size > 0.0))
+    if (!natural_units(s))
         return 0;
-    s->units[0] = length;
-    s->units[1] = size;
+    double length = s->units[0], size = s->units[1];
     for (int64_t v = 0; v < s->n; v++) {
         s->f[v] = s->g[v] * (s->coordinate[v] / -size);
         s->scale[v] = s->coordinate[v] / length;

@@ -7,7 +7,7 @@
 
 #include "fixed_point.h"
 
-enum { DECIDED, NO_MEMORY, LOST, SINGULAR, OPEN_BOUND, OPEN_NUMBER, REFUTED, TO_BE_IMPLIED };
+enum { DECIDED, NO_MEMORY, LOST, SINGULAR, OPEN_BOUND, OPEN_NUMBER, REFUTED, TO_BE_IMPLIED, NOT_POSED };
 
 /* Why a coordinate does not move: nothing acts on it, or the working set may hold it. */
 enum { AT_REST = 1, STILL };
@@ -21,26 +21,36 @@ enum { REFINED = 160, FINEST = 400, GRID = 440, ROUNDS = 16 };
 #define FLOOR 0x1p-410     /* a residual that is added, so that no bound is zero */
 #define NORMAL 0x1p-900    /* numbers beyond this have exact neighbours and multiples */
 
+struct Natural;
+
 /* One for one the fields of Proof in certificate.py. */
 typedef struct {
     int64_t n_a, n_v, n_c, rows, working;
-    /* h; the units S, and {length, size}: powers of two. */
-    const double *h, *coordinate, *units;
-    const double *K_q, *M_u, *delta_q_bar_a, *tau_a, *tau_u;
-    const double *phi, *n, *d1, *d2, *J, *mu_v, *mu_omega;
+    /* Where the group's coordinates, contacts and rows stand in the step. */
+    const int64_t *coordinates, *contacts, *rows_of_step;
+    /* h; the units S, and {length, size}: powers of two. What finds these, and the g, A and b that it
+       reads; lam and slacks of an answer. */
+    const double *h, *coordinate;
+    double *units;
+    struct Natural *natural;
+    double *g, *A, *b, *pressure, *gap;
+    const double *K_q, *M_u;
+    double *delta_q_bar_a, *tau, *phi, *n, *d1, *d2, *J, *mu;
     /* The cone: four coefficients of each row; the same times one factor, as integers. */
     const double *cone;
     const int64_t *integers;
     /* Of each row its contact and its number there; the guess. */
-    const int64_t *contact, *row, *guess;
+    const int64_t *contact, *row;
+    int64_t *guess;
     /* h H: kept while H is the same. Room for Numbers. */
     void *hessian;
     double *hessian_values;
     /* The answer, in SI units. */
     double *delta_q, *lam, *net, *slack;
     /* What may be zero and was taken to be: rows that are not in the guess, and coordinates; how
-       many of both. */
-    int64_t *idle, *still, *counts;
+       many of both, and of the guess. Which rows and coordinates the guess keeps at zero whatever the
+       loads are, as far as that is known. */
+    int64_t *idle, *still, *counts, *implied;
     /* Of an optimum the least slack that is not zero, and the least multiplier of the working set;
        infinite where there is none. */
     double *least;
@@ -72,5 +82,7 @@ void defect(const double *R, const double *K, int64_t n, double *G, double *size
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
 int nearest(const Number *x, double e, double h, double unit, double *out, int *lost);
 int spanned(const Proof *s, int64_t *table, int64_t *pivot);
+int proof(Proof *s);
+int natural_units(struct Natural *s);
 
 #endif

@@ -1,0 +1,111 @@
+/* The groups of a step, each posed as a step of its own, in natural units of its own, and proved on
+   the rows that an answer presses: step/groups, optional/fast/proofs. */
+
+#include "proof.h"
+
+/* One for one the fields of Step in certificate.py. */
+typedef struct {
+    int64_t n_v, groups;
+    Proof *const *group; /* 0: of one that is not proved here */
+    /* The step, and its standard form; lam and slacks of an answer in natural units. */
+    const double *delta_q_bar_a, *tau, *phi, *n, *d1, *d2, *J, *mu, *g, *A, *b, *pressure, *gap;
+    /* What the proof of each group comes to; the optimum of those that are DECIDED; least as in
+       Proof. */
+    int64_t *code;
+    double *delta_q, *lam, *net, *slack, *least;
+} Step;
+
+int64_t step_size(void) { return sizeof(Step); }
+
+/* Some rows of a matrix, or some columns of them (all if NULL): whether a number has changed. */
+static int taken(double *to, const double *from, const int64_t *rows, int64_t n_rows,
+                 const int64_t *columns, int64_t n, int64_t width)
+{
+    int changed = 0;
+    for (int64_t i = 0; i < n_rows; i++)
+        for (int64_t j = 0; j < n; j++, to++) {
+            double x = from[rows[i] * width + (columns ? columns[j] : j)];
+            changed |= x != *to;
+            *to = x;
+        }
+    return changed;
+}
+
+static void given(double *to, const double *from, const int64_t *index, int64_t n)
+{
+    for (int64_t i = 0; i < n; i++)
+        to[index[i]] = from[i];
+}
+
+/* The data of a group; whether those have changed of which its rows are made. */
+static int posed(const Step *s, Proof *p)
+{
+    const int64_t *v = p->coordinates, *c = p->contacts, *r = p->rows_of_step;
+    int64_t n = p->n_v, n_c = p->n_c, m = p->rows, N = s->n_v;
+    int changed = 0;
+    taken(p->delta_q_bar_a, s->delta_q_bar_a, v, p->n_a, NULL, 1, 1);
+    taken(p->tau, s->tau, v, n, NULL, 1, 1);
+    taken(p->g, s->g, v, n, NULL, 1, 1);
+    taken(p->A, s->A, r, m, v, n, N);
+    taken(p->b, s->b, r, m, NULL, 1, 1);
+    taken(p->pressure, s->pressure, r, m, NULL, 1, 1);
+    taken(p->gap, s->gap, r, m, NULL, 1, 1);
+    changed |= taken(p->phi, s->phi, c, n_c, NULL, 1, 1);
+    changed |= taken(p->n, s->n, c, n_c, NULL, 3, 3);
+    changed |= taken(p->d1, s->d1, c, n_c, NULL, 3, 3);
+    changed |= taken(p->d2, s->d2, c, n_c, NULL, 3, 3);
+    changed |= taken(p->mu, s->mu, c, n_c, NULL, 3, 3);
+    for (int64_t j = 0; j < n_c; j++)
+        for (int64_t i = 0; i < 4; i++) {
+            int64_t row = 4 * c[j] + i;
+            changed |= taken(p->J + (4 * j + i) * n, s->J, &row, 1, v, n, N);
+        }
+    return changed;
+}
+
+/* The rows that the answer presses, and whether they have changed; 0 where these are so many that
+   they depend on each other. */
+static int guessed(Proof *p, int *changed)
+{
+    int64_t k = 0, pressing = 0;
+    for (int64_t r = 0; r < p->rows; r++)
+        pressing += p->pressure[r] != 0.0;
+    for (int64_t r = 0; pressing <= p->n_v && r < p->rows; r++)
+        if (p->pressure[r] > 0.0 && p->pressure[r] > p->gap[r]) {
+            *changed |= p->guess[k] != r;
+            p->guess[k++] = r;
+        }
+    *changed |= p->working != k;
+    p->working = k;
+    return pressing <= p->n_v;
+}
+
+/* How many rows outside of the working sets have no slack; -1 unless all groups are DECIDED. */
+int groups_proved(Step *s)
+{
+    int idle = 0, all = 1;
+    s->least[0] = s->least[1] = INFINITY;
+    for (int64_t i = 0; i < s->groups; i++) {
+        Proof *p = s->group[i];
+        s->code[i] = NOT_POSED;
+        if (p) {
+            int changed = posed(s, p), usable = guessed(p, &changed) && natural_units(p->natural);
+            for (int64_t j = 0; changed && j < p->rows + p->n_v; j++)
+                p->implied[j] = 0;
+            if (usable)
+                s->code[i] = proof(p);
+        }
+        if (s->code[i] != DECIDED) {
+            all = 0;
+            continue;
+        }
+        given(s->delta_q, p->delta_q, p->coordinates, p->n_v);
+        given(s->net, p->net, p->coordinates, p->n_v);
+        given(s->lam, p->lam, p->rows_of_step, p->rows);
+        given(s->slack, p->slack, p->rows_of_step, p->rows);
+        for (int k = 0; k < 2; k++)
+            s->least[k] = p->least[k] < s->least[k] ? p->least[k] : s->least[k];
+        idle += (int)p->counts[0];
+    }
+    return all ? idle : -1;
+}
