@@ -80,19 +80,3 @@ def energy_norm(H: Array) -> EnergyNorm:
             raise StepDataError(problem, field="H", value=H.tolist()) from None
         L = exact * unit[:, None]
     return EnergyNorm(unit, L, np.linalg.inv(L).astype(np.float64))
-
-
-def float_inverse(H: Array) -> Array:
-    """H^-1 in float64, shape (n_v, n_v) [m^2/(N m s)], roughly where H is nearly singular.
-
-    Raises
-    ------
-    StepDataError
-        As :func:`energy_norm`.
-    """
-    try:
-        return np.linalg.inv(H).astype(np.float64)
-    except np.linalg.LinAlgError:
-        norm = energy_norm(H)
-        root = norm.inverse * norm.unit
-        return root.T @ root

@@ -16,9 +16,8 @@ from quasistatic_ref.certify.solution import SolverStatistics, StepSolution, ste
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import NONE, check_certify
-from quasistatic_ref.solve.both_units import StepInBothUnits, out_of_range
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
-from quasistatic_ref.solve.units import in_natural, in_si
+from quasistatic_ref.solve.units import StepInBothUnits, in_natural, in_si, out_of_range
 from quasistatic_ref.step.arrays import Array, finite, without_warnings
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import StepData

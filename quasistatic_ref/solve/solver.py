@@ -27,8 +27,8 @@ from quasistatic_ref.solve.backends import (
     Options,
     check_backend,
 )
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits, StepInBothUnits
 from quasistatic_ref.solve.reply import Reply
+from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits
 from quasistatic_ref.step.arrays import Array, Mask, finite
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData, differences

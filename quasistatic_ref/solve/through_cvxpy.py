@@ -8,11 +8,10 @@ import cvxpy as cp
 import numpy as np
 
 from quasistatic_ref.solve.backends import DEFAULT, Options
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import phi_within_reach
+from quasistatic_ref.solve.units import DenseStepInBothUnits, phi_within_reach
 from quasistatic_ref.step.data import KIND, Array, Mask, StepData
 
 CANON = cp.CPP_CANON_BACKEND

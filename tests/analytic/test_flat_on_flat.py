@@ -5,9 +5,9 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.separations import BISECTOR, OF_CLOUD, SAYS
+from quasistatic_ref.contact.separations import BISECTOR, OF_CLOUD, OF_PAIR, OWN, SAYS
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.shapes.placed_shape import PointCloud
+from quasistatic_ref.shapes.placed_shape import Box, PointCloud
 from quasistatic_ref.tolerances import CLOSED_FORM
 from validation.make.forces_by_hand import (
     BOX,
@@ -47,6 +47,13 @@ def test_equal_gaps_of_zero_have_the_normal_between_and_deeper_ones_none():
     assert {*across.tied.values()} == {SAYS[BISECTOR]}
     with pytest.raises(ContactError, match=r"the bodies are as deep .* along \[1., 0., 0.\] as"):
         side_by_side([EDGE - 1e-3, 0.0, EDGE - 1e-3])
+
+
+@pytest.mark.parametrize(("half", "tie"), [(0.5, OF_PAIR), (0.4, OWN)])
+def test_corners_over_an_edge_have_the_normal_of_the_pair_over_a_face_its_own(half, tie):
+    points = side_by_side([0.0, 0.0, EDGE], Box(np.array([half, half, 0.5]) * EDGE)).points
+    near = np.abs(points.phi) < CLOSED_FORM
+    assert points.tie[near].tolist() == [tie] * 4
 
 
 def test_a_cloud_takes_the_face_along_which_it_is_farthest_out():

@@ -27,7 +27,10 @@ RNG = np.random.default_rng(0)
 DRAWN = [RNG.integers(-2, 3, (m, 3)) for m in (1, 2, 3, 5, 8) * 3]
 
 
-@pytest.mark.parametrize("A", [standard_form(resting_point()).A, *DRAWN])
+OPPOSITE = np.array([[3.0, -1.0], [-3.0, 1.0]])
+
+
+@pytest.mark.parametrize("A", [standard_form(resting_point()).A, *DRAWN, OPPOSITE, -OPPOSITE])
 def test_independent_rows_are_kept_that_carry_the_same_impulse(A):
     """Of the six rows of a sticking contact at most four, of whole numbers at most three."""
     pressed = np.sqrt(np.arange(2.0, len(A) + 2))

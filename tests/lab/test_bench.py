@@ -11,8 +11,7 @@ from quasistatic_ref.lab.study.bench.derived import MAPPED, STEP
 from quasistatic_ref.lab.study.bench.grasp import bare_daqp, places
 from quasistatic_ref.lab.study.bench.report import promise_rows
 from quasistatic_ref.lab.study.bench.timing import in_turn
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
-from quasistatic_ref.solve.units import in_si
+from quasistatic_ref.solve.units import DenseStepInBothUnits, in_si
 from tests.helpers import error
 from tests.tolerances import ACTIVE_SET
 

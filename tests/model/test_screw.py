@@ -86,11 +86,12 @@ def test_a_continuous_joint_turns_by_the_angle_between_both_configurations(angle
     np.testing.assert_allclose(moved(CONTINUOUS, q, [0.0, angle]), q_next[1:], atol=ROUNDING)
 
 
+@pytest.mark.parametrize("axis", [AXIS, *np.eye(3)], ids=["oblique", "x", "y", "z"])
 @pytest.mark.parametrize("angle", [*ANGLES, 1e-200, 6.0])
-def test_a_floating_base_turns_by_its_rotation_vector(angle):
+def test_a_floating_base_turns_by_its_rotation_vector(angle, axis):
     # The product of both matrices, which q and -q stand for; and a turn back is that by -w.
     about = np.array([1.0, 2.0, -2.0]) / 3
-    w = angle * AXIS
+    w = angle * axis
     q = [9.0, 0.0, 0.0, 0.0, *quaternion_about(about, 0.8)]
     after = [9.0, *moved(FLOATING, q, [7.0, 0.0, 0.0, 0.0, *w])]
     expected = screw(np.zeros(3), 0.8 * about)[0] @ screw(np.zeros(3), w)[0]
@@ -98,7 +99,7 @@ def test_a_floating_base_turns_by_its_rotation_vector(angle):
     np.testing.assert_allclose(found, expected, rtol=0, atol=4 * ROUNDING)
     shorter = angle if angle < np.pi else angle - 2 * np.pi
     back = change(FLOATING, after, q)[3:]
-    np.testing.assert_allclose(back, -shorter * AXIS, rtol=4 * ROUNDING, atol=4 * ROUNDING)
+    np.testing.assert_allclose(back, -shorter * axis, rtol=4 * ROUNDING, atol=4 * ROUNDING)
 
 
 @pytest.mark.parametrize("joint", [FLOATING, PLANAR, CONTINUOUS])

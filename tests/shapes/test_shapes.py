@@ -12,6 +12,7 @@ from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
     Capsule,
+    Cone,
     Cylinder,
     HalfSpace,
     PlacedShape,
@@ -101,6 +102,22 @@ def test_a_half_space_is_the_same_solid_at_any_length_of_its_normal(scale: float
     shape = HalfSpace(scale * np.array([3.0, 0.0, 4.0]), scale * 10.0)
     assert shape.normal == pytest.approx([0.6, 0.0, 0.8], abs=ROUNDING)
     assert shape.offset == pytest.approx(2.0, abs=ROUNDING)
+
+
+CORNERS = np.array([[0, 0, 0], [3, 0, 0], [0, 2, 0], [0, 0, 1]]) - [0.8, 0.5, 0.2]
+WITH_FACES = [Box([0.3, 0.4, 0.5]), Cylinder(0.4, 0.5), Cone(0.4, 0.5), convex_hull(CORNERS)]
+
+
+@pytest.mark.parametrize("shape", WITH_FACES, ids=lambda shape: type(shape).__name__)
+def test_inside_the_highest_face_has_the_signed_distance_and_the_normal(shape: Any) -> None:
+    points = np.random.default_rng(0).uniform(-0.1, 0.1, (50, 3))
+    phi, n = shape.signed_distance(points)
+    heights, normals = shape.faces(points)
+    highest = heights.argmax(axis=1)
+    assert phi.max() < 0
+    np.testing.assert_allclose(np.linalg.norm(n, axis=1), 1.0, rtol=ROUNDING)
+    np.testing.assert_allclose(heights.max(axis=1), phi, rtol=ROUNDING)
+    np.testing.assert_allclose(normals[np.arange(50), highest], n, rtol=0, atol=ROUNDING)
 
 
 def test_arrays_are_copied_and_read_only() -> None:

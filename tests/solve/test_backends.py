@@ -63,6 +63,7 @@ def test_every_interface_agrees_with_an_active_set_solver_at_1e_12(interface, sh
         np.testing.assert_allclose(push, expected, rtol=0.0, atol=MULTIPLIERS * scale)
         assert answer.backend == interface
         assert answer.certificate.kind == "residual"
+        assert 0 <= answer.statistics.proof_time < 60
     out, err = capfd.readouterr()
     assert out + err == ""  # and no interface warns, for warnings are errors here
 

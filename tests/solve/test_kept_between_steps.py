@@ -9,9 +9,9 @@ from quasistatic_ref.certify.solution import step_solution
 from quasistatic_ref.errors import StepDataError, StepNotSolved
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
 from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.solve.units import DenseStepInBothUnits
 from quasistatic_ref.step.data import Extra
 from tests.helpers import pinch, point_on_floor
 from tests.tolerances import OPTIMUM, ROUNDING

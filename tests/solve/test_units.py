@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.solve.both_units import check_units
+from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import (
     STANDSTILL,
     Units,
+    check_units,
     hessian_in_both_units,
     natural_form,
     natural_step,
@@ -119,6 +121,16 @@ def test_a_step_without_force_or_gap_has_units_too(rng):
     )
     assert natural_units(still).size == STANDSTILL
     np.testing.assert_allclose(solve_step(still).delta_q, 0.0, rtol=0.0, atol=ROUNDING)
+
+
+@pytest.mark.parametrize(
+    ("rows", "length"), [([[2, 0]], 2.0), ([[0, 0], [1, 0]], 1.0), ([[0, 0]], 1.0)]
+)
+def test_rows_in_which_nothing_moves_have_no_say_in_the_length(rows, length):
+    """H = M / h = 1, so that rows are as long as they look."""
+    own = Extra(tuple(map(str, range(len(rows)))), np.array(rows), -np.ones(len(rows)))
+    step = free_step(np.eye(2) / 2, [0.0, 0.0], no_contacts(2), 0.5).replace(extra=own)
+    assert natural_units(step).length == length
 
 
 @pytest.mark.parametrize("depth", [1e-3, 1.0])

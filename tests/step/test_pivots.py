@@ -7,6 +7,7 @@ from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.units import float_inverse
 from quasistatic_ref.step import pivots
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.pivots import exact_factor, positive_pivots
@@ -90,6 +91,8 @@ def test_a_nearly_singular_stiffness_has_norms_and_an_exact_answer():
     norm = energy_norm(NEAR)
     assert norm.of_impulse(LOWER[:, 0]) == pytest.approx(3**-0.5, rel=ROUNDING)
     assert norm.of_displacement(np.eye(3)[2]) == pytest.approx(NEAR[2, 2] ** 0.5, rel=ROUNDING)
+    back = np.linalg.inv(LOWER)
+    assert float_inverse(NEAR) == pytest.approx(back.T @ np.diag(1 / PIVOTS) @ back, rel=ROUNDING)
     solution = solve_step(with_stiffness(NEAR, LOWER[:, 0]), "none")
     assert solution.delta_q.tolist() == [1 / 3, 0.0, 0.0]
 

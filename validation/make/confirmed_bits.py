@@ -27,14 +27,17 @@ from tqdm import tqdm
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
-from quasistatic_ref.certify.norm import float_inverse
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
 from quasistatic_ref.optional.fast.guess.exchange import Proof, proved_nearby
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
-from quasistatic_ref.solve.units import Units, natural_step
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    Units,
+    float_inverse,
+    natural_step,
+)
 from quasistatic_ref.step.data import Indices, StepData
 from quasistatic_ref.step.standard_form import standard_form
 from tests.oracles.random_steps import mixed_step

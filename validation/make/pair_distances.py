@@ -99,7 +99,7 @@ def main() -> None:
             except ContactError:
                 continue
         cost = (time.perf_counter() - start) / len(poses) * 1e6
-        cells = [f"{worst[name]:.0e}" if name in worst else "-" for name in COLUMNS]
+        cells = [f"{worst[name]:.1g}" if name in worst else "-" for name in COLUMNS]
         rows.append([f"{first} - {second}", *cells, inside, refused, f"{cost:.0f}"])
     table = markdown_table(("pair", *COLUMNS, "in penetration", "refused", "us"), rows)
     shown("\n".join([WORDS.format(count=options.count), *table]), options.out)

@@ -2,15 +2,17 @@
 
     python -m validation.make.solid_pairs [--count POSES] [--out FILE]
 
-Of each pair of shapes, as many poses: random ones, axes along each other's, tilts of a millionth
+Of each pair of shapes as many poses: random ones, axes along each other's, tilts of a millionth
 (tests/oracles/closest.py), three in four of them put so that the solids touch, or nearly, or are
 1 mm deep, some with their middles in one place; anywhere in the world. One, 4 or 16 contacts;
-either solid is alpha. What compiled code leaves to Python is counted; of what it says every bit is
+either solid is alpha. Two shapes are meshes, one of them a prism, whose faces are coplanar
+triangles. What compiled code leaves to Python is counted; of what it says every bit is
 compared. Exit status 1 if a bit differs.
 """
 
 from __future__ import annotations
 
+import itertools
 import sys
 import time
 from collections import Counter
@@ -27,6 +29,7 @@ from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.optional.fast.compiled.solids import PosedSolids, measured
+from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
 from tests.oracles import closest
 from validation.tools.scripts import asked, shown
@@ -47,10 +50,20 @@ Times of a pair are upper bounds: the machine did other work meanwhile.
 """
 
 
+def solids() -> dict[str, Shape]:
+    """One of each kind, and a mesh with faces of several triangles, some along axes."""
+    angle = np.arange(6) * np.pi / 3
+    rim = 0.06 * np.column_stack([np.cos(angle), np.sin(angle)]).round(2)
+    ends = [np.column_stack([rim, np.full(len(rim), z)]) for z in (0.0, 0.1)]
+    return {**closest.solids(), "prism": convex_hull(np.concatenate(ends))}
+
+
 def compiled_pairs() -> list[tuple[str, str]]:
     """Names of the shapes of each pair that compiled code measures."""
-    solids = closest.solids()
-    return [pair for pair in closest.pairs() if measured(pair_of(*(solids[s] for s in pair), 1))]
+    shapes = solids()
+    every = itertools.combinations_with_replacement(shapes, 2)
+    some = [pair for pair in every if pair != ("half-space", "half-space")]
+    return [pair for pair in some if measured(pair_of(*(shapes[name] for name in pair), 1))]
 
 
 def pair_of(a: Shape, b: Shape, k: int) -> ContactPair:
@@ -109,11 +122,11 @@ def tried(a: Shape, b: Shape, count: int, seed: int) -> Counter[str]:
 def main() -> int:
     """Try all pairs, and write the page; exit status 1 if a bit differs."""
     options = asked(__doc__, count=10_000, out=Path)
-    solids = closest.solids()
+    shapes = solids()
     rows = []
     different = 0
     for seed, (first, second) in enumerate(compiled_pairs()):
-        tally = tried(solids[first], solids[second], options.count, seed)
+        tally = tried(shapes[first], shapes[second], options.count, seed)
         numbers = [tally[name] for name in COLUMNS[:4]]
         us = [f"{1e6 * tally[name] / tally['poses']:.0f}" for name in ("compiled", "plain")]
         rows.append((f"{first} - {second}", *numbers, *us))

@@ -21,7 +21,7 @@ def main() -> None:
     m = machine()
     words = (
         f"Written by `python -m validation.make.step_profile` on {m['processor']}, {m['cores']} "
-        f"cores, Python {m['python']}. Every step of `bunny_grasp`, native engine, "
+        f"cores, Python {m['python']}. Every step of `bunny_grasp`, native interface, "
         "accuracy 1e-12; wall time [us], share of the lap `solve` and of the solver's call alone "
         f"[%]. By brute force a step evaluates {found['all']} signed distances, with the tracker "
         f"{found['tracked']:.0f} in the mean."

@@ -2,8 +2,15 @@
 
 import numpy as np
 
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits, check_units, out_of_range
-from quasistatic_ref.solve.units import HessianInBothUnits, Units, hessian_in_both_units, units_of
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    HessianInBothUnits,
+    Units,
+    check_units,
+    hessian_in_both_units,
+    out_of_range,
+    units_of,
+)
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 

@@ -22,9 +22,8 @@ from quasistatic_ref.optional.fast.posed import (
     constants,
     posed,
 )
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits, StepInBothUnits
 from quasistatic_ref.solve.solver import NaturalAnswer
-from quasistatic_ref.solve.units import HessianInBothUnits
+from quasistatic_ref.solve.units import DenseStepInBothUnits, HessianInBothUnits, StepInBothUnits
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, Indices, Mask, StepData
 from quasistatic_ref.step.groups import Group, extra_rows, group_steps, groups, split

@@ -15,9 +15,8 @@ from quasistatic_ref.optional.fast.second_order import ConeSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.backends import RESIDUAL
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits, StepInBothUnits
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
-from quasistatic_ref.solve.units import Units, in_natural
+from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, Units, in_natural
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm

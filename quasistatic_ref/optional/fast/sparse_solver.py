@@ -17,8 +17,8 @@ from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.solve.backends import BACKENDS, Options
-from quasistatic_ref.solve.both_units import StepInBothUnits
 from quasistatic_ref.solve.solver import NaturalAnswer, OptionSet
+from quasistatic_ref.solve.units import StepInBothUnits
 from quasistatic_ref.step.data import Array, Mask, StepData
 from quasistatic_ref.tolerances import FAR
 

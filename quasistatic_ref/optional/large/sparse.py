@@ -1,6 +1,6 @@
 """Large steps of one kind in natural units, and the sparse standard form of each.
 
-As :mod:`~quasistatic_ref.solve.both_units`, in time and memory that grow with the number of
+As :mod:`~quasistatic_ref.solve.units`, in time and memory that grow with the number of
 entries that are not zero. :class:`~quasistatic_ref.optional.fast.sparse_solver.SparseSolver`
 hands them to a backend.
 """
@@ -15,8 +15,13 @@ from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.optional.large.sizes import sizes_of
 from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
 from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
-from quasistatic_ref.solve.both_units import check_units
-from quasistatic_ref.solve.units import coordinate_units, in_natural, small_power, units_from
+from quasistatic_ref.solve.units import (
+    check_units,
+    coordinate_units,
+    in_natural,
+    small_power,
+    units_from,
+)
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 

@@ -9,10 +9,9 @@ import numpy as np
 import qpsolvers
 
 from quasistatic_ref.solve.backends import QPSOLVERS, Options
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solver import BackendSolver, OptionSet
-from quasistatic_ref.solve.units import phi_within_reach
+from quasistatic_ref.solve.units import DenseStepInBothUnits, phi_within_reach
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.step.standard_form import StandardForm, standard_form
 

@@ -68,6 +68,14 @@ def test_forces_converge_in_proportion_to_the_compliance():
         np.testing.assert_allclose(off, limit * M * c / H**2 / 4, rtol=3e-3)
 
 
+def test_forces_of_a_sliding_block_are_in_balance():
+    """But for the compliance. It slides along (1, mu): (1 + mu^2) M x = h^2 (9 N - mu M G)."""
+    solution = solve_step(block(push=9.0))
+    x = H**2 * (9.0 - MU_V * M * G) / M / (1 + MU_V**2)
+    assert solution.delta_q[0] == pytest.approx(x, rel=1e-12)
+    assert 0 < solution.imbalance < 1e-4
+
+
 @pytest.mark.parametrize("cone", CONES)
 def test_four_and_six_rows_are_alike_without_mu_omega(cone):
     four, six = (block(rows, push=1.0, mu_omega=0.0, cone=cone) for rows in (4, 6))

@@ -155,6 +155,7 @@ def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):
     system = scene(tmp_path, DRAWN).system
     one = random_step(np.random.default_rng(0))
     assert with_rises(one, Extension().rises) is one
+    assert len(Rises([0.0], [1.0], [0])) == 1
     with pytest.raises(StepDataError, match=r"rises.loads: must be >= 0"):
         Rises([-1.0], [1.0], [0])
     with pytest.raises(StepDataError, match=r"rises.masses: must have shape \(1,\)"):

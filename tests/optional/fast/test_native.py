@@ -11,10 +11,14 @@ from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.fast.adapters.daqp import Daqp
 from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.solve.backends import installed
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.units import natural_step, natural_units, phi_within_reach
+from quasistatic_ref.solve.units import (
+    DenseStepInBothUnits,
+    natural_step,
+    natural_units,
+    phi_within_reach,
+)
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, error, planted_step, random_step, unconstrained

@@ -3,8 +3,7 @@
 import numpy as np
 
 from quasistatic_ref.optional.fast.second_order import ConeSolver, coefficients
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
-from quasistatic_ref.solve.units import in_si
+from quasistatic_ref.solve.units import DenseStepInBothUnits, in_si
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, random_step

@@ -12,9 +12,8 @@ from quasistatic_ref.optional.large import rounded_bound
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.rounded_bound import FloatBound
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.solve import solve_step
-from quasistatic_ref.solve.units import Units, in_natural, in_si, natural_step
+from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, in_natural, in_si, natural_step
 from tests.helpers import point_on_floor
 from tests.oracles.random_steps import any_step
 from validation.make.confirmed_bits import CONES

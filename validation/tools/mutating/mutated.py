@@ -111,7 +111,7 @@ optional/ellipsoid/enclosure.py optional/ellipsoid/interior.py optional/ellipsoi
 optional/ellipsoid/scaled_blocks.py
     ENCLOSED
 contact/distance.py
-    PAIRS
+    PAIRS flat_on_flat
 contact/tied_faces.py
     flat_on_flat PAIRS
 contact/crossings.py
@@ -165,9 +165,13 @@ shapes/shape.py
     a_shape_added shapes SOLIDS
 model/urdf/solid.py
     plain_data
-model/readers/text.py model/urdf/urdf.py model/urdf/urdf_file.py model/urdf/urdf_inertia.py
-model/urdf/urdf_shapes.py model/urdf/urdf_tree.py model/urdf/urdf_xml.py
+model/readers/text.py model/urdf/urdf_file.py model/urdf/urdf_inertia.py
+model/urdf/urdf_tree.py model/urdf/urdf_xml.py
     URDF
+model/urdf/urdf.py
+    URDF system
+model/urdf/urdf_shapes.py
+    URDF python_mistakes
 optional/show/model_words.py
     words plain_data
 model/workspace.py
@@ -176,9 +180,10 @@ model/world.py
     SYSTEM sparse
 optional/fast/adapters/clarabel.py optional/fast/adapters/daqp.py optional/fast/adapters/osqp.py
 optional/fast/adapters/piqp.py optional/fast/adapters/program.py optional/fast/adapters/quadprog.py
-solve/backends.py
-optional/extensions/extended.py solve/both_units.py solve/units.py
+optional/extensions/extended.py solve/units.py
     SOLVERS
+solve/backends.py
+    parts SOLVERS
 solve/cvxpy_problem.py
     standard_form problem SOLVERS
 optional/fast/backends.py
@@ -202,7 +207,7 @@ step/contacts.py
 step/data.py
     DATA
 step/extension.py
-    native extensions
+    native extensions rises
 step/files.py
     step_files solution_files bad_steps
 optional/show/show.py optional/show/step_words.py

@@ -68,7 +68,7 @@ CLAIM = Claim(
     "and 96 in every later one, it holds for Clarabel, and PIQP and OSQP are near a half.",
     where="the paper, section III-B and Fig. 4, about its own interior-point method",
     sweep="bunny_grasp, medians of all 300 steps on the machine at hand, backends in turns of ten "
-    "steps; native engine, accuracy 1e-12, nothing certified",
+    "steps; native interface, accuracy 1e-12, nothing certified",
     reason="`solve` is the lap of the simulator's stopwatch: A, b, H, g and natural units, the "
     "solver's call, the answer in SI units. A majority is more than a half. Where one is claimed, "
     "or denied, solve : rest was measured at 1.8 times or more from 1 (Clarabel, tracker, is the "

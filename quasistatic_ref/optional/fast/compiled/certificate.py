@@ -11,8 +11,7 @@ from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
 from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, combined, zeros
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
-from quasistatic_ref.solve.units import Units
+from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, RowLayout, StepData
 from quasistatic_ref.step.groups import Group

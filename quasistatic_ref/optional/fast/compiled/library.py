@@ -33,8 +33,9 @@ VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
 SOURCE = Path(__file__).parent / "source"
 SOURCES = (
-    "closest.c", "solids.c", "candidates.c", "polytopes.c", "crossings.c", "rows.c", "screws.c",
-    "natural.c", "groups.c", "certificate.c", "kkt.c", "contraction.c", "span.c", "rounding.c",
+    "closest.c", "hull.c", "solids.c", "candidates.c", "polytopes.c", "crossings.c", "rows.c",
+    "screws.c", "natural.c", "groups.c", "certificate.c", "kkt.c", "contraction.c", "span.c",
+    "rounding.c",
     "arithmetic.c",
 )  # fmt: skip
 HEADERS = ("solid.h", "solids.h", "scene.h", "proof.h", "fixed_point.h")

@@ -16,6 +16,7 @@ from quasistatic_ref.shapes import placed_shape as shapes
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.rounded import Rounded
 from quasistatic_ref.step.data import Array, Indices, Mask
+from quasistatic_ref.step.ordered import dot
 
 KINDS = (
     shapes.Sphere, shapes.Capsule, shapes.Box, shapes.HalfSpace, shapes.Cylinder, ConvexMesh
@@ -23,31 +24,36 @@ KINDS = (
 """Kinds of solids, as solid.h counts them."""
 
 KNOWN = KINDS[:-1]
-"""Those to which compiled code knows the distance of a point; of a mesh it knows the vertices."""
+"""Those on which compiled code measures clouds."""
 
-MOST_CROSSINGS = 12 * 12
-"""Of two boxes: of every edge with every edge."""
+CORNERS = 64
+"""The most of a mesh, unless on a half-space: CORNERS of solid.h."""
+
+CROSSINGS = 1024
+"""The most of a pair: LARGEST of solids.h."""
 
 
 class Solid(Structure):
     """``Solid`` of solid.h: one of `KINDS`."""
 
     def __init__(self, shape: shapes.Shape) -> None:
-        numbers = ("kind", "corners", "faces", "edges")
-        arrays = ("size", "extent", "vertices", "normals", "offsets", "ends", "sides")
+        numbers = ("kind", "corners", "faces", "edges", "triangles")
+        arrays = (
+            "size", "extent", "vertices", "normals", "offsets", "ends", "sides", "surface"
+        )  # fmt: skip
         super().__init__(numbers, arrays, library().solid_size)
-        flat = polytope(shape) if isinstance(shape, shapes.Box | shapes.Capsule) else None
+        flat = polytope(shape)
         extent = shape.extent
         self.put(
             {
                 "kind": next(i for i, kind in enumerate(KINDS) if isinstance(shape, kind)),
-                "corners": shape.corner_count, "faces": 0, "edges": 0,
+                "corners": shape.corner_count, "faces": 0, "edges": 0, "triangles": 0,
                 "size": np.array(sizes(shape)),
                 "extent": np.array([extent if np.isfinite(extent) else 0.0]),
             }
         )  # fmt: skip
         if isinstance(shape, ConvexMesh):
-            self.put({"vertices": shape.vertices})
+            self.put({"triangles": len(shape.triangles), "surface": surface(shape)})
         if flat is not None:
             self.put(
                 {
@@ -65,11 +71,22 @@ def sizes(shape: shapes.Shape) -> list[float]:
             return [*shape.normal.tolist(), shape.offset]
         case shapes.Cylinder():
             return [shape.radius, shape.half_length, 0.0, 0.0]
+        case ConvexMesh():
+            return [float(np.abs(shape.vertices).max()), 0.0, 0.0, 0.0]
         case Rounded():
             half_extents, ball = shape.core
             return [*half_extents.tolist(), ball]
         case _:
             return [0.0] * 4
+
+
+def surface(mesh: ConvexMesh) -> Array:
+    """``Triangle`` of solid.h for each triangle, shape (T, 34) [m, m^2; of a normal -]."""
+    corners = mesh.vertices[mesh.triangles]
+    ways = np.roll(corners, -1, axis=1) - corners
+    inward = np.cross(mesh.normals[:, None], ways)
+    fields = (mesh.normals, mesh.offsets, corners, ways, dot(ways, ways), inward)
+    return np.column_stack([field.reshape(len(corners), -1) for field in fields])
 
 
 @lru_cache(maxsize=256)
@@ -85,9 +102,11 @@ def measured(pair: ContactPair) -> bool:
         return any(isinstance(side, KNOWN) for side in sides)
     if any(isinstance(side, shapes.HalfSpace) for side in sides):
         return all(isinstance(side, KINDS) for side in sides)
+    if any(isinstance(side, ConvexMesh) and side.corner_count > CORNERS for side in sides):
+        return False
     if any(isinstance(side, shapes.Sphere) for side in sides):
-        return all(isinstance(side, KNOWN) for side in sides)
-    return all(isinstance(side, shapes.Box | shapes.Capsule) for side in sides)
+        return all(isinstance(side, KINDS) for side in sides)
+    return all(polytope(side) is not None for side in sides)
 
 
 class SolidPairs(Structure):
@@ -127,7 +146,7 @@ class SolidPairs(Structure):
             .T
         )
         count = np.array([pair.n_c for pair in pairs], np.int64)
-        most = max((pair.corners for pair in pairs), default=0) + MOST_CROSSINGS + 1
+        most = max((pair.corners for pair in pairs), default=0) + CROSSINGS + 1
         contact = np.dtype([("numbers", np.float64, 10), ("integers", np.int64, 2)])
         self.put(
             {

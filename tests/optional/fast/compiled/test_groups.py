@@ -14,8 +14,8 @@ from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import proofs
 from quasistatic_ref.optional.fast.compiled.certificate import DECIDED, NOT_POSED, REFUTED
 from quasistatic_ref.optional.fast.proofs import Proofs
-from quasistatic_ref.solve.both_units import DenseStepInBothUnits
 from quasistatic_ref.solve.solver import NaturalAnswer, solver_for
+from quasistatic_ref.solve.units import DenseStepInBothUnits
 from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import changed
 from tests.optional.fast.compiled.test_fast import needs_compiler

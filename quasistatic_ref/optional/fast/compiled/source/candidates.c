@@ -3,11 +3,15 @@
 
 #include "solids.h"
 
-/* shapes: support_value, of a sphere, capsule or box. */
+/* shapes: support_value, of a sphere, capsule, box or mesh. */
 static double support_value(const Solid *solid, const double *n)
 {
-    double way[3] = {fabs(n[0]), fabs(n[1]), fabs(n[2])};
-    return solid->size[3] + dot(way, solid->size);
+    double way[3] = {fabs(n[0]), fabs(n[1]), fabs(n[2])}, most = -INFINITY;
+    if (solid->kind != MESH)
+        return solid->size[3] + dot(way, solid->size);
+    for (int64_t i = 0; i < solid->corners; i++)
+        most = larger(dot(n, solid->vertices + 3 * i), most);
+    return most;
 }
 
 /* contact/tied_faces, `_over`. */
@@ -20,24 +24,23 @@ static int is_over(const Solid *solid, const double *x, double height, const dou
     return signed_distance(solid, foot, 0) <= near;
 }
 
-/* contact/tied_faces, `_facing`: of a box. */
-static const double *face_over(const Solid *box, const double *x, const double *n, double near, double within, double *height)
+/* contact/tied_faces, `_facing`: of a box or a mesh. */
+static const double *face_over(const Solid *solid, const double *x, const double *n, double near, double within, double *height)
 {
-    double heights[FACES];
-    int highest = 0;
-    face_heights(box, x, heights);
-    for (int f = 0; f < FACES; f++) {
-        if (!(dot(box->normals + 3 * f, n) >= TURNED))
+    double heights[TRIANGLES];
+    int highest = 0, count = face_heights(solid, x, heights);
+    for (int f = 0; f < count; f++) {
+        if (!(dot(face_normal(solid, f), n) >= TURNED))
             heights[f] = -INFINITY;
         if (heights[f] > heights[highest])
             highest = f;
     }
     *height = heights[highest];
-    for (int f = 0; f < FACES; f++)
-        if (f != highest && heights[f] >= *height - within)
+    const double *normal = face_normal(solid, highest);
+    for (int f = 0; f < count; f++)
+        if (heights[f] >= *height - within && largest_difference(face_normal(solid, f), normal, 3) > SAME_NORMAL)
             return 0;
-    const double *normal = box->normals + 3 * highest;
-    return is_over(box, x, *height, normal, near) ? normal : 0;
+    return is_over(solid, x, *height, normal, near) ? normal : 0;
 }
 
 /* contact/tied_faces: what a corner of another solid has on a solid; n is the pair's normal out of it. */
@@ -47,7 +50,7 @@ static double corner_surface(const Solid *solid, const double *x, const double *
     double height, gap = 0.0;
     const double *chosen = 0;
     if (solid->kind != HALF_SPACE && (phi <= near || dot(own, n) < TURNED)) {
-        if (solid->kind == BOX && (chosen = face_over(solid, x, n, near, within, &height)))
+        if ((solid->kind == BOX || solid->kind == MESH) && (chosen = face_over(solid, x, n, near, within, &height)))
             phi = height;
         else if (is_over(solid, x, gap = dot(x, n) - support_value(solid, n), n, near)) {
             chosen = n;
@@ -115,7 +118,7 @@ static int64_t corners_on(const Solid *other, const double *from, const Solid *s
     return other->corners;
 }
 
-/* All candidates, the closest pair being the last; their number. */
+/* All candidates, the closest pair being the last; their number, 0 where they are too many. */
 int64_t every_candidate(const Pair *pair, const Contact *nearest, int64_t n_c, Contact *found)
 {
     const double *n = nearest->n;
@@ -128,7 +131,10 @@ int64_t every_candidate(const Pair *pair, const Contact *nearest, int64_t n_c, C
     count += corners_on(pair->b, pair->at_b, pair->a, pair->at_a, nearest->beta, n, pair->within, found + of_a);
     for (int64_t i = of_a; i < count; i++)
         found[i].point += of_a;
-    count += crossings(pair, nearest, nearest->point + n_c, found + count);
+    int64_t crossing = crossings(pair, nearest, nearest->point + n_c, found + count);
+    if (crossing < 0)
+        return 0;
+    count += crossing;
     found[count++] = *nearest;
     int64_t kept = 0;
     for (int64_t i = 0; i < count; i++) /* others cannot bear with the closest pair */

@@ -1,4 +1,4 @@
-/* Where edges of two boxes, or lines of capsules, cross along the pair's normal: contact/crossings. */
+/* Where edges of boxes and meshes, or lines of capsules, cross along the pair's normal: contact/crossings. */
 
 #include "solids.h"
 
@@ -35,19 +35,19 @@ static void line(const Solid *capsule, const double *pose, const double *way, Ed
 }
 
 /* `_of_polytope`: of faces that hold x and face a way; and those that hold x and are as level. */
-static void of_box(const Solid *box, const double *pose, const double *x, const double *way, Edges *edges)
+static void of_polytope(const Solid *solid, const double *pose, const double *x, const double *way, Edges *edges)
 {
-    int on[FACES], facing[FACES];
-    edges->total = box->edges;
-    for (int64_t f = 0; f < box->faces; f++) {
-        const double *n = box->normals + 3 * f;
-        on[f] = dot(n, x) >= box->offsets[f] - OVER_FACE * *box->extent;
+    int on[TRIANGLES], facing[TRIANGLES];
+    edges->total = solid->edges;
+    for (int64_t f = 0; f < solid->faces; f++) {
+        const double *n = solid->normals + 3 * f;
+        on[f] = dot(n, x) >= solid->offsets[f] - OVER_FACE * *solid->extent;
         facing[f] = on[f] && dot(n, way) >= TURNED;
     }
-    for (int64_t e = 0; e < box->edges; e++) {
-        const double *tail = box->vertices + 3 * box->ends[2 * e];
-        const double *head = box->vertices + 3 * box->ends[2 * e + 1];
-        int64_t one = box->sides[2 * e], other = box->sides[2 * e + 1];
+    for (int64_t e = 0; e < solid->edges; e++) {
+        const double *tail = solid->vertices + 3 * solid->ends[2 * e];
+        const double *head = solid->vertices + 3 * solid->ends[2 * e + 1];
+        int64_t one = solid->sides[2 * e], other = solid->sides[2 * e + 1];
         double along[3];
         difference(head, tail, along);
         int level = on[one] && on[other] && fabs(dot(along, way)) <= LEVEL * norm(along);
@@ -67,7 +67,7 @@ static void of_body(const Solid *solid, const double *pose, const double *tip, c
     if (solid->kind == CAPSULE)
         line(solid, pose, way, edges);
     else
-        of_box(solid, pose, x, way, edges);
+        of_polytope(solid, pose, x, way, edges);
 }
 
 static double triple(const double *a, const double *b, const double *n)
@@ -77,16 +77,15 @@ static double triple(const double *a, const double *b, const double *n)
     return dot(product, n);
 }
 
-/* All crossings, with the pair's normal; their number. The first would have the number `first`. */
+/* All crossings, with the pair's normal; their number, -1 where it is too large. The first would have the
+   number `first`. */
 int64_t crossings(const Pair *pair, const Contact *nearest, int64_t first, Contact *found)
 {
     Edges on_a, on_b;
     int64_t count = 0;
     const double *n = nearest->n;
-    int flat_a = pair->a->kind == BOX || pair->a->kind == CAPSULE;
-    int flat_b = pair->b->kind == BOX || pair->b->kind == CAPSULE;
     double back[3], w[3], apart[3];
-    if (!(flat_a && flat_b))
+    if (!(pair->a->faces && pair->b->faces))
         return 0;
     negated(n, back);
     of_body(pair->a, pair->at_a, nearest->alpha, n, &on_a);
@@ -102,6 +101,8 @@ int64_t crossings(const Pair *pair, const Contact *nearest, int64_t first, Conta
             double s = triple(w, v, n) / steep, t = triple(w, u, n) / steep;
             if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1))
                 continue;
+            if (count == LARGEST)
+                return -1;
             Contact *c = found + count++;
             *c = *nearest;
             moved_by(tail, s, u, c->alpha);

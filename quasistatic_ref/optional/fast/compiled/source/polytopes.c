@@ -1,12 +1,17 @@
-/* Closest points of two boxes or capsules: contact/solids/polytope_pair. */
+/* Closest points of two boxes, capsules or meshes: contact/solids/polytope_pair. */
 
 #include "solids.h"
 
 /* Gaps along the normals of all faces of the Minkowski difference. */
 typedef struct {
-    int count;
-    double gap[2 * FACES + LARGEST], normal[3 * (2 * FACES + LARGEST)];
+    int count, either_zero; /* whether a gap may be a zero of either sign */
+    double gap[2 * TRIANGLES + LARGEST], normal[3 * (2 * TRIANGLES + LARGEST)];
 } Gaps;
+
+typedef struct {
+    const double *tail;
+    double way[3], middle[3], reach;
+} Edge;
 
 /* Two edges, or a corner and a face: how far apart, and the closest points. */
 typedef struct {
@@ -15,7 +20,7 @@ typedef struct {
 
 /* Room for a solid in another frame. */
 typedef struct {
-    double vertices[3 * CORNERS], normals[3 * FACES], offsets[FACES];
+    double vertices[3 * CORNERS], normals[3 * TRIANGLES], offsets[TRIANGLES];
 } Room;
 
 static Solid moved(const Solid *b, const double *pose, Room *room)
@@ -50,6 +55,7 @@ static void along_faces(const Solid *a, const Solid *b, double side, Gaps *gaps)
         for (int64_t i = 0; i < b->corners; i++)
             least = smaller(dot(n, b->vertices + 3 * i), least);
         gaps->gap[gaps->count] = least - a->offsets[f];
+        gaps->either_zero |= least == 0.0 && a->offsets[f] == 0.0; /* the least of zeros has either sign */
         for (int i = 0; i < 3; i++)
             gaps->normal[3 * gaps->count + i] = side > 0 ? n[i] : -n[i];
         gaps->count++;
@@ -80,9 +86,11 @@ static void common_normal(const Solid *a, const Solid *b, int64_t i, int64_t j, 
     copied(n, gaps->normal + 3 * gaps->count++);
 }
 
-static void crossing_edges(const Solid *a, const Solid *b, Gaps *gaps)
+/* 0 where they are too many. */
+static int crossing_edges(const Solid *a, const Solid *b, Gaps *gaps)
 {
-    double b_on_a[EDGES][FACES], a_on_b[EDGES][FACES], way[3], back[3];
+    double b_on_a[EDGES][TRIANGLES], a_on_b[EDGES][TRIANGLES], way[3], back[3];
+    int most = gaps->count + LARGEST;
     for (int64_t i = 0; i < a->edges; i++) {
         edge(a, i, way);
         negated(way, back);
@@ -98,12 +106,14 @@ static void crossing_edges(const Solid *a, const Solid *b, Gaps *gaps)
         for (int64_t j = 0; j < b->edges; j++) {
             double c = b_on_a[i][b->sides[2 * j]], d = b_on_a[i][b->sides[2 * j + 1]];
             double e = a_on_b[j][a->sides[2 * i]], f = a_on_b[j][a->sides[2 * i + 1]];
-            if (c * d < 0 && e * f < 0)
-                common_normal(a, b, i, j, gaps);
+            if (!(c * d < 0 && e * f < 0))
+                continue;
+            if (gaps->count == most)
+                return 0;
+            common_normal(a, b, i, j, gaps);
         }
+    return 1;
 }
-
-static double limited(double x) { return smaller(larger(x, 0.0), 1.0); }
 
 static void nearest_on_segments(const double *p, const double *u, const double *q, const double *v, double *s, double *r)
 {
@@ -124,7 +134,8 @@ static int64_t nearest_corner(const Solid *core, const double *corners, int64_t 
 {
     int64_t best = -1;
     for (int64_t i = 0; i < count; i++) {
-        double own[3], phi = rounded_box(core->size, 0.0, corners + 3 * i, own);
+        const double *x = corners + 3 * i;
+        double own[3], phi = core->kind == MESH ? hull_distance(core, x, own) : rounded_box(core->size, 0.0, x, own);
         if (best >= 0 && !(phi < *distance))
             continue;
         best = i;
@@ -151,37 +162,58 @@ static void corners_on_faces(const Solid *a, const Solid *b, const Solid *there,
     moved_by(a->vertices + 3 * i, -of_a->distance, normal, of_a->on_b);
 }
 
-/* Of the edges whose surrounding balls come within a bound. */
-static int of_edges(const Solid *a, const Solid *b, double bound, Feature *found)
+static void edges_of(const Solid *solid, Edge *edges)
 {
+    for (int64_t e = 0; e < solid->edges; e++) {
+        Edge *own = edges + e;
+        own->tail = edge(solid, e, own->way);
+        for (int k = 0; k < 3; k++)
+            own->middle[k] = own->tail[k] + own->way[k] / 2;
+        own->reach = norm(own->way) / 2;
+    }
+}
+
+/* Of the edges whose surrounding balls come within a bound, those at most so far apart; their number, -1
+   where it is too large. */
+static int of_edges(const Solid *a, const Solid *b, double bound, double at_most, Feature *found)
+{
+    Edge on_a[EDGES], on_b[EDGES];
     int count = 0;
-    for (int64_t i = 0; i < a->edges; i++)
-        for (int64_t j = 0; j < b->edges; j++) {
-            double u[3], v[3], apart[3], s, r;
-            const double *p = edge(a, i, u), *q = edge(b, j, v);
-            for (int k = 0; k < 3; k++)
-                apart[k] = (p[k] + u[k] / 2) - (q[k] + v[k] / 2);
-            double near = norm(u) / 2 + norm(v) / 2 + bound;
+    edges_of(a, on_a);
+    edges_of(b, on_b);
+    for (const Edge *i = on_a; i < on_a + a->edges; i++)
+        for (const Edge *j = on_b; j < on_b + b->edges; j++) {
+            double apart[3], s, r, near = i->reach + j->reach + bound;
+            Feature *own = found + count;
+            difference(i->middle, j->middle, apart);
             if (!(dot(apart, apart) <= near * near))
                 continue;
-            nearest_on_segments(p, u, q, v, &s, &r);
-            moved_by(p, s, u, found[count].on_a);
-            moved_by(q, r, v, found[count].on_b);
-            difference(found[count].on_b, found[count].on_a, apart);
-            found[count++].distance = norm(apart);
+            if (count == LARGEST)
+                return -1;
+            nearest_on_segments(i->tail, i->way, j->tail, j->way, &s, &r);
+            moved_by(i->tail, s, i->way, own->on_a);
+            moved_by(j->tail, r, j->way, own->on_b);
+            difference(own->on_b, own->on_a, apart);
+            own->distance = norm(apart);
+            count += own->distance <= at_most;
         }
     return count;
 }
 
-/* `_nearest`: closest points of two cores that are apart or touch, and how far they miss a way. */
-static Feature nearest_feature(const Solid *a, const Solid *b, const double *pose, const double *way, double size)
+/* `_nearest`: closest points of two cores that are apart or touch, and how far they miss a way; 0 where too
+   many edges are as near. */
+static int nearest_feature(const Solid *a, const Solid *b, const double *pose, const double *way, double size, Feature *nearest)
 {
     Room room;
     Feature every[2 + LARGEST];
     Solid there = moved(b, pose, &room);
     corners_on_faces(a, b, &there, pose, every, every + 1);
     double least = smaller(every[0].distance, every[1].distance), apart[3], off[3];
-    int count = 2 + of_edges(a, &there, larger(least, 0.0), every + 2), best = 0, other = -1;
+    double room_for_rounding = OUTSIDE_FACE * size;
+    int count = of_edges(a, &there, larger(least, 0.0), least + room_for_rounding, every + 2), best = 0, other = -1;
+    if (count < 0)
+        return 0;
+    count += 2;
     for (int i = 0; i < count; i++) {
         difference(every[i].on_b, every[i].on_a, apart);
         difference(apart, way, off);
@@ -189,13 +221,11 @@ static Feature nearest_feature(const Solid *a, const Solid *b, const double *pos
         if (every[i].distance < every[best].distance)
             best = i;
     }
-    double room_for_rounding = OUTSIDE_FACE * size;
-    if (every[best].miss <= room_for_rounding)
-        return every[best];
     for (int i = count - 1; i >= 0; i--)
         if (every[i].distance <= every[best].distance + room_for_rounding && every[i].miss <= room_for_rounding)
             other = i;
-    return every[other < 0 ? best : other];
+    *nearest = every[every[best].miss <= room_for_rounding || other < 0 ? best : other];
+    return 1;
 }
 
 static double size_of(const double *numbers, int64_t count, double least)
@@ -261,7 +291,8 @@ int polytopes(const Pair *pair, Contact *nearest)
     Solid there = moved(b, pose, &room);
     along_faces(a, &there, 1.0, &gaps);
     along_faces(&there, a, -1.0, &gaps);
-    crossing_edges(a, &there, &gaps);
+    if (!crossing_edges(a, &there, &gaps))
+        return 0;
     int best = 0;
     for (int i = 1; i < gaps.count; i++)
         if (gaps.gap[i] > gaps.gap[best])
@@ -272,11 +303,12 @@ int polytopes(const Pair *pair, Contact *nearest)
         n[i] = gaps.normal[3 * best + i];
         way[i] = gap * n[i];
     }
-    if (gap == 0.0 && (a->kind == CAPSULE || b->kind == CAPSULE))
-        return 0; /* the least of zeros has either sign */
+    if (gap == 0.0 && gaps.either_zero)
+        return 0;
     Feature touching;
     if (gap > 0) {
-        touching = nearest_feature(a, b, pose, way, size);
+        if (!nearest_feature(a, b, pose, way, size, &touching))
+            return 0;
         difference(touching.on_b, touching.on_a, between);
         double distance = norm(between);
         if (touching.miss > OUTSIDE_FACE * size && distance > ON_SURFACE * size) {
@@ -287,7 +319,8 @@ int polytopes(const Pair *pair, Contact *nearest)
     } else {
         for (int i = 0; i < 3; i++)
             pose[4 * i + 3] -= way[i];
-        touching = nearest_feature(a, b, pose, none, size);
+        if (!nearest_feature(a, b, pose, none, size, &touching))
+            return 0;
     }
     with_margins(pair, gap, touching.on_a, n, nearest);
     if (nearest->phi > pair->within)

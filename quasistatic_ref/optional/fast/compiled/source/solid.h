@@ -18,22 +18,32 @@
 /* The first three are a point, a segment or a cuboid, the core, with a ball about each point. */
 enum { SPHERE, CAPSULE, BOX, HALF_SPACE, CYLINDER, MESH };
 
-enum { FACES = 6 }; /* of a box */
+/* Of a box; and the most that a mesh has, which then has at most 2 V - 4 triangles and 3 V - 6 edges. */
+enum { FACES = 6, CORNERS = 64, TRIANGLES = 2 * CORNERS - 4, EDGES = 3 * CORNERS - 6 };
+
+/* Of a mesh's surface: from each corner the way to the next one, its square, and the vector in the plane
+   that points inwards from there. */
+typedef struct {
+    double normal[3], offset, corners[3][3], ways[3][3], squares[3], inward[3][3];
+} Triangle;
 
 /* One for one the fields of Solid in solid.py. */
 typedef struct {
-    int64_t kind, corners, faces, edges;
+    int64_t kind, corners, faces, edges, triangles;
     /* Half extents of the core and the ball's radius; or normal and offset; or radius and half
-       length, and zeros. Then the extent, which is 0 where it is infinite. */
+       length, or a mesh's largest coordinate, and zeros. Then the extent, which is 0 where it is infinite. */
     const double *size, *extent;
-    /* contact/solids/polytope: of a core, whose corners are the vertices, also of a mesh. */
+    /* contact/solids/polytope: of a mesh or a core, whose corners are the vertices. */
     const double *vertices, *normals, *offsets;
     const int64_t *ends, *sides;
+    const Triangle *surface;
 } Solid;
 
 static inline double larger(double a, double b) { return a > b ? a : b; }
 
 static inline double smaller(double a, double b) { return a < b ? a : b; }
+
+static inline double limited(double x) { return smaller(larger(x, 0.0), 1.0); }
 
 static inline double along(const double *row, double x, double y, double z)
 {
@@ -179,7 +189,10 @@ static inline double cylinder(const double *size, const double *x, double *norma
     return is_outside ? outside : larger(side, end);
 }
 
-/* Of any but a mesh. */
+static inline double height(const Triangle *t, const double *x) { return dot(t->normal, x) - t->offset; }
+
+double hull_distance(const Solid *mesh, const double *x, double *normal);
+
 static inline double signed_distance(const Solid *solid, const double *x, double *normal)
 {
     const double *size = solid->size;
@@ -187,12 +200,14 @@ static inline double signed_distance(const Solid *solid, const double *x, double
         return rounded_box(size, size[3], x, normal);
     if (solid->kind == CYLINDER)
         return cylinder(size, x, normal);
+    if (solid->kind == MESH)
+        return hull_distance(solid, x, normal);
     for (int i = 0; normal && i < 3; i++)
         normal[i] = size[i];
     return along(size, x[0], x[1], x[2]) - size[3];
 }
 
-/* shapes: heights over the faces, of a box or a cylinder; others have none. */
+/* shapes: heights over the faces, of a box or a cylinder, or over a mesh's triangles; others have none. */
 static inline int face_heights(const Solid *solid, const double *x, double *heights)
 {
     const double *size = solid->size;
@@ -202,9 +217,20 @@ static inline int face_heights(const Solid *solid, const double *x, double *heig
         heights[2] = -x[2] - size[1];
         return 3;
     }
+    if (solid->kind == MESH) {
+        for (int64_t t = 0; t < solid->triangles; t++)
+            heights[t] = height(solid->surface + t, x);
+        return solid->triangles;
+    }
     for (int f = 0; solid->kind == BOX && f < FACES; f++)
         heights[f] = (f < 3 ? x[f] : -x[f - 3]) - size[f % 3];
     return solid->kind == BOX ? FACES : 0;
+}
+
+/* The normal of face f of a box, or of triangle f of a mesh. */
+static inline const double *face_normal(const Solid *solid, int64_t f)
+{
+    return solid->kind == MESH ? solid->surface[f].normal : solid->normals + 3 * f;
 }
 
 #endif

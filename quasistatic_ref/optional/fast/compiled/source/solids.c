@@ -65,16 +65,24 @@ static void solid_on_plane(const Solid *plane, const double *at, const Solid *so
 }
 
 /* contact/separations: whether a sphere that touches a solid has one normal, as it surely has where no
-   face is as high as its centre is far, or one is and no other is as high. */
+   face is as high as its centre is far, or one is, or triangles in one plane, and no other is as high. */
 static int one_face(const Solid *solid, const double *x, double phi, double within)
 {
-    double heights[FACES], most = -INFINITY;
-    int count = face_heights(solid, x, heights), level = 0;
-    for (int f = 0; f < count; f++)
-        most = larger(heights[f], most);
-    for (int f = 0; f < count; f++)
-        level += heights[f] >= phi - 2 * within;
-    return level == 0 || (level == 1 && phi == most);
+    double heights[TRIANGLES];
+    int count = face_heights(solid, x, heights), most = 0;
+    for (int f = 1; f < count; f++)
+        if (heights[f] > heights[most])
+            most = f;
+    for (int f = 0; f < count; f++) {
+        if (!(heights[f] >= phi - 2 * within))
+            continue;
+        int same = f == most;
+        if (!same && solid->kind == MESH)
+            same = largest_difference(face_normal(solid, f), face_normal(solid, most), 3) == 0.0;
+        if (!same || phi != heights[most])
+            return 0;
+    }
+    return 1;
 }
 
 /* contact/solids/solid_pair; `side` is that of the normal in the contact's. */
@@ -191,6 +199,8 @@ static int closest_of_pair(SolidPairs *s, int64_t p)
         return 1;
     }
     int64_t found = every_candidate(&pair, &nearest, count, s->candidates);
+    if (!found)
+        return 0;
     rank_late(s->candidates, found, s->k[p], s->late);
     int64_t kept = found < s->k[p] ? found : s->k[p];
     if (kept > count)

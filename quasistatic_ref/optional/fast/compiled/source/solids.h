@@ -7,7 +7,7 @@
 
 enum { OWN, OF_PAIR }; /* contact/separations */
 
-enum { CORNERS = 8, EDGES = 12, LARGEST = EDGES * EDGES };
+enum { LARGEST = 1024 }; /* of lists of a pair; Python measures pairs with more */
 
 /* Of ClosestPoints and of Witness: one contact. */
 typedef struct {
