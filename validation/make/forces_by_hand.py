@@ -79,8 +79,9 @@ QUARTER = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 TURNS = Rotation.create_group("O").as_matrix().round()
 INERTIA = MASS * EDGE**2 / 6
 """Of a cube about each axis, whatever the shape [kg m^2]."""
-MOTION = 1e-15
-"""Of motions [m, rad], which are differences of places of a metre, for each body."""
+MOTION = 3e-15
+"""Of motions [m, rad], for each body: a gap is a difference of two places of a metre, each rounded
+to 1e-16 m, and a turn is a difference of gaps over a tenth of a metre."""
 ALIKE = 1e-9
 """Relative difference of equal motions of two free bodies."""
 

@@ -77,7 +77,8 @@ def solids(system, rng):
     """Pairs of solids on some links, of which each keeps another number of contacts."""
     links = np.arange(1, len(system.links))
     pairs = []
-    for k, names in enumerate((("box", "half-space"), ("sphere", "box"), ("box", "capsule"))):
+    kinds = (("box", "half-space"), ("sphere", "box"), ("box", "capsule"), ("box", "hull"))
+    for k, names in enumerate(kinds):
         sides = []
         for name, at in zip(names, rng.permutation(links), strict=False):
             place = Rotation.random(rng=rng).as_matrix(), rng.uniform(-0.1, 0.1, size=3)
