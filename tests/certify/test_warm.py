@@ -12,25 +12,19 @@ def test_open_rows_are_left_out_and_the_most_pressed_comes_first():
     lam = np.array([1e-9, 2.0, 1.0, 1e-12])
     slack = np.array([1.0, 1e-9, 1e-12, 3.0])
     assert warm_rows(np.eye(4), lam, slack) == [1, 2]
-    assert warm_rows(np.zeros((0, 4)), np.zeros(0), np.zeros(0)) == []
-
-
-@pytest.mark.parametrize("scale", [1.0, 2.0**-20, 2.0**20])
-def test_rows_depend_on_each_other_whatever_their_length(scale):
-    """Of two equal rows one is kept; a row without coefficients depends on none."""
-    A = scale * np.array([[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-    assert len(warm_rows(A, np.array([1.0, 2.0, 4.0]), np.zeros(3))) == 2
-    assert warm_rows(0 * A, np.ones(3), np.zeros(3)) == []
+    for m in (0, 3):  # a row without coefficients depends on none
+        assert warm_rows(np.zeros((m, 4)), np.ones(m), np.zeros(m)) == []
 
 
 RNG = np.random.default_rng(0)
 DRAWN = [RNG.integers(-2, 3, (m, 3)) for m in (1, 2, 3, 5, 8) * 3]
-
-
+SCALED = [2.0**20 * DRAWN[-1], 2.0**-20 * DRAWN[-1]]
 OPPOSITE = np.array([[3.0, -1.0], [-3.0, 1.0]])
 
 
-@pytest.mark.parametrize("A", [standard_form(resting_point()).A, *DRAWN, OPPOSITE, -OPPOSITE])
+@pytest.mark.parametrize(
+    "A", [standard_form(resting_point()).A, *DRAWN, *SCALED, OPPOSITE, -OPPOSITE]
+)
 def test_independent_rows_are_kept_that_carry_the_same_impulse(A):
     """Of the six rows of a sticking contact at most four, of whole numbers at most three."""
     pressed = np.sqrt(np.arange(2.0, len(A) + 2))
@@ -38,4 +32,5 @@ def test_independent_rows_are_kept_that_carry_the_same_impulse(A):
     assert np.linalg.matrix_rank(A[rows]) == len(rows)
     lam = np.linalg.lstsq(A[rows].T, A.T @ pressed)[0]
     assert (lam > 0).all()
-    assert np.abs(A[rows].T @ lam - A.T @ pressed).max(initial=0.0) < 1e-12
+    off = A[rows].T @ lam - A.T @ pressed
+    assert np.abs(off).max(initial=0.0) <= 1e-12 * np.abs(A).max()

@@ -108,13 +108,3 @@ def test_of_two_corners_that_are_one_contact_alpha_s_is_kept() -> None:
     cube = Box(np.full(3, 0.25))
     points = found(cube, cube, np.eye(3), np.array([0, 0, 0.5]), 4)
     assert sorted(points.point.tolist()) == [4, 5, 6, 7]
-
-
-@pytest.mark.parametrize("gap", [-1e-3, 0.0, 1e-3])
-def test_the_closest_pair_of_crossed_beams_takes_no_crossings_place(gap: float) -> None:
-    along_x = Box(np.array([0.3, 0.05, 0.05]))
-    along_y = Box(np.array([0.05, 0.3, 0.05]))
-    points = found(along_x, along_y, np.eye(3), np.array([0, 0, 0.1 + gap]), 4)
-    assert (points.point > 16).all()  # after eight corners of each and the closest pair
-    crossings = [[x, y] for x in (-0.05, 0.05) for y in (-0.05, 0.05)]
-    assert sorted(points.alpha[:, :2].round(9).tolist()) == crossings

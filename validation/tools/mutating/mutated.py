@@ -181,7 +181,7 @@ model/world.py
 optional/fast/adapters/clarabel.py optional/fast/adapters/daqp.py optional/fast/adapters/osqp.py
 optional/fast/adapters/piqp.py optional/fast/adapters/program.py optional/fast/adapters/quadprog.py
 optional/extensions/extended.py solve/units.py
-    SOLVERS
+    SOLVERS pivots
 solve/backends.py
     parts SOLVERS
 solve/cvxpy_problem.py
