@@ -34,7 +34,7 @@ from quasistatic_ref.lab.scenes.at_random import divided
 from quasistatic_ref.lab.scenes.piles import SIDE, Pile, pile
 from quasistatic_ref.lab.study.measuring.environment import machine
 from quasistatic_ref.optional.fast.backends import DEFAULT_OF_LARGE
-from quasistatic_ref.optional.fast.posed import constants
+from quasistatic_ref.optional.fast.posed import constants, posed
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -205,7 +205,10 @@ def copies(step: StepData, times: int) -> StepData:
     M_u = np.tile(bodies, (times, 1, 1))
     none = np.zeros(0)
     constant = constants(step.h, step.K_q, 0, M_u, contacts.rows, step.cone)
-    return constant.kind(constant, none, np.tile(step.tau_u, times), none, contacts)
+    loads = {"tau_a": none, "tau_u": np.tile(step.tau_u, times), "delta_q_bar_a": none}
+    for array in loads.values():
+        array.setflags(write=False)
+    return posed(constant.kind, constant._asdict(), {**loads, "contacts": contacts})
 
 
 def _pile(scene: Scene, certify: str) -> Pile:

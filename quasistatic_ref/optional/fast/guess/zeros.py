@@ -127,13 +127,35 @@ def _implied(step: StepData, claim: _Claim) -> bool:
         k = claim.k
         A, b = _some_rows(step, claim.rows)  # one positive factor for every a, one for every b
         exact: list[list[int]] = [[*a_i, b_i] for a_i, b_i in zip(A.m, b.m, strict=True)]
-        equations = exact[k:]
+        equations = _across_pairs(step, claim, exact)
         equations += [[int(i == v) for i in range(n + 1)] for v in claim.coordinates]
         known = not equations or all(follow(exact[:k], equations))
         while len(_known) >= KEPT:
             _known.popitem(last=False)  # the oldest, in one call: other threads solve as well
         _known[claim] = known
     return known
+
+
+def _across_pairs(step: StepData, claim: _Claim, exact: list[list[int]]) -> list[list[int]]:
+    """The equations of the claim's rows that do not follow from those of W between the same bodies.
+
+    Most do: the rows of a contact combine four motions, of which contacts with the same normal have
+    the spin in common. Of few rows and coordinates that is decided in little time: a pushed row of
+    25 boxes, of which hundreds of rows are zero, takes a quarter of the time of one decision.
+    """
+    contact, _ = places(step, claim.rows)
+    moves = np.vstack([(step.contacts.J != 0).any(axis=1), np.ones((1, step.n_v), bool)])
+    between: dict[bytes, list[int]] = {}
+    for i, j in enumerate(contact.tolist()):
+        between.setdefault(moves[j].tobytes(), []).append(i)
+    left = []
+    for moved, rows in between.items():
+        columns = [*np.flatnonzero(np.frombuffer(moved, dtype=bool)).tolist(), step.n_v]
+        some = [[exact[i][v] for v in columns] for i in rows]
+        k = sum(i < claim.k for i in rows)
+        found = follow(some[:k], some[k:]) if k else [False] * len(rows)
+        left += [exact[i] for i, seen in zip(rows[k:], found, strict=True) if not seen]
+    return left
 
 
 def _some_rows(step: StepData, rows: Sequence[int]) -> tuple[Dyadic, Dyadic]:
