@@ -9,7 +9,7 @@ from tests.oracles import closest
 
 POSES = 12
 LEFT = 0.5
-"""Largest share of the poses that C may leave to Python: of 2,000 it leaves 5.6 % at most."""
+"""Largest share of the poses that C may leave to Python: of 10,000 it leaves 6 % at most."""
 
 
 @needs_compiler
