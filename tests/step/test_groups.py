@@ -9,11 +9,11 @@ from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible
 from quasistatic_ref.formats.plain import bits
-from quasistatic_ref.lab.scenes.contacts import X, contacts_of
+from quasistatic_ref.lab.scenes.contacts import X, contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.piles import SIDE, pile
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
-from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.groups import group_steps, groups
 from quasistatic_ref.tolerances import ILL_POSED
 from tests.helpers import always_in_blocks, changed
@@ -38,6 +38,16 @@ def test_random_steps_without_some_couplings_have_the_optimum_of_their_groups():
         assert faults(step) == [], seed
         several += len(groups(step)) > 1
     assert several > 12
+
+
+def test_inertia_couples_the_coordinates_after_the_actuated_ones():
+    """K_q couples 0 and 1; M_u begins at 2, and couples its first and its third: 2 and 4."""
+    M_u = np.eye(3) + 0.5 * np.eye(3)[[2, 1, 0]]
+    step = StepData(
+        h=0.01, K_q=[[2.0, 1.0], [1.0, 2.0]], M_u=M_u, tau_a=np.ones(2), tau_u=np.ones(3),
+        delta_q_bar_a=np.zeros(2), contacts=no_contacts(5),
+    )  # fmt: skip
+    assert [g.coordinates.tolist() for g in groups(step)] == [[0, 1], [2, 4], [3]]
 
 
 def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():

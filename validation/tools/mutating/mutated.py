@@ -205,7 +205,7 @@ step/arrays.py optional/fast/posed.py
 step/contacts.py
     artifacts DATA
 step/data.py
-    DATA
+    DATA step/groups
 step/extension.py
     native extensions rises
 step/files.py
