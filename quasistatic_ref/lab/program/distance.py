@@ -14,7 +14,7 @@ from .rotation import AXES, frame
 NEAR = 1e-3
 """Distance [m] below which the direction between two points has lost digits."""
 LEAST = 1e-15
-"""A weight below this is rounding."""
+"""A weight below this is rounding: weights sum to 1, after some operations of 1e-16."""
 
 
 def transformed(pose, points):

@@ -164,14 +164,15 @@ class KeptGroup:
         ------
         StepInfeasible
         """
-        found: ExactOptimum | None = None if in_c is None else in_c.decided()
-        if found is None:
-            own = self.in_both_units(whole)
-            rows = self.group.rows
-            found, start = self.kept.proved(own, lam[rows], slack[rows], in_c)
-        return (
-            group_optimum(whole.si_step, self.group, own.si_step, start) if found is None else found
-        )
+        decided: ExactOptimum | None = None if in_c is None else in_c.decided()
+        if decided is not None:
+            return decided
+        own = self.in_both_units(whole)
+        rows = self.group.rows
+        found, start = self.kept.proved(own, lam[rows], slack[rows], in_c)
+        if found is not None:
+            return found
+        return group_optimum(whole.si_step, self.group, own.si_step, start)
 
     def in_both_units(self, whole: StepInBothUnits) -> DenseStepInBothUnits:
         """The step of the group in its own natural units, from the `whole` step.

@@ -2,7 +2,9 @@
 
 from typing import Final
 
-RAW, NATURAL = UNITS = ("raw", "natural")
+RAW: Final = "raw"
+NATURAL: Final = "natural"
+UNITS: Final = (RAW, NATURAL)
 """SI units, and those in which numbers are near one."""
 PARQUET: Final = "parquet"
 QPS: Final = "qps"

@@ -34,9 +34,12 @@ ARRAYS_OF_STEP = (
 )  # fmt: skip
 """The fields of ``Step`` in groups.c."""
 
-DECIDED, REFUTED, TO_BE_IMPLIED, NOT_POSED = 0, 6, 7, 8
-"""Outcomes of a proof: it holds; the guess is wrong; it holds if some numbers are proved to be
-zero; or there is none yet, of these data."""
+DECIDED = 0
+REFUTED = 6
+TO_BE_IMPLIED = 7
+NOT_POSED = 8
+"""Outcomes of a proof, as in proof.h: it holds; the guess is wrong; it holds if some numbers are
+proved to be zero; or there is none yet, of these data."""
 
 LARGEST = 256
 """Most coordinates: the time grows with the cube of their number, the memory with its square."""

@@ -56,7 +56,8 @@ class Poses:
         at = q.tobytes()
         if at == self._at:
             return
-        self._at = self._kinematics = None  # of a failure
+        self._at = None  # of a failure
+        self._kinematics = None
         self._model_q = self.order.model_q(q).copy()  # whoever has q may write into it
         self.q[:] = q
         self.workspace.move(self._model_q)

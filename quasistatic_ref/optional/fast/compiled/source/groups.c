@@ -89,7 +89,8 @@ int groups_proved(Step *s)
         Proof *p = s->group[i];
         s->code[i] = NOT_POSED;
         if (p) {
-            int changed = posed(s, p), usable = guessed(p, &changed) && natural_units(p->natural);
+            int changed = posed(s, p);
+            int usable = guessed(p, &changed) && natural_units(p->natural);
             for (int64_t j = 0; changed && j < p->rows + p->n_v; j++)
                 p->implied[j] = 0;
             if (usable)
