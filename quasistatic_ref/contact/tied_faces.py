@@ -169,6 +169,8 @@ def cloud_surface(
     tie = np.full(len(x), OWN)
     within = rounding(solid, cloud)
     near = np.flatnonzero(phi <= within)
+    if not near.size:
+        return Surface(phi, normal, tie)
     heights, normals = solid.shape.faces(x[near])
     if not heights.size:
         return Surface(phi, normal, tie)
