@@ -15,9 +15,7 @@ from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
-    definite,
     frozen,
-    positive_definite,
     whole,
 )
 from quasistatic_ref.step.cones import PYRAMID
@@ -32,6 +30,7 @@ from quasistatic_ref.step.data import (
     row_layout,
     seconds,
 )
+from quasistatic_ref.step.pivots import definite, positive_definite
 
 T = TypeVar("T")
 
