@@ -50,7 +50,7 @@ step/cones.py
 step/groups.py
     own
 step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
-certify/digits.py model/angles.py step/ordered.py model/rotation.py
+model/angles.py step/ordered.py model/rotation.py
 model/readers/mesh_files.py optional/fast/pace.py
     own
 step/standard_form.py
@@ -93,7 +93,7 @@ optional/derivatives/step/parameters.py
 certify/rows.py
     certificate farkas
 certify/norm.py
-    digits farkas pivots
+    norm farkas pivots
 model/coordinates.py
     system
 model/system.py model/mass.py
