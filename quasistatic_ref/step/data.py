@@ -185,8 +185,8 @@ class StepData(Plain, Shown):
         }
         for key, value in given.items():
             object.__setattr__(self, key, value)
-        loads = {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)}
-        freeze(self, {"K_q": (n_a, n_a), "M_u": (n_u, n_u), **loads})
+        freeze(self, {"K_q": (n_a, n_a), "M_u": (n_u, n_u)})
+        freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
         for key in ("K_q", "M_u"):
             object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
 

@@ -17,29 +17,17 @@ of S are at least those of L L', which are the squares of L's diagonal.
 
 import math
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.step.arrays import Array, frozen
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import DEFINITE, SYMMETRIC
 
 U = 2.0**-53
 """Largest relative error of one operation."""
 RANGE = 2.0**-500, 2.0**500
 """Diagonal entries whose products and roots are far from the ends of float64's range."""
-
-
-def definite(name: str, matrix: Any, n: int) -> Array:
-    """A read-only copy, shape (n, n) [any unit], of a symmetric positive definite matrix.
-
-    Raises
-    ------
-    StepDataError
-        If it is not symmetric, not positive definite, not finite or of another shape.
-    """
-    return positive_definite(name, frozen(matrix, name, (n, n)))
 
 
 def positive_definite(key: str, S: Array) -> Array:
