@@ -49,7 +49,7 @@ step/cones.py
     PAGE JUDGE completion standard_form problem
 step/groups.py
     own
-step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
+optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
 model/angles.py step/ordered.py model/rotation.py
 model/readers/mesh_files.py optional/fast/pace.py
     own
@@ -202,6 +202,8 @@ optional/large/sparse.py optional/fast/sparse_solver.py
     SPARSE sparse_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA
+step/pivots.py
+    pivots SYSTEM mass_in_blocks DATA
 step/contacts.py
     artifacts DATA
 step/data.py
