@@ -129,7 +129,7 @@ optional/large/sparse_jacobian.py optional/large/blocks.py optional/large/sparse
 optional/large/sparse_form.py
     SPARSE
 model/body.py
-    solid SCENES
+    solid system SCENES
 model/readers/clouds.py optional/readers/pcd.py optional/readers/ply.py
 optional/readers/point_table.py optional/readers/points.py
     CLOUDS
@@ -142,7 +142,7 @@ optional/readers/dae.py
 shapes/frozen.py
     shapes plain_data SYSTEM
 model/kinematics.py
-    system CONTACT
+    system random_mechanisms CONTACT
 model/column_map.py
     system simulator CONTACT
 model/screw.py
