@@ -1,7 +1,5 @@
 """Looks of figures for papers, slides and posters; where figures are drawn; writing them."""
 
-import os
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -9,12 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
-
-if "matplotlib.pyplot" not in sys.modules and not os.environ.get("MPLBACKEND"):
-    mpl.use("Agg")  # files need no window; a session that has chosen keeps its choice
-
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
