@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -15,6 +14,7 @@ import numpy as np
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.files import bytes_written, json_text, text_written, writable_folder
+from quasistatic_ref.formats.plain import bits, field_values
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.mesh_files import mesh_path
 from quasistatic_ref.model.rotation import rotation
@@ -37,7 +37,6 @@ from quasistatic_ref.shapes.placed_shape import (
 )
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.data import StepData
 
 WORLD: Final = 0
 """Number of the world among the links."""
@@ -316,15 +315,14 @@ def _check_same(simulator: Simulator, path: Path) -> None:
         raise InputError("would have another first step when it is loaded", file=path.name)
 
 
-def _first_step(simulator: Simulator) -> StepData:
-    """The step from where the system starts, with the targets there; its contacts by number."""
+def _first_step(simulator: Simulator) -> Any:
+    """The bits of the step from where the system starts, with the targets there, but for names."""
     system = simulator.system
     q = system.q_start
     kinematics = system.kinematics(q)
     points = simulator.closest_points(kinematics)
     step = simulator.step_data(q, q[: system.n_q_a], 0.0, points, kinematics)
-    numbers = map(str, range(step.contacts.n_c))
-    return step.replace(contacts=replace(step.contacts, name=tuple(numbers)))
+    return bits(field_values(step) | {"contacts": field_values(step.contacts) | {"name": ()}})
 
 
 def _toml_text(tables: Mapping[str, Mapping[str, Any]]) -> str:
