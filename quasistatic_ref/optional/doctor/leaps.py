@@ -37,5 +37,6 @@ def leaps(run: Run) -> Iterator[Said]:
             {"length_m": float(length[k]), "angle_rad": float(angle[k]), "step": k},
         )
         found.append((k, -float(share[k]), said))
-    for _, _, said in sorted(found, key=lambda leap: leap[:2])[:1]:
+    if found:
+        _, _, said = min(found, key=lambda leap: leap[:2])
         yield said

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.spatial import ConvexHull
 
+from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.shapes import placed_shape as shapes
 from quasistatic_ref.step.data import Array
@@ -58,11 +59,9 @@ def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:
     """Corners of a square of a half-space's surface below the point `centre`, shape (4, 3) [m]."""
     n = floor.normal
     foot = centre - (n @ centre - floor.offset) * n
-    one = np.eye(3)[np.abs(n).argmin()]
-    one = half_width * (one - (one @ n) * n) / np.linalg.norm(one - (one @ n) * n)
-    other = np.cross(n, one)
+    one, other = np.concatenate(tangents(n[None]))
     around = np.array([-one - other, one - other, one + other, other - one])
-    return np.asarray(foot + around)
+    return np.asarray(foot + half_width * around)
 
 
 def triangles(points: Array) -> Array:
