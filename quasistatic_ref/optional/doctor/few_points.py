@@ -9,7 +9,15 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.doctor.start import Said, Start, body, free_bases, least, table
+from quasistatic_ref.optional.doctor.start import (
+    Said,
+    Start,
+    bodies,
+    body,
+    free_bases,
+    least,
+    table,
+)
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED, SUNK
 
@@ -26,11 +34,7 @@ def few_points(start: Start) -> Iterator[Said]:
     if not (start.small and np.linalg.norm(start.gravity) > 0.0):  # its square may vanish
         return
     for name in free_bases(start.system):
-        own = [
-            p
-            for p in start.pairs
-            if name in (body(start.system, x.link) for x in (p.alpha, p.beta))
-        ]
+        own = [pair for pair in start.pairs if name in bodies(start.system, pair)]
         if all(pair.n_c == pair.candidates for pair in own):
             continue
         try:

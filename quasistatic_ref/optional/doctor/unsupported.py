@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said, Start, body, free_bases
+from quasistatic_ref.optional.doctor.start import Said, Start, bodies, free_bases
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEARS
 
@@ -14,19 +14,15 @@ def alone(start: Start) -> set[str]:
     """Free bodies that no chain of contact tables joins to what stands."""
     free = {*free_bases(start.system)}
     borne = {"world", *(b.name for b in start.system.bodies)} - free
-    joined = _joined(start)
+    joined = [bodies(start.system, pair) for pair in start.pairs]
     for _ in free:  # a chain is no longer
         borne |= {name for pair in joined if pair & borne for name in pair}
     return free - borne
 
 
-def _joined(start: Start) -> list[set[str]]:
-    return [{body(start.system, side.link) for side in (p.alpha, p.beta)} for p in start.pairs]
-
-
 def unsupported(start: Start) -> Iterator[Said]:
     """Bodies that are joined to nothing, if they weigh anything."""
-    joined = _joined(start)
+    joined = [bodies(start.system, pair) for pair in start.pairs]
     for name in sorted(alone(start)) if start.gravity.any() else ():
         touching = [pair - {name} for pair in joined if name in pair]
         others = " but to bodies that fall as well" if any(touching) else ""
@@ -46,13 +42,12 @@ def falling(run: Run) -> Iterator[Said]:
     system = run.system
     down = run.gravity / g
     most = run.h**2 * g
-    each = zip(_joined(run), run.pairs, strict=True)
-    sides = [names for names, pair in each for _ in range(pair.n_c)]
+    touched = [bodies(system, pair) for pair in run.pairs for _ in range(pair.n_c)]
     said = alone(run)
     for name, base in free_bases(system).items():
         if name in said:
             continue
-        own = np.array([name in names for names in sides], dtype=bool)
+        own = np.array([name in names for names in touched], dtype=bool)
         force = np.abs(run["wrench"][:, own, 2]).max(axis=1, initial=0.0)
         drop = np.diff(run["q"][:, base.q][:, :3] @ down)
         falls = (force <= BEARS * system.mass(name) * g) & (drop > most / 2)

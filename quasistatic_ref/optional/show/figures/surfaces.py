@@ -19,9 +19,6 @@ DECIMALS = 12
 ROUND = 0.8
 """Cosine of the angle between triangles at a corner above which the surface is round there [-]."""
 
-SAME_PLANE = 9
-"""Decimals to which the planes of two triangles agree that are parts of one face."""
-
 
 @lru_cache(maxsize=256)
 def surface_points(shape: shapes.Shape, around: int = AROUND, up: int = UP) -> Array:
@@ -94,20 +91,3 @@ def normals(corners: Array) -> Array:
 
 def _unit(vectors: Array) -> Array:
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-300))
-
-
-def faces(points: Array) -> list[Array]:
-    """Faces of the convex hull, each with its corners in order, shapes (corners, 3)."""
-    hull = ConvexHull(points)
-    members: dict[tuple[float, ...], set[int]] = {}
-    for simplex, plane in zip(hull.simplices, hull.equations, strict=True):
-        members.setdefault(tuple(np.round(plane, SAME_PLANE)), set()).update(simplex.tolist())
-    ordered = []
-    for plane, corners in members.items():
-        at = points[sorted(corners)]
-        centre = at.mean(axis=0)
-        normal = np.array(plane[:3])
-        first = at[0] - centre
-        angle = np.arctan2((at - centre) @ np.cross(normal, first), (at - centre) @ first)
-        ordered.append(at[np.argsort(angle)])
-    return ordered

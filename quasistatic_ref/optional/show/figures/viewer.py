@@ -33,7 +33,7 @@ from quasistatic_ref.optional.show.figures.moments import (
     frames,
     still,
 )
-from quasistatic_ref.optional.show.figures.surfaces import ball, patch, surface_points, triangles
+from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points, triangles
 from quasistatic_ref.optional.show.figures.three import (
     clip,
     colour_clip,
@@ -49,7 +49,7 @@ from quasistatic_ref.optional.show.figures.visuals import (
     visuals,
 )
 from quasistatic_ref.scenario.scenario import Scenario
-from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.shapes.placed_shape import Cone, HalfSpace, PlacedShape, PointCloud, Sphere
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
@@ -60,6 +60,8 @@ LONGEST = 0.25
 
 THICK, DOT = 0.02, 0.012
 """Radii of a force, drawn as a slim cone, and of a contact over half that size [-]."""
+SMALL = 12, 7
+"""Corners of these around their axis and along it."""
 
 NOTHING = 1e-9
 """Length of a force that is zero [m]: an object that is scaled by zero has no inside."""
@@ -201,34 +203,28 @@ def scene_commands(
     ]
     commands += _links(scene, moments[0], half, looks)
     for j in contacts:
-        commands.append(object_set(f"/contacts/{j}", _ball(DOT * half)))
-        commands.append(object_set(f"/forces/{j}", _spike(THICK * half)))
+        commands.append(object_set(f"/contacts/{j}", _over(Sphere(DOT * half), 0.0)))
+        commands.append(object_set(f"/forces/{j}", _over(Cone(THICK * half, 0.5), 0.5)))
     links = {shape.link for shape in moments[0].shapes} | {visual.link for visual in looks}
-    moving = sorted(links - {0})
-    clips = []
-    for link in moving:
-        t, R = (
-            np.array(of)
-            for of in zip(*((m.t_links[link], m.R[link]) for m in moments), strict=True)
-        )
-        clips.append(clip(f"/links/{link}", fps, t, R))
-    states = list(zip(*(m.states for m in moments), strict=True))
+    t = np.array([m.t_links for m in moments])
+    R = np.array([m.R for m in moments])
+    clips = [clip(f"/links/{link}", fps, t[:, link], R[:, link]) for link in sorted(links - {0})]
     for j in contacts:
-        clips += _contact_clips(j, [m.contacts[j] for m in moments], states[j], fps, scale)
+        clips += _contact_clips(j, [m.contacts[j] for m in moments], fps, scale)
     options = {"play": True, "repetitions": REPETITIONS}
     play = {"type": "set_animation", "path": "", "animations": clips, "options": options}
     return [*commands, play]
 
 
 def _contact_clips(
-    j: int, contacts: Sequence[DrawnContact], states: Sequence[str], fps: float, scale: float
+    j: int, contacts: Sequence[DrawnContact], fps: float, scale: float
 ) -> Iterator[dict[str, Any]]:
     """How a contact and its force move, and take the colours of its states."""
     beta = np.array([c.beta for c in contacts])
     force = scale * np.array([c.force for c in contacts])
     length = np.maximum(np.linalg.norm(force, axis=1), NOTHING)
     stretch = np.stack([np.ones_like(length), np.ones_like(length), length], axis=1)
-    colour = np.array([to_rgb(STATES[state]) for state in states])
+    colour = np.array([to_rgb(STATES[c.state]) for c in contacts])
     upright = np.tile(np.eye(3), (len(beta), 1, 1))
     yield clip(f"/contacts/{j}", fps, beta, upright)
     yield clip(f"/forces/{j}", fps, beta, z_along(force), stretch)
@@ -270,21 +266,9 @@ def _lit(corners: Array, colour: str) -> dict[str, Any]:
     return thing(corners, "Mesh", material(_number(colour), OPACITY.get(colour, 1.0)))
 
 
-def _ball(radius: float) -> dict[str, Any]:
-    points = radius * ball(12, 7)
-    return _over(triangles(points))
-
-
-def _spike(radius: float) -> dict[str, Any]:
-    """A cone of length 1 along z, its base at the origin."""
-    angle = np.linspace(0, 2 * np.pi, 12, endpoint=False)
-    base = radius * np.stack([np.cos(angle), np.sin(angle), np.zeros(12)], axis=1)
-    points = np.vstack([base, [0.0, 0.0, 1.0]])
-    return _over(triangles(points))
-
-
-def _over(corners: Array) -> dict[str, Any]:
-    """A surface that nothing hides."""
+def _over(shape: Sphere | Cone, z: float) -> dict[str, Any]:
+    """A small shape that nothing hides, its centre at a height z [m]."""
+    corners = triangles(surface_points(shape, *SMALL) + np.array([0.0, 0.0, z]))
     look = {"type": "MeshBasicMaterial", "depthTest": False, "transparent": True}
     found = thing(corners, "Mesh", look | {"color": _number(FIXED)})
     found["object"]["renderOrder"] = 1
