@@ -55,6 +55,7 @@ class Start:
         self.pairs = simulator.pairs
         self.h = simulator.h
         self.gravity = np.array(simulator.gravity)
+        self.g = float(np.linalg.norm(self.gravity))  # 0 where its square vanishes
 
     @cached_property
     def kinematics(self) -> Kinematics:
