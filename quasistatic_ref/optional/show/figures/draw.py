@@ -15,6 +15,7 @@ from quasistatic_ref.optional.show.figures.moments import (
     Moment,
     box_of,
     extent,
+    middle,
 )
 from quasistatic_ref.optional.show.figures.pens import (
     MILLI,
@@ -74,8 +75,8 @@ def draw_scene(
     box = extent(of)
     if around is not None:
         box = around[0] + around[1] * SIGNS
-    centre = box.mean(axis=0)
-    half = MARGIN * float(np.ptp(box, axis=0).max()) / 2
+    centre, half = middle(box)
+    half = MARGIN * half
     if metres_per_newton is None:
         metres_per_newton = force_scale([of], view, half)
     pen = Pen(axes, camera_of(view))

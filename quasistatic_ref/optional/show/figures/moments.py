@@ -179,6 +179,11 @@ def box_of(points: Array) -> Array:
     return np.array([points.min(axis=0), points.max(axis=0)])
 
 
+def middle(box: Array) -> tuple[Array, float]:
+    """Centre, shape (3,), of a box (2, 3), and half its longest side [m]."""
+    return box.mean(axis=0), float(np.ptp(box, axis=0).max()) / 2
+
+
 def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
     """Least and greatest coordinates of what moves, and of contacts, shape (2, 3) [m].
 

@@ -34,7 +34,8 @@ CROWDED: Final = 1.3
 DRAWING: Final = "drawing"
 """Mark (gid) of lines that are parts of a picture: not data, so nothing has to tell them apart."""
 
-FORMATS = ("png", "pdf")
+METADATA: Final = {"png": None, "pdf": {"CreationDate": None}}
+"""What files of each format say of their making: the same figure has the same bytes."""
 _current: ContextVar[str | Path] = ContextVar("figure style", default="paper")
 
 
@@ -195,8 +196,7 @@ def figure_written(figure: Figure, folder: str | Path, name: str) -> list[Path]:
     """
     paths = []
     with figure_style():
-        for kind in FORMATS:
-            metadata = {"CreationDate": None} if kind == "pdf" else None
+        for kind, metadata in METADATA.items():
             save = partial(figure.savefig, format=kind, metadata=metadata)
             paths.append(written_whole(Path(folder) / f"{name}.{kind}", save))
     plt.close(figure)

@@ -31,6 +31,7 @@ from quasistatic_ref.optional.show.figures.moments import (
     Moment,
     focus,
     frames,
+    middle,
     still,
 )
 from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points, triangles
@@ -70,8 +71,13 @@ POINT = 0.07
 """Size of a cloud's point over half that size [-]."""
 
 REPETITIONS = 1000
-HIDDEN: Final = ("/Grid", "/Axes")
-SKY: Final = {"top_color": [1.0, 1.0, 1.0], "bottom_color": [0.85, 0.9, 0.95]}
+SURROUNDINGS: Final = (
+    ("/Grid", "visible", False),
+    ("/Axes", "visible", False),
+    ("/Background", "top_color", [1.0, 1.0, 1.0]),
+    ("/Background", "bottom_color", [0.85, 0.9, 0.95]),
+)
+"""Properties of meshcat's scene: path, name and value."""
 EYE: Final = 5.0 * CAMERA.axes()[2]
 """The eye from the middle of what is looked at, over half its size [-]."""
 ANGLE: Final = 40
@@ -113,9 +119,7 @@ def view_written(
     scene, run = _scene(shown, run)
     moments, fps = ([still(scene)], 1.0) if run is None else frames(scene, run, FRAMES_PER_SECOND)
     looks = visuals(scene)
-    box = focus(moments, looks)
-    centre = box.mean(axis=0)
-    half = float(np.ptp(box, axis=0).max()) / 2
+    centre, half = middle(focus(moments, looks))
     scale = force_scale(moments, None, half, LONGEST)
     commands = scene_commands(scene, moments, fps, half, scale, looks)
     title = scene.path.stem if isinstance(scene, Scenario) else "scene"
@@ -194,12 +198,8 @@ def scene_commands(
     """
     contacts = range(len(moments[0].contacts))
     commands: list[dict[str, Any]] = [
-        {"type": "set_property", "path": path, "property": "visible", "value": False}
-        for path in HIDDEN
-    ]
-    commands += [
-        {"type": "set_property", "path": "/Background", "property": name, "value": colour}
-        for name, colour in SKY.items()
+        {"type": "set_property", "path": path, "property": name, "value": value}
+        for path, name, value in SURROUNDINGS
     ]
     commands += _links(scene, moments[0], half, looks)
     for j in contacts:
@@ -252,7 +252,7 @@ def _shape(placed: PlacedShape, of: Moment, half: float) -> dict[str, Any]:
     colour = of.colours[placed.link]
     if isinstance(shape, HalfSpace):
         corners = patch(shape, focus([of]).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
-        return thing(corners, "Mesh", material(_number(FLOOR), 0.8))
+        return _lit(corners, FLOOR)
     own = surface_points(shape, AROUND, UP)
     points = own @ placed.R.T + placed.t
     if isinstance(shape, PointCloud):
