@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.optional.doctor.run import Run
 from quasistatic_ref.optional.doctor.start import Said
@@ -52,6 +51,8 @@ def half_turns(run: Run) -> Iterator[Said]:
 def _lag(kind: str, q: Array, q_bar: Array) -> Array:
     """The shorter turn from q to q_bar, shape (steps, 1 or 3) [rad]."""
     if kind == "floating":
+        from scipy.spatial.transform import Rotation  # takes as long as a short run
+
         turn = Rotation.from_quat(q[:, 3:]).inv() * Rotation.from_quat(q_bar[:, 3:])
         return np.asarray(turn.as_rotvec())
     at = q[:, -2] + 1j * q[:, -1]  # cos + i sin
