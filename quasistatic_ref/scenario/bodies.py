@@ -124,8 +124,7 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     positions = table.table("positions", {})
     start = {joint: positions.number(joint) for joint in positions.names()}
     folders = [folder / folder_name for folder_name in value(table, BODY, "package_dirs")]
-    moved = "gravity_compensated" in table
-    if moved and not actuated:
+    if "gravity_compensated" in table and not actuated:
         raise table.fail("gravity_compensated", "needs an actuated joint, and this body has none")
     robot: str | Path
     if urdf is not None:
@@ -157,8 +156,8 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
     return entry
 
 
-def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
-    """Fill a body's block into the system's K_q.
+def stiffness(system: System, entry: BodyEntry) -> Array:
+    """What a body adds to K_q, shape (n_a, n_a): zero at the coordinates of other bodies.
 
     Each joint has a number, a list (diagonal) or a matrix; or the whole body has one matrix.
 
@@ -167,6 +166,7 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
     ScenarioError
         If a joint is left out, unknown, or its stiffness has the wrong shape.
     """
+    K_q = np.zeros((system.n_a, system.n_a))
     joints = entry.actuated(system)
     table = entry.table
     if entry.K_q is None and joints:
@@ -177,13 +177,14 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
         block = wrapped.array("K_q", (len(index), len(index)))
         positive_definite(table.name("K_q"), block)  # refused here rather than in the first step
         K_q[np.ix_(index, index)] = block
-        return
+        return K_q
     stiffnesses = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
     stiffnesses.only(entry.short(joint) for joint in joints)
     for joint in joints:
         block = _joint_stiffness(stiffnesses, entry.short(joint), joint)
         positive_definite(stiffnesses.name(entry.short(joint)), block)
         K_q[joint.v, joint.v] = block
+    return K_q
 
 
 def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
@@ -233,15 +234,15 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
 
 def _joint_stiffness(stiffnesses: Fields, name: str, joint: Joint) -> Array:
     n = joint.v.stop - joint.v.start
-    value = stiffnesses.take(name)
-    wrapped = Fields({name: value}, stiffnesses.where, ScenarioError)
-    if not isinstance(value, list):
+    given = stiffnesses.take(name)
+    wrapped = Fields({name: given}, stiffnesses.where, ScenarioError)
+    if not isinstance(given, list):
         return wrapped.number(name, above=0.0) * np.eye(n)
-    if value and isinstance(value[0], list):
+    if given and isinstance(given[0], list):
         return wrapped.array(name, (n, n))
     diagonal = wrapped.array(name, (n,))
     if not (diagonal > 0).all():
-        raise stiffnesses.fail(name, "must be greater than 0 in every entry", value)
+        raise stiffnesses.fail(name, "must be greater than 0 in every entry", given)
     return np.diag(diagonal)
 
 

@@ -255,9 +255,7 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     system = System([entry.body for entry in entries.values()])
     shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
     pairs = contact_pairs(value(top, TOP, "contacts"), shapes, system.kinematics(system.q_start))
-    K_q = np.zeros((system.n_a, system.n_a))
-    for entry in entries.values():
-        stiffness(system, entry, K_q)
+    K_q = total(stiffness(system, entry) for entry in entries.values())
     rises = NO_RISES
     if any(entry.rubs for entry in entries.values()):
         found = needed_part("extensions.scenario_rises", "joint_friction and support")
