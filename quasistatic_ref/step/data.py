@@ -222,24 +222,24 @@ class StepData(Plain, Shown):
         return int(self.offsets[-1]) + len(self.extra.names)
 
     @cached_property
-    def layout(self) -> RowLayout:
+    def row_layout(self) -> RowLayout:
         """Which rows of the cone the contacts have; one object for steps that have the same."""
         return row_layout(self.cone, self.contacts.rows.tobytes())
 
     @cached_property
     def counts(self) -> Indices:
         """Number of multipliers of each contact, shape (n_c,); in a polyhedral cone, of rows."""
-        return self.layout.counts
+        return self.row_layout.counts
 
     @cached_property
     def mask(self) -> Mask:
         """Which of the cone's rows each contact has, shape (n_c, R)."""
-        return self.layout.mask
+        return self.row_layout.mask
 
     @cached_property
     def offsets(self) -> Indices:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
-        return self.layout.offsets
+        return self.row_layout.offsets
 
     @cached_property
     def H(self) -> Array:

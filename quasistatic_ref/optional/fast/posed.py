@@ -51,7 +51,7 @@ class Constants(NamedTuple):
         No rows of a user's own.
     H : ndarray, shape (n_v, n_v)
         Of Eq. :eq:`eq-13`; where M_u is in blocks, these blocks over h and nothing else.
-    layout : RowLayout
+    row_layout : RowLayout
     """
 
     h: float
@@ -60,7 +60,7 @@ class Constants(NamedTuple):
     M_u: Array
     extra: Extra
     H: Array
-    layout: RowLayout
+    row_layout: RowLayout
 
     @property
     def kind(self) -> "type[PosedStep]":
