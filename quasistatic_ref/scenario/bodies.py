@@ -25,7 +25,7 @@ from quasistatic_ref.scenario.scenario_table import (
     value,
 )
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
-from quasistatic_ref.step.arrays import Array, keep, positive_definite
+from quasistatic_ref.step.arrays import Array, freeze_copies, positive_definite
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,7 @@ class Wrenches(Plain):
     values: Array
 
     def __post_init__(self) -> None:
-        keep(self, "times", "values")
+        freeze_copies(self, "times", "values")
 
     def force(self, system: System, t: float, q: Array) -> Array:
         """Generalised force at time t, shape (n_v,)."""

@@ -45,7 +45,7 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
-from quasistatic_ref.step.arrays import Array, keep
+from quasistatic_ref.step.arrays import Array, freeze_copies
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.extension import NO_RISES, Extension, Rises
 from quasistatic_ref.step.ordered import total
@@ -115,7 +115,7 @@ class Scenario(Plain, Shown):
     law: str = CONVEX
 
     def __post_init__(self) -> None:
-        keep(self, "gravity", "K_q", "gravity_acts")
+        freeze_copies(self, "gravity", "K_q", "gravity_acts")
 
     def simulator(self, extension: Callable[[Array], Extension] | None = None) -> Simulator:
         """A simulator of this scenario, with an `extension` as it takes one."""

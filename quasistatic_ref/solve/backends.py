@@ -256,7 +256,7 @@ def backend(name: str) -> Backend:
     return entry
 
 
-def cone_backend(name: str, what: str) -> None:
+def check_takes_cones(name: str, what: str) -> None:
     """Refuse a backend that takes linear rows only.
 
     Parameters
@@ -305,7 +305,7 @@ def check_backend(name: str, cone_name: str, certify: str = CERTIFY[0]) -> None:
     if name != NONE:
         backend(name)
         if not cone(cone_name).polyhedral:
-            cone_backend(name, f"the {cone_name}")
+            check_takes_cones(name, f"the {cone_name}")
 
 
 def check_certify(name: str | None, certify: str) -> None:

@@ -21,11 +21,11 @@ from quasistatic_ref.step.arrays import (
     Array,
     Indices,
     Mask,
-    columns,
+    check_and_freeze,
+    checked_names,
+    checked_numbers,
+    column_count,
     definite,
-    freeze,
-    names,
-    numbers,
     read_only,
 )
 from quasistatic_ref.step.cones import PYRAMID
@@ -58,10 +58,10 @@ class Extra(Plain, Shown):
     b: Array
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "names", names(self.names, "extra.names"))
-        n_v = columns(self.A, "extra.A", 2)
+        object.__setattr__(self, "names", checked_names(self.names, "extra.names"))
+        n_v = column_count(self.A, "extra.A", 2)
         m = len(self.names)
-        freeze(self, {"A": (m, n_v), "b": (m,)}, "extra.")
+        check_and_freeze(self, {"A": (m, n_v), "b": (m,)}, "extra.")
 
 
 @lru_cache(maxsize=8)
@@ -181,7 +181,7 @@ class StepData(Plain, Shown):
         }
         for key, value in given.items():
             object.__setattr__(self, key, value)
-        freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
+        check_and_freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
         for key, found in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
             if found != n_v:
                 problem = f"must have n_a + n_u = {n_v} columns"
@@ -300,7 +300,7 @@ def hessian_blocks(h: float, K_q: Array, M_u: Array) -> tuple[Array, Array]:
 
 def seconds(h: Any) -> float:
     """A time step h [s], checked; StepDataError unless it is a positive number."""
-    value = numbers(h, "h")
+    value = checked_numbers(h, "h")
     if value.shape != () or not 0 < value < np.inf:
         raise StepDataError("must be a positive number of seconds", field="h", value=h)
     return float(value)

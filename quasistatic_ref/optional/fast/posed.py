@@ -15,8 +15,8 @@ from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
+    checked_array,
     definite,
-    frozen,
     positive_definite,
     whole,
 )
@@ -95,7 +95,7 @@ def constants(
     h = seconds(h)
     K_q = definite("K_q", K_q, n_a)
     try:
-        positive_definite("M_u", frozen(M_u, "M_u", M_u.shape))  # all blocks in one call
+        positive_definite("M_u", checked_array(M_u, "M_u", M_u.shape))  # all blocks in one call
     except StepDataError:
         definite("M_u", whole(M_u), n_u)  # whose sentence shows all of M_u
     layout = row_layout(cone, rows.tobytes())
