@@ -20,7 +20,7 @@ from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SKEW
 
-FACES, LEVEL = cos_sin(FACING)
+FACE_COSINE, EDGE_COSINE = cos_sin(FACING)
 """Least cosine of the angle between a face's normal and the pair's, and of an edge's the largest
 [-]."""
 UP = np.array([0.0, 0.0, 1.0])
@@ -131,7 +131,7 @@ def line(shape: Revolved, above: float, up: float, way: Array) -> tuple[Array, I
     """
     side = np.array([2 * shape.half_length, up])  # its normal, radial and along the axis
     radial = norm(way[:2])
-    if side[0] * radial + side[1] * way[2] < FACES * norm(side):
+    if side[0] * radial + side[1] * way[2] < FACE_COSINE * norm(side):
         return np.zeros((0, 2, 3)), np.zeros(0, dtype=np.int64)
     outward = way * [1.0, 1.0, 0.0] / radial
     tip = shape.half_length * UP
@@ -142,10 +142,10 @@ def line(shape: Revolved, above: float, up: float, way: Array) -> tuple[Array, I
 def _of_polytope(flat: Polytope, extent: float, x: Array, way: Array) -> tuple[Array, Indices]:
     """The ends of edges (S, 2, 3) [m] of a box or a convex mesh, and their numbers."""
     on = dot(flat.normals, x) >= flat.offsets - OVER_FACE * extent
-    facing = on & (dot(flat.normals, way) >= FACES)
+    facing = on & (dot(flat.normals, way) >= FACE_COSINE)
     ends = flat.vertices[flat.edges]
     along = ends[:, 1] - ends[:, 0]
-    level = np.abs(dot(along, way)) <= LEVEL * norm(along)
+    level = np.abs(dot(along, way)) <= EDGE_COSINE * norm(along)
     some = facing[flat.sides].any(axis=1) | on[flat.sides].all(axis=1) & level
     return ends[some], np.flatnonzero(some)
 
