@@ -20,9 +20,10 @@ from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SKEW
 
-FACE_COSINE, EDGE_COSINE = cos_sin(FACING)
-"""Least cosine of the angle between a face's normal and the pair's, and of an edge's the largest
-[-]."""
+FACE_COSINE = cos_sin(FACING)[0]
+"""Least cosine of the angle between the pair's normal and that of a face whose edges count [-]."""
+EDGE_COSINE = cos_sin(FACING)[1]
+"""Largest cosine of the angle between the pair's normal and an edge that counts by itself [-]."""
 UP = np.array([0.0, 0.0, 1.0])
 ROUND = 3
 """Curves of a solid of revolution: a line on its side and two rims."""
