@@ -84,7 +84,7 @@ class Scenario(Plain, Shown):
     limits : Limits
         Beyond which no step is taken.
     rises : Rises
-        Private ones, of friction in joints and of supports.
+        The private rises that model friction in joints and of supports.
 
     Examples
     --------
@@ -262,7 +262,7 @@ def _scenario(path: Path, top: TableReader) -> Scenario:
     if any(entry.rubs for entry in entries.values()):
         found = needed_part("extensions.scenario_rises", "joint_friction and support")
         pairs, rises = found.scenario_rises(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
-    # The size of J by which `fast` chooses a backend: 0 of steps that it does not take in blocks.
+    # `fast` chooses a backend by the size of J where it can keep J in blocks, and then by size 0.
     in_blocks = system.constant_mass_matrix and not len(rises) and law == CONVEX
     size_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if in_blocks else 0
     backend = _backend(solver, certify, named, size_of_J, fast)
