@@ -104,7 +104,7 @@ def with_all_arguments(function: Callable[..., Any], name: str) -> OfTimeQAndLas
 
 
 def needed_arguments(function: Callable[..., Any], name: str) -> int:
-    """How many of (t, q, last) a function takes, 1 to 3 [-]; InputError as of `with_all_arguments`."""
+    """How many of (t, q, last) a function takes, 1 to 3 [-]; InputError if it takes others."""
     try:
         parameters = list(signature(function).parameters.values())
     except (TypeError, ValueError):  # compiled, and without a signature
