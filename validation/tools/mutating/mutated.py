@@ -49,8 +49,8 @@ step/cones.py
     PAGE JUDGE completion standard_form problem
 step/groups.py
     own
-step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
-certify/digits.py model/angles.py step/ordered.py model/rotation.py
+optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
+model/angles.py step/ordered.py model/rotation.py
 model/readers/mesh_files.py optional/fast/pace.py
     own
 step/standard_form.py
@@ -93,7 +93,7 @@ optional/derivatives/step/parameters.py
 certify/rows.py
     certificate farkas
 certify/norm.py
-    digits farkas pivots
+    norm farkas pivots
 model/coordinates.py
     system
 model/system.py model/mass.py
@@ -129,7 +129,7 @@ optional/large/sparse_jacobian.py optional/large/blocks.py optional/large/sparse
 optional/large/sparse_form.py
     SPARSE
 model/body.py
-    solid SCENES
+    solid system system_refusals SCENES
 model/readers/clouds.py optional/readers/pcd.py optional/readers/ply.py
 optional/readers/point_table.py optional/readers/points.py
     CLOUDS
@@ -142,7 +142,7 @@ optional/readers/dae.py
 shapes/frozen.py
     shapes plain_data SYSTEM
 model/kinematics.py
-    system CONTACT
+    system random_mechanisms CONTACT
 model/column_map.py
     system simulator CONTACT
 model/screw.py
@@ -150,13 +150,13 @@ model/screw.py
 shapes/placed_shape.py
     shapes solid words
 shapes/point_cloud.py
-    shapes CLOUDS
+    corners shapes CLOUDS
 shapes/box.py shapes/capsule.py shapes/sphere.py
     shapes SOLIDS
 shapes/cone.py shapes/ellipsoid.py
-    cloud shapes CURVED
+    cloud corners shapes CURVED solid_pair
 shapes/cylinder.py
-    shapes CURVED
+    cloud corners shapes CURVED
 shapes/half_space.py
     cloud shapes SOLIDS
 shapes/rounded.py
@@ -202,6 +202,8 @@ optional/large/sparse.py optional/fast/sparse_solver.py
     SPARSE sparse_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA
+step/pivots.py
+    pivots SYSTEM mass_in_blocks DATA
 step/contacts.py
     artifacts DATA
 step/data.py
