@@ -25,7 +25,7 @@ from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT, WORTHLESS
 
-LARGE = 2.0**200
+FACTOR_LIMIT = 2.0**200
 """Three such factors are far from 2^1024, where the range of float64 ends."""
 NOTHING_CLAIMED = Certificate("none")
 
@@ -144,7 +144,9 @@ def _far_from_largest(solution: StepSolution) -> bool:
     """Whether lam, mu and 1 / h are so small that wrenches, their products, cannot overflow."""
     mu = solution.step.contacts.mu
     lam = solution.lam
-    return bool(solution.step.h > 1 / LARGE and np.vdot(mu, mu) + np.vdot(lam, lam) < LARGE)
+    return bool(
+        solution.step.h > 1 / FACTOR_LIMIT and np.vdot(mu, mu) + np.vdot(lam, lam) < FACTOR_LIMIT
+    )
 
 
 def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSolution:

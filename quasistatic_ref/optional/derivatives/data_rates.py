@@ -38,7 +38,7 @@ def data_rates(
     n_c = step.contacts.n_c
     by_q, by_target = difference_rates(simulator.system.joints, step.delta_q_bar_a)
     gravity = np.array(simulator.gravity)
-    acts = simulator.gravity_acts[:, None]
+    acts = simulator.gravity_factor[:, None]
     un_actuated = np.concatenate([np.zeros(n_a), x[n_a:]])
 
     load_q = h * acts * masses.gravity_rates(gravity)

@@ -7,7 +7,7 @@ import pytest
 from quasistatic_ref.errors import BackendError, StepNotSolved
 from quasistatic_ref.optional.extensions import extended
 from quasistatic_ref.optional.extensions.extended import _symbols, extended_solution, with_rows
-from quasistatic_ref.solve.backends import cone_backend
+from quasistatic_ref.solve.backends import check_takes_cones
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.units import natural_step, natural_units
 from quasistatic_ref.step.data import Extra
@@ -91,7 +91,7 @@ def test_an_answer_whose_worst_residual_is_just_the_limit_is_believed(monkeypatc
 
 def test_only_backends_with_cones_take_what_is_no_row():
     for name in ("clarabel", "scs", "none"):
-        cone_backend(name, "the ellipsoid")
+        check_takes_cones(name, "the ellipsoid")
     for name in ("osqp", "daqp", "qpsolvers:clarabel"):
         with pytest.raises(BackendError, match="accepts only linear rows; the ellipsoid needs one"):
-            cone_backend(name, "the ellipsoid")
+            check_takes_cones(name, "the ellipsoid")
