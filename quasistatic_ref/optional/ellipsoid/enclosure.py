@@ -52,7 +52,7 @@ IDLE: Final = arb(2) ** -40
 """Multipliers and slacks below this share of the largest count as zero when it is guessed which
 contacts are at their apex; what follows from the guess is checked."""
 
-ROUNDS: Final = 20
+ROUNDS: Final = 10
 """Changes of the states of contacts, at most: Newton's method ends in one or two on grasps."""
 
 Start: TypeAlias = tuple[Array, Array]

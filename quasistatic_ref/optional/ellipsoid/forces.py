@@ -16,6 +16,7 @@ from typing import Final
 import numpy as np
 from flint import arb, ctx
 
+from quasistatic_ref.certify.compliance.face_guess import P_OF_WRENCH
 from quasistatic_ref.certify.compliance.forces import WRENCH, ContactForces
 from quasistatic_ref.certify.minimiser import form_in_balls, square_root
 from quasistatic_ref.certify.rational import exact_form
@@ -29,9 +30,6 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
 )
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from quasistatic_ref.step.data import Array, StepData
-
-NORMAL_FIRST: Final = [2, 0, 1, 3]
-"""Where (f_n, f_d1, f_d2, tau_n) stand in a wrench."""
 
 WIDE: Final = arb(2) ** -180
 """Largest gap that is accepted, where the unconstrained step has length one."""
@@ -68,7 +66,7 @@ def compliant_forces(
     if near is not None:
         delta_q, wrench = near
         own = np.zeros(len(step.extra.b))
-        start = delta_q, np.concatenate([(step.h * wrench[:, NORMAL_FIRST]).ravel(), own])
+        start = delta_q, np.concatenate([(step.h * wrench[:, P_OF_WRENCH]).ravel(), own])
     with ctx.workprec(BITS):
         frame = scaled_blocks(step, form, balls, compliance)
         for guess in guesses(form, frame, start):

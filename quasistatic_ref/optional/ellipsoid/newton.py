@@ -106,7 +106,7 @@ def _linearised(
             rows = rows + A_j.entries()
             c = c + [v + k * w for v, w in zip(s.entries(), y_j, strict=True)]
             f = f + y_j
-            give = give + [EPSILON + k] * len(y_j)
+            give = give + [k if k > 0 else EPSILON] * len(y_j)
         elif state == SLIDES:
             u, slip = _direction(s.entries())
             normal = arb_mat(1, len(u) + 1, [arb(1), *(-v for v in u)]) * A_j
@@ -116,7 +116,7 @@ def _linearised(
             rows = rows + normal.entries()
             c = [*c, s[0, 0] - slip + 2 * k * y_j[0]]  # its gap and its slip give way
             f = [*f, y_j[0]]
-            give = [*give, EPSILON + 2 * k]
+            give = [*give, 2 * k if k > 0 else EPSILON]
     m = len(c)
     return K.mid(), arb_mat(m, n, rows).mid(), arb_mat(m, 1, c).mid(), arb_mat(m, 1, f), give
 
