@@ -87,7 +87,7 @@ class FloatBound:
         return splu(csc_matrix(self.H))
 
     def step_error(self, both: DenseStepInBothUnits, delta_q: Array, lam: Array) -> float:
-        """:meth:`error` of a step in dense matrices, from an answer in SI units.
+        """The bound [-] of a step in dense matrices, from an answer in SI units.
 
         Parameters
         ----------
@@ -170,7 +170,14 @@ class FloatBound:
         return math.inf, math.inf
 
     def directions(self, A: Any, s: Array) -> Iterator[tuple[Array, float]]:
-        """The v that is kept, then a new one; and by how much they have to open rows [-]."""
+        """The v that is kept, then a new one, shape (n_v,); and by how much they have to open rows.
+
+        Parameters
+        ----------
+        A : ndarray or scipy.sparse.csc_matrix, shape (m, n_v)
+        s : ndarray, shape (m,)
+            A x - b [-].
+        """
         if self.direction is not None:
             yield self.direction, OPENED
         v = opening(csc_matrix(A), s)
@@ -178,7 +185,7 @@ class FloatBound:
             yield v, 0.0
 
     def free_length(self, g: Array, sizes: TermSizes) -> float:
-        """A lower bound of ||H^-1 g||_H [-], which is the largest g'z / ||z||_H of any z."""
+        """A lower bound of ||H^-1 g||_H [-], g (n_v,): the largest g'z / ||z||_H of any z."""
         z = np.asarray(self.factor.solve(g))
         if not float(np.abs(z).max(initial=0.0)) <= LARGEST:
             return 0.0

@@ -50,9 +50,9 @@ class TermSizes:
     Parameters
     ----------
     A : ndarray or scipy.sparse.csc_matrix, shape (m, n_v)
-        Of each entry of A.
+        Of each entry of A [-].
     load : ndarray, shape (n_v,)
-        Of g.
+        Of g [-].
     row_terms, column_terms : int
         Most terms of a row of A, and of a column of A or a sum in g.
     usable : bool
@@ -83,11 +83,11 @@ def term_sizes(
     ----------
     A : ndarray or scipy.sparse.csc_matrix, shape (m, n_v)
     load : ndarray, shape (n_v,)
-        As of :class:`TermSizes`.
+        As of :class:`TermSizes` [-].
     load_terms : int
         Most terms of a sum in g.
-    numbers : iterable of ndarray
-        Further factors of the terms, none of which may be beyond LARGEST.
+    numbers : iterable of ndarray, each of shape (k,) or any
+        Further factors of the terms [their units], none of which may be beyond LARGEST.
     """
     if isinstance(A, np.ndarray):
         column_terms, row_terms = A.shape
