@@ -132,6 +132,8 @@ def test_a_set_without_interior_is_reported_as_uncertified():
     assert answer.certificate.error_bound is None
     assert "no useful bound" in in_words(answer.certificate)
     np.testing.assert_allclose(answer.delta_q[0], 0.0, rtol=0.0, atol=1e-12)
+    # Compliance c gives it an interior; the wall that is pressed bears 1 N / (1 + m c / h^2).
+    assert sorted(answer.forces[:, 2]) == pytest.approx([0.0, 1.0], rel=1e-3, abs=0.0)
 
 
 def test_an_infeasible_step_is_not_solved():
