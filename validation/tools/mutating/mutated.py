@@ -37,7 +37,7 @@ SETS = {
     "SYSTEM": "system system_forces system_refusals random_mechanisms",
     "SCENES": "scenario simulator words",
     "FOLLOWED": "tracker_bound tracker",
-    "LARGE": "sparse_bound bound_formulas",
+    "LARGE": "float_bound bound_formulas",
     "CONTACT": "eq02_relative_velocity eq03_contact_jacobian",
 }
 TABLE = """
@@ -75,10 +75,8 @@ certify/minimiser.py
 optional/large/bound.py certify/gap.py optional/ellipsoid/impulses.py optional/large/judged.py
 optional/ellipsoid/apex.py optional/extensions/conic.py
     FORGED
-optional/large/rounded_bound.py
-    bound_formulas
 optional/large/least_eigenvalues.py optional/large/opening.py optional/large/sizes.py
-optional/large/sparse_bound.py
+optional/large/float_bound.py
     LARGE
 optional/large/outward.py
     sizes LARGE
@@ -195,11 +193,11 @@ optional/fast/native.py
 optional/fast/second_order.py
     native cones
 solve/solve.py
-    SOLVED native rounded_bound
+    SOLVED native float_bound
 solve/solver.py solve/through_cvxpy.py optional/qpsolvers/through_qpsolvers.py
     SOLVED
 optional/large/sparse.py optional/fast/sparse_solver.py
-    SPARSE sparse_bound
+    SPARSE float_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA
 step/pivots.py
