@@ -11,6 +11,7 @@ import numpy as np
 from quasistatic_ref.optional.derivatives.model.mass_rates import MassRates
 from quasistatic_ref.optional.derivatives.model.tangent import difference_rates
 from quasistatic_ref.optional.derivatives.row_rates import RowRates
+from quasistatic_ref.optional.derivatives.step.load_rates import load_rates
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.units import natural_units
@@ -34,33 +35,29 @@ def data_rates(
     """
     h = step.h
     n_a = step.n_a
-    n_v = step.n_v
     n_c = step.contacts.n_c
-    by_q, by_target = difference_rates(simulator.system.joints, step.delta_q_bar_a)
+    joints = simulator.system.joints
+    target_by_q, target_by_next = difference_rates(joints, step.delta_q_bar_a)
     gravity = np.array(simulator.gravity)
     acts = simulator.gravity_acts[:, None]
     un_actuated = np.concatenate([np.zeros(n_a), x[n_a:]])
 
-    load_q = h * acts * masses.gravity_rates(gravity)
-    load_q[:n_a, :n_a] += h * step.K_q @ by_q
-    if not simulator.system.constant_mass_matrix and n_a < n_v:
-        load_q[n_a:] -= masses.inertial_force_rates(un_actuated)[n_a:] / h
-    targets = np.zeros((n_v, n_a))
-    targets[:n_a] = h * step.K_q @ by_target
-    springs = np.zeros((n_v, n_a))
-    springs[:n_a] = np.diag(h * (step.delta_q_bar_a - x[:n_a]))
     tau = np.concatenate([step.tau_a, step.tau_u])
-    tau[:n_a] += step.K_q @ (step.delta_q_bar_a - x[:n_a])
-    tau[n_a:] += step.M_u @ x[n_a:] / h**2
+    loads = load_rates(h, step.K_q, step.M_u, tau, step.delta_q_bar_a, x)
+    by_target = loads["delta_q_bar_a"]
+    load_q = h * acts * masses.gravity_rates(gravity)
+    load_q[:, :n_a] += by_target @ target_by_q
+    if not simulator.system.constant_mass_matrix and n_a < step.n_v:
+        load_q[n_a:] -= masses.inertial_force_rates(un_actuated)[n_a:] / h
     weights = h * acts * masses.by_masses(gravity)
     weights[n_a:] -= masses.inertial_by_masses(un_actuated)[n_a:] / h
     return {
         "dq_dq": DataRates(load_q, rows.of_motion(x), rows.terms, rows.pull),
-        "dq_dq_bar_a": _loads(targets, n_c),
-        "dq_dtau": _loads(h * np.eye(n_v), n_c),
+        "dq_dq_bar_a": _loads(by_target @ target_by_next, n_c),
+        "dq_dtau": _loads(loads["tau"], n_c),
         **_coefficients(simulator, step, x),
-        "dq_dK_q": _loads(springs, n_c),
-        "dq_dh": _loads(tau[:, None], n_c),
+        "dq_dK_q": _loads(loads["K_q"], n_c),
+        "dq_dh": _loads(loads["h"], n_c),
         "dq_dmasses": _loads(weights, n_c),
     }
 

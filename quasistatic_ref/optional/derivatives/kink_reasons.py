@@ -43,13 +43,12 @@ def geometry_reasons(
         Contacts that it would not feel wherever they were.
     """
     contacts = result.step.contacts
-    kept = rates.couples
-    frames = np.stack([contacts.d1, contacts.d2], axis=1)
     quarters = _quarters(simulator.cone)
     felt = range(contacts.n_c) if touching is None else touching.contacts
     reasons = []
-    for kink in kinks(kept, rates.contacts, frames, rates.motion.J, quarters):
-        if kink.contact not in felt and (not kink.jumps or safe[kink.contact]):
+    for kink in kinks(rates.couples, rates.contacts, rates.motion.J, quarters):
+        jumps = kink.kind not in reason.SMOOTH_POINTS
+        if kink.contact not in felt and (not jumps or safe[kink.contact]):
             continue
         name = contacts.name[kink.contact]
         frictionless = (
@@ -60,7 +59,8 @@ def geometry_reasons(
             or (touching and stays(result.step, result.solution.delta_q, touching, kink.contact))
         ):
             continue
-        fields = tuple(rates.places) if kink.blurs else FIELDS
+        blurred = kink.kind != reason.CROSSING and rates.contacts.blurred[kink.contact]
+        fields = tuple(rates.places) if blurred else FIELDS
         reasons.append(Reason(kink.kind, (name,), fields, f"{name} {kink.says}"))
     return [*reasons, *_ties(simulator, result, rates, safe)]
 

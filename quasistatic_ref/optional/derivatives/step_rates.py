@@ -57,8 +57,7 @@ class StepRates:
         kinematics = system.kinematics(q)
         self.motion = MotionRates(kinematics, system.column_map)
         self.couples = couples(simulator.pairs, points, kinematics.R, kinematics.t)
-        tangents = step.contacts.d1, step.contacts.d2
-        self.contacts = contact_rates(self.couples, tangents, self.motion.J)
+        self.contacts = contact_rates(self.couples, self.motion.J)
         rows = RowRates(step.contacts, points, simulator.layout, self.contacts, self.motion)
         masses = MassRates(system, kinematics, self.motion)
         data = data_rates(simulator, step, x, rows, masses)
