@@ -14,7 +14,12 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.derivatives.gradient import Derivatives, combined, directed
+from quasistatic_ref.optional.derivatives.gradient import (
+    Derivatives,
+    combined,
+    directed,
+    gradient,
+)
 from quasistatic_ref.optional.derivatives.kink_reasons import geometry_reasons, out_of_reach
 from quasistatic_ref.optional.derivatives.program_reasons import (
     forbidden,
@@ -93,7 +98,7 @@ def derivatives(
     if len(near):
         equations = Equations(equations.of.unloaded(near))
     if towards is not None:
-        one = combined(rates.data, directed(rates.widths, towards, "towards"))
+        one = combined(rates.data, directed(rates.places, towards, "towards"))
         equations = Equations(equations.beyond(one))
     touching = equations.of
     if touching is not reach.touching:
@@ -107,7 +112,7 @@ def derivatives(
     ]
     pairs = [pair.name for pair in simulator.pairs]
     bad = forbidden(found, reasons, rates.places, pairs)
-    return rates.derivatives(found.x, bad, reasons, equations.along, reach)
+    return gradient(rates, found.x, bad, reasons, equations.along, reach)
 
 
 def check_derivable(simulator: Simulator) -> None:

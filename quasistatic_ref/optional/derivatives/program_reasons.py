@@ -1,10 +1,11 @@
 """Which rows of the program, and which targets, stand in the way of derivatives."""
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Sequence, Set
 
 import numpy as np
 
 from quasistatic_ref.formats.quoting import listed
+from quasistatic_ref.optional.derivatives.data_rates import Places
 from quasistatic_ref.optional.derivatives.model.tangent import half_turns
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import OptimumRates
@@ -15,9 +16,6 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import ON_RIM
-
-Places = Mapping[str, tuple[int, int]]
-"""Which columns each field has, among all: from the first to one beyond the last."""
 
 
 def target_reasons(simulator: Simulator, change: Array) -> list[Reason]:
@@ -63,7 +61,7 @@ def row_reasons(
     reasons = []
 
     def fields(bad: Mask) -> tuple[str, ...]:
-        return tuple(name for name, place in places.items() if bad[slice(*place)].any())
+        return tuple(name for name, place in places.items() if bad[place].any())
 
     together: dict[tuple[str, ...], Mask] = {}
     for contacts, bad in found.contradicts:
@@ -115,9 +113,8 @@ def forbidden(
     by_field = (*reason.ONE_SIDED, reason.CONTRADICTION)
     for why in reasons:
         for name in why.fields if why.kind not in by_field else ():
-            first, last = places[name]
+            own = np.arange(len(bad))[places[name]]
             if why.kind == reason.ZERO_FRICTION:  # that of the pair alone
-                first += list(pairs).index(why.where[0])
-                last = first + 1
-            bad[first:last] = True
+                own = own[[list(pairs).index(why.where[0])]]
+            bad[own] = True
     return np.asarray(bad)

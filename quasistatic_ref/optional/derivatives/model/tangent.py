@@ -13,6 +13,7 @@ Of :math:`y = T' \ominus T = \log(T^{-1} T')`, the derivatives are :math:`J(y)^{
 from collections.abc import Sequence
 
 import numpy as np
+from scipy.linalg import expm
 
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.step.arrays import Array
@@ -20,12 +21,6 @@ from quasistatic_ref.step.ordered import crossed
 
 PLANAR = np.ix_([0, 1, 5], [0, 1, 5])
 """What of a twist a planar base has."""
-
-TERMS = 60
-"""Most terms of the series: after 40 a twist of pi has less than rounding left."""
-
-ROUNDING = 2.0**-58
-"""Bound of a term that is left out."""
 
 
 def cross_matrix(r: Array) -> Array:
@@ -43,24 +38,14 @@ def bracket(twist: Array) -> Array:
     return ad
 
 
-def right_jacobian(twist: Array) -> Array:
-    """J(x) of a twist (6,) [m, rad], shape (6, 6)."""
-    return _series(bracket(twist))
-
-
-def _series(ad: Array) -> Array:
-    """J(x) of the matrix ad of x."""
-    size = float(np.abs(ad).sum(axis=1).max())
-    left = 1.0
-    last = 1
-    while left > ROUNDING and last < TERMS:
-        last += 1
-        left *= size / last
-    one = np.eye(6)
-    J = one
-    for k in range(last, 1, -1):  # from the last term on
-        J = one - ad @ J / k
-    return J
+def exponential_rates(twist: Array) -> tuple[Array, Array]:
+    """exp(-ad) and J(x) of a twist x (6,) [m, rad], shape (6, 6) each."""
+    # The exponential of [[A, 1], [0, 0]] is [[exp A, sum_k A^k / (k + 1)!], [0, 1]].
+    both = np.zeros((12, 12))
+    both[:6, :6] = -bracket(twist)
+    both[:6, 6:] = np.eye(6)
+    exponential = expm(both)
+    return exponential[:6, :6], exponential[:6, 6:]
 
 
 def sum_rates(joints: Sequence[Joint], delta_q: Array) -> tuple[Array, Array]:
@@ -75,10 +60,9 @@ def sum_rates(joints: Sequence[Joint], delta_q: Array) -> tuple[Array, Array]:
     by_q = np.eye(len(delta_q))
     by_change = np.eye(len(delta_q))
     for joint, x in _bases(joints, delta_q):
-        ad = bracket(x)
-        J = _series(ad)
+        back, J = exponential_rates(x)
         own = joint.v, joint.v
-        by_q[own] = _of(joint, np.eye(6) - ad @ J)
+        by_q[own] = _of(joint, back)
         by_change[own] = _of(joint, J)
     return by_q, by_change
 
@@ -96,8 +80,8 @@ def difference_rates(joints: Sequence[Joint], change: Array) -> tuple[Array, Arr
     by_next = np.eye(len(change))
     for joint, y in _bases(joints, change):
         own = joint.v, joint.v
-        by_q[own] = -np.linalg.inv(_of(joint, right_jacobian(-y)))
-        by_next[own] = np.linalg.inv(_of(joint, right_jacobian(y)))
+        by_q[own] = -np.linalg.inv(_of(joint, exponential_rates(-y)[1]))
+        by_next[own] = np.linalg.inv(_of(joint, exponential_rates(y)[1]))
     return by_q, by_next
 
 

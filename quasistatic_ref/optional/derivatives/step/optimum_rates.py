@@ -12,9 +12,8 @@ touches without load must keep its slack of zero. Where one of these fails there
 derivative, but one on each side.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from scipy.optimize import nnls
@@ -239,20 +238,3 @@ def _combinations(touching: Touching) -> tuple[Array, Mask]:
     rows = strict[:, :, None] * touching.table * used[:, None]
     _, s, V = np.linalg.svd(rows, full_matrices=False)
     return V, s > DEPENDENT * s[:, :1]
-
-
-def parameters(*parts: DataRates) -> DataRates:
-    """Several groups of parameters as one.
-
-    Parameters
-    ----------
-    parts : DataRates
-    """
-    load = np.concatenate([part.load for part in parts], axis=1)
-    motion = np.concatenate([part.motion for part in parts], axis=2)
-    pull = partial(_pulled, [part.pull for part in parts])
-    return DataRates(load, motion, np.concatenate([part.terms for part in parts]), pull)
-
-
-def _pulled(pulls: Sequence[Callable[[Array], Array]], y: Array) -> Array:
-    return np.concatenate([pull(y) for pull in pulls], axis=1)
