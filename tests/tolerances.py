@@ -86,6 +86,10 @@ hundred of them and poses that are rounded at each."""
 FIRST_ORDER: Final = 1e-3
 """Steady motions whose closed form holds to first order in h, or at the start of a slow turn."""
 
+FOUR_ULP: Final = 4 * 2.220446049250313e-16
+"""The standard form against CVXPY's: a rounding more, of 1 / h or a product, on either side. And
+sums of a convergent series whose entries are at most 1, in an order of their own."""
+
 JAX_STEP: Final = 1e-6
 """By what JAX moves its arguments to check a gradient [of their units]: rounding of a step, 1e-16,
 is then 1e-10 of the difference, and its error of the second order is as little."""

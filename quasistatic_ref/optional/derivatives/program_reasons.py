@@ -113,8 +113,9 @@ def forbidden(
     by_field = (*reason.ONE_SIDED, reason.CONTRADICTION)
     for why in reasons:
         for name in why.fields if why.kind not in by_field else ():
-            own = np.arange(len(bad))[places[name]]
+            own = bad[places[name]]
             if why.kind == reason.ZERO_FRICTION:  # that of the pair alone
-                own = own[[list(pairs).index(why.where[0])]]
-            bad[own] = True
+                own[list(pairs).index(why.where[0])] = True
+            else:
+                own[:] = True
     return np.asarray(bad)

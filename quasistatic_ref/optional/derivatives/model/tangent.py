@@ -13,7 +13,6 @@ Of :math:`y = T' \ominus T = \log(T^{-1} T')`, the derivatives are :math:`J(y)^{
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.linalg import expm
 
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.step.arrays import Array
@@ -21,6 +20,9 @@ from quasistatic_ref.step.ordered import crossed
 
 PLANAR = np.ix_([0, 1, 5], [0, 1, 5])
 """What of a twist a planar base has."""
+
+TERMS = 34
+"""Of the series: of a turn by pi the rest is below 1e-20 of the twist."""
 
 
 def cross_matrix(r: Array) -> Array:
@@ -38,14 +40,13 @@ def bracket(twist: Array) -> Array:
     return ad
 
 
-def exponential_rates(twist: Array) -> tuple[Array, Array]:
-    """exp(-ad) and J(x) of a twist x (6,) [m, rad], shape (6, 6) each."""
-    # The exponential of [[A, 1], [0, 0]] is [[exp A, sum_k A^k / (k + 1)!], [0, 1]].
-    both = np.zeros((12, 12))
-    both[:6, :6] = -bracket(twist)
-    both[:6, 6:] = np.eye(6)
-    exponential = expm(both)
-    return exponential[:6, :6], exponential[:6, 6:]
+def right_jacobian(ad: Array) -> Array:
+    """J(x), shape (6, 6), of the matrix ad of a twist x."""
+    one = np.eye(6)
+    J = one
+    for k in range(TERMS, 1, -1):  # from the last term on
+        J = one - ad @ J / k
+    return J
 
 
 def sum_rates(joints: Sequence[Joint], delta_q: Array) -> tuple[Array, Array]:
@@ -60,9 +61,10 @@ def sum_rates(joints: Sequence[Joint], delta_q: Array) -> tuple[Array, Array]:
     by_q = np.eye(len(delta_q))
     by_change = np.eye(len(delta_q))
     for joint, x in _bases(joints, delta_q):
-        back, J = exponential_rates(x)
+        ad = bracket(x)
+        J = right_jacobian(ad)
         own = joint.v, joint.v
-        by_q[own] = _of(joint, back)
+        by_q[own] = _of(joint, np.eye(6) - ad @ J)
         by_change[own] = _of(joint, J)
     return by_q, by_change
 
@@ -80,8 +82,8 @@ def difference_rates(joints: Sequence[Joint], change: Array) -> tuple[Array, Arr
     by_next = np.eye(len(change))
     for joint, y in _bases(joints, change):
         own = joint.v, joint.v
-        by_q[own] = -np.linalg.inv(_of(joint, exponential_rates(-y)[1]))
-        by_next[own] = np.linalg.inv(_of(joint, exponential_rates(y)[1]))
+        by_q[own] = -np.linalg.inv(_of(joint, right_jacobian(bracket(-y))))
+        by_next[own] = np.linalg.inv(_of(joint, right_jacobian(bracket(y))))
     return by_q, by_next
 
 
