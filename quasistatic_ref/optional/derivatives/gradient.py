@@ -120,36 +120,27 @@ class Derivatives(Shown, Plain):
     @property
     def reaches(self) -> dict[str, tuple[NextKink, ...]]:
         """How far each column holds to both sides, by field; computed when it is read."""
-        found: dict[str, tuple[NextKink, ...]] = {}
-        for p, (name, missing) in enumerate(self._columns()):
-            found[name] = (*found.get(name, ()), self._ahead(p, name, missing))
+        found = {}
+        for name, place in self._rates.places.items():
+            missing = np.isnan(getattr(self, name)).reshape(len(self.dq_dq), -1).any(axis=0)
+            ahead = (self._ahead(p, name, bad) for p, bad in enumerate(missing, place.start))
+            found[name] = tuple(ahead)
         return found
 
     @property
     def reach(self) -> float:
         """The least of these distances, in natural units [-]; computed when it is read."""
-        least = np.inf
+        distances = np.array([kink.distance for own in self.reaches.values() for kink in own])
         units = self._rates.units
-        for p, (name, missing) in enumerate(self._columns()):
-            if units[p] > 0:  # that of a link without mass is zero: no change of it matters
-                limit = least * units[p]
-                least = min(least, self._ahead(p, name, missing, limit).distance / units[p])
-        return float(least)
+        some = units > 0  # that of a link without mass is zero: no change of it matters
+        return float((distances[some] / units[some]).min(initial=np.inf))
 
-    def _columns(self) -> list[tuple[str, bool]]:
-        """Of all columns: the field, and whether it is NaN."""
-        columns = []
-        for name in self._rates.places:
-            missing = np.isnan(getattr(self, name)).reshape(len(self.dq_dq), -1).any(axis=0)
-            columns += [(name, bool(bad)) for bad in missing]
-        return columns
-
-    def _ahead(self, p: int, name: str, missing: bool, limit: float = np.inf) -> NextKink:
-        """How far a column holds; where that is beyond a limit, it may be less far than is said."""
+    def _ahead(self, p: int, name: str, missing: bool) -> NextKink:
+        """How far a column holds."""
         for why in self.reasons if missing else ():
             if why.kind not in reason.NO_KINK and name in why.fields:
                 return NextKink(0.0, f"{why.kind}: {', '.join(why.where)}")
-        return self._named(NEVER if self._reach is None else self._reach.either(p, limit))
+        return self._named(NEVER if self._reach is None else self._reach.either(p))
 
     def _named(self, kink: Distance) -> NextKink:
         step = self.result.step

@@ -11,7 +11,7 @@ from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import OptimumRates
 from quasistatic_ref.optional.derivatives.step.reason import Reason
 from quasistatic_ref.optional.derivatives.step.touching import Touching
-from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
@@ -37,10 +37,9 @@ def target_reasons(simulator: Simulator, change: Array) -> list[Reason]:
 
 def row_reasons(
     simulator: Simulator,
-    result: StepResult,
+    rates: StepRates,
     touching: Touching,
     found: OptimumRates,
-    places: Places,
     near: Set[tuple[int, ...]],
 ) -> list[Reason]:
     """Rows that stand in the way of some parameters.
@@ -48,20 +47,19 @@ def row_reasons(
     Parameters
     ----------
     simulator : Simulator
-    result : StepResult
+    rates : StepRates
     touching : Touching
     found : OptimumRates
-    places : Mapping
-        As `Places`.
     near : set of (int, int)
         Contact and row of those that nearly touch, or nearly bear no load.
     """
-    names = result.step.contacts.name
-    row_names = cone(result.step.cone).row_names
+    step = rates.result.step
+    names = step.contacts.name
+    row_names = cone(step.cone).row_names
     reasons = []
 
     def fields(bad: Mask) -> tuple[str, ...]:
-        return tuple(name for name, place in places.items() if bad[place].any())
+        return tuple(name for name, place in rates.places.items() if bad[place].any())
 
     together: dict[tuple[str, ...], Mask] = {}
     for contacts, bad in found.contradicts:

@@ -76,7 +76,7 @@ def smoothed(
 
     nowhere = np.zeros(step.contacts.n_c, dtype=bool)
     reasons = [
-        *geometry_reasons(simulator, result, rates, None, nowhere),
+        *geometry_reasons(simulator, rates, None, nowhere),
         *target_reasons(simulator, step.delta_q_bar_a),
     ]
     bad = np.zeros(rates.data.load.shape[1], dtype=bool)

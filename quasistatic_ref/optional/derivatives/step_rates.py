@@ -26,6 +26,8 @@ class StepRates:
 
     Attributes
     ----------
+    x : ndarray, shape (n_v,)
+        The displacement [m, rad].
     motion : MotionRates
     couples : list of Couple
         The contacts.
@@ -47,7 +49,7 @@ class StepRates:
         system = simulator.system
         step = result.step
         points = result.points
-        x = result.solution.delta_q
+        self.x = x = result.solution.delta_q
         kinematics = system.kinematics(q)
         self.motion = MotionRates(kinematics, system.column_map)
         self.couples = couples(simulator.pairs, points, kinematics.R, kinematics.t)
