@@ -29,7 +29,6 @@ from quasistatic_ref.shapes.placed_shape import (
     Sphere,
 )
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
 NONE = np.zeros((0, 3))
@@ -197,7 +196,4 @@ def _way_around(x: Array) -> Array:
 
 def across(n: Array) -> Array:
     """Two unit vectors across a unit vector n (3,) [-], shape (2, 3)."""
-    first = np.eye(3)[np.abs(n).argmin()]
-    first = first - (first @ n) * n
-    first = first / np.sqrt(first @ first)
-    return np.concatenate([first[None], crossed(n[None], first[None])])
+    return np.linalg.svd(n[None])[2][1:]

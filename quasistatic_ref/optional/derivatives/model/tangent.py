@@ -21,8 +21,8 @@ from quasistatic_ref.step.ordered import crossed
 PLANAR = np.ix_([0, 1, 5], [0, 1, 5])
 """What of a twist a planar base has."""
 
-TERMS = 34
-"""Of the series: of a turn by pi the rest is below 1e-20 of the twist."""
+TERMS = 28
+"""Of the series: of a turn by pi the rest is below 1e-16 of the twist."""
 
 
 def cross_matrix(r: Array) -> Array:
