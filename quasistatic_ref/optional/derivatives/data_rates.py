@@ -34,7 +34,7 @@ class Pull:
     by_friction : mapping of str to ndarray, shape (n_c, 4, n_v)
         By a coefficient of friction of each contact, of gap, slips and spin [m or rad per unit].
     of_pair : ndarray, shape (n_c, pairs)
-        1 where a contact is of a pair, else 0.
+        1 where a contact is of a pair, else 0 [-].
     places : mapping of str to slice
         Which columns each field of the derivatives has.
     shape : (int, int)

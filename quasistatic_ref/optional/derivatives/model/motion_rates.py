@@ -83,7 +83,7 @@ def wrench_rates(
     at, force, torque : ndarray, shape (N, 3)
         [m, N, N m], or those of impulses.
     d_at, d_force, d_torque : ndarray, shape (N, 3, n_v)
-        Their derivatives by q.
+        Their derivatives by q [the same per m or rad].
 
     Returns
     -------

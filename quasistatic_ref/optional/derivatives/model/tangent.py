@@ -41,7 +41,7 @@ def bracket(twist: Array) -> Array:
 
 
 def right_jacobian(ad: Array) -> Array:
-    """J(x), shape (6, 6), of the matrix ad of a twist x."""
+    """J(x), shape (6, 6), of the matrix ad, shape (6, 6) [m, rad], of a twist x."""
     one = np.eye(6)
     J = one
     for k in range(TERMS, 1, -1):  # from the last term on
