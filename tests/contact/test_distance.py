@@ -179,3 +179,12 @@ def test_a_rim_s_first_corner_is_towards_the_closest_point_on_it_or_else_along_t
     angle = first + np.arange(4) * np.pi / 2
     expected = t + np.column_stack([0.5 * np.cos(angle), 0.5 * np.sin(angle), np.full(4, -half)])
     np.testing.assert_allclose(found.beta[:4], expected, rtol=EXACT, atol=SIGNED_DISTANCE)
+
+
+def test_bars_that_cross_touch_where_their_edges_do_and_not_at_the_closest_pair_again():
+    along_x = placed(Box(np.array([0.5, 0.25, 0.25])))
+    along_y = placed(Box(np.array([0.25, 0.5, 0.25])), 1)
+    found = found_for(along_x, along_y, standing((np.eye(3), 0.5 * Z)), 4)
+    square = [[x, y] for x in (-0.25, 0.25) for y in (-0.25, 0.25)]
+    assert sorted(found.alpha[:, :2].tolist()) == square
+    assert (found.point > 16).all()  # the closest pair's number, after 16 corners

@@ -126,6 +126,26 @@ def test_a_tip_off_an_edge_has_the_way_from_the_edge_as_normal(off, scale) -> No
 
 
 @pytest.mark.parametrize("scale", SCALES)
+@pytest.mark.parametrize("beyond", [1e-6, 3e-8, 1e-9, -1e-9, -1e-6])
+@pytest.mark.parametrize("up", [1e-5, 0.05])
+def test_a_tip_near_an_edge_leans_away_from_it_only_beyond_it(up, beyond, scale) -> None:
+    # The tip is above the face z = 0.2, a little past its edge at x = 0.1 or within it. Distances
+    # to face and edge differ by beyond^2 / (2 up), less than float64 has: where the foot is decides.
+    lean = np.array([max(beyond, 0.0), 0.0, up])
+    lean = lean / np.sqrt(lean @ lean)
+    roof = convex_hull(scale * ROOF)
+    t = scale * np.array([HALF[0] + beyond, 0.05, HALF[2] + up])
+    for box in (Box(scale * HALF), convex_hull(scale * CORNERS)):
+        for seed in range(4):
+            found = moved_pair(box, np.eye(3), roof, np.eye(3), t, seed)
+            other = moved_pair(roof, np.eye(3), box, np.eye(3), -t, seed)
+            for n in (found.n, -other.n):
+                np.testing.assert_allclose(n, lean, rtol=EXACT, atol=OF_DIFFERENCE / up)
+            for off in (found.beta - t, other.alpha):
+                np.testing.assert_allclose(off / scale, 0.0, rtol=EXACT, atol=CLOSED_FORM)
+
+
+@pytest.mark.parametrize("scale", SCALES)
 def test_points_above_a_face_of_a_mesh_have_its_normal_on_the_diagonal_too(scale) -> None:
     # Two triangles are a face, and rounding puts some points above their common edge in neither.
     R = turned(0.3, -0.7, 1.1)
