@@ -168,8 +168,9 @@ def test_a_rim_s_first_corner_is_towards_the_closest_point_on_it_or_else_along_t
     # 2.5 rad. Where the rim is level, its first corner is on the x axis.
     half = 1.0
     t = np.array([3.0, -2.0, 5.0])
-    beta = t + [radial * np.cos(1.0), radial * np.sin(1.0), -half]
-    n = -np.array([np.sin(tilt) * np.cos(2.5), np.sin(tilt) * np.sin(2.5), -np.cos(tilt)])
+    beta = t + np.array([radial * np.cos(1.0), radial * np.sin(1.0), -half])
+    level = np.sin(tilt)
+    n = -np.array([level * np.cos(2.5), level * np.sin(2.5), -np.cos(tilt)])
     nearest = listed(np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
     nearest = nearest._replace(alpha=beta[None], beta=beta[None], n=n[None])
     rimmed = Cylinder(0.5, half)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 
 from quasistatic_ref.contact.separations import BISECTOR, gaps, pair_normal, rounding
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
@@ -11,34 +12,36 @@ from quasistatic_ref.shapes.placed_shape import Box, Capsule, HalfSpace, PointCl
 from quasistatic_ref.tolerances import TIED_FACES
 from tests.tolerances import CLOSED_FORM, EXACT
 
-X, Y, Z = np.eye(3)
+STRAIGHT = np.eye(3)
+ORIGIN = np.zeros(3)
+X, Y, Z = STRAIGHT
 CUBE = Box(np.ones(3))
 CAPSULE = Capsule(0.25, 1.0)
 TO_X = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
 TO_Y = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
 
 
-def at(shape: Shape, *t: float, R: np.ndarray = np.eye(3)) -> ShapeInWorld:
+def at(shape: Shape, t: ArrayLike = ORIGIN, R: np.ndarray = STRAIGHT) -> ShapeInWorld:
     return ShapeInWorld(shape, R, np.array(t))
 
 
 @pytest.mark.parametrize(
     ("other", "size"),
     [
-        (at(CUBE, 1.0, -0.5, 0.0), 2.0),  # the cube's edge
-        (at(CUBE, 1.0, -5.0, 0.0), 5.0),  # a place
-        (at(PointCloud(np.array([10 * X, -10 * X])), 0.0, 0.0, 0.0), 2.0),
-        (at(HalfSpace(Z, 0.0), 0.0, 0.0, 0.0), 2.0),
+        (at(CUBE, [1.0, -0.5, 0.0]), 2.0),  # the cube's edge
+        (at(CUBE, [1.0, -5.0, 0.0]), 5.0),  # a place
+        (at(PointCloud(np.array([10 * X, -10 * X]))), 2.0),
+        (at(HalfSpace(Z, 0.0)), 2.0),
     ],
 )
 def test_rounding_is_that_of_finite_sizes_and_places(other, size) -> None:
-    assert rounding(at(CUBE, 0.0, 0.0, 0.0), other) == TIED_FACES * size
+    assert rounding(at(CUBE), other) == TIED_FACES * size
 
 
 def test_closest_points_are_apart_by_the_distance_along_a_normal_between_two() -> None:
     # Cubes with an edge in common but for 1e-10 along both sides.
     depth = 1e-10
-    found, tie = pair_normal("p", at(CUBE, 0.0, 0.0, 0.0), at(CUBE, 2 - depth, 0.0, 2 - depth))
+    found, tie = pair_normal("p", at(CUBE), at(CUBE, [2 - depth, 0.0, 2 - depth]))
     between = (X + Z) / np.sqrt(2)
     np.testing.assert_allclose(found.n, between, rtol=EXACT, atol=CLOSED_FORM)
     np.testing.assert_allclose(found.phi, -np.sqrt(2) * depth, rtol=EXACT, atol=CLOSED_FORM)
@@ -51,9 +54,9 @@ def test_closest_points_are_apart_by_the_distance_along_a_normal_between_two() -
     ("a", "b"),
     [
         # Axes that cross: out along either side of their plane.
-        (at(CAPSULE, 0.0, 0.0, 0.0, R=TO_X), at(CAPSULE, 0.0, 0.0, 0.0, R=TO_Y)),
+        (at(CAPSULE, R=TO_X), at(CAPSULE, R=TO_Y)),
         # A corner in a corner: out along three normals.
-        (at(CUBE, 0.0, 0.0, 0.0), at(CUBE, 1.5, 1.5, 1.5)),
+        (at(CUBE), at(CUBE, [1.5, 1.5, 1.5])),
     ],
 )
 def test_solids_as_deep_along_several_normals_are_refused(a, b) -> None:
@@ -64,8 +67,8 @@ def test_solids_as_deep_along_several_normals_are_refused(a, b) -> None:
 
 def test_listed_gaps_of_two_polytopes_are_those_along_the_listed_normals() -> None:
     for a, b in ((CUBE, CAPSULE), (CAPSULE, CUBE)):
-        one = at(a, 0.0, 0.0, 0.0)
-        other = at(b, 1.0, 0.2, 1.1, R=TO_Y)
+        one = at(a)
+        other = at(b, [1.0, 0.2, 1.1], TO_Y)
         witness, listed = pair_and_gaps("p", one, other)
         assert listed is not None
         found, normals = listed

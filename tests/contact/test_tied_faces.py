@@ -21,7 +21,6 @@ from quasistatic_ref.tolerances import SAME_NORMAL
 from tests.contact.still import found_for, pair, placed, standing
 from tests.tolerances import CLOSED_FORM, EXACT
 
-
 X, Y, Z = np.eye(3)
 
 

@@ -130,7 +130,7 @@ def test_a_tip_off_an_edge_has_the_way_from_the_edge_as_normal(off, scale) -> No
 @pytest.mark.parametrize("up", [1e-5, 0.05])
 def test_a_tip_near_an_edge_leans_away_from_it_only_beyond_it(up, beyond, scale) -> None:
     # The tip is above the face z = 0.2, a little past its edge at x = 0.1 or within it. Distances
-    # to face and edge differ by beyond^2 / (2 up), less than float64 has: where the foot is decides.
+    # to face and edge differ by beyond^2 / (2 up), less than float64 has: the foot's place decides.
     lean = np.array([max(beyond, 0.0), 0.0, up])
     lean = lean / np.sqrt(lean @ lean)
     roof = convex_hull(scale * ROOF)
