@@ -12,8 +12,9 @@ from flint import arb, ctx
 PRECISION = 128
 """Bits: a number is so near to the middle between two float64 numbers once in 2^70."""
 
-MOST = 1 << 13
-"""Bits that suffice for the largest float64."""
+MOST = 1 << 11
+"""Bits that suffice for the largest float64: 1,024 before the point, and as many as decide nearly
+always after it."""
 
 
 def cos_sin(angle: float) -> tuple[float, float]:

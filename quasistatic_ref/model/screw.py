@@ -90,7 +90,7 @@ def half_turn(w: Vector) -> HalfTurn:
     """Half of the turn by |w|, of 3 floats [rad]."""
     a = length(w)
     C, S = cos_sin(a / 2)
-    return HalfTurn(a, C, S / (a / 2) if a / 2 else 1.0)
+    return HalfTurn(a, C, S / (a / 2) if a else 1.0)
 
 
 def translation(v: Vector, w: Vector, half: HalfTurn) -> list[float]:

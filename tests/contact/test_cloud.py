@@ -195,3 +195,53 @@ def test_half_way_through_an_ellipsoid_the_upper_side_is_the_nearest(x, z) -> No
     phi, n = Ellipsoid(np.array([a, b, c])).signed_distance(np.array([[x, 0.0, z]]))
     np.testing.assert_allclose(phi, [-np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)
     np.testing.assert_allclose(n, [way / np.sqrt(way @ way)], rtol=EXACT, atol=CLOSED_FORM)
+
+
+HALF_AXES = np.array([0.3, 0.2, 0.1])
+
+
+def of_cone(points):
+    """A function that is zero on CONE's surface and negative within."""
+    r = np.hypot(points[:, 0], points[:, 1])
+    return np.maximum(0.8 * r + 0.6 * (points[:, 2] - 0.2), -0.2 - points[:, 2])
+
+
+def of_ellipsoid(points):
+    """The same of the ellipsoid of these HALF_AXES."""
+    return np.sum((points / HALF_AXES) ** 2, axis=1) - 1
+
+
+def points_of_cone(s, angle):
+    """Points of CONE's base and of its side, s in [0, 1] from their middle or tip to the rim."""
+    ways = 0.3 * s * np.array([np.cos(angle), np.sin(angle)])
+    base = np.vstack([ways, np.full(s.shape, -0.2)])
+    return np.hstack([base, np.vstack([ways, 0.2 - 0.4 * s])]).T
+
+
+def points_of_ellipsoid(s, angle):
+    """Points of the ellipsoid: z / c = 2 s - 1, at an angle about z."""
+    z = 2 * s - 1
+    r = np.sqrt(1 - z**2)
+    return HALF_AXES * np.column_stack([r * np.cos(angle), r * np.sin(angle), z])
+
+
+@pytest.mark.parametrize(
+    ("shape", "level", "surface"),
+    [
+        (CONE, of_cone, points_of_cone),
+        (Ellipsoid(HALF_AXES), of_ellipsoid, points_of_ellipsoid),
+    ],
+    ids=["cone", "ellipsoid"],
+)
+def test_the_foot_is_on_the_surface_and_no_point_of_it_is_nearer(shape, level, surface, rng):
+    points = rng.uniform(-0.5, 0.5, size=(200, 3))
+    points[:40] *= 0.2  # within
+    phi, normal = shape.signed_distance(points)
+    assert phi.min() < 0 < phi.max()
+    assert np.array_equal(np.sign(phi), np.sign(level(points)))
+    np.testing.assert_allclose(np.sum(normal * normal, axis=1), 1.0, rtol=ROUNDING)
+    feet = points - phi[:, None] * normal
+    np.testing.assert_allclose(level(feet), 0.0, rtol=EXACT, atol=CLOSED_FORM)
+    many = surface(rng.uniform(0, 1, size=3000), rng.uniform(0, 2 * np.pi, size=3000))
+    nearest = np.sqrt(np.sum((points[:, None] - many) ** 2, axis=2).min(axis=1))
+    assert (np.abs(phi) <= nearest + CLOSED_FORM).all()

@@ -36,3 +36,7 @@ def test_the_angle_of_a_vector_is_the_nearest_float64():
 @pytest.mark.parametrize("angle", [math.inf, math.nan])
 def test_no_angle_has_no_sine(angle):
     assert all(map(math.isnan, cos_sin(angle)))
+
+
+def test_a_vector_that_is_no_number_has_no_angle():
+    assert math.isnan(angle_of(math.nan, 1.0))

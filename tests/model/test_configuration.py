@@ -1,7 +1,9 @@
 """Configurations from outside: unit parts of length one, zeros without a sign."""
 
 import numpy as np
+import pytest
 
+from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.configuration import configuration
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.optional.derivatives.step_jax import normalised
@@ -40,3 +42,25 @@ def test_a_configuration_has_no_negative_zeros() -> None:
     for found in (normalised(JOINTS, q), configuration(JOINTS, len(q), q)):
         assert np.array_equal(found, q)
         assert not np.signbit(found).any()
+
+
+def test_a_quaternion_off_by_more_than_rounding_is_divided_by_its_length() -> None:
+    q = normalised(JOINTS, Q)
+    longer = q.copy()
+    factor = 1 + 2.0**-30  # above rounding, below what is refused
+    longer[UNITS["quaternion"]] = [0.0, 0.0, 0.0, factor]
+    longer[UNITS["turn"]] = [-factor, 0.0]
+    found = configuration(JOINTS, len(q), longer)
+    assert found[UNITS["quaternion"]].tolist() == [0.0, 0.0, 0.0, 1.0]
+    assert found[UNITS["turn"]].tolist() == [-1.0, 0.0]
+
+
+def test_only_the_quaternion_w_x_y_z_of_no_turn_is_taken_for_one_of_that_order() -> None:
+    q = normalised(JOINTS, Q)
+    half_turns = np.eye(4)[1:]
+    for half_turn in half_turns:
+        q[UNITS["quaternion"]] = half_turn
+        assert np.array_equal(configuration(JOINTS, len(q), q), q)
+    q[UNITS["quaternion"]] = [1.0, 0.0, 0.0, 0.0]
+    with pytest.raises(ModelError, match=r"looks like the identity as \[w x y z\]"):
+        configuration(JOINTS, len(q), q)

@@ -106,3 +106,15 @@ def test_a_floating_base_turns_by_its_rotation_vector(angle, axis):
 def test_without_a_turn_a_joint_keeps_its_bits(joint):
     q = [9.0, 0.1, 0.2, 0.3, *quaternion_about(AXIS, 0.8)]
     assert moved(joint, q, [0.0] * 7) == q[joint.q]
+
+
+def test_only_the_twist_without_a_turn_keeps_the_quaternion_as_it_is():
+    rounded = [0.1, 0.2, 0.3, 1.0]  # of no length one: nothing but a copy keeps its bits
+    q = [9.0, 0.0, 0.0, 0.0, *rounded]
+    still = moved(FLOATING, q, [7.0, *LINEAR, 0.0, -0.0, 0.0])
+    assert still[3:] == rounded
+    for w in ((0.1, 0.1, 0.1), (0.1, 0.1, 0.0), (0.1, 0.0, 0.0), (0.0, 0.1, 0.1)):
+        turned = moved(FLOATING, [9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], [7.0, *LINEAR, *w])
+        angle = np.sqrt(np.dot(w, w))
+        expected = quaternion_about(np.array(w) / angle, angle)
+        np.testing.assert_allclose(turned[3:], expected, rtol=0, atol=ROUNDING)

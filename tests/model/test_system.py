@@ -89,3 +89,16 @@ def test_m_u_of_free_bodies_alone_is_one_array_without_negative_zeros(
     assert system.M_u(system.integrate(system.q_start, np.ones(6))) is M_u
     assert not scene.constant_mass_matrix
     assert np.abs(scene.M_u(q) - scene.M_u(scene.q_start)).max() > 0.1
+
+
+def test_systems_of_the_same_bodies_are_equal(tmp_path: Path) -> None:
+    box, chain = Body("box", BOX, "floating"), Body("c", written(tmp_path, CHAIN))
+    assert System([box, chain]) == System([box, chain])
+    assert System([box, chain]) != System([chain, box])
+    assert System([box]) != "box"
+
+
+def test_kinematics_of_the_last_configuration_are_kept(scene: System, q: np.ndarray) -> None:
+    here = scene.kinematics(q)
+    assert scene.kinematics(q.copy()) is here
+    assert scene.kinematics(scene.q_start) is not here

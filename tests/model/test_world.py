@@ -69,3 +69,18 @@ def test_a_joint_has_the_limits_that_its_file_gives_it(
     assert written != hinge
     system = System([Body("one", robot(link("a"), link("b"), written))])
     assert system.joint("one/j").limits == limits
+
+
+def test_a_mechanism_in_a_second_part_moves_as_it_does_alone() -> None:
+    pendulum = robot(link("rail"), link("bob"), joint("swing", "rail", "bob", axis="0 1 0"))
+    crane = Body("crane", pendulum)
+    full = [Body.of_shape(f"ball{k}", Sphere(0.1), 1.0) for k in range(PART // 6)]
+    alone, system = System([crane]), System([*full, crane])
+    assert len(system.workspace().parts) == 2
+    number = system.link("crane/bob")
+    v = system.joint("crane/swing").v
+    q = system.q_start.copy()
+    q[system.joint("crane/swing").q] = 0.7
+    own, found = alone.kinematics(np.array([0.7])), system.kinematics(q)
+    assert np.array_equal(found.R[number], own.R[alone.link("crane/bob")])
+    assert np.array_equal(found.J[number, :, v], own.J[alone.link("crane/bob")])

@@ -19,6 +19,7 @@ from tests.tolerances import CLOSED_FORM, EXACT, ROUNDING
 BOX = Box(np.array([0.1, 0.2, 0.3]))
 MESH = convex_hull(np.array([[1.0, 1, 1], [2, 1, 1], [1, 1.5, 1], [1, 1, 1.25]]))
 TOWARDS = np.array([0.6, 0.8, 0.0])
+TILTED = np.array([0.3, 0.4, -np.sqrt(0.75)])
 # Four points of a circle of radius 0.5 from TOWARDS on, each a quarter turn (x, y) -> (-y, x) after
 # the one before.
 RIM = [(0.3, 0.4), (-0.4, 0.3), (-0.3, -0.4), (0.4, -0.3)]
@@ -33,8 +34,9 @@ CORNERS = {
 
 
 @pytest.mark.parametrize(("shape", "points", "radius"), CORNERS.values(), ids=CORNERS)
-def test_corners_are_vertices_ends_and_quarters_of_rims(shape, points, radius) -> None:
-    found, ball = shape.corners(TOWARDS)
+@pytest.mark.parametrize("towards", [TOWARDS, TILTED], ids=["level", "tilted"])
+def test_corners_are_vertices_ends_and_quarters_of_rims(shape, points, radius, towards) -> None:
+    found, ball = shape.corners(towards)
     assert shape.corner_count == len(points)
     np.testing.assert_allclose(found, np.reshape(points, (-1, 3)), rtol=EXACT, atol=CLOSED_FORM)
     assert ball == radius

@@ -77,6 +77,12 @@ def test_an_impossible_shape_is_refused(make: Callable[[], Any], words: str) -> 
         make()
 
 
+def test_lengths_are_halves_or_wholes_of_at_least_a_proton_s() -> None:
+    assert Cylinder(0.1, length=0.4) == Cylinder(0.1, 0.2)
+    assert Box(size=np.array([0.2, 0.4, 0.6])) == Box(np.array([0.1, 0.2, 0.3]))
+    assert Sphere(SHORT).radius == SHORT
+
+
 def test_coal_sees_the_sizes_as_written() -> None:
     assert Sphere(0.2).coal == coal.Sphere(0.2)
     assert Box(np.array([0.1, 0.2, 0.3])).coal == coal.Box(0.2, 0.4, 0.6)
@@ -110,14 +116,16 @@ WITH_FACES = [Box([0.3, 0.4, 0.5]), Cylinder(0.4, 0.5), Cone(0.4, 0.5), convex_h
 
 @pytest.mark.parametrize("shape", WITH_FACES, ids=lambda shape: type(shape).__name__)
 def test_inside_the_highest_face_has_the_signed_distance_and_the_normal(shape: Any) -> None:
-    points = np.random.default_rng(0).uniform(-0.1, 0.1, (50, 3))
+    anywhere = np.random.default_rng(0).uniform(-0.5, 0.5, (500, 3))
+    points = anywhere[shape.signed_distance(anywhere)[0] < 0]
     phi, n = shape.signed_distance(points)
     heights, normals = shape.faces(points)
     highest = heights.argmax(axis=1)
-    assert phi.max() < 0
+    assert len(set(highest)) == heights.shape[1]  # each face is the nearest of some point
     np.testing.assert_allclose(np.linalg.norm(n, axis=1), 1.0, rtol=ROUNDING)
     np.testing.assert_allclose(heights.max(axis=1), phi, rtol=ROUNDING)
-    np.testing.assert_allclose(normals[np.arange(50), highest], n, rtol=0, atol=ROUNDING)
+    normal = normals[np.arange(len(points)), highest]
+    np.testing.assert_allclose(normal, n, rtol=0, atol=ROUNDING)
 
 
 def test_arrays_are_copied_and_read_only() -> None:

@@ -173,7 +173,7 @@ def _check_poses(file: UrdfFile, model: Any) -> None:
     moving = [joint for joint in file.joints if joint.kind != "fixed" and joint.mimic is None]
     data = model.createData()
     for step in (0.0, 0.1):
-        positions = {joint.name: step * (k + 3) for k, joint in enumerate(moving)}
+        positions = {joint.name: step * k for k, joint in enumerate(moving, start=3)}
         delta_q = np.zeros(model.nv)
         for name, position in positions.items():
             delta_q[model.joints[model.getJointId(name)].idx_v] = position

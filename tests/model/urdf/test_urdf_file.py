@@ -1,14 +1,17 @@
 """Limits of what a URDF may say: its size, its numbers, inertias of bodies, what was loaded."""
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.urdf import urdf_file as urdf_file_module
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
 from quasistatic_ref.model.urdf.urdf_file import inertia_defect, urdf_file
+from quasistatic_ref.model.urdf.urdf_shapes import same_pose
 from quasistatic_ref.model.urdf.urdf_xml import DEEPEST, xml_root
-from tests.model.urdf.urdf_texts import inertial, joint, link, robot
+from quasistatic_ref.tolerances import LOADED
+from tests.model.urdf.urdf_texts import inertial, joint, link, mimic, robot
 
 
 def test_elements_are_nested_up_to_the_deepest() -> None:
@@ -53,3 +56,66 @@ def test_point_masses_are_a_body_unless_they_are_in_a_line() -> None:
     assert loaded_urdf(three_points("0 0 0"), base="floating").links == ("a", "b", "c")
     with pytest.raises(ModelError, match=r"link\[a\].inertial.inertia: must be positive definite"):
         loaded_urdf(three_points("0 -1 0"), base="floating")
+
+
+def test_a_largest_moment_above_the_sum_of_the_others_is_that_of_no_body() -> None:
+    for rest in (0.01, 0.3):
+        assert inertia_defect(np.diag([0.3, rest, 0.3 + rest])) is None
+        defect = inertia_defect(np.diag([0.3, rest, 0.31 + rest]))
+        assert defect is not None
+        assert "largest principal moment" in defect[1]
+
+
+@pytest.mark.parametrize(("excess", "impossible"), [(0.01, False), (0.03, True)])
+def test_a_welded_link_makes_up_for_an_inertia_as_far_as_parallel_axes_go(
+    excess: float, impossible: bool
+) -> None:
+    # Two links of 1 kg, 0.2 m apart along z: about their common centre each adds 1 kg (0.1 m)^2 to
+    # the moments about x and y. So each link's moment about z may exceed the sum of its others by
+    # up to 2 (0.1^2) kg m^2 = 0.02 kg m^2.
+    moments = ("0.1", "0.1", str(0.2 + excess))
+    two = robot(
+        link("a", inertial=inertial("1", moments)),
+        link("b", inertial=inertial("1", moments)),
+        joint("weld", "a", "b", "fixed", more='<origin xyz="0 0 0.2"/>'),
+    )
+    if impossible:
+        with pytest.raises(ModelError, match=r"link\[a\].inertial.inertia: is impossible"):
+            loaded_urdf(two, base="floating")
+    else:
+        assert len(loaded_urdf(two, base="floating").notes) == 2
+
+
+def test_a_link_that_carries_only_links_without_mass_needs_one() -> None:
+    empty = robot(
+        link("a"), link("b", inertial=""), link("c", inertial=""),
+        joint("turn", "a", "b"), joint("weld", "b", "c"),
+    )  # fmt: skip
+    with pytest.raises(ModelError, match=r"link\[b\].inertial: is missing"):
+        loaded_urdf(empty, base="fixed")
+
+
+def test_a_fixed_joint_that_mimics_is_ignored() -> None:
+    arms = joint("turn", "a", "b"), joint("weld", "b", "c", "fixed", more=mimic("turn"))
+    file = urdf_file(robot(link("a"), link("b"), link("c"), *arms))
+    assert file.joints[1].mimic is None
+    assert [field for field in file.ignored if "mimic" in field] == ["joint[weld].mimic"]
+
+
+def test_a_joint_needs_its_effort_and_its_velocity_but_no_range() -> None:
+    range_given = 'lower="-1" upper="1" '
+    turn = joint("turn", "a", "b")
+    assert range_given in turn
+    urdf_file(robot(link("a"), link("b"), turn.replace(range_given, "")))
+    for needed in ("effort", "velocity"):
+        without = turn.replace(f'{needed}="1"', "")
+        with pytest.raises(ModelError, match=rf"joint\[turn\].limit.{needed}: is missing"):
+            urdf_file(robot(link("a"), link("b"), without))
+
+
+@pytest.mark.parametrize(("off", "same"), [(5.0, True), (11.0, False)])
+def test_places_are_compared_in_proportion_to_their_distance(off: float, same: bool) -> None:
+    # At 9 m, ten times what is allowed at the origin.
+    t = np.array([9.0, 0.0, 0.0])
+    loaded = pin.SE3(np.eye(3), t + off * LOADED * np.eye(3)[0])
+    assert same_pose(loaded, np.eye(3), t) is same

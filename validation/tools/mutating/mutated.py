@@ -129,7 +129,7 @@ optional/large/sparse_jacobian.py optional/large/blocks.py optional/large/sparse
 optional/large/sparse_form.py
     SPARSE
 model/body.py
-    solid SCENES
+    solid system system_refusals SCENES
 model/readers/clouds.py optional/readers/pcd.py optional/readers/ply.py
 optional/readers/point_table.py optional/readers/points.py
     CLOUDS
@@ -142,7 +142,7 @@ optional/readers/dae.py
 shapes/frozen.py
     shapes plain_data SYSTEM
 model/kinematics.py
-    system CONTACT
+    system random_mechanisms CONTACT
 model/column_map.py
     system simulator CONTACT
 model/screw.py
@@ -150,13 +150,13 @@ model/screw.py
 shapes/placed_shape.py
     shapes solid words
 shapes/point_cloud.py
-    shapes CLOUDS
+    corners shapes CLOUDS
 shapes/box.py shapes/capsule.py shapes/sphere.py
     shapes SOLIDS
 shapes/cone.py shapes/ellipsoid.py
-    cloud shapes CURVED
+    cloud corners shapes CURVED solid_pair
 shapes/cylinder.py
-    shapes CURVED
+    cloud corners shapes CURVED
 shapes/half_space.py
     cloud shapes SOLIDS
 shapes/rounded.py
