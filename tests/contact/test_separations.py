@@ -8,7 +8,7 @@ from quasistatic_ref.contact.separations import BISECTOR, gaps, pair_normal, rou
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.shapes.placed_shape import Box, Capsule, HalfSpace, PointCloud, Shape
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, PointCloud, Shape
 from quasistatic_ref.tolerances import TIED_FACES
 from tests.tolerances import CLOSED_FORM, EXACT
 
@@ -31,10 +31,9 @@ def at(shape: Shape, t: ArrayLike = ORIGIN, R: np.ndarray = STRAIGHT) -> ShapeIn
         (at(CUBE, [1.0, -0.5, 0.0]), 2.0),  # the cube's edge
         (at(CUBE, [1.0, -5.0, 0.0]), 5.0),  # a place
         (at(PointCloud(np.array([10 * X, -10 * X]))), 2.0),
-        (at(HalfSpace(Z, 0.0)), 2.0),
     ],
 )
-def test_rounding_is_that_of_finite_sizes_and_places(other, size) -> None:
+def test_rounding_is_that_of_the_sizes_of_solids_and_of_places(other, size) -> None:
     assert rounding(at(CUBE), other) == TIED_FACES * size
 
 
@@ -62,7 +61,7 @@ def test_closest_points_are_apart_by_the_distance_along_a_normal_between_two() -
 def test_solids_as_deep_along_several_normals_are_refused(a, b) -> None:
     with pytest.raises(ContactError, match=r"along \[.*\] as along \[.*\], 0.5 m: ") as refusal:
         pair_normal("p", a, b)
-    assert "-0." not in str(refusal.value).replace("-0.5", "")
+    assert "-0." not in str(refusal.value)
 
 
 def test_listed_gaps_of_two_polytopes_are_those_along_the_listed_normals() -> None:

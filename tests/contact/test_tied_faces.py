@@ -1,4 +1,4 @@
-"""The contacts of two faces: corners, rims and the closest pair, in that order."""
+"""The contacts of two faces, and which normal they have on edges."""
 
 import numpy as np
 import pytest
@@ -7,12 +7,10 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.separations import OF_CLOUD, OF_PAIR
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.contact.solids.solid_pair import solid_pair
 from quasistatic_ref.contact.tied_faces import corner_surface, faces_apart
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
-    Cylinder,
     HalfSpace,
     PointCloud,
     Shape,
@@ -65,34 +63,6 @@ def test_on_a_slope_the_middle_of_an_edge_takes_no_corners_place() -> None:
         points = found(slope, CUBE, R, R @ [0.3, 0.2, 0.05], 4)
         assert sorted(points.point.tolist()) == [0, 1, 2, 3]
         np.testing.assert_allclose(points.phi, 0, rtol=EXACT, atol=CLOSED_FORM)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_a_rims_first_corner_is_the_closest_point_and_repeats_it(seed: int) -> None:
-    # Rims of two cylinders 1e-5 m apart: the normal is right to 1e-11, and a corner that it led to
-    # would have another by 1e-7. The closest pair, and each rim's corner there, are one contact.
-    rng = np.random.default_rng(seed)
-    one = Cylinder(0.06, 0.04)
-    other = Cylinder(0.05, 0.07)
-    R = Rotation.random(random_state=seed).as_matrix()
-    way = rng.normal(size=3)
-    t = 0.3 * way / np.sqrt(way @ way)
-    here = ShapeInWorld(one, np.eye(3), np.zeros(3))
-    for _ in range(3):  # along the normal, until they are as near
-        phi, _, _, n = solid_pair("p", here, ShapeInWorld(other, R, t))
-        t = t - (phi - 1e-5) * n
-    points = found(one, other, R, t, 17)
-    nearest = points.alpha[points.point == 16]
-    again = np.abs(points.alpha - nearest).max(axis=1) < 1e-6
-    on_rim = np.hypot(*nearest[0, :2]) > 0.06 - 1e-9
-    for x in (points.n, points.alpha):
-        np.testing.assert_allclose(
-            x[again], x[again][:1].repeat(again.sum(), 0), rtol=0, atol=1e-10
-        )
-    assert again.sum() >= 1 + on_rim
-    kept = found(one, other, R, t, 2)
-    apart = np.abs(kept.alpha[:, None] - kept.alpha).max(axis=2) + np.eye(2)
-    assert apart.min() > 1e-3
 
 
 def test_of_two_corners_that_are_one_contact_alpha_s_is_kept() -> None:

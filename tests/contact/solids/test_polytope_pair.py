@@ -110,39 +110,33 @@ def test_a_capsule_leaves_an_edge_that_it_crosses_whichever_way_it_is_turned_abo
         np.testing.assert_allclose([found.n, -other.n], [Z, Z], rtol=EXACT, atol=CLOSED_FORM)
 
 
-@pytest.mark.parametrize("scale", SCALES)
-@pytest.mark.parametrize("off", [1e-9, 1e-4, 0.05])
-def test_a_tip_off_an_edge_has_the_way_from_the_edge_as_normal(off, scale) -> None:
-    n = np.array([0.6, 0, 0.8])
-    roof = convex_hull(scale * ROOF)
-    edge = np.array([HALF[0], 0.05, HALF[2]])
-    t = scale * (edge + off * n)
-    for box in (Box(scale * HALF), convex_hull(scale * CORNERS)):
-        for seed in range(2):
-            found = moved_pair(box, np.eye(3), roof, np.eye(3), t, seed)
-            np.testing.assert_allclose(found.phi / scale, off, rtol=EXACT, atol=CLOSED_FORM)
-            np.testing.assert_allclose(found.n, n, rtol=EXACT, atol=OF_DIFFERENCE / off)
-            np.testing.assert_allclose(found.alpha / scale, edge, rtol=EXACT, atol=CLOSED_FORM)
+NEAR_EDGE = [
+    *[(0.6 * off, 0.8 * off) for off in (1e-9, 1e-4, 0.05)],
+    *[(beyond, up) for beyond in (1e-6, 3e-8, 1e-9, -1e-9, -1e-6) for up in (1e-5, 0.05)],
+]
 
 
 @pytest.mark.parametrize("scale", SCALES)
-@pytest.mark.parametrize("beyond", [1e-6, 3e-8, 1e-9, -1e-9, -1e-6])
-@pytest.mark.parametrize("up", [1e-5, 0.05])
-def test_a_tip_near_an_edge_leans_away_from_it_only_beyond_it(up, beyond, scale) -> None:
+@pytest.mark.parametrize(("beyond", "up"), NEAR_EDGE)
+def test_a_tip_near_an_edge_leans_away_from_it_only_beyond_it(beyond, up, scale) -> None:
     # The tip is above the face z = 0.2, a little past its edge at x = 0.1 or within it. Distances
-    # to face and edge differ by beyond^2 / (2 up), less than float64 has: the foot's place decides.
-    lean = np.array([max(beyond, 0.0), 0.0, up])
-    lean = lean / np.sqrt(lean @ lean)
+    # to face and edge may differ by beyond^2 / (2 up), less than float64 has: then the foot's place
+    # decides.
+    way = np.array([max(beyond, 0.0), 0.0, up])
+    off = np.sqrt(way @ way)
+    tip = np.array([HALF[0] + beyond, 0.05, HALF[2] + up])
+    t = scale * tip
     roof = convex_hull(scale * ROOF)
-    t = scale * np.array([HALF[0] + beyond, 0.05, HALF[2] + up])
     for box in (Box(scale * HALF), convex_hull(scale * CORNERS)):
+        _, normals = box.signed_distance(t[None])
         for seed in range(4):
             found = moved_pair(box, np.eye(3), roof, np.eye(3), t, seed)
             other = moved_pair(roof, np.eye(3), box, np.eye(3), -t, seed)
-            for n in (found.n, -other.n):
-                np.testing.assert_allclose(n, lean, rtol=EXACT, atol=OF_DIFFERENCE / up)
-            for off in (found.beta - t, other.alpha):
-                np.testing.assert_allclose(off / scale, 0.0, rtol=EXACT, atol=CLOSED_FORM)
+            for n in (normals[0], found.n, -other.n):
+                np.testing.assert_allclose(n, way / off, rtol=EXACT, atol=OF_DIFFERENCE / off)
+            for phi in (found.phi, other.phi):
+                np.testing.assert_allclose(phi / scale, off, rtol=EXACT, atol=CLOSED_FORM)
+            np.testing.assert_allclose(found.beta / scale, tip, rtol=EXACT, atol=CLOSED_FORM)
 
 
 @pytest.mark.parametrize("scale", SCALES)
