@@ -110,9 +110,11 @@ def test_a_corner_on_a_ridge_whose_faces_both_face_the_pair_has_the_pair_s_norma
     assert tie == OF_PAIR
 
 
-def test_a_cloud_is_out_of_a_face_by_its_own_height_over_that() -> None:
-    # The first point is on an edge. Over x = 0.1 the cloud's lowest is at 0, over z = 1 at -0.5.
-    cloud = PointCloud(np.array([[0.1, 0.0, 1.0], [0.3, 0.0, 0.5]]))
-    points = found(Box(np.array([0.1, 1.0, 1.0])), cloud, np.eye(3), np.zeros(3), 1)
-    np.testing.assert_allclose(points.n, [X], rtol=EXACT, atol=CLOSED_FORM)
-    assert points.tie.tolist() == [OF_CLOUD]
+def test_a_cloud_takes_the_face_along_which_it_is_farthest_out() -> None:
+    # Two points are on an edge. Above the face x = 0.1 the lowest of all is at 0, above z = 1 at
+    # -0.5.
+    t = 5 * X
+    cloud = PointCloud(np.array([[0.1, 0.0, 1.0], [0.1, 0.2, 1.0], [0.3, 0.0, 0.5]]) - t)
+    points = found(Box(np.array([0.1, 1.0, 1.0])), cloud, np.eye(3), t, 2)
+    np.testing.assert_allclose(points.n, [X, X], rtol=EXACT, atol=CLOSED_FORM)
+    assert points.tie.tolist() == [OF_CLOUD] * 2
