@@ -101,7 +101,7 @@ doctest_global_setup = """
 from fractions import Fraction
 import numpy as np
 import quasistatic_ref as qr
-from quasistatic_ref.certify.digits import digits_of_error
+from quasistatic_ref.certify.norm import digits_of_error
 from quasistatic_ref.cli.decimals import decimal_string
 from quasistatic_ref.step.cones import direction
 np.set_printoptions(precision=8, suppress=False)  # a page before may have changed these

@@ -16,6 +16,7 @@ from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import Box, Cylinder
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.extension import Extension
 from tests.helpers import random_step
 from tests.tolerances import ROUNDING
 
@@ -102,6 +103,9 @@ def test_a_solver_a_word_and_a_kind_of_file_need_their_parts(without, tmp_path):
     without("fast")
     with pytest.raises(InputError, match=r"^fast needs quasistatic_ref/optional/fast$"):
         solve_step(step, fast=True)
+    without("extensions")
+    with pytest.raises(InputError, match=r"^extension needs quasistatic_ref/optional/extensions$"):
+        solve_step(step, extension=Extension(lambda symbols: []))
     without("readers")
     with pytest.raises(InputError, match=r"a \.ply cloud needs .*/optional/readers$"):
         point_cloud(tmp_path / "cloud.ply")

@@ -20,8 +20,9 @@ import numpy as np
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.dependence import tight_rows
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.certify.minimiser import RationalSolution, rational_solution, rounded_solution
+from quasistatic_ref.certify.minimiser import RationalSolution, rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
+from quasistatic_ref.certify.rounding import rounded_solution
 from quasistatic_ref.certify.rows import contact_rows, flat_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.formats.plain import Plain

@@ -40,24 +40,6 @@ def independent_rows(form: ExactForm, candidates: Sequence[int]) -> tuple[int, .
     return tuple(candidates[j] for j in pivots)
 
 
-def implied(form: ExactForm, working: Sequence[int], rows: Sequence[Row]) -> list[bool]:
-    """Whether equations a'x = b follow from A_w x = b_w alone, decided exactly.
-
-    Parameters
-    ----------
-    form : ExactForm
-    working : sequence of int
-        Independent rows.
-    rows : sequence of list of fmpz
-        [a, b] each.
-
-    Returns
-    -------
-    list of bool
-    """
-    return follow(form.equations(working), rows)
-
-
 def tight_rows(
     form: ExactForm, working: Sequence[int], slack: Sequence[fmpz]
 ) -> tuple[list[int], list[int]]:
@@ -72,7 +54,7 @@ def tight_rows(
         Of the minimiser on them [any unit].
     """
     tight = [i for i, s in enumerate(slack) if not s and i not in working]
-    spans = implied(form, working, form.equations(tight)) if tight else []
+    spans = follow(form.equations(working), form.equations(tight)) if tight else []
     at = dict(zip(tight, spans, strict=True))
     return [i for i in tight if at[i]], [i for i in tight if not at[i]]
 

@@ -9,13 +9,10 @@ choices where the multipliers are not unique.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from flint import arb, ctx, fmpq
-from numpy.typing import NDArray
 
 from quasistatic_ref.certify.active_set import (
     EnteringRule,
@@ -26,15 +23,9 @@ from quasistatic_ref.certify.active_set import (
 )
 from quasistatic_ref.certify.degeneracy import differentiable, multipliers_unique
 from quasistatic_ref.certify.farkas import farkas_vector
-from quasistatic_ref.certify.minimiser import (
-    PRECISION,
-    BallSolution,
-    Minimiser,
-    RationalSolution,
-)
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import nearest_fraction, nearest_in
+from quasistatic_ref.certify.rounding import nearest_numbers
 from quasistatic_ref.errors import InputError, StepIllPosed, StepInfeasible
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -115,55 +106,29 @@ def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
     spanned = minimiser.spanned(tight)
     unspanned = [i for i in tight if i not in spanned]
     smooth = differentiable(form, working, unspanned)
+    unique = multipliers_unique(form, working, spanned, unspanned)
 
     coordinates = range(form.n)
     lam = np.zeros(form.m)
     slack = np.zeros(form.m)
-    lam_w = nearest_numbers(minimiser, lambda s: s.lam, form.lam_unit, range(len(working)))
+    lam_w = nearest_numbers(minimiser, "lam", form.lam_unit, range(len(working)))
     lam[list(working)] = lam_w
-    slack[inactive] = nearest_numbers(minimiser, lambda s: s.slack, form.slack_unit, inactive)
+    slack[inactive] = nearest_numbers(minimiser, "slack", form.slack_unit, inactive)
     least = float(slack[inactive].min()) if inactive.size else None
     return ExactOptimum(
         delta_q=nearest_numbers(
-            minimiser, lambda s: s.x, form.x_unit, coordinates, minimiser.zero_coordinates
+            minimiser, "x", form.x_unit, coordinates, minimiser.zero_coordinates
         ),
         lam=lam,
-        net=nearest_numbers(minimiser, lambda s: s.net, form.net_unit, coordinates),
+        net=nearest_numbers(minimiser, "net", form.net_unit, coordinates),
         slack=slack,
         working_set=tuple(sorted(working)),
-        multipliers_unique=multipliers_unique(form, working, spanned, unspanned),
+        multipliers_unique=unique,
         differentiable=smooth,
         smallest_inactive_slack=least if smooth else 0.0,
         smallest_active_multiplier=float(lam_w.min()) if working else None,
         walks=end.walks,
     )
-
-
-def nearest_numbers(
-    minimiser: Minimiser,
-    values: Callable[[BallSolution | RationalSolution], Sequence[Any]],
-    unit: fmpq,
-    entries: Sequence[int] | NDArray[np.int64],
-    zeros: Callable[[Sequence[int]], Sequence[int]] = lambda _: (),
-) -> Array:
-    """The numbers unit * values of a minimiser in float64, rounded correctly, shape (entries,).
-
-    Each of the `entries`, shape (entries,), is rounded from its ball; where the ball leaves that
-    open, it is zero if `zeros` proves so, and otherwise rounded from the rational solution.
-    """
-    rounded: dict[int, float | None] = {int(i): None for i in entries}
-    if minimiser.balls is not None:
-        balls = values(minimiser.balls)
-        with ctx.workprec(PRECISION):
-            factor = arb(unit)
-            rounded = {i: nearest_in(balls[i] * factor) for i in rounded}
-    undecided = [i for i, value in rounded.items() if value is None]
-    rounded.update(dict.fromkeys(zeros(undecided), 0.0))
-    for i in undecided:
-        if rounded[i] is None:
-            exact = minimiser.rational
-            rounded[i] = nearest_fraction(unit * values(exact)[i] / exact.denominator)
-    return np.array(list(rounded.values()), dtype=np.float64)
 
 
 def step_optimum(step: StepData, warm: Sequence[int] = ()) -> ExactOptimum:

@@ -10,13 +10,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final, cast
 
-import numpy as np
-from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpz, fmpz_mat
+from flint import arb, arb_mat, ctx, fmpq_mat, fmpz, fmpz_mat
 
-from quasistatic_ref.certify.dependence import implied
+from quasistatic_ref.certify.dependence import follow
 from quasistatic_ref.certify.rational import ExactForm
-from quasistatic_ref.certify.rounding import nearest_fraction
-from quasistatic_ref.step.data import Array
 
 PRECISION: Final = 320
 """Bits of a ball's midpoint. The data have 53 to 250; 256 is enough on grasps, and what is
@@ -166,32 +163,6 @@ def rational_solution(form: ExactForm, working: tuple[int, ...]) -> RationalSolu
     return RationalSolution(x.entries(), lam, net.entries(), slack.entries(), denominator)
 
 
-def rounded_solution(
-    form: ExactForm, solution: RationalSolution
-) -> tuple[Array, Array, Array, Array]:
-    """Float64 numbers, rounded correctly.
-
-    Returns
-    -------
-    delta_q : ndarray, shape (n_v,)
-    lam : ndarray, shape (working,)
-        On the working set [N s].
-    net : ndarray, shape (n_v,)
-        A'lam [N s, N m s].
-    slack : ndarray, shape (m,)
-    """
-
-    def nearest(unit: fmpq, numerators: list[fmpz]) -> Array:
-        return np.array([nearest_fraction(unit * v / solution.denominator) for v in numerators])
-
-    return (
-        nearest(form.x_unit, solution.x),
-        nearest(form.lam_unit, solution.lam),
-        nearest(form.net_unit, solution.net),
-        nearest(form.slack_unit, solution.slack),
-    )
-
-
 class Minimiser:
     """The minimiser x of 1/2 x'Hx - g'x under A_i x = b_i for i in the working set.
 
@@ -213,6 +184,11 @@ class Minimiser:
     def on(self, working: tuple[int, ...]) -> "Minimiser":
         """Return the minimiser of the same form on another working set."""
         return Minimiser(self.form, self.ball_form, working)
+
+    @cached_property
+    def equations(self) -> list[list[fmpz]]:
+        """The equations [a, b] that x satisfies: those of the working set."""
+        return self.form.equations(self.working)
 
     @cached_property
     def balls(self) -> BallSolution | None:
@@ -260,15 +236,15 @@ class Minimiser:
         """Return those of some rows whose slack is zero because the working set implies it."""
         new = [i for i in rows if i not in self._implied]
         if new:
-            equations = self.form.equations(new)
-            self._implied.update(zip(new, implied(self.form, self.working, equations), strict=True))
+            shown = follow(self.equations, self.form.equations(new))
+            self._implied.update(zip(new, shown, strict=True))
         return [i for i in rows if self._implied[i]]
 
     def zero_coordinates(self, coordinates: Sequence[int]) -> list[int]:
         """Return those of some coordinates in which the working set implies that x is zero."""
         n = self.form.n
         units = [[fmpz(int(i == v)) for i in range(n + 1)] for v in coordinates]
-        zero = implied(self.form, self.working, units) if units else []
+        zero = follow(self.equations, units) if units else []
         return [v for v, is_zero in zip(coordinates, zero, strict=True) if is_zero]
 
 

@@ -34,10 +34,10 @@ def ignored_lines(system: System) -> list[str]:
     lines = list(ALWAYS)
     for body in (body.name for body in system.bodies):
         of = f"{body}: "
-        own = [entry.removeprefix(of) for entry in system.ignored if entry.startswith(of)]
-        counts = Counter(entry.rpartition(".")[2] for entry in own)
+        ignored = [entry.removeprefix(of) for entry in system.ignored if entry.startswith(of)]
+        counts = Counter(entry.rpartition(".")[2] for entry in ignored)
         lines += [f"{body}: {WORDS.get(tag, f'<{tag}>')} ({n})" for tag, n in counts.items()]
-        unseen = _visual_only(system, body, own)
+        unseen = _visual_only(system, body, ignored)
         if unseen:
             lines.append(
                 f"{body}: links with visual but no collision geometry: {', '.join(unseen)}"

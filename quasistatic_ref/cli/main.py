@@ -45,26 +45,28 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Exit with status 2 and a sentence."""
-        said, _, choices = message.partition(" (choose from")
+        problem, _, choices = message.partition(" (choose from")
         hint = ""
         if unknown := re.search(r"invalid choice: '([^']*)'", message):
             hint = suggestion(unknown[1], re.findall(r"\w+", choices))
-        elif unknown := re.search(r"unrecognized arguments: --([\w-]+)(?: ([^\s=]+)(?!\S))?", said):
+        elif unknown := re.search(
+            r"unrecognized arguments: --([\w-]+)(?: ([^\s=]+)(?!\S))?", problem
+        ):
             hint = nearest_name(f"--{unknown[1]}", self._option_string_actions)
             if unknown[2] and "--set" in self._option_string_actions and _is_field(unknown[1]):
                 hint = f"; did you mean '--set {unknown[1]}={unknown[2]}'?"
         elif unknown := re.search(r"unrecognized arguments: ([\w.]+=\S+)", message):
             hint = f"; did you mean '--set {unknown[1]}'?"
-        super().error(f"{said}{hint}")
+        super().error(f"{problem}{hint}")
 
     def parse_known_args(self, *arguments: Any) -> Any:  # type: ignore[override]  # one method for all of typeshed's overloads
         """Nothing is left over: the command or action that was given it prints its own usage."""
-        found, unknown = super().parse_known_args(*arguments)
+        options, unknown = super().parse_known_args(*arguments)
         if any(word.partition("=")[0] == "--engine" for word in unknown):
             self.error("--engine is no option any more; --fast has the quick interface")
         if unknown:
             self.error(f"unrecognized arguments: {' '.join(unknown)}")
-        return found, unknown
+        return options, unknown
 
 
 def _is_field(name: str) -> bool:
@@ -157,9 +159,12 @@ def parsers_of(
 
 def _actions(command: argparse.ArgumentParser) -> list[argparse.ArgumentParser]:
     """The parsers of a command's actions; its own, if it has none."""
-    below = (a for a in command._actions if isinstance(a, argparse._SubParsersAction))
-    inner = [own for choice in below for one in choice.choices.values() for own in _actions(one)]
-    return inner or [command]
+    actions: list[argparse.ArgumentParser] = []
+    for choice in command._actions:
+        if isinstance(choice, argparse._SubParsersAction):
+            for action in choice.choices.values():
+                actions += _actions(action)
+    return actions or [command]
 
 
 def _module(command: str) -> Any:

@@ -63,8 +63,8 @@ def _motions(system: System, trajectory: Trajectory, links: Sequence[str]) -> di
     R = np.array([pose.R for pose in poses])
     t = np.array([pose.t for pose in poses])
     times = np.concatenate([[0.0], trajectory["t"]])
-    at = {link: system.link(link) for link in links}
-    return {link: LinkMotion(times=times, R=R[:, i], t=t[:, i]) for link, i in at.items()}
+    numbers = {link: system.link(link) for link in links}
+    return {link: LinkMotion(times=times, R=R[:, i], t=t[:, i]) for link, i in numbers.items()}
 
 
 def rotation_angle(R: Array) -> Array:

@@ -85,8 +85,10 @@ def run(options: argparse.Namespace) -> int:
     if options.strict:
         needed_part("doctor.observer", "--strict")
     if options.resume:
-        said = f"goes on from step {first}" if first else "nothing is saved; begins from the start"
-        shared.progress_line(options, said)
+        start = "nothing is saved; begins from the start"
+        if first:
+            start = f"goes on from step {first}"
+        shared.progress_line(options, start)
     saving = {"save": path, "save_every": options.save_every, "resume": options.resume}
     if saved is None:
         saving = {}

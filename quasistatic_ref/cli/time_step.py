@@ -91,6 +91,6 @@ def _fastest(scenario: Scenario) -> tuple[float, float]:
 def _at(scenario: Scenario, t: float, links: Indices, origins: Array) -> tuple[Array, Array]:
     """Rotations of links, and origins [m] of shapes on them, where targets are reached."""
     system = scenario.system
-    found = system.kinematics(system.with_actuated(system.q_start, scenario.targets(t)))
-    R = found.R[links]
-    return R, found.t[links] + np.einsum("sij,sj->si", R, origins)
+    kinematics = system.kinematics(system.with_actuated(system.q_start, scenario.targets(t)))
+    R = kinematics.R[links]
+    return R, kinematics.t[links] + np.einsum("sij,sj->si", R, origins)

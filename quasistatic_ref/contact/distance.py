@@ -27,7 +27,7 @@ from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
+from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.ordered import dot, norm, product, rotated
 from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
@@ -103,8 +103,7 @@ def joined_contacts(found: Sequence[ClosestPoints]) -> ClosestPoints:
 
 def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     """The contacts of one pair, in ascending distance; R (L, 3, 3), t (L, 3) are the links'."""
-    a = in_world(pair.alpha, R, t)
-    b = in_world(pair.beta, R, t)
+    a, b = in_world(pair, R, t)
     if isinstance(b.shape, PointCloud):
         return _cloud_on_solid(pair, a, b, b.shape.points)
     if isinstance(a.shape, PointCloud):
@@ -153,8 +152,7 @@ def number_within(pair: ContactPair, R: Array, t: Array, within: float) -> int:
     if pair.has_cloud:
         phi = pair_closest_points(whole, R, t).phi
     else:
-        a = in_world(pair.alpha, R, t)
-        b = in_world(pair.beta, R, t)
+        a, b = in_world(pair, R, t)
         every = every_candidate(whole, a, b, nearest_of_solids(whole, a, b))
         phi = every.phi[~ranked_last(every, 1)]  # without the closest pair, if a corner is as near
     return int(np.count_nonzero(phi <= phi.min() + within))
@@ -290,9 +288,15 @@ def _contacts(
     )
 
 
-def in_world(shape: PlacedShape, R: Array, t: Array) -> ShapeInWorld:
-    """A shape where its link is; R (L, 3, 3) and t (L, 3) [m] are the links'."""
-    R_link = R[shape.link]
-    t_link = t[shape.link]
-    world = product(R_link, np.column_stack([shape.R, shape.t]))
-    return ShapeInWorld(shape.shape, world[:, :3], world[:, 3] + t_link)
+def in_world(pair: ContactPair, R: Array, t: Array) -> tuple[ShapeInWorld, ShapeInWorld]:
+    """Alpha's and beta's shape where their links are; R (L, 3, 3), t (L, 3) [m] are the links'."""
+    sides = (pair.alpha, pair.beta)
+    links = [side.link for side in sides]
+    on_links = np.array([np.column_stack([side.R, side.t]) for side in sides])
+    world = product(R[links], on_links)
+    world[:, :, 3] += t[links]
+    of_alpha, of_beta = world
+    return (
+        ShapeInWorld(pair.alpha.shape, of_alpha[:, :3], of_alpha[:, 3]),
+        ShapeInWorld(pair.beta.shape, of_beta[:, :3], of_beta[:, 3]),
+    )

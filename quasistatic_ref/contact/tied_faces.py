@@ -167,15 +167,18 @@ def cloud_surface(
         If the cloud is as deep along two of the normals that a point has.
     """
     tie = np.full(len(x), OWN)
+    own = Surface(phi, normal, tie)
     within = rounding(solid, cloud)
     near = np.flatnonzero(phi <= within)
+    if not near.size:
+        return own
     heights, normals = solid.shape.faces(x[near])
     if not heights.size:
-        return Surface(phi, normal, tie)
+        return own
     highest, rivals = faces_apart(heights, normals, within)
     undecided = np.flatnonzero(rivals.any(axis=1))
     if not len(undecided):
-        return Surface(phi, normal, tie)
+        return own
     normal = normal.copy()
     decided: dict[bytes, tuple[Array, int]] = {}
     for i in undecided.tolist():

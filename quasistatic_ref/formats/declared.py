@@ -66,10 +66,10 @@ class Field:
         if not self.kind.startswith("list of "):
             return table.take(name, default)
         listed = table.words if self.kind == "list of words" else table.sequence
-        found = listed(name, default)
-        if self.least and found == []:
+        items = listed(name, default)
+        if self.least and items == []:
             raise table.fail(name, "must not be empty")
-        return found
+        return items
 
 
 class Tables(dict[str, dict[str, Field]]):

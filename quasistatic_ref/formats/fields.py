@@ -132,9 +132,10 @@ class Fields:
         """Return a string, one of `choices` where they are given."""
         value: str = self._typed(field, str, "a string", default)
         if value is not None and choices is not None and value not in choices:
-            one = f"must be {choices[0]!r}"  # the format of a file, which is then another kind
-            wrong = one if len(choices) == 1 else f"is not a choice{suggestion(value, choices)}"
-            raise self.fail(field, wrong, value)
+            problem = f"is not a choice{suggestion(value, choices)}"
+            if len(choices) == 1:  # the format of a file, which is then of another kind
+                problem = f"must be {choices[0]!r}"
+            raise self.fail(field, problem, value)
         return value
 
     def array(

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.digits import relative_digits
-from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.norm import energy_norm, relative_digits
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 

@@ -39,8 +39,8 @@ class ColumnMap:
             for joint in model.supports[model.frames[frame].parentJoint]:
                 self.moves[link, 0, columns[joint]] = 1.0
         owner = np.zeros(model.nvExtended, dtype=np.int64)
-        for at, v in zip(columns, model.idx_vs, strict=True):
-            owner[at] = v + np.arange(at.stop - at.start)
+        for of_joint, v in zip(columns, model.idx_vs, strict=True):
+            owner[of_joint] = v + np.arange(of_joint.stop - of_joint.start)
         self.order = order
         self.owner = order.v_back[owner]
         self.n_v = int(model.nv)

@@ -63,8 +63,8 @@ class MassMatrix:
         # Two columns of a link at a time, for the entries on the diagonal and above it. A joint and
         # its mimic have one coordinate: both orders of their columns count in the same entry.
         of_links = np.split(np.arange(len(owner)), np.flatnonzero(np.diff(self.link)) + 1)
-        i = np.concatenate([np.repeat(own, len(own)) for own in of_links])
-        j = np.concatenate([np.tile(own, len(own)) for own in of_links])
+        i = np.concatenate([np.repeat(of_link, len(of_link)) for of_link in of_links])
+        j = np.concatenate([np.tile(of_link, len(of_link)) for of_link in of_links])
         once = owner[i] <= owner[j]
         self.i = i[once]
         self.j = j[once]
@@ -92,7 +92,7 @@ class MassMatrix:
 def mass_matrix(
     model: Any,
     unactuated: Sequence[Joint],
-    at: Kinematics,
+    kinematics: Kinematics,
     n_a: int,
     inertias: tuple[Array, Array, Array],
 ) -> MassMatrix:
@@ -102,17 +102,18 @@ def mass_matrix(
     ----------
     model : pinocchio.Model
     unactuated : sequence of Joint
-    at : Kinematics
+    kinematics : Kinematics
         Of any configuration, with their columns.
     n_a : int
     inertias : tuple of ndarray, shapes (L,), (L, 3) and (L, 3, 3)
         Masses, centres and inertias of the links, as in :class:`MassMatrix` [kg, m, kg m^2].
     """
-    column_map = at.column_map
+    column_map = kinematics.column_map
     assert column_map is not None
     n_u = column_map.n_v - n_a
     constant = np.zeros(column_map.n_v, dtype=bool)
-    full_matrix = MassMatrix(column_map, n_a, *inertias, np.zeros((n_u, n_u)), constant).at(at)
+    nothing = np.zeros((n_u, n_u))
+    full_matrix = MassMatrix(column_map, n_a, *inertias, nothing, constant).at(kinematics)
     known = np.zeros((n_u, n_u))
     for joint in unactuated:
         of_joint = (joint.v.start <= column_map.owner) & (column_map.owner < joint.v.stop)

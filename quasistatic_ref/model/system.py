@@ -159,8 +159,8 @@ class System(Shown):
         self.varying_mass: MassMatrix | None = None
         if not self.constant_mass_matrix:
             inertias = (self.masses, self.centres, self.inertias)
-            at = self.kinematics(self.neutral())
-            self.varying_mass = mass_matrix(self._model, unactuated, at, self.n_a, inertias)
+            neutral = self.kinematics(self.neutral())
+            self.varying_mass = mass_matrix(self._model, unactuated, neutral, self.n_a, inertias)
             unactuated = []
         self.mass_blocks = read_only(rigid_masses(self._model, unactuated))
         if not (self.constant_mass_matrix and positive_pivots(self.mass_blocks)):
@@ -190,8 +190,8 @@ class System(Shown):
     def mass(self, body: str) -> float:
         """Mass of all links of a body [kg]."""
         self._root(body)
-        own = [link.startswith(f"{body}/") for link in self.links]
-        return float(self.masses[own].sum())
+        of_body = [link.startswith(f"{body}/") for link in self.links]
+        return float(self.masses[of_body].sum())
 
     def neutral(self) -> Array:
         """Configuration with every position zero and bases at the origin, shape (n_q,)."""
@@ -281,10 +281,10 @@ class System(Shown):
 
         The last result is kept, because the q at the end of a step is the q of the next one.
         """
-        at = np.asarray(q, dtype=np.float64).tobytes()
-        if self._latest is None or self._latest[0] != at:
+        bits = np.asarray(q, dtype=np.float64).tobytes()
+        if self._latest is None or self._latest[0] != bits:
             self._workspace.move(self._order.model_q(q))
-            self._latest = at, Kinematics(*self._workspace.poses(), self.column_map)
+            self._latest = bits, Kinematics(*self._workspace.poses(), self.column_map)
         return self._latest[1]
 
     def centre_of_mass_force(

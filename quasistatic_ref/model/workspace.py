@@ -78,7 +78,7 @@ class Workspace:
             )
             before += model.njoints - 1
         self._turns = any(part.turns for part in self.parts)
-        self._at: tuple[bytes, list[Array]] | None = None
+        self._latest: tuple[bytes, list[Array]] | None = None
         self._none = np.zeros((6, 0))
         self._gravity: tuple[float, ...] | None = None
 
@@ -92,10 +92,10 @@ class Workspace:
         """Each part's own q, kept for the next call at the same q."""
         if not self._turns:
             return [q[part.entries] for part in self.parts]
-        at = q.tobytes()
-        if self._at is None or self._at[0] != at:
-            self._at = at, [part.part_q(q) for part in self.parts]
-        return self._at[1]
+        bits = q.tobytes()
+        if self._latest is None or self._latest[0] != bits:
+            self._latest = bits, [part.part_q(q) for part in self.parts]
+        return self._latest[1]
 
     def poses(self) -> tuple[Array, Array, Array]:
         """R (L, 3, 3) and t (L, 3) of all links, the world first, and all joints' columns (6, n_x).

@@ -92,15 +92,15 @@ class World(Plain):
             urdf_model(with_turns(text), b.base)
             for b, text in zip(self.bodies, self.texts, strict=True)
         ]
-        own: dict[str, list[str]] = {}
+        of_body: dict[str, list[str]] = {}
         for link in self.links:
-            own.setdefault(link.partition("/")[0], []).append(link)
+            of_body.setdefault(link.partition("/")[0], []).append(link)
         groups = []
         frames = []
         for some in _groups(turning):
             bodies = self.bodies[some]
             groups.append(_joined(bodies, turning[some]))
-            links = [link for body in bodies for link in own[body.name]]
+            links = [link for body in bodies for link in of_body[body.name]]
             frames.append([body_frame(groups[-1], link) for link in links])
         return _joined(self.bodies, whole), groups, frames
 
@@ -167,13 +167,12 @@ def _joined(bodies: Sequence[Body], models: Sequence[Any]) -> Any:
     """All bodies in one model, by halves: to append a body takes time in proportion to the rest."""
     if len(bodies) > 1:
         half = len(bodies) // 2
-        first, rest = (
-            _joined(bodies[some], models[some]) for some in (slice(half), slice(half, None))
-        )
+        first = _joined(bodies[:half], models[:half])
+        rest = _joined(bodies[half:], models[half:])
         return pin.appendModel(first, rest, 0, pin.SE3.Identity())
     model = pin.Model()
-    for body, own in zip(bodies, models, strict=True):
-        model = pin.appendModel(model, _prefixed(own, body.name), 0, _anchor(body))
+    for body, alone in zip(bodies, models, strict=True):
+        model = pin.appendModel(model, _prefixed(alone, body.name), 0, _anchor(body))
     return model
 
 

@@ -25,7 +25,8 @@ from quasistatic_ref.scenario.scenario_table import (
     value,
 )
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
-from quasistatic_ref.step.arrays import Array, keep, positive_definite
+from quasistatic_ref.step.arrays import Array, keep
+from quasistatic_ref.step.pivots import positive_definite
 
 
 @dataclass(frozen=True, eq=False)

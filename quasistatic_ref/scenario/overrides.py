@@ -68,12 +68,12 @@ def _put(tables: dict[str, Any], key: str, value: Any, field: str, given: object
     if len(parts) > MOST_PARTS:
         problem = f"names a key of more than {MOST_PARTS} parts"
         raise ScenarioError(problem, field=field, value=given)
-    at: Any = tables
+    table: Any = tables
     for part in parts[:-1]:
-        at = at.setdefault(part, {}) if isinstance(at, dict) else None
-    if not isinstance(at, dict):
+        table = table.setdefault(part, {}) if isinstance(table, dict) else None
+    if not isinstance(table, dict):
         raise ScenarioError("is not a table", field=field, value=given)
-    at[parts[-1]] = value
+    table[parts[-1]] = value
 
 
 def parsed(text: str) -> Any:

@@ -260,12 +260,14 @@ def _scenario(path: Path, top: Fields) -> Scenario:
         stiffness(system, entry, K_q)
     rises = NO_RISES
     if any(entry.rubs for entry in entries.values()):
-        found = needed_part("extensions.scenario_rises", "joint_friction and support")
-        pairs, rises = found.scenario_rises(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
-    # The size of J by which `fast` chooses a backend: 0 of steps that it does not take in blocks.
-    in_blocks = system.constant_mass_matrix and not len(rises) and law == CONVEX
-    size_of_J = 4 * sum(pair.n_c for pair in pairs) * system.n_v if in_blocks else 0
-    backend = _backend(solver, certify, named, size_of_J, fast)
+        rubbing = needed_part("extensions.scenario_rises", "joint_friction and support")
+        pairs, rises = rubbing.scenario_rises(system, pairs, entries, h=h, K_q=K_q, gravity=gravity)
+    entries_of_J = 0
+    if fast:  # its default depends on the size of the scene
+        backends = needed_part("fast.backends", "fast")
+        n_c = sum(pair.n_c for pair in pairs)
+        entries_of_J = backends.entries_of_J(system, n_c, law == CONVEX and not len(rises))
+    backend = _backend(solver, certify, named, entries_of_J, fast)
     check_motion(system, pairs)
     if far := limits.out_of_reach(system.links, system.kinematics(system.q_start).t):
         raise ScenarioError(f"at the start, {far}", field="bodies")
@@ -303,13 +305,13 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     )
 
 
-def _backend(solver: Fields, certify: str, cone_name: str, size_of_J: int, fast: bool) -> str:
+def _backend(solver: Fields, certify: str, cone_name: str, entries_of_J: int, fast: bool) -> str:
     """The name of the backend, looked up here rather than in the first step."""
     name: str | None = value(solver, SOLVER, "backend")
     try:
         if fast:
             backend: str = needed_part("fast.backends", "fast").fast_backend(
-                name, cone_name, certify, size_of_J
+                name, cone_name, certify, entries_of_J
             )
             return backend
         name = DEFAULT if name is None else name

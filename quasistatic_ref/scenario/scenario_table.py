@@ -163,7 +163,7 @@ TABLES = Tables({
         "pose": Field("table", "where it stands", default={}, of=POSE),
         **{kind: Field("table", f"a {kind}", default=None, of=kind) for kind in SOLIDS},
     },
-    **{kind: dict(one.fields) for kind, one in SOLIDS.items()},
+    **{kind: dict(solid.fields) for kind, solid in SOLIDS.items()},
     CONTACT: {
         "alpha": Field("name or names", _NAMES, schema=_SIDE),
         "beta": Field("name or names", "the same; normals point towards it", schema=_SIDE),
@@ -199,6 +199,7 @@ value = TABLES.value
 
 def pose(table: Fields, xyz: ArrayLike = ORIGIN) -> tuple[Array, Array]:
     """Origin [m] and roll, pitch, yaw [rad] of a table of these two, each of shape (3,)."""
-    found = value(table, POSE, "xyz", xyz), value(table, POSE, "rpy")
+    origin = value(table, POSE, "xyz", xyz)
+    rpy = value(table, POSE, "rpy")
     table.close()
-    return found
+    return origin, rpy

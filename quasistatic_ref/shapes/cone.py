@@ -74,7 +74,8 @@ class Cone(Revolved):
         heights = np.stack(_heights(p, self.radius, self.half_length), axis=1)
         side = _side(self.radius, self.half_length)
         normals = np.zeros((len(points), 2, 3))
-        normals[:, 0, :2], normals[:, 0, 2] = side[0] * outward, side[1]
+        normals[:, 0, :2] = side[0] * outward
+        normals[:, 0, 2] = side[1]
         normals[:, 1, 2] = -1.0
         return heights, normals
 

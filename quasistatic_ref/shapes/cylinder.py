@@ -60,7 +60,8 @@ class Cylinder(Revolved):
         heights = np.concatenate([(r - self.radius)[:, None], caps], axis=1)
         normals = np.zeros((len(points), 3, 3))
         normals[:, 0] = _unit(radial, r)
-        normals[:, 1, 2], normals[:, 2, 2] = 1.0, -1.0
+        normals[:, 1, 2] = 1.0
+        normals[:, 2, 2] = -1.0
         return heights, normals
 
     def support_point(self, direction: Array) -> Array:

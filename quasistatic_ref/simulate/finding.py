@@ -44,7 +44,7 @@ def finding_read(table: object, where: str) -> Finding:
     """
     fields = Fields(table, where)
     numbers = fields.table("numbers")
-    found = Finding(
+    finding = Finding(
         name=fields.text("name"),
         grave=fields.boolean("grave"),
         sentence=fields.text("sentence"),
@@ -52,4 +52,4 @@ def finding_read(table: object, where: str) -> Finding:
         numbers={name: numbers.number(name) for name in numbers.names()},
     )
     fields.close()
-    return found
+    return finding

@@ -25,10 +25,11 @@ from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.solve.backends import DEFAULT, check_backend
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
-from quasistatic_ref.step.arrays import definite
+from quasistatic_ref.step.arrays import frozen
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.pivots import positive_definite
 from quasistatic_ref.tolerances import ACCURACY
 
 GRAVITY = (0.0, 0.0, -9.81)
@@ -129,7 +130,7 @@ class Simulator(Shown):
     Raises
     ------
     StepDataError
-        If K_q, or M_u at the start, is not symmetric positive definite, or h not positive.
+        If K_q is not symmetric positive definite, or h not positive.
     BackendError
         If the backend is unknown or not installed, or does not take the cone.
     InputError
@@ -174,7 +175,8 @@ class Simulator(Shown):
         self.scene = Scene(system, self.pairs)
         self.layout = contact_layout(pairs)
         self.h = seconds(h)
-        self.K_q = definite("K_q", K_q, system.n_a)
+        K_q = frozen(K_q, "K_q", (system.n_a, system.n_a))
+        self.K_q = positive_definite("K_q", K_q)
         self.gravity = tuple(np.asarray(gravity, dtype=np.float64).tolist())
         self.gravity_acts = np.ones(system.n_v)
         self.gravity_acts[: system.n_a] = False if gravity_acts is None else gravity_acts
@@ -203,8 +205,8 @@ class Simulator(Shown):
     def prepare(self) -> None:
         """Check and form what all steps have in common."""
         system = self.system
-        M_u = definite("M_u", system.M_u(system.q_start), system.n_u)
-        hessian(self.h, self.K_q, M_u)  # of Eq. (13): refused where it leaves float64's range
+        # H of Eq. (13): refused where it leaves float64's range
+        hessian(self.h, self.K_q, system.M_u(system.q_start))
         self.geometry = ContactGeometry(self.layout, system.column_map)
 
     def __reduce__(self) -> tuple[Any, ...]:

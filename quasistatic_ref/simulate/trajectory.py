@@ -135,9 +135,10 @@ class Trajectory(Plain, Shown):
         what is found of ``seconds`` is kept in memory only, as they are.
         """
         listed = enumerate(self.header.get("findings", ()))
-        found = [finding_read(table, f"findings[{i}]") for i, table in listed]
-        doctor = part("doctor.table") if self.seconds else None
-        return tuple(found if doctor is None else [*found, *doctor.findings(doctor.OF_TIME, self)])
+        findings = [finding_read(table, f"findings[{i}]") for i, table in listed]
+        if self.seconds and (doctor := part("doctor.table")) is not None:
+            findings += doctor.findings(doctor.OF_TIME, self)
+        return tuple(findings)
 
     def step_data(self, k: int) -> StepData:
         """The problem of step k (from 0), bit for bit as it was solved.

@@ -9,8 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, StepDataError
-from quasistatic_ref.step.pivots import positive_pivots
-from quasistatic_ref.tolerances import SYMMETRIC
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -123,35 +121,6 @@ def keep(owner: Any, *fields: str) -> None:
     """Replace fields of a frozen dataclass by read-only copies: what was given may change."""
     for field in fields:
         object.__setattr__(owner, field, read_only(np.array(getattr(owner, field))))
-
-
-def definite(name: str, matrix: Any, n: int) -> Array:
-    """A read-only copy, shape (n, n) [any unit], of a symmetric positive definite matrix.
-
-    Raises
-    ------
-    StepDataError
-        If it is not symmetric, not positive definite, not finite or of another shape.
-    """
-    return positive_definite(name, frozen(matrix, name, (n, n)))
-
-
-def positive_definite(key: str, S: Array) -> Array:
-    """Return S, of shape (..., n, n) [any unit], made symmetric from its lower triangle.
-
-    Raises
-    ------
-    StepDataError
-        About the field `key`, if S is not symmetric or not positive definite.
-    """
-    scale = np.abs(S).max(initial=0.0)
-    if np.abs(S - S.mT).max(initial=0.0) > SYMMETRIC * scale:
-        raise StepDataError("must be symmetric", field=key, value=S.tolist())
-    S = np.tril(S) + np.tril(S, -1).mT
-    if not positive_pivots(S):
-        problem = "must be positive definite (no zero stiffness, no massless link)"
-        raise StepDataError(problem, field=key, value=S.tolist())
-    return read_only(S)
 
 
 def whole(M: Array) -> Array:

@@ -73,15 +73,16 @@ class Contacts(Plain, Shown):
     rows: Indices
 
     def __post_init__(self) -> None:
-        self._check(J=(len(self.name), 4, columns(self.J, "contacts.J", 3)))
+        self._check_all_but_J()
+        n_v = columns(self.J, "contacts.J", 3)
+        freeze(self, {"J": (len(self.name), 4, n_v)}, "contacts.")
 
-    def _check(self, **shapes: tuple[int, ...]) -> None:
-        """Check all fields but J, and those of the `shapes`."""
+    def _check_all_but_J(self) -> None:
         object.__setattr__(self, "name", names(self.name, "contacts.name"))
         n_c = len(self.name)
-        shapes |= {"phi": (n_c,), "mu_v": (n_c,), "mu_omega": (n_c,)}
+        scalars = dict.fromkeys(("phi", "mu_v", "mu_omega"), (n_c,))
         vectors = dict.fromkeys(("n", "d1", "d2"), (n_c, 3))
-        freeze(self, {**shapes, **vectors}, "contacts.")
+        freeze(self, {**scalars, **vectors}, "contacts.")
         self._check_rows(n_c)
         self._check_friction()
         self._check_frames(n_c)

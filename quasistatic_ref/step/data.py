@@ -22,7 +22,6 @@ from quasistatic_ref.step.arrays import (
     Indices,
     Mask,
     columns,
-    definite,
     freeze,
     names,
     numbers,
@@ -31,6 +30,7 @@ from quasistatic_ref.step.arrays import (
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.contacts import Contacts
+from quasistatic_ref.step.pivots import positive_definite
 
 __all__ = ["Array", "Contacts", "Extra", "Indices", "Mask", "StepData"]
 
@@ -168,24 +168,27 @@ class StepData(Plain, Shown):
         extra = no_rows(n_v) if extra is None else extra
         if not isinstance(contacts, Contacts):
             raise StepDataError("must be Contacts", field="contacts", value=contacts)
-        given = {
-            "h": seconds(h),
-            "K_q": definite("K_q", K_q, n_a),
-            "M_u": definite("M_u", M_u, n_u),
-            "tau_a": tau_a,
-            "tau_u": tau_u,
-            "delta_q_bar_a": delta_q_bar_a,
-            "contacts": contacts.checked(),
-            "cone": cone,
-            "extra": extra,
-        }
-        for key, value in given.items():
-            object.__setattr__(self, key, value)
-        freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
         for key, found in (("contacts.J", contacts.n_v), ("extra.A", extra.A.shape[1])):
             if found != n_v:
                 problem = f"must have n_a + n_u = {n_v} columns"
                 raise StepDataError(problem, field=key, value=found)
+        given = {
+            "contacts": contacts.checked(),
+            "cone": cone,
+            "extra": extra,
+            "h": seconds(h),
+            "K_q": K_q,
+            "M_u": M_u,
+            "tau_a": tau_a,
+            "tau_u": tau_u,
+            "delta_q_bar_a": delta_q_bar_a,
+        }
+        for key, value in given.items():
+            object.__setattr__(self, key, value)
+        freeze(self, {"K_q": (n_a, n_a), "M_u": (n_u, n_u)})
+        freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
+        for key in ("K_q", "M_u"):
+            object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
 
     def momentum(self, delta_q: Array) -> Array:
         """M_u delta_q_u, shape (n_u,) [kg m, kg m^2], from delta_q, shape (n_v,) [m, rad]."""

@@ -19,16 +19,34 @@ import math
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
-from quasistatic_ref.tolerances import DEFINITE
-
-Array = NDArray[np.float64]
+from quasistatic_ref.errors import StepDataError
+from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.tolerances import DEFINITE, SYMMETRIC
 
 U = 2.0**-53
 """Largest relative error of one operation."""
 RANGE = 2.0**-500, 2.0**500
 """Diagonal entries whose products and roots are far from the ends of float64's range."""
+
+
+def positive_definite(key: str, S: Array) -> Array:
+    """Return S, of shape (..., n, n) [any unit], made symmetric from its lower triangle.
+
+    Raises
+    ------
+    StepDataError
+        About the field `key`, if S is not symmetric or not positive definite.
+    """
+    scale = np.abs(S).max(initial=0.0)
+    if np.abs(S - S.mT).max(initial=0.0) > SYMMETRIC * scale:
+        raise StepDataError("must be symmetric", field=key, value=S.tolist())
+    S = np.tril(S) + np.tril(S, -1).mT
+    if not positive_pivots(S):
+        problem = "must be positive definite (no zero stiffness, no massless link)"
+        raise StepDataError(problem, field=key, value=S.tolist())
+    S.setflags(write=False)
+    return S
 
 
 def positive_pivots(S: Array) -> bool:

@@ -5,7 +5,7 @@ import pytest
 from flint import fmpq
 
 from quasistatic_ref.certify import dependence
-from quasistatic_ref.certify.dependence import SMALL, combination, implied, independent_rows
+from quasistatic_ref.certify.dependence import SMALL, combination, follow, independent_rows
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 
 UNLUCKY = 101
@@ -20,10 +20,6 @@ def rows(*A, b=None):
     return form
 
 
-def equation(form, i):
-    return [*form.row(i), form.b[i, 0]]
-
-
 @pytest.fixture(params=[dependence.PRIME, UNLUCKY])
 def prime(request, monkeypatch):
     """The usual first prime, and one that these rows are unlucky with."""
@@ -36,7 +32,7 @@ def test_sets_dependent_modulo_the_prime_alone_are_independent():
     form = rows([1, 0], [1, UNLUCKY], [2, UNLUCKY], [0, 1])
     assert combination(form, [0, 1], 2) == [1, 1]
     assert combination(form, [0, 1], 3) == [fmpq(-1, UNLUCKY), fmpq(1, UNLUCKY)]
-    assert implied(form, [0, 1], [equation(form, 2), equation(form, 3)]) == [True, True]
+    assert follow(form.equations([0, 1]), form.equations([2, 3])) == [True, True]
 
 
 @pytest.mark.usefixtures("prime")
@@ -55,11 +51,12 @@ def test_equations_are_implied_only_with_their_right_side():
     form = rows(
         [1, 0, 0], [0, 1, 0], [1, 1, 0], [1, 1, 0], [1, 1, 1], [0, 0, 1], b=[1, 2, 3, 4, 3, 0]
     )
-    others = [equation(form, i) for i in (2, 3, 4, 5, 0)]
-    assert implied(form, [0, 1], others) == [True, False, False, False, True]
-    assert implied(form, [0, 1], others[1:4]) == [False, False, False]
-    assert implied(form, [0, 1], []) == []
-    assert implied(form, [], others[:1]) == [False]
+    held = form.equations([0, 1])
+    others = form.equations([2, 3, 4, 5, 0])
+    assert follow(held, others) == [True, False, False, False, True]
+    assert follow(held, others[1:4]) == [False, False, False]
+    assert follow(held, []) == []
+    assert follow([], others[:1]) == [False]
 
 
 def test_independent_rows_are_the_first_of_those_that_depend():

@@ -78,7 +78,7 @@ WALLS = {
         "lab/study/calling",
     ),
     "qpsolvers": ("optional/qpsolvers",),
-    "pinocchio": ("model", "optional/derivatives/model"),
+    "pinocchio": ("model", "optional/derivatives/model", "optional/mjcf"),
     "coal": ("shapes", "model", "optional/curved"),
     "matplotlib": ("optional/show/figures", "lab/figures"),
     "meshcat": ("optional/show/figures",),

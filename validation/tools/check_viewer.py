@@ -17,7 +17,7 @@ from PIL import Image
 
 from quasistatic_ref.cli.main import main as command
 from quasistatic_ref.optional.show.figures.draw import force_scale
-from quasistatic_ref.optional.show.figures.moments import Moment, focus, frames
+from quasistatic_ref.optional.show.figures.moments import Moment, focus, frames, middle
 from quasistatic_ref.optional.show.figures.viewer import FRAMES_PER_SECOND, LONGEST
 from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -62,7 +62,7 @@ def check_scene(name: str, settings: list[str], folder: Path) -> None:
     scenario = load_scenario(name, settings)
     run = trajectory_read(folder / f"{name}.npz")
     moments, fps = frames(scenario, run, FRAMES_PER_SECOND)
-    half = float(np.ptp(focus(moments, visuals(scenario)), axis=0).max()) / 2
+    _, half = middle(focus(moments, visuals(scenario)))
     scale = force_scale(moments, None, half, LONGEST)
     with Browser() as browser:
         browser.open(folder / f"{name}.html")

@@ -20,7 +20,6 @@ from quasistatic_ref.certify.compliance.faces import (
     nearest_face,
     rows_of,
 )
-from quasistatic_ref.certify.exact import nearest_numbers
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.minimiser import Minimiser, form_in_balls
 from quasistatic_ref.certify.rational import (
@@ -35,6 +34,7 @@ from quasistatic_ref.certify.rational import (
     in_integers,
     two_to,
 )
+from quasistatic_ref.certify.rounding import nearest_numbers
 from quasistatic_ref.errors import StepInfeasible
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
@@ -158,8 +158,8 @@ class EliminatedStep:
         minimiser = found.minimiser
         n_c = self.step.contacts.n_c
         entries = range(found.own - 4 * n_c, found.own)
-        p = nearest_numbers(minimiser, lambda at: at.slack, found.s_unit / self.compliance, entries)
-        x = nearest_numbers(minimiser, lambda at: at.x, minimiser.form.x_unit, range(self.step.n_v))
+        p = nearest_numbers(minimiser, "slack", found.s_unit / self.compliance, entries)
+        x = nearest_numbers(minimiser, "x", minimiser.form.x_unit, range(self.step.n_v))
         return p.reshape(-1, 4), x
 
 

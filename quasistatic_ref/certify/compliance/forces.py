@@ -22,7 +22,7 @@ by exact signs; and the forces of the exact solution are rounded correctly.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from flint import fmpq
@@ -31,7 +31,7 @@ from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.compliance.eliminated import EliminatedStep, eliminated_optimum
 from quasistatic_ref.certify.compliance.face_guess import guessed_faces
 from quasistatic_ref.certify.compliance.faces import rows_of
-from quasistatic_ref.certify.exact import nearest_numbers, step_optimum
+from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.gap import fractions
 from quasistatic_ref.certify.rational import (
     Dyadic,
@@ -42,6 +42,7 @@ from quasistatic_ref.certify.rational import (
     fraction,
     in_integers,
 )
+from quasistatic_ref.certify.rounding import nearest_numbers
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.step.arrays import read_only, without_warnings
 from quasistatic_ref.step.cones import CurvedCone, cone
@@ -208,9 +209,6 @@ def defined_optimum(step: StepData, compliance: float) -> tuple[Array, Array]:
     assert isinstance(end, Optimum)
     of_s = fractions(scaled_by(step.contacts).ravel(), fraction(compliance))
     units = [form.x_unit * unit for unit in [fmpq(1)] * step.n_v + of_s]
-
-    def coordinates(found: Any) -> list[Any]:
-        return [unit * x for unit, x in zip(units, found.x, strict=True)]
-
-    numbers = nearest_numbers(end.minimiser, coordinates, fmpq(1), range(form.n))
+    rounded = [nearest_numbers(end.minimiser, "x", unit, [i]) for i, unit in enumerate(units)]
+    numbers = np.concatenate(rounded)
     return numbers[step.n_v :].reshape(-1, 4), numbers[: step.n_v]

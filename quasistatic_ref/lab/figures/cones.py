@@ -7,14 +7,17 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+from scipy.spatial import ConvexHull
 
 from quasistatic_ref.optional.show.figures.looks import CAMERA
 from quasistatic_ref.optional.show.figures.style import panels, scaled
-from quasistatic_ref.optional.show.figures.surfaces import faces
 from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone_matrix
+from quasistatic_ref.step.data import Array
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
 SURFACE: Final[dict[str, Any]] = {"alpha": 0.5, "edgecolor": "k"}
+SAME_PLANE = 9
+"""Decimals to which the planes of two triangles agree that are parts of one face."""
 
 
 def limit_surfaces(cones: Sequence[str] = SHOWN, within: Any = None) -> Figure:
@@ -36,7 +39,7 @@ def limit_surfaces(cones: Sequence[str] = SHOWN, within: Any = None) -> Figure:
             ball = np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)
             axes.plot_surface(*ball, color=colour, linewidth=scaled(0.15), **SURFACE)
         else:
-            sides = faces(cone_matrix(name)[:, 1:])
+            sides = _faces(cone_matrix(name)[:, 1:])
             style = SURFACE | {"linewidth": scaled(0.6)}
             axes.add_collection3d(Poly3DCollection(sides, facecolor=colour, **style))
         for axis in "xyz":
@@ -49,3 +52,20 @@ def limit_surfaces(cones: Sequence[str] = SHOWN, within: Any = None) -> Figure:
         axes.tick_params(pad=scaled(-3))
         axes.set_title(name)
     return page
+
+
+def _faces(points: Array) -> list[Array]:
+    """Faces of the convex hull, each with its corners in order, shapes (corners, 3)."""
+    hull = ConvexHull(points)
+    members: dict[tuple[float, ...], set[int]] = {}
+    for simplex, plane in zip(hull.simplices, hull.equations, strict=True):
+        members.setdefault(tuple(np.round(plane, SAME_PLANE)), set()).update(simplex.tolist())
+    ordered = []
+    for plane, corners in members.items():
+        at = points[sorted(corners)]
+        centre = at.mean(axis=0)
+        normal = np.array(plane[:3])
+        first = at[0] - centre
+        angle = np.arctan2((at - centre) @ np.cross(normal, first), (at - centre) @ first)
+        ordered.append(at[np.argsort(angle)])
+    return ordered

@@ -5,7 +5,6 @@ written, in metres. A line or a vertex that cannot be read is an error, never le
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -54,7 +53,7 @@ def point_cloud(path: str | Path) -> PointCloud:
         raise ModelError(problem, file=path, field="extension", value=path.suffix)
     try:
         with about_file(path):
-            return PointCloud(_checked(KINDS[kind](path)))
+            return PointCloud(_checked(_points(path, kind)))
     except InputError as error:  # NumPy's files raise others
         given = {"field": error.field, "value": error.value, "file": error.file}
         raise ModelError(error.problem, **given) from None
@@ -73,7 +72,7 @@ def _checked(given: list[list[float]] | Array) -> Array:
     return points
 
 
-def _of_lines(words_of: Callable[[Lines], Iterator[Point]], path: Path) -> list[list[float]]:
+def _of_lines(path: Path, words_of: Callable[[Lines], Iterator[Point]]) -> list[list[float]]:
     """Points of a text: what the words of each are is a matter of its format."""
     lines = text_of(bytes_read(path, ModelError), path, ModelError).splitlines()
     return [_numbers(*point) for point in words_of(enumerate(lines, start=1))]
@@ -130,18 +129,19 @@ def _obj(lines: Lines) -> Iterator[Point]:
             yield number, words[1:4]
 
 
-def _of_part(kind: str, path: Path) -> Array:
+WORDS_OF: dict[str, Callable[[Lines], Iterator[Point]]] = {
+    ".xyz": _xyz,
+    ".csv": _csv,
+    ".obj": _obj,
+}
+"""Extension of a text file -> the words of each of its points."""
+OF_PART = (".ply", ".pcd", ".npy", ".npz")
+"""Extensions of files that ``optional/readers`` reads."""
+KINDS = (*WORDS_OF, *OF_PART)
+
+
+def _points(path: Path, kind: str) -> list[list[float]] | Array:
+    if kind in WORDS_OF:
+        return _of_lines(path, WORDS_OF[kind])
     points: Array = needed_part("readers.points", f"a {kind} cloud").POINTS[kind](path)
     return points
-
-
-KINDS: dict[str, Callable[[Path], list[list[float]] | Array]] = {
-    ".xyz": partial(_of_lines, _xyz),
-    ".csv": partial(_of_lines, _csv),
-    ".ply": partial(_of_part, ".ply"),
-    ".obj": partial(_of_lines, _obj),
-    ".pcd": partial(_of_part, ".pcd"),
-    ".npy": partial(_of_part, ".npy"),
-    ".npz": partial(_of_part, ".npz"),
-}
-"""Extension -> the points of such a file, x, y and z one after the other."""

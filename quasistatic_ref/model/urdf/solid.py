@@ -38,7 +38,7 @@ def solid_urdf(shape: Homogeneous, mass: float, name: str) -> str:
         '<robot name="solid" version="1.1"><link name="solid">'
         f'<inertial><mass value="{m!r}"/>'
         f'<inertia ixx="{xx!r}" iyy="{yy!r}" izz="{zz!r}" ixy="0" ixz="0" iyz="0"/></inertial>'
-        f"<collision><geometry>{_element(shape)}</geometry></collision></link></robot>"
+        f"<collision><geometry>{solid_element(shape)}</geometry></collision></link></robot>"
     )
 
 
@@ -69,7 +69,8 @@ def solid_inertia(shape: Homogeneous, mass: float) -> Array:
     return np.array([across, across, along])
 
 
-def _element(shape: Homogeneous) -> str:
+def solid_element(shape: Homogeneous) -> str:
+    """The element of a shape in URDF."""
     if isinstance(shape, Sphere):
         return f'<sphere radius="{shape.radius!r}"/>'
     if isinstance(shape, Box):

@@ -69,9 +69,9 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
     for first in dict.fromkeys(group.values()):
         links = [link for link in group if group[link] == first]
         welded = [file.links[link] for link in links]
-        defects = [(one.name, one.defect) for one in welded]
+        defects = [(link.name, link.defect) for link in welded]
         connects = first in loaded and not any(
-            one.mass or one.defect or one.collisions for one in welded
+            link.mass or link.defect or link.collisions for link in welded
         )
         if mover[first] is not None and not connects:
             composite = _composite(file, links, poses)
@@ -80,13 +80,13 @@ def checked_inertias(file: UrdfFile, unactuated: Collection[str], base: str) -> 
                 raise ModelError(problem, field=f"link[{first}].inertial")
             defect = inertia_defect(composite.inertia)
             if defect is not None:
-                named = next(((link, d) for link, d in defects if d is not None), (first, defect))
-                link, (field, problem, value) = named
-                raise ModelError(problem, field=f"link[{link}].inertial.{field}", value=value)
+                faulty = [(name, of_link) for name, of_link in defects if of_link is not None]
+                name, (field, problem, value) = faulty[0] if faulty else (first, defect)
+                raise ModelError(problem, field=f"link[{name}].inertial.{field}", value=value)
         notes += [
-            f"link[{link}].inertial.{defect[0]}: {defect[1]}; {_accepted(defect, mover[first])}"
-            for link, defect in defects
-            if defect
+            f"link[{name}].inertial.{of_link[0]}: {of_link[1]}; {_accepted(of_link, mover[first])}"
+            for name, of_link in defects
+            if of_link
         ]
     return tuple(notes)
 

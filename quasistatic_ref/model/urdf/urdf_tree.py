@@ -131,7 +131,8 @@ def link_poses(
     poses: dict[str, Pose] = {root: (np.eye(3), np.zeros(3))}
     for joint in joints:
         R, t = poses[joint.parent]
-        R, t = R @ joint.R, R @ joint.t + t
+        t = R @ joint.t + t
+        R = R @ joint.R
         if joint.kind != "fixed":
             mimic = joint.mimic or Mimic(joint.name, 1.0, 0.0)
             position = mimic.multiplier * positions[mimic.of] + mimic.offset

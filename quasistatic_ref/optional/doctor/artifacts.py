@@ -1,7 +1,5 @@
 """How far a run is from physics: its drag, its quasi-dynamic number and its boundary layer."""
 
-import math
-import sys
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
@@ -79,28 +77,22 @@ def _quotient(over: Any, under: Any) -> float | None:
     A friction coefficient may be as small as 5e-324: a product with it underflows to 0, a quotient
     by it overflows.
     """
-    over = float(over)
-    under = float(under)
-    within = over < (sys.float_info.max * under if under < 1 else math.inf)
-    return over / under if under > 0 and within else None
+    with np.errstate(all="ignore"):
+        found = float(np.divide(over, under))
+    return found if np.isfinite(found) else None
 
 
 def _carried(step: StepData, factor: Array, f_n: Array) -> Array:
     """For each coordinate that translates a base: sum of factor f_n [N] over its body's contacts.
 
-    Shape (n_v,), or (n_v + 1,) in blocks; other entries mean nothing. A coordinate that translates
-    a base moves the points of its body's contacts by one metre per metre, and others not at all.
+    Shape (n_v,); other entries mean nothing. A coordinate that translates a base moves the points
+    of its body's contacts by one metre per metre, and others not at all.
     """
-    contacts = step.contacts
     bears = factor * np.where(f_n > BEARS * f_n.max(initial=0.0), f_n, 0.0)
-    blocks = getattr(contacts, "blocks", None)  # of many bodies
-    J = contacts.J if blocks is None else blocks.J
+    contact, coordinate, J = step.contacts.entries()
     moved = np.linalg.norm(J[:, :3], axis=1) > 0.5  # it is 1 or 0, but for rounding
-    if blocks is None:
-        return np.asarray(bears @ moved)
-    carried = np.zeros(blocks.n_v + 1)
-    np.add.at(carried, blocks.column, bears[:, None] * moved)
-    return carried
+    carried = np.bincount(coordinate[moved], bears[contact[moved]], step.n_v)
+    return carried.astype(np.float64)
 
 
 def quasi_dynamic_number(system: System, step: StepData, delta_q: Array, g: float) -> float | None:

@@ -55,7 +55,7 @@ def inertia(start: Start) -> Iterator[Said]:
 def sizes_apart(start: Start) -> Iterator[Said]:
     """A body or shape that is a thousand times as long as another."""
     found: dict[str, float] = {}
-    for placed in (side for pair in start.pairs for side in (pair.alpha, pair.beta)):
+    for placed in start.sides:
         name = body(start.system, placed.link) if placed.link else placed.name
         found[name] = max([found.get(name, 0.0), *sizes([placed])])
     extents = {name: size for name, size in found.items() if size > 0}

@@ -52,5 +52,5 @@ def _without_doing(run: Run, k: int) -> list[Drag]:
     wrench: Array | None = wrenches(step.replace(M_u=step.M_u / SLOWER))
     if wrench is None:
         return []
-    g = float(np.linalg.norm(run.gravity))
-    return [x for x in drags(run.system, step, run["delta_q"][k], wrench, g) if x.touched]
+    found = drags(run.system, step, run["delta_q"][k], wrench, run.g)
+    return [x for x in found if x.touched]

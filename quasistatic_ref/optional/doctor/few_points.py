@@ -9,7 +9,15 @@ from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.doctor.start import Said, Start, body, free_bases, least, table
+from quasistatic_ref.optional.doctor.start import (
+    Said,
+    Start,
+    bodies,
+    body,
+    free_bases,
+    least,
+    table,
+)
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import REPEATED, SUNK
 
@@ -23,14 +31,10 @@ ROUNDING = 1e-6
 
 def few_points(start: Start) -> Iterator[Said]:
     """Bodies whose centre is over the points of their faces, and not over the k that are kept."""
-    if not (start.small and np.linalg.norm(start.gravity) > 0.0):  # its square may vanish
+    if not (start.small and start.g):
         return
     for name in free_bases(start.system):
-        own = [
-            p
-            for p in start.pairs
-            if name in (body(start.system, x.link) for x in (p.alpha, p.beta))
-        ]
+        own = [pair for pair in start.pairs if name in bodies(start.system, pair)]
         if all(pair.n_c == pair.candidates for pair in own):
             continue
         try:
@@ -56,7 +60,7 @@ def _bearing(start: Start, pair: ContactPair, name: str, most: int) -> Array:
 
     None of a pair that is apart, as a body in a gripper is from the floor.
     """
-    up = -start.gravity / np.linalg.norm(start.gravity)
+    up = -start.gravity / start.g
     points = closest_points([replace(pair, k=max(pair.k, most))], start.kinematics)
     above = 1 if body(start.system, pair.beta.link) == name else -1
     level = points.phi <= min(points.phi.min() + REPEATED, SUNK * least(pair))
@@ -76,7 +80,7 @@ def _centre(start: Start, name: str) -> Array:
 
 def _around(points: Array, start: Start) -> bool:
     """Whether points, seen along gravity, lie around the origin."""
-    d1, d2 = (axis[0] for axis in tangents(start.gravity[None] / np.linalg.norm(start.gravity)))
+    d1, d2 = (axis[0] for axis in tangents(start.gravity[None] / start.g))
     angles = np.sort(np.arctan2(points @ d2, points @ d1))
     if len(angles) < 3:
         return False

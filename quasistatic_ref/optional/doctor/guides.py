@@ -1,21 +1,22 @@
 """Contacts that cannot rise: sliding, they would have to."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.optional.doctor.run import Run, wrenches
 from quasistatic_ref.optional.doctor.start import Said, Start, contacts_of
 from quasistatic_ref.simulate.law import COULOMB
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import BEARS, CRAWL, LOCKED, REPEATED, SAME_NORMAL
 
 TINY = 1e-9
-"""Entries of J, relative to the contact's largest [-], that are rounding."""
+"""Entries of J, relative to the contact's largest or to 1 [-, m], that are rounding."""
 SIDES = 9
 """Decimals to which normals are those of one side."""
 
@@ -48,14 +49,13 @@ def guides(start: Start, contacts: Contacts) -> Iterator[Guide]:
     Between are contacts on two or three sides, whose normals are such that sum w n = 0 with w > 0:
     for a slip x along all of them sum w (phi - mu |x|) >= 0.
     """
-    J_n = np.einsum("ci,civ->cv", contacts.n, contacts.J[:, :3])
-    J_t = np.linalg.norm(contacts.J[:, :3] - contacts.n[:, :, None] * J_n[:, None], axis=1)
-    J_w = np.abs(contacts.J[:, 3])
-    scale = np.maximum(J_t.max(axis=1, initial=0.0), np.abs(J_n).max(axis=1, initial=0.0))
-    slides = J_t > TINY * scale[:, None] + TINY
+    J_n, J_1, J_2, J_w = np.abs(frame_jacobian(contacts, contacts.J))
+    J_t = np.hypot(J_1, J_2)
+    rounding = TINY * np.maximum(J_t, J_n).max(axis=1, keepdims=True, initial=1.0)
+    slides = J_t > rounding
     turns = J_w > TINY
     clearance = np.where(contacts.phi > REPEATED, contacts.phi, 0.0)
-    fixed = (np.abs(J_n) <= TINY * scale[:, None] + TINY).all(axis=1)
+    fixed = (J_n <= rounding).all(axis=1)
     fixed[start.raised] = False
     mu_v = contacts.mu[:, 0]
     mu_omega = contacts.mu[:, 2]
@@ -106,14 +106,15 @@ def guided(start: Start) -> Iterator[Said]:
     for guide in guides(start, contacts):
         fastest = guide.clearance / (guide.mu * start.h)
         names = sorted({start.simulator.layout.names[j] for j in guide.contacts})
-        key = (*names, *_joints(start, guide))
+        joints = _joints(start, guide)
+        key = (*names, *joints)
         under_coulomb = start.simulator.law == COULOMB
         if fastest >= CRAWL or key in said or (under_coulomb and guide.clearance):
             continue
         said.add(key)
         unit = "rad" if guide.turns else "m"
         cause = (
-            f"{' and '.join(_joints(start, guide))} cannot open the gap of {' and '.join(names)}, "
+            f"{' and '.join(joints)} cannot open the gap of {' and '.join(names)}, "
             f"{1e3 * guide.clearance:.3g} mm, "
         )
         if under_coulomb:
@@ -164,16 +165,13 @@ def locked(run: Run) -> Iterator[Said]:
         return
     step = run.step_data(k)
     nothing = np.zeros(contacts.n_c)
-    smooth = field_values(contacts) | {"mu_v": nothing, "mu_omega": nothing}
-    without = wrenches(step.replace(contacts=Contacts(**smooth)))
+    smooth = replace(contacts, mu_v=nothing, mu_omega=nothing)
+    without = wrenches(step.replace(contacts=smooth))
     if without is None:
         return
-    frame = np.stack([contacts.d1, contacts.d2, contacts.n], axis=1)
-    J = np.einsum("cix,cxv->civ", frame, contacts.J[:, :3])
-    J = np.concatenate([J, contacts.J[:, 3:]], axis=1)
-    press = np.einsum("cv,c->v", J[:, 2], wrench[:, 2])
-    force = np.concatenate([step.tau_a, step.tau_u]) + press  # all but friction
-    could = np.einsum("civ,ci->v", np.abs(J[:, [0, 1, 3]]), contacts.mu * without[:, 2:3])
+    J_n, *J_rubs = frame_jacobian(contacts, contacts.J)
+    force = np.concatenate([step.tau_a, step.tau_u]) + wrench[:, 2] @ J_n  # all but friction
+    could = np.einsum("icv,ci->v", np.abs(J_rubs), contacts.mu * without[:, 2:3])
     inertia = np.concatenate([np.full(step.n_a, np.inf), np.diag(step.M_u)])
     beyond = np.abs(force) - could
     moves = np.abs(run["delta_q"][k]) >= LOCKED * run.h**2 * beyond / inertia

@@ -14,7 +14,7 @@ def leaps(run: Run) -> Iterator[Said]:
     """The first step that moves a body of a pair by much of its size, or turns it by much."""
     column_map = run.system.column_map
     moves = column_map.of_coordinates(column_map.moves)[:, 0] != 0  # (L, n_v)
-    sides = [side for pair in run.pairs for side in (pair.alpha, pair.beta)]
+    sides = run.sides
     links = np.array([side.link for side in sides], dtype=np.int64)
     found: list[tuple[int, float, Said]] = []
     for joint in run.system.joints:
@@ -37,5 +37,6 @@ def leaps(run: Run) -> Iterator[Said]:
             {"length_m": float(length[k]), "angle_rad": float(angle[k]), "step": k},
         )
         found.append((k, -float(share[k]), said))
-    for _, _, said in sorted(found, key=lambda leap: leap[:2])[:1]:
+    if found:
+        _, _, said = min(found, key=lambda leap: leap[:2])
         yield said

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.contact.distance import ClosestPoints, closest_points
+from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.doctor.start import Start, contacts_of
 from quasistatic_ref.simulate.law import CONVEX
@@ -30,11 +30,7 @@ class Run(Start):
     """
 
     def __init__(self, recorder: Recorder, arrays: Mapping[str, NDArray[Any]]) -> None:
-        keys = ("phi", "alpha", "beta", "n", "point")
-        first = ClosestPoints(
-            **{key: arrays[key][0] for key in keys}, tie=np.zeros(0, dtype=np.int64)
-        )
-        super().__init__(recorder.simulator, recorder.start, first)
+        super().__init__(recorder.simulator, recorder.start)
         self.recorder = recorder
         self.arrays = arrays
         self.steps = len(arrays["t"])

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints, closest_points
+from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.jacobian import ContactGeometry
 from quasistatic_ref.contact.pairs import ContactPair, contact_layout
 from quasistatic_ref.errors import ContactError
@@ -46,18 +46,16 @@ class Start:
     ----------
     simulator : Simulator
     q : ndarray, shape (n_q,)
-    first : ClosestPoints, optional
-        Its contacts, where a step knows them.
     """
 
-    def __init__(self, simulator: Simulator, q: Array, first: ClosestPoints | None = None) -> None:
+    def __init__(self, simulator: Simulator, q: Array) -> None:
         self.simulator = simulator
         self.q_start = q
-        self.first = first
         self.system = simulator.system
         self.pairs = simulator.pairs
         self.h = simulator.h
         self.gravity = np.array(simulator.gravity)
+        self.g = float(np.linalg.norm(self.gravity))  # 0 where its square vanishes
 
     @cached_property
     def kinematics(self) -> Kinematics:
@@ -67,10 +65,8 @@ class Start:
     @cached_property
     def points(self) -> ClosestPoints | None:
         """The contacts; None where a pair has no normal, which the first step then says."""
-        if self.first is not None:
-            return self.first
         try:
-            return closest_points(self.pairs, self.kinematics)
+            return self.simulator.closest_points(self.kinematics)
         except ContactError:
             return None
 
@@ -79,6 +75,11 @@ class Start:
         """Numbers of the contacts whose gap a private rise opens, shape (n,)."""
         extension = self.simulator.extension
         return NO_RISES.contacts if extension is None else extension(self.q_start).rises.contacts
+
+    @property
+    def sides(self) -> list[PlacedShape]:
+        """What touches: both shapes of each pair."""
+        return [side for pair in self.pairs for side in (pair.alpha, pair.beta)]
 
     @property
     def small(self) -> bool:
@@ -123,6 +124,11 @@ def least(pair: ContactPair) -> float:
 def body(system: System, link: int) -> str:
     """The body of a link; ``"world"`` of link 0."""
     return system.links[link].partition("/")[0]
+
+
+def bodies(system: System, pair: ContactPair) -> set[str]:
+    """The bodies of a pair."""
+    return {body(system, side.link) for side in (pair.alpha, pair.beta)}
 
 
 def free_bases(system: System) -> dict[str, Joint]:

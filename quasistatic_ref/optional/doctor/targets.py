@@ -36,7 +36,7 @@ def half_turns(run: Run) -> Iterator[Said]:
         if not joint.actuated or joint.kind not in ("floating", "planar", "continuous"):
             continue
         lag = _lag(joint.kind, run["q"][:-1, joint.q], run["q_bar_a"][:, joint.q])
-        far = np.linalg.norm(lag, axis=1) > np.sqrt(2)  # 2 sin of an eighth of a turn
+        far = np.linalg.norm(lag, axis=1) > np.pi / 2
         turned_over = far[1:] & far[:-1] & (np.vecdot(lag[1:], lag[:-1]) < 0)
         if turned_over.any():
             k = int(turned_over.argmax()) + 1
@@ -49,16 +49,12 @@ def half_turns(run: Run) -> Iterator[Said]:
 
 
 def _lag(kind: str, q: Array, q_bar: Array) -> Array:
-    """Axis of the shorter turn from q to q_bar times 2 sin of half its angle; (steps, 1 or 3)."""
+    """The shorter turn from q to q_bar, shape (steps, 1 or 3) [rad]."""
     if kind == "floating":
-        v = q[:, 3:6]
-        w = q[:, 6:]
-        v_bar = q_bar[:, 3:6]
-        w_bar = q_bar[:, 6:]
-        both = w * v_bar - w_bar * v - np.cross(v, v_bar)
-        cosine = w * w_bar + np.vecdot(v, v_bar)[:, None]
-        return np.where(cosine < 0, -2.0, 2.0) * both
-    c, s = q[:, -2:].T
-    c_bar, s_bar = q_bar[:, -2:].T
-    angle = np.arctan2(c * s_bar - s * c_bar, c * c_bar + s * s_bar)
-    return np.asarray(2 * np.sin(angle / 2))[:, None]
+        from scipy.spatial.transform import Rotation  # takes as long as a short run
+
+        turn = Rotation.from_quat(q[:, 3:]).inv() * Rotation.from_quat(q_bar[:, 3:])
+        return np.asarray(turn.as_rotvec())
+    at = q[:, -2] + 1j * q[:, -1]  # cos + i sin
+    target = q_bar[:, -2] + 1j * q_bar[:, -1]
+    return np.angle(target / at)[:, None]

@@ -16,8 +16,7 @@ LENGTHS = {"floating": 3, "planar": 2, "prismatic": 1}
 
 def long_shapes(start: Start) -> Iterator[Said]:
     """Meshes and clouds longer than anything that a robot meets: the longest is named."""
-    sides = [side for pair in start.pairs for side in (pair.alpha, pair.beta)]
-    shapes = [*start.system.shapes, *sides]
+    shapes = [*start.system.shapes, *start.sides]
     modelled = {p.name: p.shape for p in shapes if isinstance(p.shape, PointCloud | ConvexMesh)}
     long = {name: x for name, shape in modelled.items() if (x := shape.extent) > IN_METRES}
     if long:

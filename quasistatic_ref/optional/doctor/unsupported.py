@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from quasistatic_ref.optional.doctor.run import Run
-from quasistatic_ref.optional.doctor.start import Said, Start, body, free_bases
+from quasistatic_ref.optional.doctor.start import Said, Start, bodies, free_bases
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import BEARS
 
@@ -14,23 +14,19 @@ def alone(start: Start) -> set[str]:
     """Free bodies that no chain of contact tables joins to what stands."""
     free = {*free_bases(start.system)}
     borne = {"world", *(b.name for b in start.system.bodies)} - free
-    joined = _joined(start)
+    joined = [bodies(start.system, pair) for pair in start.pairs]
     for _ in free:  # a chain is no longer
         borne |= {name for pair in joined if pair & borne for name in pair}
     return free - borne
 
 
-def _joined(start: Start) -> list[set[str]]:
-    return [{body(start.system, side.link) for side in (p.alpha, p.beta)} for p in start.pairs]
-
-
 def unsupported(start: Start) -> Iterator[Said]:
     """Bodies that are joined to nothing, if they weigh anything."""
-    joined = _joined(start)
-    for name in sorted(alone(start)) if start.gravity.any() else ():
+    joined = [bodies(start.system, pair) for pair in start.pairs]
+    for name in sorted(alone(start)) if start.g else ():
         touching = [pair - {name} for pair in joined if name in pair]
         others = " but to bodies that fall as well" if any(touching) else ""
-        weight = start.system.mass(name) * float(np.linalg.norm(start.gravity))
+        weight = start.system.mass(name) * start.g
         yield Said(
             f"add a table [contacts.NAME] of {name} and what should bear it",
             f"no table joins {name}, which weighs {weight:.3g} N, to anything{others}: it falls",
@@ -40,22 +36,20 @@ def unsupported(start: Start) -> Iterator[Said]:
 
 def falling(run: Run) -> Iterator[Said]:
     """Free bodies that nothing touches in the last step, and that move down in it."""
-    g = float(np.linalg.norm(run.gravity))
-    if not g:
+    if not run.g:
         return
     system = run.system
-    down = run.gravity / g
-    most = run.h**2 * g
-    each = zip(_joined(run), run.pairs, strict=True)
-    sides = [names for names, pair in each for _ in range(pair.n_c)]
+    down = run.gravity / run.g
+    most = run.h**2 * run.g
+    touched = [bodies(system, pair) for pair in run.pairs for _ in range(pair.n_c)]
     said = alone(run)
     for name, base in free_bases(system).items():
         if name in said:
             continue
-        own = np.array([name in names for names in sides], dtype=bool)
+        own = np.array([name in names for names in touched], dtype=bool)
         force = np.abs(run["wrench"][:, own, 2]).max(axis=1, initial=0.0)
         drop = np.diff(run["q"][:, base.q][:, :3] @ down)
-        falls = (force <= BEARS * system.mass(name) * g) & (drop > most / 2)
+        falls = (force <= BEARS * system.mass(name) * run.g) & (drop > most / 2)
         if falls[-1]:
             first = int(len(falls) - np.argmin(falls[::-1])) if not falls.all() else 0
             fallen = float(drop[first:].sum())

@@ -14,9 +14,10 @@ from flint import ctx, fmpq
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.compliance.forces import ContactForces
 from quasistatic_ref.certify.gap import duality_gap, fractions
-from quasistatic_ref.certify.minimiser import rational_solution, rounded_solution
+from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.residuals import largest
+from quasistatic_ref.certify.rounding import rounded_solution
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
 from quasistatic_ref.errors import StepNotSolved

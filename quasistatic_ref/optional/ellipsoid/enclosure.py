@@ -22,11 +22,10 @@ from quasistatic_ref.certify.minimiser import (
     form_in_balls,
     inner,
     rational_solution,
-    rounded_solution,
     square_root,
 )
 from quasistatic_ref.certify.rational import ExactForm, exact_form
-from quasistatic_ref.certify.rounding import nearest_above, nearest_in
+from quasistatic_ref.certify.rounding import nearest_above, nearest_in, rounded_solution
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
 from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.optional.ellipsoid.impulses import raised

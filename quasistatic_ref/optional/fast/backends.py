@@ -1,6 +1,9 @@
 """The backends of `fast`: the quickest by default, each by its own interface where it has one."""
 
+from __future__ import annotations
+
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 from quasistatic_ref.optional.fast.native import native_backends
 from quasistatic_ref.solve.backends import (
@@ -11,6 +14,9 @@ from quasistatic_ref.solve.backends import (
 )
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import DENSE_BELOW, DENSE_BELOW_PROOFS, SPARSE_FROM_PIQP
+
+if TYPE_CHECKING:
+    from quasistatic_ref.model.system import System
 
 DEFAULT_OF_FAST = "daqp" if find_spec("daqp") else DEFAULT
 """Backend of small steps: the fastest; certified steps have the same bits with any backend."""
@@ -27,7 +33,7 @@ def fast_backend(name: str | None, cone_name: str, certify: str = "full", entrie
     cone_name : str
     certify : str
     entries : int
-        Entries of a step's dense J, 4 n_c n_v, where its contacts may be in blocks; otherwise 0.
+        As of :func:`entries_of_J`.
 
     Raises
     ------
@@ -41,6 +47,20 @@ def fast_backend(name: str | None, cone_name: str, certify: str = "full", entrie
     else:
         check_backend(name, cone_name, certify)
     return name
+
+
+def entries_of_J(system: System, n_c: int, ordinary: bool) -> int:
+    """Entries of the dense J of n_c contacts, 4 n_c n_v, where they may be in blocks; otherwise 0.
+
+    Parameters
+    ----------
+    system : System
+    n_c : int
+    ordinary : bool
+        Whether the steps are the model's own: neither extended nor under Coulomb's law.
+    """
+    may = ordinary and system.constant_mass_matrix
+    return 4 * n_c * system.n_v if may else 0
 
 
 def default_backend(cone_name: str, certify: str, entries: int) -> str:

@@ -15,9 +15,7 @@ from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
-    definite,
     frozen,
-    positive_definite,
     whole,
 )
 from quasistatic_ref.step.cones import PYRAMID
@@ -32,6 +30,7 @@ from quasistatic_ref.step.data import (
     row_layout,
     seconds,
 )
+from quasistatic_ref.step.pivots import positive_definite
 
 T = TypeVar("T")
 
@@ -93,11 +92,12 @@ def constants(
     """
     n_u = math.prod(M_u.shape[:-1])
     h = seconds(h)
-    K_q = definite("K_q", K_q, n_a)
+    K_q = positive_definite("K_q", frozen(K_q, "K_q", (n_a, n_a)))
     try:
         positive_definite("M_u", frozen(M_u, "M_u", M_u.shape))  # all blocks in one call
     except StepDataError:
-        definite("M_u", whole(M_u), n_u)  # whose sentence shows all of M_u
+        every_block = frozen(whole(M_u), "M_u", (n_u, n_u))
+        positive_definite("M_u", every_block)  # whose sentence shows all of M_u
     layout = row_layout(cone, rows.tobytes())
     H = hessian(h, K_q, M_u) if M_u.ndim == 2 else hessian_blocks(h, K_q, M_u)[1]
     return Constants(h, cone, K_q, M_u, no_rows(n_a + n_u), H, layout)

@@ -6,7 +6,12 @@ from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.model.system import Kinematics
-from quasistatic_ref.optional.fast.backends import default_backend, fast_backend, sparse_from
+from quasistatic_ref.optional.fast.backends import (
+    default_backend,
+    entries_of_J,
+    fast_backend,
+    sparse_from,
+)
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import constants, posed
@@ -46,9 +51,8 @@ class FastSimulator(Simulator):
 
     def entries(self) -> int:
         """Entries of a step's dense J, 4 n_c n_v, where its contacts may be in blocks; else 0."""
-        plain = self.extension is None and self.law == CONVEX
-        blocks = plain and self.system.constant_mass_matrix
-        return 4 * len(self.layout.rows) * self.system.n_v if blocks else 0
+        ordinary = self.extension is None and self.law == CONVEX
+        return entries_of_J(self.system, len(self.layout.rows), ordinary)
 
     def prepare(self) -> None:
         """Check and form what all steps have in common."""

@@ -38,7 +38,7 @@ class SparseContacts(Contacts):
         given = {"name": name, "phi": phi, "n": n, "d1": d1, "d2": d2, "blocks": blocks}
         for key, value in {**given, "mu_v": mu_v, "mu_omega": mu_omega, "rows": rows}.items():
             object.__setattr__(self, key, value)
-        self._check()
+        self._check_all_but_J()
         if len(blocks.J) != self.n_c:
             problem = f"must have {self.n_c} contacts"
             raise StepDataError(problem, field="contacts.blocks", value=len(blocks.J))

@@ -14,6 +14,7 @@ from typing import Any
 from xml.etree.ElementTree import Element, SubElement, tostring
 
 import numpy as np
+import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError, about_file
@@ -142,10 +143,10 @@ def _link(spec: Any, model: Any, i: int, robot: Element) -> None:
     """Body i as a link: its inertia, the geoms that touch, and those that MuJoCo draws."""
     link = SubElement(robot, "link", name=_name(model, "body", i))
     if model.body_mass[i]:
-        R = _rotation(model.body_iquat[i])
+        R = _pose(model.body_ipos[i], model.body_iquat[i]).rotation
         inertia = R @ np.diag(model.body_inertia[i]) @ R.T
         inertial = SubElement(link, "inertial")
-        _origin(inertial, model.body_ipos[i], np.eye(3))
+        _origin(inertial, _shift(model.body_ipos[i]))
         SubElement(inertial, "mass", value=_text(model.body_mass[i]))
         upper = {"xx": (0, 0), "yy": (1, 1), "zz": (2, 2), "xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
         SubElement(inertial, "inertia", {f"i{k}": _text(inertia[at]) for k, at in upper.items()})
@@ -160,8 +161,7 @@ def _geom(spec: Any, model: Any, g: int, touches: bool, link: Element) -> None:
     kind = GEOMS[model.geom_type[g]]
     size = model.geom_size[g]
     shape = Element(kind)
-    R = _rotation(model.geom_quat[g])
-    t = model.geom_pos[g]
+    pose = _pose(model.geom_pos[g], model.geom_quat[g])
     if kind == "sphere":
         shape.set("radius", _text(size[0]))
     elif kind in ("capsule", "cylinder"):
@@ -170,15 +170,15 @@ def _geom(spec: Any, model: Any, g: int, touches: bool, link: Element) -> None:
     elif kind == "box":
         shape.set("size", _text(2 * size))
     elif kind == "mesh":
-        mesh = spec.meshes[model.geom_dataid[g]]
+        number = model.geom_dataid[g]
+        mesh = spec.meshes[number]
         file = Path(spec.modelfiledir) / spec.meshdir / mesh.file
         if not mesh.file:
-            _refuse(model, "mesh", model.geom_dataid[g], "vertex", "is not supported; name a file")
+            _refuse(model, "mesh", number, "vertex", "is not supported; name a file")
         shape.set("filename", str(file.resolve()))
         shape.set("scale", _text(mesh.scale))
         # MuJoCo moves a mesh to its centre of mass, and turns it to its axes of inertia.
-        R = R @ _rotation(model.mesh_quat[model.geom_dataid[g]]).T
-        t = t - R @ model.mesh_pos[model.geom_dataid[g]]
+        pose = pose * _pose(model.mesh_pos[number], model.mesh_quat[number]).inverse()
     elif touches:
         problem = f"is not supported for {kind}s that bodies touch with; use another shape"
         _refuse(model, "geom", g, "type", problem)
@@ -186,20 +186,20 @@ def _geom(spec: Any, model: Any, g: int, touches: bool, link: Element) -> None:
         SubElement(link, re.sub(r"[^\w.-]", "_", f"geom.{_name(model, 'geom', g)}"))
         return
     if touches:
-        collision = _placed(link, "collision", shape, R, t)
+        collision = _placed(link, "collision", shape, pose)
         if model.geom(g).name:
             collision.set("name", model.geom(g).name)
         SubElement(collision, "friction")  # the scenario has it, by tables of contacts
     rgba = _rgba(model, g)
     if model.geom_group[g] < HIDDEN and rgba[3]:
-        material = SubElement(_placed(link, "visual", shape, R, t), "material", name="")
+        material = SubElement(_placed(link, "visual", shape, pose), "material", name="")
         SubElement(material, "color", rgba=_text(rgba))
 
 
-def _placed(link: Element, tag: str, shape: Element, R: Array, t: Array) -> Element:
+def _placed(link: Element, tag: str, shape: Element, pose: pin.SE3) -> Element:
     """A shape of a link, at a pose."""
     element = SubElement(link, tag)
-    _origin(element, t, R)
+    _origin(element, pose)
     SubElement(element, "geometry").append(shape)
     return element
 
@@ -217,8 +217,7 @@ def _joints(model: Any, i: int, robot: Element) -> None:
     A joint with an anchor p turns about it: T p R(q) p^-1. Between joints are links without mass.
     """
     body, parent = (_name(model, "body", k) for k in (i, model.body_parentid[i]))
-    R = _rotation(model.body_quat[i])
-    t = model.body_pos[i]
+    pose = _pose(model.body_pos[i], model.body_quat[i])
     at = np.zeros(3)  # the anchor of the joint before
     first = model.body_jntadr[i]
     joints = range(first, first + model.body_jntnum[i])
@@ -233,7 +232,7 @@ def _joints(model: Any, i: int, robot: Element) -> None:
         limited = bool(model.jnt_limited[j])
         turns = "revolute" if limited else "continuous"
         joint = _joint(robot, name, turns if kind == HINGE else "prismatic", parent, child)
-        _origin(joint, t + R @ (anchor - at), R)
+        _origin(joint, pose * _shift(anchor - at))
         SubElement(joint, "axis", xyz=_text(model.jnt_axis[j]))
         ref = model.qpos0[model.jnt_qposadr[j]]  # positions here count from the file's pose
         lower, upper = model.jnt_range[j] - ref if limited else (0.0, 0.0)
@@ -242,12 +241,11 @@ def _joints(model: Any, i: int, robot: Element) -> None:
         if not last:
             SubElement(robot, "link", name=child)
         parent = child
-        R = np.eye(3)
-        t = np.zeros(3)
+        pose = pin.SE3.Identity()
         at = anchor
     if parent != body:
         joint = _joint(robot, f"{body}:fixed", "fixed", parent, body)
-        _origin(joint, t - R @ at, R)
+        _origin(joint, pose * _shift(-at))
 
 
 def _joint(robot: Element, name: str, kind: str, parent: str, child: str) -> Element:
@@ -273,29 +271,20 @@ def _ignored_of_joint(model: Any, j: int, joint: Element) -> None:
             SubElement(joint, name)
 
 
-def _rotation(quaternion: Array) -> Array:
-    """The matrix of a quaternion [w x y z], (3, 3)."""
-    w, x, y, z = quaternion / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+def _pose(position: Array, quaternion: Array) -> pin.SE3:
+    """A pose from a position [m] and a quaternion [w x y z]."""
+    return pin.SE3(pin.Quaternion(*quaternion).normalized(), position)
 
 
-def _origin(element: Element, t: Array, R: Array) -> None:
+def _shift(t: Array) -> pin.SE3:
+    """A pose that turns nothing."""
+    return pin.SE3(np.eye(3), t)
+
+
+def _origin(element: Element, pose: pin.SE3) -> None:
     """Write a pose [m] with R = Rz(yaw) Ry(pitch) Rx(roll)."""
-    pitch = np.arctan2(-R[2, 0], np.hypot(R[0, 0], R[1, 0]))
-    level = np.hypot(R[0, 0], R[1, 0]) > UPRIGHT
-    roll = np.arctan2(R[2, 1], R[2, 2]) if level else np.arctan2(-R[1, 2], R[1, 1])
-    yaw = np.arctan2(R[1, 0], R[0, 0]) if level else 0.0
-    SubElement(element, "origin", xyz=_text(t), rpy=_text([roll, pitch, yaw]))
-
-
-UPRIGHT = 1e-9
-"""Cosine of the pitch below which roll and yaw turn about one axis."""
+    rpy = pin.rpy.matrixToRpy(pose.rotation)
+    SubElement(element, "origin", xyz=_text(pose.translation), rpy=_text(rpy))
 
 
 def _text(numbers: ArrayLike) -> str:

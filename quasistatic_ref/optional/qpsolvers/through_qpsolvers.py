@@ -46,9 +46,7 @@ class QpsolversSolver(BackendSolver):
     def reply(self, option_set: OptionSet, both: DenseStepInBothUnits) -> Reply:
         """What the backend says, from a cold start."""
         name = self.name.removeprefix(QPSOLVERS)
-        reply = qpsolvers_reply(self.form, name, option_set.options)
-        reply.lam = None if reply.lam is None else reply.lam.reshape(-1)
-        return reply
+        return qpsolvers_reply(self.form, name, option_set.options)
 
 
 def qpsolvers_reply(
@@ -78,7 +76,7 @@ def qpsolvers_reply(
     status, iterations = _status(solution)
     return Reply(
         None if solution.x is None else np.array(solution.x, dtype=np.float64),
-        None if solution.z is None else np.array(solution.z, dtype=np.float64),
+        None if solution.z is None else np.array(solution.z, dtype=np.float64).reshape(-1),
         bool(solution.found),
         status,
         iterations,

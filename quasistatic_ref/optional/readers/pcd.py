@@ -9,10 +9,8 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.readers.point_table import PointTable, header_lines, table_points
 from quasistatic_ref.step.arrays import Array
 
-_TYPES = {
-    ("F", "4"): "<f4", ("F", "8"): "<f8", ("I", "1"): "i1", ("I", "2"): "<i2", ("I", "4"): "<i4",
-    ("I", "8"): "<i8", ("U", "1"): "u1", ("U", "2"): "<u2", ("U", "4"): "<u4", ("U", "8"): "<u8",
-}  # fmt: skip
+_SIZES = {"F": ["4", "8"], "I": ["1", "2", "4", "8"], "U": ["1", "2", "4", "8"]}
+"""The sizes of each type, which NumPy has by the same letter [bytes]."""
 _WORDS = (
     "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA",
 )  # fmt: skip
@@ -71,9 +69,9 @@ def _columns(header: dict[str, list[str]]) -> tuple[tuple[str, str, int], ...]:
         raise ModelError(problem, field="FIELDS", value=names)
     columns = []
     for name, size, kind, count in zip(names, sizes, types, counts, strict=True):
-        if (kind, size) not in _TYPES:
+        if size not in _SIZES.get(kind, []):
             raise ModelError("has an unknown SIZE and TYPE", field=name, value=f"{size} {kind}")
-        columns.append((name, _TYPES[kind, size], _whole("COUNT", count)))
+        columns.append((name, f"<{kind.lower()}{size}", _whole("COUNT", count)))
     if sum(n for _, _, n in columns) > MOST_COLUMNS:
         raise ModelError(f"must have at most {MOST_COLUMNS} entries", field="FIELDS")
     return tuple(columns)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -73,75 +73,66 @@ def begun_or_resumed(
         if callable(function) and needed_arguments(function, name) == 3:
             problem = "cannot be asked again: the results of saved steps are not kept"
             raise InputError(problem, field=name)
-    target = given["target"][1]
-    force = given["force"][1]
-    parts = list(saved.parts())
-    taken = sum(len(part["t"]) for part, _ in parts)
     start_cold(simulator)
-    for part, extra in parts:
-        again = _Again(simulator, target, force, recorder.record, taken // cold_every * cold_every)
-        recorder.take(part | again.posed(part, recorder), extra)
+    cold = first // cold_every * cold_every
+    for part, extra in list(saved.parts()):
+        again = _posed_again(part, recorder, given["target"][1], given["force"][1], cold)
+        recorder.take(part | again, extra)
     return saved
 
 
-@dataclass(frozen=True)
-class _Again:
-    """How saved steps are posed again: all of a full record, of a light one those from `cold`."""
+def _posed_again(
+    part: StepArrays, recorder: Recorder, target: Checked, force: Checked, cold: int
+) -> StepArrays:
+    """What a full record adds to the steps of a part, which follow those of the recorder.
 
-    simulator: Simulator
-    target: Checked
-    force: Checked
-    record: str
-    cold: int
+    From the step `cold` on, the solver is asked for each.
+    """
+    simulator = recorder.simulator
+    full = recorder.record == "full"
+    rows: list[dict[str, Array]] = []
+    for i, q in enumerate([recorder.q, *part["q"][:-1]]):
+        k = recorder.steps + i
+        t = (k + 1) * recorder.h
+        goal = target(t, q, None)
+        pushed = force(t, q, None)
+        _check("target", k, part["q_bar_a"][i], goal)
+        _check("force", k, part["tau"][i], simulator.generalised_force(q, pushed))
+        if full or k >= cold:
+            step, linear = _step(simulator, q, goal, pushed)
+            _check("scene", k, part["phi"][i], step.contacts.phi)
+            recorder.alone &= linear
+            if k >= cold:
+                _ask(simulator, step, linear)
+            if "s" in part:
+                raised = step.contacts.phi + part["s"][i]
+                step = step.replace(contacts=replace(step.contacts, phi=raised))
+            rows.append(program(step) if full else {})
+    return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
 
-    def posed(self, part: StepArrays, recorder: Recorder) -> StepArrays:
-        """What a full record adds to the steps of a part, which follow those of the recorder."""
-        rows: list[dict[str, Array]] = []
-        for i, q in enumerate([recorder.q, *part["q"][:-1]]):
-            k = recorder.steps + i
-            t = (k + 1) * recorder.h
-            goal = self.target(t, q, None)
-            pushed = self.force(t, q, None)
-            _check("target", k, part["q_bar_a"][i], goal)
-            tau = self.simulator.generalised_force(q, pushed)
-            _check("force", k, part["tau"][i], tau)
-            if self.record == "full" or k >= self.cold:
-                step, linear = self._step(q, goal, pushed)
-                _check("scene", k, part["phi"][i], step.contacts.phi)
-                recorder.alone &= linear
-                if k >= self.cold:
-                    self._ask(step, linear)
-                if "s" in part:
-                    raised = step.contacts.phi + part["s"][i]
-                    step = step.replace(contacts=replace(step.contacts, phi=raised))
-                rows.append(program(step) if self.record == "full" else {})
-        return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
 
-    def _step(self, q: Array, goal: Array, pushed: Array) -> tuple[StepData, bool]:
-        """The step from q, and whether that holds all there is of an extension."""
-        simulator = self.simulator
-        kinematics = self.simulator.system.kinematics(q)
-        points = simulator.closest_points(kinematics)
-        step = simulator.step_data(q, goal, pushed, points, kinematics)
-        if simulator.extension is None:
-            return step, True
-        extended = needed_part("extensions.extended", "extension")
-        posed: tuple[StepData, bool] = extended.posed(step, simulator.extension(q))
-        return posed
+def _step(simulator: Simulator, q: Array, goal: Array, pushed: Array) -> tuple[StepData, bool]:
+    """The step from q, and whether that holds all there is of an extension."""
+    kinematics = simulator.system.kinematics(q)
+    points = simulator.closest_points(kinematics)
+    step = simulator.step_data(q, goal, pushed, points, kinematics)
+    if simulator.extension is None:
+        return step, True
+    extended = needed_part("extensions.extended", "extension")
+    posed: tuple[StepData, bool] = extended.posed(step, simulator.extension(q))
+    return posed
 
-    def _ask(self, step: StepData, linear: bool) -> None:
-        """Ask the solver as the step did, for what it keeps; nothing else is done with it."""
-        simulator = self.simulator
-        solver = self.simulator.solver
-        if not linear or not (solver is None or solver.remembers) or simulator.backend == NONE:
-            return
-        if simulator.law == COULOMB:  # it was asked for each iterate
-            simulator.solution(step)
-            return
-        with suppress(StepNotSolved):
-            solve_step(
-                step, simulator.fitting_solver(step), accuracy=simulator.accuracy, certify="off"
-            )
+
+def _ask(simulator: Simulator, step: StepData, linear: bool) -> None:
+    """Ask the solver as the step did, for what it keeps; nothing else is done with it."""
+    solver = simulator.solver
+    if not linear or not (solver is None or solver.remembers) or simulator.backend == NONE:
+        return
+    if simulator.law == COULOMB:  # it was asked for each iterate
+        simulator.solution(step)
+        return
+    with suppress(StepNotSolved):
+        solve_step(step, simulator.fitting_solver(step), accuracy=simulator.accuracy, certify="off")
 
 
 def _check(what: str, k: int, then: Array, now: Array) -> None:

@@ -41,6 +41,8 @@ VERSION = 1
 WHAT = "a file of saved steps"
 EVERY = 60.0
 """Time between two saves [s]."""
+WORDS = ("h", "gravity", "cone", "law", "certify", "backend", "fast", "accuracy")
+"""Settings of a simulator that are shown as they are."""
 HASHED = "sha256 "
 """What the value of a setting begins with that is too long to be shown."""
 
@@ -59,18 +61,10 @@ def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, s
     settings = {
         "version of quasistatic_ref": __version__,
         "version of NumPy": np.__version__,
-        "h": repr(simulator.h),
-        "gravity": repr(simulator.gravity),
-        "cone": simulator.cone,
-        "law": simulator.law,
+        **{name: str(getattr(simulator, name)) for name in WORDS},
         "record": record,
-        "certify": simulator.certify,
-        "backend": simulator.backend,
         "version of the backend": _version(simulator.backend.removeprefix(QPSOLVERS)),
-        "fast": repr(simulator.fast),
-        "accuracy": repr(simulator.accuracy),
-        "limits.penetration": repr(simulator.limits.penetration),
-        "limits.reach": repr(simulator.limits.reach),
+        **{f"limits.{name}": str(limit) for name, limit in vars(simulator.limits).items()},
         "extension": "none" if simulator.extension is None else "one",
     }
     for body, text in zip(system.bodies, system.texts, strict=True):
@@ -121,12 +115,14 @@ class SavedSteps(Observer):
         self,
         path: str | Path,
         settings: Mapping[str, str],
-        kept: tuple[str, ...] = (),
-        every: float = EVERY,
+        kept: tuple[str, ...],
+        every: float,
     ) -> None:
         if not every >= 0:
             raise InputError("must be at least 0", field="save_every", value=every)
-        self.path, self.settings, self.every = Path(path), dict(settings), every
+        self.path = Path(path)
+        self.settings = dict(settings)
+        self.every = every
         self.kept = kept
         self.folder = saved_folder(path)
         self._saved = 0  # parts of the recorder that are on disk
@@ -329,26 +325,7 @@ def steps_in(path: str | Path) -> int:
 def fingerprint(value: Any) -> str:
     """SHA-256 of what :func:`~quasistatic_ref.formats.plain.bits` compares, in hexadecimal.
 
-    It is the same in every process.
+    It is the same in every process: of arrays, texts and shapes, and not of mappings, whose order
+    is not.
     """
-    digest = hashlib.sha256()
-    for part in _flat(bits(value)):
-        digest.update(part)
-    return digest.hexdigest()
-
-
-def _flat(value: Any) -> Iterator[bytes]:
-    """The bits of a value as bytes, which differ from those of any other value."""
-    if isinstance(value, tuple):
-        yield b"("
-        for inner in value:
-            yield from _flat(inner)
-        yield b")"
-    elif isinstance(value, frozenset):
-        yield from sorted(b"".join(_flat(inner)) for inner in value)
-    else:
-        if isinstance(value, type):
-            value = value.__qualname__
-        content = value if isinstance(value, bytes) else repr(value).encode()
-        yield b"%d:" % len(content)
-        yield content
+    return hashlib.sha256(repr(bits(value)).encode()).hexdigest()

@@ -7,17 +7,19 @@ from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, Final
-from xml.etree.ElementTree import Element, SubElement, tostring
+from xml.etree.ElementTree import Element, SubElement, fromstring, tostring
 
 import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, ModelError
 from quasistatic_ref.formats.files import bytes_written, json_text, text_written, writable_folder
+from quasistatic_ref.formats.plain import bits, field_values
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.mesh_files import mesh_path
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.model.system import System
+from quasistatic_ref.model.urdf.solid import Homogeneous, solid_element
 from quasistatic_ref.model.urdf.urdf_xml import xml_root
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.scenario.scenario_table import FORMAT, VERSION
@@ -40,8 +42,6 @@ WORLD: Final = 0
 """Number of the world among the links."""
 NEIGHBOURS: Final = 4
 """How many floats on each side of an angle are tried."""
-IN_URDF: Final = ("box", "sphere", "cylinder", "capsule")
-"""Solids that a URDF has a name for."""
 
 
 def scenario_written(simulator: Simulator, path: str | Path, steps: int) -> Path:
@@ -173,10 +173,11 @@ class _SceneFiles:
 
     def added(self, placed: PlacedShape, body: str, link: str) -> str:
         """A solid as a collision shape of its link."""
-        kind, sizes = _solid_table(placed)
-        if kind not in IN_URDF:
+        kind, _ = _solid_table(placed)
+        if not isinstance(placed.shape, Homogeneous):
             problem = (
-                f"is a {kind} on a link; a URDF has {', '.join(IN_URDF)}, and clouds stand in files"
+                f"is a {kind} on a link; a URDF has box, sphere, cylinder, capsule, and clouds "
+                "stand in files"
             )
             raise InputError(problem, field=placed.name)
         number = [own.name for own in self.system.bodies].index(body)
@@ -186,8 +187,7 @@ class _SceneFiles:
             collision = SubElement(parent, "collision", name=name)
             rpy = _roll_pitch_yaw(placed)
             SubElement(collision, "origin", xyz=_numbers(placed.t.tolist()), rpy=_numbers(rpy))
-            words = {key: _numbers(np.ravel(value).tolist()) for key, value in sizes.items()}
-            SubElement(SubElement(collision, "geometry"), kind, words)
+            SubElement(collision, "geometry").append(fromstring(solid_element(placed.shape)))
             self.robots[number].set("version", "1.1")  # from which on there are capsules
         return f"{body}/{name}"
 
@@ -209,11 +209,8 @@ class _SceneFiles:
 
     def actuation(self, body: Body, simulator: Simulator) -> dict[str, Any]:
         """What is actuated, its stiffness, and whether gravity acts on it."""
-        joints = [j for j in self.system.joints if j.name.startswith(f"{body.name}/")]
-        own = np.zeros(self.system.n_a, dtype=bool)
-        for joint in joints:
-            if joint.actuated:
-                own[joint.v] = True
+        actuated = self.system.coordinates[: self.system.n_a]
+        own = np.array([c.joint.startswith(f"{body.name}/") for c in actuated], dtype=bool)
         if not own.any():
             return {}
         if np.any(simulator.K_q[np.ix_(own, ~own)]):
@@ -304,7 +301,6 @@ def _check_same(simulator: Simulator, path: Path) -> None:
     InputError
         If a name or a number differs.
     """
-    q = simulator.system.q_start
     other = load_scenario(path).simulator()
     for own, loaded in zip(simulator.pairs, other.pairs, strict=True):
         for side in ("alpha", "beta"):
@@ -313,25 +309,20 @@ def _check_same(simulator: Simulator, path: Path) -> None:
             if np.any(shape.R != again.R) or np.any(shape.t != again.t):
                 problem = "is rounded where a URDF is read; place the shape without a rotation"
                 raise InputError(problem, field=f"{shape.name}.R", value=shape.R.tolist())
-    if np.any(other.system.q_start != q):
+    if np.any(other.system.q_start != simulator.system.q_start):
         raise InputError("would start elsewhere when it is loaded", file=path.name)
-    both = zip(_first_step(simulator), _first_step(other), strict=True)
-    if simulator.cone != other.cone or not all(np.array_equal(a, b) for a, b in both):
+    if _first_step(simulator) != _first_step(other):
         raise InputError("would have another first step when it is loaded", file=path.name)
 
 
-def _first_step(simulator: Simulator) -> list[Array]:
-    """All numbers of the step from where the system starts, with the targets there."""
+def _first_step(simulator: Simulator) -> Any:
+    """The bits of the step from where the system starts, with the targets there, but for names."""
     system = simulator.system
-    q = simulator.system.q_start
+    q = system.q_start
     kinematics = system.kinematics(q)
     points = simulator.closest_points(kinematics)
     step = simulator.step_data(q, q[: system.n_q_a], 0.0, points, kinematics)
-    of_step = ("h", "K_q", "M_u", "tau_a", "tau_u", "delta_q_bar_a")
-    of_contacts = ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
-    numbers = [getattr(step, name) for name in of_step]
-    numbers += [getattr(step.contacts, name) for name in of_contacts]
-    return [np.asarray(one, dtype=np.float64) for one in numbers]
+    return bits(field_values(step) | {"contacts": field_values(step.contacts) | {"name": ()}})
 
 
 def _toml_text(tables: Mapping[str, Mapping[str, Any]]) -> str:

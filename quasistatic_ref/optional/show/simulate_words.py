@@ -45,8 +45,8 @@ def result_page(result: StepResult) -> Page:
         f"StepResult: {counted(step.n_v, 'coordinate')}, {counted(step.contacts.n_c, 'contact')}, "
         f"certificate: {certificate.kind}, {1e3 * sum(result.seconds.values()):.3g} ms"
     )
-    at = [(row[0], row[1], row[2]) for row in contact_rows(step.contacts)]
-    rows = [(*one, *two) for one, two in zip(at, force_rows(result.solution), strict=True)]
+    each = zip(contact_rows(step.contacts), force_rows(result.solution), strict=True)
+    rows = [(*contact[:3], *force) for contact, force in each]
     return title, certificate_facts(certificate), (*CONTACT[:3], *FORCE), rows
 
 

@@ -4,17 +4,17 @@ One wide table for looking at: a row a step, by the time of its end, and a colum
 tidy ones for analysis: a row a step and coordinate, a row a step and contact.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -47,8 +47,7 @@ def data_frame(trajectory: "Trajectory") -> "DataFrame":
         If pandas is not installed.
     """
     pandas = _pandas()
-    columns = dict(_wide(trajectory))
-    return pandas.DataFrame(columns, index=pandas.Index(trajectory["t"], name="t [s]"))
+    return pandas.DataFrame(_wide(trajectory), index=pandas.Index(trajectory["t"], name="t [s]"))
 
 
 def coordinate_frame(trajectory: "Trajectory") -> "DataFrame":
@@ -92,10 +91,7 @@ def contact_frame(trajectory: "Trajectory") -> "DataFrame":
         "pair": np.tile(pairs, trajectory.steps),
     }
     if trajectory.steps:
-        columns["point"] = trajectory["point"].ravel()
-        for name, labels in CONTACT.items():
-            numbers = _contacts(trajectory, name).reshape(-1, len(labels))
-            columns |= dict(zip(labels, numbers.T, strict=True))
+        columns |= {label: values.ravel() for label, values in _of_contacts(trajectory).items()}
     return pandas.DataFrame(columns)
 
 
@@ -129,36 +125,42 @@ def check_table_path(path: Path) -> None:
         needed_package("pyarrow", "parquet", "a Parquet file")
 
 
-def _wide(trajectory: "Trajectory") -> Iterator[tuple[str, Array]]:
-    names = _positions(trajectory)
-    yield from zip(names, trajectory["q"][1:].T, strict=True)
-    if not trajectory.steps:
-        return
-    targets = [f"target {name}" for name in names[: trajectory["q_bar_a"].shape[1]]]
-    yield from zip(targets, trajectory["q_bar_a"].T, strict=True)
+def _wide(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
+    """The columns of the wide table, shape (steps,)."""
     header = trajectory.header
+    names = _positions(trajectory)
+    columns = dict(zip(names, trajectory["q"][1:].T, strict=True))
+    if not trajectory.steps:
+        return columns
+    targets = zip(names, trajectory["q_bar_a"].T, strict=False)  # q_a comes first in q
+    columns |= {f"target {name}": values for name, values in targets}
     units = header.get("units", ["m, rad"] * len(header["coordinates"]))
-    moves = [f"delta_q {c} [{u}]" for c, u in zip(header["coordinates"], units, strict=True)]
-    yield from zip(moves, trajectory["delta_q"].T, strict=True)
-    ends = np.cumsum(cone(header["cone"]).counts(trajectory["rows"])).tolist()
-    for i, (slot, end) in enumerate(zip(_slots(trajectory), ends, strict=True)):
-        yield f"{slot}.point", trajectory["point"][:, i]
-        for name, labels in CONTACT.items():
-            numbers = _contacts(trajectory, name)[:, i].reshape(trajectory.steps, -1).T
-            yield from zip((f"{slot}.{label}" for label in labels), numbers, strict=True)
-        for row, lam in enumerate(trajectory["lam"][:, ([0, *ends])[i] : end].T):
-            yield f"{slot}.lam_{row} [N s]", lam
-    for name, lam in zip(header["extra"], trajectory.arrays.get("lam_extra", np.zeros(0)).T,
-                         strict=True):  # fmt: skip
-        yield f"lam of {name}", lam
-    for name, label in STEP.items():
-        yield label, trajectory[name]
+    moves = zip(header["coordinates"], units, trajectory["delta_q"].T, strict=True)
+    columns |= {f"delta_q {name} [{unit}]": values for name, unit, values in moves}
+    of_contacts = _of_contacts(trajectory)
+    ends = np.cumsum(cone(header["cone"]).counts(trajectory["rows"]))
+    lam = np.split(trajectory["lam"], ends, axis=1)[:-1]
+    for i, (slot, own) in enumerate(zip(_slots(trajectory), lam, strict=True)):
+        columns |= {f"{slot}.{label}": values[:, i] for label, values in of_contacts.items()}
+        columns |= {f"{slot}.lam_{row} [N s]": values for row, values in enumerate(own.T)}
+    if header["extra"]:
+        extra = zip(header["extra"], trajectory["lam_extra"].T, strict=True)
+        columns |= {f"lam of {name}": values for name, values in extra}
+    return columns | {label: trajectory[name] for name, label in STEP.items()}
 
 
-def _contacts(trajectory: "Trajectory", name: str) -> Array:
-    """An array of contacts; for wrenches, the forces where the record holds them."""
-    forces = trajectory.arrays.get("forces") if name == "wrench" else None
-    return np.asarray(trajectory[name] if forces is None else forces)
+def _of_contacts(trajectory: "Trajectory") -> dict[str, NDArray[Any]]:
+    """What is known of contacts by names of columns, shape (steps, n_c).
+
+    For wrenches, the forces where the record holds them.
+    """
+    columns = {"point": trajectory["point"]}
+    arrays = {name: trajectory[name] for name in CONTACT}
+    arrays["wrench"] = trajectory.arrays.get("forces", arrays["wrench"])
+    for name, labels in CONTACT.items():
+        entries = arrays[name].reshape(*columns["point"].shape, -1)
+        columns |= {label: entries[:, :, i] for i, label in enumerate(labels)}
+    return columns
 
 
 def _positions(trajectory: "Trajectory") -> list[str]:

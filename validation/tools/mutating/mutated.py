@@ -49,8 +49,8 @@ step/cones.py
     PAGE JUDGE completion standard_form problem
 step/groups.py
     own
-step/pivots.py optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
-certify/digits.py model/angles.py step/ordered.py model/rotation.py
+optional/fast/guess/confirm.py optional/fast/guess/exchange.py certify/farkas.py
+model/angles.py step/ordered.py model/rotation.py
 model/readers/mesh_files.py optional/fast/pace.py
     own
 step/standard_form.py
@@ -93,7 +93,7 @@ optional/derivatives/step/parameters.py
 certify/rows.py
     certificate farkas
 certify/norm.py
-    digits farkas pivots
+    norm farkas pivots
 model/coordinates.py
     system
 model/system.py model/mass.py
@@ -202,6 +202,8 @@ optional/large/sparse.py optional/fast/sparse_solver.py
     SPARSE sparse_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA
+step/pivots.py
+    pivots SYSTEM mass_in_blocks DATA
 step/contacts.py
     artifacts DATA
 step/data.py

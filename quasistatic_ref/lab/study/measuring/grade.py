@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.certify.digits import MOST, digits_of_error
-from quasistatic_ref.certify.norm import EnergyNorm, energy_norm
+from quasistatic_ref.certify.norm import MOST, EnergyNorm, digits_of_error, energy_norm
 from quasistatic_ref.formats.quoting import clipped
 from quasistatic_ref.lab.study.calling.claims import INFEASIBLE
 from quasistatic_ref.lab.study.calling.solvers import Setting, Solver

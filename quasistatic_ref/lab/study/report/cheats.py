@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from quasistatic_ref.certify.digits import MOST
+from quasistatic_ref.certify.norm import MOST
 from quasistatic_ref.lab.study.report.rows import Rows
 from quasistatic_ref.lab.study.report.statistics import TICK, success
 

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from quasistatic_ref.certify.digits import digits_of_error
+from quasistatic_ref.certify.norm import digits_of_error
 from quasistatic_ref.lab.page.parts import Block, Table
 from quasistatic_ref.lab.study.calling.claims import HIDDEN, claim
 from quasistatic_ref.lab.study.calling.options import option_file

@@ -147,7 +147,7 @@ def couples(
     found = list[Couple]()
     at = 0
     for pair in pairs:
-        of = PairInWorld(pair, (in_world(pair.alpha, R, t), in_world(pair.beta, R, t)))
+        of = PairInWorld(pair, in_world(pair, R, t))
         found += [_couple(of, points, j) for j in range(at, at + pair.n_c)]
         at += pair.n_c
     return found

@@ -15,7 +15,7 @@ from quasistatic_ref.formats.files import bytes_written
 from quasistatic_ref.optional.show.figures.camera import Camera
 from quasistatic_ref.optional.show.figures.draw import draw_scene, force_scale
 from quasistatic_ref.optional.show.figures.looks import CAMERA
-from quasistatic_ref.optional.show.figures.moments import box_of, extent, frames
+from quasistatic_ref.optional.show.figures.moments import box_of, extent, frames, middle
 from quasistatic_ref.optional.show.figures.style import figure_style, sized
 from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
@@ -70,9 +70,7 @@ def animate(
     if not 0 < speed < np.inf:
         raise InputError("must be positive and finite", field="speed", value=speed)
     moments, shown = frames(scenario, run, fps / speed)
-    box = box_of(np.concatenate([extent(m) for m in moments]))
-    centre = box.mean(axis=0)
-    half = float(np.ptp(box, axis=0).max()) / 2
+    centre, half = middle(box_of(np.concatenate([extent(m) for m in moments])))
     fixed: dict[str, Any] = {
         "view": view, "around": (centre, half), "parts": ("contacts", "forces"),
         "metres_per_newton": force_scale(moments, view, half),

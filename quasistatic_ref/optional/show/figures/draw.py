@@ -15,6 +15,7 @@ from quasistatic_ref.optional.show.figures.moments import (
     Moment,
     box_of,
     extent,
+    middle,
 )
 from quasistatic_ref.optional.show.figures.pens import (
     MILLI,
@@ -74,16 +75,16 @@ def draw_scene(
     box = extent(of)
     if around is not None:
         box = around[0] + around[1] * SIGNS
-    centre = box.mean(axis=0)
-    half = MARGIN * float(np.ptp(box, axis=0).max()) / 2
+    centre, half = middle(box)
+    half = MARGIN * half
     if metres_per_newton is None:
         metres_per_newton = force_scale([of], view, half)
     pen = Pen(axes, camera_of(view))
     pen.bodies(of, centre, half)
-    for contact, bears in zip(of.contacts, of.bearing, strict=True):
+    for contact in of.contacts:
         if "contacts" in parts:
-            pen.dot(contact.beta, bool(bears))
-        if bears:
+            pen.dot(contact.beta, contact.bears)
+        if contact.bears:
             _draw_contact(pen, contact, parts, metres_per_newton, 2 * FRAME * half)
     if around is None:
         tips = [c.beta + metres_per_newton * at for c in of.contacts for at in _tips(c, parts)]
@@ -161,11 +162,10 @@ def _legend(axes: Any, of: Moment, parts: Collection[str], scale: float) -> None
     if "forces" in parts and scale > 0:
         label = f"1 N is {MILLI * scale:g} mm"
         handles.append(Line2D([], [], color=FORCE, marker=">", markersize=scaled(4), label=label))
-    rough = [c for c, bears in zip(of.contacts, of.bearing, strict=True) if bears and c.mu_v > 0]
-    if "cones" in parts and rough:
+    if "cones" in parts and any(c.bears and c.mu_v > 0 for c in of.contacts):
         label = "friction cone"
         handles.append(Patch(facecolor=CONE_FACE, edgecolor=CONE_EDGE, alpha=0.5, label=label))
-    if "frames" in parts and of.bearing.any():
+    if "frames" in parts and any(c.bears for c in of.contacts):
         for label, dashes in FRAME_LINES:
             handles.append(Line2D([], [], color="black", ls=dashes, lw=scaled(0.9), label=label))
     legend_above(axes, handles)

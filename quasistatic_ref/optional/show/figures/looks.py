@@ -22,10 +22,10 @@ ROBOTS: Final = ("#A0A0A0", "#B59A74", "#8296AB")
 """Bodies with actuators, in turn."""
 FIXED: Final = "#BDBDBD"
 """What belongs to no body."""
-OPACITY: Final = {FIXED: 0.5}
-"""Of solids of a colour, if not 1 [-]: through what is fixed, what it hides is seen."""
 FLOOR: Final = "#EDEDED"
 """Half-spaces."""
+OPACITY: Final = {FIXED: 0.5, FLOOR: 0.8}
+"""Of solids of a colour, if not 1 [-]: through what is fixed, what it hides is seen."""
 FORCE: Final = "#D55E00"
 STATES: Final = {"sticking": "#000000", "sliding": FORCE, "apart": "#909090"}
 """Contacts, and their forces where states are shown."""

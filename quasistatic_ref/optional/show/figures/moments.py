@@ -13,7 +13,7 @@ from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.cones import cone, cone_matrix
-from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.data import Array
 
 BEARING = 1e-3
 """A contact is drawn as bearing load above this share of the largest normal force [-]."""
@@ -22,7 +22,8 @@ ROUND = 48
 """Corners of a circle, as drawn."""
 
 SLIP = 1e-9
-"""A contact that bears load slides where it moves along its tangents by more in a step [m]."""
+"""A contact that bears load slides where beta moves along the tangents by more in a step, or turns
+about n by more over mu_omega [m]."""
 
 MOVES = 1e-3
 """A link is looked at where it moves by more in a run [m]; or all, where none does."""
@@ -46,9 +47,8 @@ class DrawnContact:
         [N], [-], [m].
     rim : ndarray, shape (N, 3)
         Forces on the edge of the friction cone, without torque, at this normal force [N].
-    slip : float
-        How far beta moves along the tangents relative to alpha, or mu_omega times how far it turns
-        about n, if that is more [m]; 0 where a light record does not know it.
+    state : str
+        ``"apart"``, or bearing load ``"sticking"`` or ``"sliding"``, where the record knows it.
     """
 
     beta: Array
@@ -59,7 +59,12 @@ class DrawnContact:
     mu_v: float
     mu_omega: float
     rim: Array
-    slip: float = 0.0
+    state: str
+
+    @property
+    def bears(self) -> bool:
+        """Whether it bears load."""
+        return self.state != "apart"
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,19 +96,6 @@ class Moment:
         R = self.R[placed.link]
         t = self.t_links[placed.link]
         return np.asarray((points @ placed.R.T + placed.t) @ R.T + t)
-
-    @property
-    def bearing(self) -> Mask:
-        """Which contacts bear load, shape (n_c,)."""
-        f_n = np.array([c.f_n for c in self.contacts])
-        return np.asarray(f_n > BEARING * max(f_n.max(initial=0.0), 1e-12))
-
-    @property
-    def states(self) -> list[str]:
-        """Of each contact: ``"apart"``, or bearing load ``"sticking"`` or ``"sliding"``."""
-        slides = ["sliding" if c.slip > SLIP else "sticking" for c in self.contacts]
-        each = zip(slides, self.bearing, strict=True)
-        return [state if bears else "apart" for state, bears in each]
 
 
 def still(scene: HasScene) -> Moment:
@@ -138,7 +130,7 @@ def moment(scene: HasScene, run: Trajectory, k: int) -> Moment:
         shapes=drawn_shapes(scene),
         R=kinematics.R,
         t_links=kinematics.t,
-        contacts=tuple(_contact(run, k, j, wrench) for j, wrench in enumerate(reported(run, k))),
+        contacts=_contacts(run, k),
         colours=link_colours(scene.system),
     )
 
@@ -187,6 +179,11 @@ def box_of(points: Array) -> Array:
     return np.array([points.min(axis=0), points.max(axis=0)])
 
 
+def middle(box: Array) -> tuple[Array, float]:
+    """Centre, shape (3,), of a box (2, 3), and half its longest side [m]."""
+    return box.mean(axis=0), float(np.ptp(box, axis=0).max()) / 2
+
+
 def focus(moments: list[Moment], looks: Sequence[Visual] = ()) -> Array:
     """Least and greatest coordinates of what moves, and of contacts, shape (2, 3) [m].
 
@@ -224,24 +221,37 @@ def reported(run: Trajectory, k: int) -> Array:
     return np.asarray(run.step_forces(k) if known else run["wrench"][k])
 
 
-def _contact(run: Trajectory, k: int, j: int, wrench: Array) -> DrawnContact:
-    frame = np.stack([run["d1"][k, j], run["d2"][k, j], run["n"][k, j]])
-    f_1, f_2, f_n, torque = wrench
-    mu_v = float(run["mu_v"][j])
-    rim = _rim(str(run.header["cone"])) * [mu_v * f_n, mu_v * f_n, f_n]
-    return DrawnContact(
-        run["beta"][k, j], frame, np.array([f_1, f_2, f_n]) @ frame,
-        float(torque), float(f_n), mu_v, float(run["mu_omega"][j]), rim @ frame,
-        _slip(run, k, j, frame),
-    )  # fmt: skip
+def _contacts(run: Trajectory, k: int) -> tuple[DrawnContact, ...]:
+    rim = _rim(str(run.header["cone"]))
+    wrench = reported(run, k)
+    bears = wrench[:, 2] > BEARING * max(wrench[:, 2].max(initial=0.0), 1e-12)
+    found = []
+    for j, (*force, torque) in enumerate(wrench):
+        frame = np.stack([run[axis][k, j] for axis in ("d1", "d2", "n")])
+        f_n = float(force[2])
+        mu_v = float(run["mu_v"][j])
+        found.append(DrawnContact(
+            beta=run["beta"][k, j],
+            frame=frame,
+            force=force @ frame,
+            torque=float(torque),
+            f_n=f_n,
+            mu_v=mu_v,
+            mu_omega=float(run["mu_omega"][j]),
+            rim=f_n * rim * [mu_v, mu_v, 1.0] @ frame,
+            state=_state(run, k, j, frame) if bears[j] else "apart",
+        ))  # fmt: skip
+    return tuple(found)
 
 
-def _slip(run: Trajectory, k: int, j: int, frame: Array) -> float:
+def _state(run: Trajectory, k: int, j: int, frame: Array) -> str:
+    """Of a contact that bears load; ``"sticking"`` where the record does not know it."""
     if run.header["record"] != "full":
-        return 0.0
+        return "sticking"
     motion = run["J"][k, j] @ run["delta_q"][k]
-    along = float(np.abs(frame[:2] @ motion[:3]).max())
-    return max(along, float(run["mu_omega"][j] * abs(motion[3])))
+    along = np.abs(frame[:2] @ motion[:3]).max()
+    turning = run["mu_omega"][j] * abs(motion[3])
+    return "sliding" if max(along, turning) > SLIP else "sticking"
 
 
 def _rim(name: str) -> Array:
@@ -251,5 +261,4 @@ def _rim(name: str) -> Array:
         angle = np.linspace(0, 2 * np.pi, ROUND, endpoint=False)
         return np.stack([np.cos(angle), np.sin(angle), np.ones(ROUND)], axis=1)
     flat = cone_matrix(name)[: kind.without_torsion, 1:3]
-    flat = flat[np.argsort(np.arctan2(flat[:, 1], flat[:, 0]))]
     return np.column_stack([flat, np.ones(len(flat))])

@@ -21,7 +21,7 @@ from quasistatic_ref.optional.show.figures.looks import (
 )
 from quasistatic_ref.optional.show.figures.moments import Moment
 from quasistatic_ref.optional.show.figures.style import DRAWING, scaled
-from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points, triangles
+from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
 from quasistatic_ref.step.data import Array
 
@@ -31,8 +31,6 @@ PLANES: Final = {"xy": Camera(-90, 90), "xz": Camera(-90, 0), "yz": Camera(0, 0)
 MILLI = 1e3
 DOT = 5.0
 """Size of a cloud's point on paper [pt^2]."""
-TINY = 1e-30
-"""Below the area of any face that is seen [m^2]."""
 
 
 class Pen:
@@ -91,14 +89,13 @@ class Pen:
     def _body(self, placed: PlacedShape, seen: Array, colour: str, zorder: float) -> None:
         """Draw a cloud as dots, paler by depth; a solid as its faces, lit, and its outline."""
         if not isinstance(placed.shape, PointCloud):
-            corners = triangles(seen).reshape(-1, 3, 3)
-            normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-            normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), TINY)
-            front = normals[:, 2] > 0
-            shades = lit(colour, normals[front])
+            hull = ConvexHull(seen)
+            front = hull.equations[:, 2] > 0
+            shades = lit(colour, hull.equations[front, :3])
             opacity = OPACITY.get(colour, 1.0)
+            faces = MILLI * seen[hull.simplices[front], :2]
             self.axes.add_collection(PolyCollection(
-                list(MILLI * corners[front, :, :2]), facecolors=shades, edgecolors=shades,
+                list(faces), facecolors=shades, edgecolors=shades,
                 linewidths=0.4 if opacity == 1 else 0, alpha=opacity, zorder=zorder,
             ))  # fmt: skip
             outline = MILLI * seen[ConvexHull(seen[:, :2]).vertices, :2]

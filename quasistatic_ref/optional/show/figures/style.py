@@ -1,7 +1,5 @@
 """Looks of figures for papers, slides and posters; where figures are drawn; writing them."""
 
-import os
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -9,12 +7,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
-
-if "matplotlib.pyplot" not in sys.modules and not os.environ.get("MPLBACKEND"):
-    mpl.use("Agg")  # files need no window; a session that has chosen keeps its choice
-
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -41,7 +34,8 @@ CROWDED: Final = 1.3
 DRAWING: Final = "drawing"
 """Mark (gid) of lines that are parts of a picture: not data, so nothing has to tell them apart."""
 
-FORMATS = ("png", "pdf")
+METADATA: Final = {"png": None, "pdf": {"CreationDate": None}}
+"""What files of each format say of their making: the same figure has the same bytes."""
 _current: ContextVar[str | Path] = ContextVar("figure style", default="paper")
 
 
@@ -202,8 +196,7 @@ def figure_written(figure: Figure, folder: str | Path, name: str) -> list[Path]:
     """
     paths = []
     with figure_style():
-        for kind in FORMATS:
-            metadata = {"CreationDate": None} if kind == "pdf" else None
+        for kind, metadata in METADATA.items():
             save = partial(figure.savefig, format=kind, metadata=metadata)
             paths.append(written_whole(Path(folder) / f"{name}.{kind}", save))
     plt.close(figure)

@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.spatial import ConvexHull
 
+from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.contact.solids.polytope import polytope
 from quasistatic_ref.shapes import placed_shape as shapes
 from quasistatic_ref.step.data import Array
@@ -17,9 +18,6 @@ DECIMALS = 12
 
 ROUND = 0.8
 """Cosine of the angle between triangles at a corner above which the surface is round there [-]."""
-
-SAME_PLANE = 9
-"""Decimals to which the planes of two triangles agree that are parts of one face."""
 
 
 @lru_cache(maxsize=256)
@@ -58,11 +56,9 @@ def patch(floor: shapes.HalfSpace, centre: Array, half_width: float) -> Array:
     """Corners of a square of a half-space's surface below the point `centre`, shape (4, 3) [m]."""
     n = floor.normal
     foot = centre - (n @ centre - floor.offset) * n
-    one = np.eye(3)[np.abs(n).argmin()]
-    one = half_width * (one - (one @ n) * n) / np.linalg.norm(one - (one @ n) * n)
-    other = np.cross(n, one)
+    one, other = np.concatenate(tangents(n[None]))
     around = np.array([-one - other, one - other, one + other, other - one])
-    return np.asarray(foot + around)
+    return np.asarray(foot + half_width * around)
 
 
 def triangles(points: Array) -> Array:
@@ -95,20 +91,3 @@ def normals(corners: Array) -> Array:
 
 def _unit(vectors: Array) -> Array:
     return np.asarray(vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), 1e-300))
-
-
-def faces(points: Array) -> list[Array]:
-    """Faces of the convex hull, each with its corners in order, shapes (corners, 3)."""
-    hull = ConvexHull(points)
-    members: dict[tuple[float, ...], set[int]] = {}
-    for simplex, plane in zip(hull.simplices, hull.equations, strict=True):
-        members.setdefault(tuple(np.round(plane, SAME_PLANE)), set()).update(simplex.tolist())
-    ordered = []
-    for plane, corners in members.items():
-        at = points[sorted(corners)]
-        centre = at.mean(axis=0)
-        normal = np.array(plane[:3])
-        first = at[0] - centre
-        angle = np.arctan2((at - centre) @ np.cross(normal, first), (at - centre) @ first)
-        ordered.append(at[np.argsort(angle)])
-    return ordered

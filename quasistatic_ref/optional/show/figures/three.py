@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref.contact.jacobian import tangents
 from quasistatic_ref.optional.show.figures.surfaces import normals
 from quasistatic_ref.step.data import Array
 
@@ -104,6 +105,4 @@ def z_along(directions: Array) -> Array:
     """Rotations that take z to each direction, shape (N, 3, 3); any for a direction of zero."""
     length = np.linalg.norm(directions, axis=1, keepdims=True)
     z = np.where(length > 0, directions / np.where(length > 0, length, 1), [0.0, 0.0, 1.0])
-    x = np.cross(np.eye(3)[np.abs(z).argmin(axis=1)], z)
-    x /= np.linalg.norm(x, axis=1, keepdims=True)
-    return np.stack([x, np.cross(z, x), z], axis=2)
+    return np.stack([*tangents(z), z], axis=2)

@@ -31,9 +31,10 @@ from quasistatic_ref.optional.show.figures.moments import (
     Moment,
     focus,
     frames,
+    middle,
     still,
 )
-from quasistatic_ref.optional.show.figures.surfaces import ball, patch, surface_points, triangles
+from quasistatic_ref.optional.show.figures.surfaces import patch, surface_points, triangles
 from quasistatic_ref.optional.show.figures.three import (
     clip,
     colour_clip,
@@ -49,7 +50,7 @@ from quasistatic_ref.optional.show.figures.visuals import (
     visuals,
 )
 from quasistatic_ref.scenario.scenario import Scenario
-from quasistatic_ref.shapes.placed_shape import HalfSpace, PlacedShape, PointCloud
+from quasistatic_ref.shapes.placed_shape import Cone, HalfSpace, PlacedShape, PointCloud, Sphere
 from quasistatic_ref.simulate.scene import HasScene
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
@@ -60,6 +61,8 @@ LONGEST = 0.25
 
 THICK, DOT = 0.02, 0.012
 """Radii of a force, drawn as a slim cone, and of a contact over half that size [-]."""
+SMALL = 12, 7
+"""Corners of these around their axis and along it."""
 
 NOTHING = 1e-9
 """Length of a force that is zero [m]: an object that is scaled by zero has no inside."""
@@ -68,8 +71,13 @@ POINT = 0.07
 """Size of a cloud's point over half that size [-]."""
 
 REPETITIONS = 1000
-HIDDEN: Final = ("/Grid", "/Axes")
-SKY: Final = {"top_color": [1.0, 1.0, 1.0], "bottom_color": [0.85, 0.9, 0.95]}
+SURROUNDINGS: Final = (
+    ("/Grid", "visible", False),
+    ("/Axes", "visible", False),
+    ("/Background", "top_color", [1.0, 1.0, 1.0]),
+    ("/Background", "bottom_color", [0.85, 0.9, 0.95]),
+)
+"""Properties of meshcat's scene: path, name and value."""
 EYE: Final = 5.0 * CAMERA.axes()[2]
 """The eye from the middle of what is looked at, over half its size [-]."""
 ANGLE: Final = 40
@@ -111,9 +119,7 @@ def view_written(
     scene, run = _scene(shown, run)
     moments, fps = ([still(scene)], 1.0) if run is None else frames(scene, run, FRAMES_PER_SECOND)
     looks = visuals(scene)
-    box = focus(moments, looks)
-    centre = box.mean(axis=0)
-    half = float(np.ptp(box, axis=0).max()) / 2
+    centre, half = middle(focus(moments, looks))
     scale = force_scale(moments, None, half, LONGEST)
     commands = scene_commands(scene, moments, fps, half, scale, looks)
     title = scene.path.stem if isinstance(scene, Scenario) else "scene"
@@ -192,43 +198,33 @@ def scene_commands(
     """
     contacts = range(len(moments[0].contacts))
     commands: list[dict[str, Any]] = [
-        {"type": "set_property", "path": path, "property": "visible", "value": False}
-        for path in HIDDEN
-    ]
-    commands += [
-        {"type": "set_property", "path": "/Background", "property": name, "value": colour}
-        for name, colour in SKY.items()
+        {"type": "set_property", "path": path, "property": name, "value": value}
+        for path, name, value in SURROUNDINGS
     ]
     commands += _links(scene, moments[0], half, looks)
     for j in contacts:
-        commands.append(object_set(f"/contacts/{j}", _ball(DOT * half)))
-        commands.append(object_set(f"/forces/{j}", _spike(THICK * half)))
+        commands.append(object_set(f"/contacts/{j}", _over(Sphere(DOT * half), 0.0)))
+        commands.append(object_set(f"/forces/{j}", _over(Cone(THICK * half, 0.5), 0.5)))
     links = {shape.link for shape in moments[0].shapes} | {visual.link for visual in looks}
-    moving = sorted(links - {0})
-    clips = []
-    for link in moving:
-        t, R = (
-            np.array(of)
-            for of in zip(*((m.t_links[link], m.R[link]) for m in moments), strict=True)
-        )
-        clips.append(clip(f"/links/{link}", fps, t, R))
-    states = list(zip(*(m.states for m in moments), strict=True))
+    t = np.array([m.t_links for m in moments])
+    R = np.array([m.R for m in moments])
+    clips = [clip(f"/links/{link}", fps, t[:, link], R[:, link]) for link in sorted(links - {0})]
     for j in contacts:
-        clips += _contact_clips(j, [m.contacts[j] for m in moments], states[j], fps, scale)
+        clips += _contact_clips(j, [m.contacts[j] for m in moments], fps, scale)
     options = {"play": True, "repetitions": REPETITIONS}
     play = {"type": "set_animation", "path": "", "animations": clips, "options": options}
     return [*commands, play]
 
 
 def _contact_clips(
-    j: int, contacts: Sequence[DrawnContact], states: Sequence[str], fps: float, scale: float
+    j: int, contacts: Sequence[DrawnContact], fps: float, scale: float
 ) -> Iterator[dict[str, Any]]:
     """How a contact and its force move, and take the colours of its states."""
     beta = np.array([c.beta for c in contacts])
     force = scale * np.array([c.force for c in contacts])
     length = np.maximum(np.linalg.norm(force, axis=1), NOTHING)
     stretch = np.stack([np.ones_like(length), np.ones_like(length), length], axis=1)
-    colour = np.array([to_rgb(STATES[state]) for state in states])
+    colour = np.array([to_rgb(STATES[c.state]) for c in contacts])
     upright = np.tile(np.eye(3), (len(beta), 1, 1))
     yield clip(f"/contacts/{j}", fps, beta, upright)
     yield clip(f"/forces/{j}", fps, beta, z_along(force), stretch)
@@ -256,7 +252,7 @@ def _shape(placed: PlacedShape, of: Moment, half: float) -> dict[str, Any]:
     colour = of.colours[placed.link]
     if isinstance(shape, HalfSpace):
         corners = patch(shape, focus([of]).mean(axis=0), 2 * half)[[0, 1, 2, 0, 2, 3]]
-        return thing(corners, "Mesh", material(_number(FLOOR), 0.8))
+        return _lit(corners, FLOOR)
     own = surface_points(shape, AROUND, UP)
     points = own @ placed.R.T + placed.t
     if isinstance(shape, PointCloud):
@@ -270,21 +266,9 @@ def _lit(corners: Array, colour: str) -> dict[str, Any]:
     return thing(corners, "Mesh", material(_number(colour), OPACITY.get(colour, 1.0)))
 
 
-def _ball(radius: float) -> dict[str, Any]:
-    points = radius * ball(12, 7)
-    return _over(triangles(points))
-
-
-def _spike(radius: float) -> dict[str, Any]:
-    """A cone of length 1 along z, its base at the origin."""
-    angle = np.linspace(0, 2 * np.pi, 12, endpoint=False)
-    base = radius * np.stack([np.cos(angle), np.sin(angle), np.zeros(12)], axis=1)
-    points = np.vstack([base, [0.0, 0.0, 1.0]])
-    return _over(triangles(points))
-
-
-def _over(corners: Array) -> dict[str, Any]:
-    """A surface that nothing hides."""
+def _over(shape: Sphere | Cone, z: float) -> dict[str, Any]:
+    """A small shape that nothing hides, its centre at a height z [m]."""
+    corners = triangles(surface_points(shape, *SMALL) + np.array([0.0, 0.0, z]))
     look = {"type": "MeshBasicMaterial", "depthTest": False, "transparent": True}
     found = thing(corners, "Mesh", look | {"color": _number(FIXED)})
     found["object"]["renderOrder"] = 1

@@ -82,7 +82,7 @@ def test_forces_and_frames_are_drawn_to_scale_where_they_are(incline, page):
     of = moment(*incline, -1)
     draw_scene(page, of, metres_per_newton=0.02)
     arrows = [text for text in page.texts if text.arrow_patch is not None]
-    loaded = [c for c, bears in zip(of.contacts, of.bearing, strict=True) if bears]
+    loaded = [c for c in of.contacts if c.bears]
     assert len(arrows) == len(loaded) > 0
     for arrow, contact in zip(arrows, loaded, strict=True):
         x, _, z = 1e3 * contact.beta

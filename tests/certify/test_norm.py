@@ -5,9 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from quasistatic_ref.certify.digits import digits_of_error
 from quasistatic_ref.certify.exact import step_optimum
-from quasistatic_ref.certify.norm import energy_norm
+from quasistatic_ref.certify.norm import digits_of_error, energy_norm
 from quasistatic_ref.lab.digits import correct_digits
 from tests.certify.test_farkas import EAST, point_between_walls
 from tests.tolerances import ROUNDING
