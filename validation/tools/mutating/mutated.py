@@ -113,7 +113,7 @@ contact/distance.py
 contact/tied_faces.py
     flat_on_flat PAIRS
 contact/crossings.py
-    own
+    contact/distance crossings
 optional/curved/rims.py
     crossings
 contact/shape_in_world.py contact/solids/polytope.py contact/solids/polytope_pair.py
@@ -122,7 +122,7 @@ optional/curved/ways_out.py shapes/hull.py shapes/revolved.py
 contact/separations.py
     flat_on_flat depth_ties
 contact/solids/solid_pair.py
-    polytope_pair CURVED
+    separations polytope_pair CURVED
 optional/large/sparse_jacobian.py optional/large/blocks.py optional/large/sparse_contacts.py
 optional/large/sparse_form.py
     SPARSE
