@@ -59,8 +59,9 @@ certify/residuals.py
     JUDGE enclosure
 certify/compliance/forces.py certify/compliance/faces.py
 certify/compliance/eliminated.py certify/compliance/face_guess.py
+    compliance/forces
 optional/ellipsoid/forces.py
-    forces
+    ellipsoid/forces compliance/forces
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
