@@ -59,9 +59,8 @@ certify/residuals.py
     JUDGE enclosure
 certify/compliance/forces.py certify/compliance/faces.py
 certify/compliance/eliminated.py certify/compliance/face_guess.py
-    compliance/forces
 optional/ellipsoid/forces.py
-    ellipsoid/forces compliance/forces
+    forces
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
