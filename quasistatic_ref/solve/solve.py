@@ -150,7 +150,10 @@ def _far_from_largest(solution: StepSolution) -> bool:
 
 
 def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSolution:
-    """The proved optimum; if the backend fails, the exact method starts cold: the same answer."""
+    """The proved optimum; if the backend fails, the exact method starts cold: the same answer.
+
+    In a curved cone, where no enclosure of the optimum is found, the backend's answer, judged.
+    """
     step = both.si_step
     units = both.units
     friction_cone = cone(step.cone)
@@ -164,10 +167,7 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     if isinstance(friction_cone, CurvedCone):
         optimum = friction_cone.optimum(step, si_answer)
         if optimum is None:
-            if answer is not None:
-                return uncertified(both, solver, answer, "residual")
-            status = f"{statistics.status}; and no answer strictly inside of all cones was found"
-            raise StepNotSolved(solver.name, status, step, accuracy)
+            return _not_enclosed(both, solver, answer, statistics)
         check_length(step, optimum.delta_q, group_steps(step))
         certificate_of = friction_cone.certificate
     else:
@@ -184,6 +184,19 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     statistics = statistics._replace(proof_time=time.perf_counter() - begin)
     certificate = certificate_of(step, optimum, residuals)
     return step_solution(step, delta_q, lam, certificate, statistics, optimum.net)
+
+
+def _not_enclosed(
+    both: StepInBothUnits,
+    solver: Solver,
+    answer: NaturalAnswer | None,
+    statistics: SolverStatistics,
+) -> StepSolution:
+    """The backend's answer, judged by its residuals; StepNotSolved if it has none."""
+    if answer is None:
+        status = f"{statistics.status}; and no answer strictly inside of all cones was found"
+        raise StepNotSolved(solver.name, status, both.si_step, statistics.accuracy)
+    return uncertified(both, solver, answer, "residual")
 
 
 def _answer_and_statistics(
