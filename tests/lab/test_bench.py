@@ -32,6 +32,7 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     text = (tmp_path / "bench.md").read_text()
     for title in ("by every interface", "certificate", "Derivatives", "Scenes of solids"):
         assert title in text
+    assert f"| full, plain | {found['certification']['full, plain']:.1f} |" in text
 
 
 def test_the_interfaces_lead_to_the_same_step(at):
