@@ -33,6 +33,7 @@ def test_sets_dependent_modulo_the_prime_alone_are_independent():
     assert combination(form, [0, 1], 2) == [1, 1]
     assert combination(form, [0, 1], 3) == [fmpq(-1, UNLUCKY), fmpq(1, UNLUCKY)]
     assert follow(form.equations([0, 1]), form.equations([2, 3])) == [True, True]
+    assert follow(form.equations([0]), form.equations([1])) == [False]
 
 
 @pytest.mark.usefixtures("prime")
