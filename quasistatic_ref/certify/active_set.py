@@ -108,11 +108,11 @@ def dual_active_set(
     Optimum or Farkas
 
     """
-    minimiser = _start(form, warm)
+    minimiser = _start(form, warm)  # From here on all multipliers on W are >= 0.
     walks = 0
     while True:
         p = entering_row(minimiser)
-        if p is None:  # Optimal: multipliers on W and slacks of all rows are >= 0, exactly.
+        if p is None:  # All slacks are >= 0, too: the optimum.
             return Optimum(_without_zeros(minimiser), minimiser.decided_slack_signs, walks)
         after = _walk(minimiser, p)
         if isinstance(after, Farkas):
@@ -146,13 +146,16 @@ def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
                 support = {i: -c_j for i, c_j in zip(working, c, strict=True) if c_j}
                 return Farkas({**support, p: fmpq(1)})
         rest = working[:leaving] + working[leaving + 1 :]
-        minimiser = minimiser.on(rest)
+        minimiser = minimiser.on(rest)  # the start of the line on which the walk goes on
 
 
 def _first_to_vanish(minimiser: Minimiser, after: Minimiser) -> int | None:
     """Ratio test: index in W of the multiplier that vanishes first between two points, or None.
 
-    That is the least l_j / (l_j - u_j) over u_j < 0; of a tie the first of W.
+    That is the least l_j / (l_j - u_j) over u_j < 0; of a tie the first of W. After a row has left,
+    the walk is somewhere on this line, and not at its start, where the multiplier of p is zero. The
+    ratios hold all the same: a multiplier that is >= 0 where the walk is, and ends at u_j < 0, is
+    >= 0 at the start, and none of these vanishes behind the walk.
     """
     first = None
     for j in range(len(minimiser.working)):

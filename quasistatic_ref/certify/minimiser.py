@@ -220,7 +220,8 @@ class Minimiser:
         """Signs of all slacks as the balls show them: 1, -1, or None where they do not."""
         if self.balls is None:
             return [None] * self.form.m
-        return [_ball_sign(ball) or None for ball in self.balls.slack]
+        signs = [_ball_sign(ball) for ball in self.balls.slack]
+        return [sign if sign else None for sign in signs]  # Zeros are decided by `spanned`.
 
     @cached_property
     def decided_slack_signs(self) -> list[int]:

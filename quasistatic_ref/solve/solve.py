@@ -177,9 +177,9 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     lam = optimum.lam
     if si_answer is not None:
         norm = solver.norm(both)
-        error = norm.of_displacement(si_answer[0] - delta_q)
+        distance = norm.of_displacement(si_answer[0] - delta_q)
         free_length = norm.of_impulse(both.si_form.g)
-        statistics = statistics._replace(digits=relative_digits(error, free_length))
+        statistics = statistics._replace(digits=relative_digits(distance, free_length))
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
     statistics = statistics._replace(proof_time=time.perf_counter() - begin)
     certificate = certificate_of(step, optimum, residuals)
