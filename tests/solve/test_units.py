@@ -10,7 +10,9 @@ from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.units import (
+    SMALLEST,
     STANDSTILL,
+    DenseStepInBothUnits,
     Units,
     check_units,
     hessian_in_both_units,
@@ -18,6 +20,7 @@ from quasistatic_ref.solve.units import (
     natural_step,
     natural_units,
     phi_within_reach,
+    units_from,
 )
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
@@ -35,6 +38,9 @@ STEPS = {
     "random": random_step(np.random.default_rng(1), 7, 6, (6,) * 10 + (4,) * 5),
     "own rows": random_step(np.random.default_rng(2)).replace(
         extra=Extra(("a",), np.ones((1, 7)), [-0.3])
+    ),
+    "own rows alone": random_step(np.random.default_rng(2), rows=()).replace(
+        extra=Extra(("a",), np.full((1, 7), 64.0), [-0.3])
     ),
     "no q_a": random_step(np.random.default_rng(3), 0, 4),
     "no q_u": random_step(np.random.default_rng(4), 3, 0),
@@ -123,14 +129,34 @@ def test_a_step_without_force_or_gap_has_units_too(rng):
     np.testing.assert_allclose(solve_step(still).delta_q, 0.0, rtol=0.0, atol=ROUNDING)
 
 
+def with_own_rows(rows, b, load=0.0):
+    """A step with H = M / h = 1, so that rows are as long as they look."""
+    own = Extra(tuple(map(str, range(len(rows)))), np.array(rows), np.array(b))
+    return free_step(np.eye(2) / 2, [load, 0.0], no_contacts(2), 0.5).replace(extra=own)
+
+
 @pytest.mark.parametrize(
     ("rows", "length"), [([[2, 0]], 2.0), ([[0, 0], [1, 0]], 1.0), ([[0, 0]], 1.0)]
 )
 def test_rows_in_which_nothing_moves_have_no_say_in_the_length(rows, length):
-    """H = M / h = 1, so that rows are as long as they look."""
-    own = Extra(tuple(map(str, range(len(rows)))), np.array(rows), -np.ones(len(rows)))
-    step = free_step(np.eye(2) / 2, [0.0, 0.0], no_contacts(2), 0.5).replace(extra=own)
+    step = with_own_rows(rows, [-1.0] * len(rows))
     assert natural_units(step).length == length
+    assert DenseStepInBothUnits(step).row_ratio == 1.0
+
+
+def test_without_load_and_penetration_the_largest_gap_is_the_size():
+    # Rows are 64 long, so that a gap b of 1/2 and 32 takes a step of 1/128 and of 1/2.
+    step = with_own_rows([[64, 0], [0, 64]], [-0.5, -32.0])
+    assert natural_units(step) == (pytest.approx(1), 64.0, 0.5)
+
+
+def test_tiny_and_huge_steps_have_the_least_size_or_none():
+    assert natural_units(with_own_rows([[1, 0]], [0.0], load=1e-300)).size == SMALLEST
+    one = np.ones(2)
+    none = np.zeros(0)
+    assert units_from(one, none, 1.7e308, none).size == np.inf
+    assert np.isnan(units_from(one, np.array([1.0, np.inf]), 1.0, np.zeros(2)).size)
+    assert np.isnan(units_from(one, np.array([np.inf]), 1.0, np.zeros(1)).length)
 
 
 @pytest.mark.parametrize("depth", [1e-3, 1.0])

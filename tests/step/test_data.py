@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import no_contacts, repeated
-from quasistatic_ref.step.data import Contacts, Extra
+from quasistatic_ref.step.data import Contacts, Extra, differences
 from quasistatic_ref.tolerances import ORTHONORMAL, SYMMETRIC
 from tests.helpers import changed, random_step
 from tests.tolerances import EXACT
@@ -18,6 +18,7 @@ INF = float("inf")
 STEP_REFUSALS = {
     "h zero": ({"h": 0.0}, "h:"),
     "h NaN": ({"h": NAN}, "h:"),
+    "h infinite": ({"h": INF}, "h:"),
     "cone unknown": ({"cone": "cube"}, "cone:"),
     "K_q of another size": ({"K_q": np.eye(3)}, "K_q:"),
     "K_q not square": ({"K_q": np.ones((2, 3))}, "K_q:"),
@@ -141,3 +142,15 @@ def test_arrays_cannot_be_written():
     found = [*arrays(STEP), *arrays(CONTACTS), *arrays(STEP.extra), STEP.mask, STEP.offsets]
     assert len(found) >= 5 + 8 + 2 + 2
     assert not any(array.flags.writeable for array in found)
+
+
+@pytest.mark.parametrize("name", ["mu_v", "mu_omega"])
+def test_steps_differ_in_the_coefficients_of_any_contact(name):
+    contacts = [changed(CONTACTS, rows=[6, 6], **{name: [0.1, mu]}) for mu in (1.0, 2.0)]
+    assert differences(*(STEP.replace(contacts=c) for c in contacts)) == [f"contacts.{name}"]
+
+
+def test_rows_of_the_user_s_own_count():
+    # The pyramid has 6 and 4 rows at these two contacts.
+    own = Extra(("a", "b", "c"), np.ones((3, 5)), np.zeros(3))
+    assert (STEP.m, STEP.replace(extra=own).m) == (10, 13)

@@ -70,6 +70,10 @@ def test_contacts_own_rows_and_inertia_couple_coordinates_and_nothing_else():
     assert [g.rows.tolist() for g in tied] == [[4, 5, 6, 7, 8], [0, 1, 2, 3, 9]]
     parts = [part.extra.A.tolist() for _, part in group_steps(step.replace(extra=own))]
     assert parts == [[[0, 0]], [[0, 1, 1]]]
+    other = Extra(("c",), np.array([[0, 0, 1.0, 1, 0]]), np.array([-1.0]))
+    apart = groups(step.replace(extra=other))
+    assert [g.coordinates.tolist() for g in apart] == [[0, 2, 3], [1, 4]]
+    assert [g.rows.tolist() for g in apart] == [[4, 5, 6, 7, 8], [0, 1, 2, 3]]
 
 
 def test_a_group_without_solution_is_named_by_its_contacts():
