@@ -35,6 +35,13 @@ def resting_point(
     return free_step(mass * np.eye(4), [tau_x, 0.0, -weight, 0.0], at, h)
 
 
+def test_a_contact_at_which_nothing_moves_is_no_push_out():
+    # Its rows 0 >= -phi = 0 hold, and the step is tau h^2 / m.
+    still = contacts_of(0.0, [np.eye(3)], np.zeros((1, 4, 2)), 0.5)
+    step = free_step(2.0 * np.eye(2), [1.0, 0.0], still, 0.5)
+    assert step_optimum(step).delta_q.tolist() == [0.125, 0.0]
+
+
 @pytest.mark.parametrize("phi", [0.0, 1e-5, -1e-3, 1e-300])
 @pytest.mark.parametrize("contacts", [1, 2, 3])
 def test_sticking_body_stays_where_its_contact_is(phi, contacts):

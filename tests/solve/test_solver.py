@@ -3,6 +3,7 @@
 import copy
 import inspect
 import pickle
+import time
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backen
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import NoSolver, solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.units import DenseStepInBothUnits
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
 from tests.helpers import (
@@ -233,3 +235,25 @@ def test_a_backend_of_studies_only_is_no_backend_of_steps():
         for fast in (False, True):
             with pytest.raises(BackendError, match="is not a backend"):
                 solver_for(point_on_floor(), name, fast)
+
+
+def test_times_are_those_of_this_solve(step):
+    begin = time.perf_counter()
+    statistics = solve_step(step).statistics
+    elapsed = time.perf_counter() - begin
+    assert statistics.solve_time is not None
+    assert 0 < statistics.solve_time < elapsed
+    assert 0 < statistics.proof_time < elapsed
+
+
+def test_rows_of_contacts_out_of_reach_are_marked(step):
+    phi = np.where(np.arange(len(ROWS)) == 1, 1e9, step.contacts.phi)
+    far = step.replace(contacts=changed(step.contacts, phi=phi))
+    marked = CvxpySolver(step).write(DenseStepInBothUnits(far))
+    assert np.array_equal(marked, np.repeat([False, True, False], ROWS))
+
+
+def test_the_bound_of_an_error_is_finite_in_a_polyhedral_cone(step):
+    bound = solve_step(step, certify="residual").certificate.error_bound
+    assert bound is not None
+    assert 0 < bound < 1
