@@ -23,7 +23,7 @@ from quasistatic_ref.shapes.placed_shape import (
     PointCloud,
     Sphere,
 )
-from quasistatic_ref.tolerances import REPEATED
+from quasistatic_ref.tolerances import FILLED, REPEATED
 from tests.contact.still import found_for, pair, placed, standing
 from tests.tolerances import EXACT, SIGNED_DISTANCE
 
@@ -189,3 +189,15 @@ def test_bars_that_cross_touch_where_their_edges_do_and_not_at_the_closest_pair_
     square = [[x, y] for x in (-0.25, 0.25) for y in (-0.25, 0.25)]
     assert sorted(found.alpha[:, :2].tolist()) == square
     assert (found.point > 16).all()  # the closest pair's number, after 16 corners
+
+
+def test_copies_of_the_closest_pair_fill_the_number_at_a_distance_that_bears_nothing():
+    # A ball above the middle of a face: of the box's 8 corners none has a normal about the pair's.
+    ball = placed(Sphere(0.1), 1, t=(0.0, 0.0, 0.4))
+    box = placed(Box(np.full(3, 0.2)))
+    world = standing((np.eye(3), np.zeros(3)))
+    found = found_for(ball, box, world, k=4)
+    assert found.phi == pytest.approx([0.1, FILLED, FILLED, FILLED], rel=EXACT)
+    assert found.point.tolist() == [8, 9, 10, 11]
+    assert np.array_equal(found.n, np.tile(-Z, (4, 1)))
+    assert found_for(ball, box, world).point.tolist() == [0]
