@@ -79,7 +79,7 @@ def coal_witness(name: str, a: ShapeInWorld, b: ShapeInWorld) -> Witness:
     touching = best.phi >= -ENOUGH and best.defect <= WITNESS
     if not (best.phi > 0 or touching):
         best = _shallowest(here, there, best)
-    if not best.defect <= WITNESS:  # `not <=`, so that NaN is refused as well
+    if best.defect > WITNESS:
         raise ContactError(
             "the contact normal is not reliable at this pose: move the bodies apart, or use a box, "
             "a capsule, a convex mesh or a cloud",
@@ -140,8 +140,7 @@ def _by_coal(a: ShapeInWorld, b: ShapeInWorld) -> Judged:
         alpha = np.array(result.getNearestPoint1())
         beta = np.array(result.getNearestPoint2())
         found = judged(a, b, phi, alpha, beta, np.array(result.normal))
-        # NaN compares as false: it never becomes the best unless there is nothing else.
-        if best is None or not np.isfinite(best.defect) or found.defect < best.defect:
+        if best is None or found.defect < best.defect:
             best = found
         if best.defect <= SUPPORT_DEFECT * np.abs(a.t - b.t).max():
             break
@@ -160,7 +159,7 @@ def judged(
     phi, alpha, beta, n : float, ndarray, ndarray, ndarray
         In whatever length unit the solids have.
     """
-    if not (np.isfinite(phi) and np.isfinite(n).all() and abs(n @ n - 1) <= WITNESS):
+    if not (np.isfinite((phi, *alpha, *beta, *n)).all() and abs(n @ n - 1) <= WITNESS):
         return Judged(phi, alpha, beta, n, np.inf)
     gap = n @ (b.farthest(-n) - a.farthest(n))
     apart = np.abs(beta - alpha - phi * n).max()

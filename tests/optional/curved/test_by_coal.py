@@ -3,12 +3,14 @@
 import coal
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.optional.curved import by_coal
-from quasistatic_ref.optional.curved.by_coal import coal_witness
-from quasistatic_ref.shapes.placed_shape import Cone, Ellipsoid
+from quasistatic_ref.optional.curved.by_coal import Judged, coal_witness, judged
+from quasistatic_ref.shapes.convex_mesh import convex_hull
+from quasistatic_ref.shapes.placed_shape import Box, Cone, Ellipsoid
 from tests.contact.still import found_for, placed, standing
 from tests.tolerances import COAL, CURVED_PAIR, EXACT, ROUNDING
 
@@ -120,3 +122,95 @@ def test_where_coal_has_no_normal_the_way_out_is_found_from_any(monkeypatch, gap
     found = coal_witness("p", *tips(gap))
     np.testing.assert_allclose(found.phi, gap, rtol=EXACT, atol=CURVED_PAIR)
     np.testing.assert_allclose(found.n, X, rtol=EXACT, atol=CURVED_PAIR)
+
+
+def test_what_touches_is_not_searched_for_ways_out(monkeypatch) -> None:
+    monkeypatch.setattr(by_coal, "_shallowest", None)
+    assert -by_coal.ENOUGH < coal_witness("p", *tips(-1e-15)).phi < 0
+
+
+def test_the_best_of_coal_s_answers_is_taken(monkeypatch) -> None:
+    without_normals(monkeypatch, 1)
+    found = by_coal._by_coal(*tips(0.1))
+    np.testing.assert_allclose(found.phi, 0.1, rtol=EXACT, atol=COAL)
+    np.testing.assert_allclose(found.n, X, rtol=EXACT, atol=COAL)
+
+
+@pytest.mark.parametrize("spoilt", range(4))
+def test_an_answer_with_a_number_that_is_not_finite_is_infinitely_wrong(spoilt) -> None:
+    answer = [0.1, 0.125 * X, 0.225 * X, X]
+    assert judged(*tips(0.1), *answer).defect < ROUNDING
+    answer[spoilt] = np.nan * answer[spoilt]
+    assert judged(*tips(0.1), *answer).defect == np.inf
+
+
+def test_a_mesh_that_is_enlarged_has_a_larger_volume() -> None:
+    vertices = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.3, 0], [0, 0, 0.4]])
+    found = by_coal._resized(convex_hull(vertices), 4.0)
+    np.testing.assert_allclose(found.volume, 0.8 * 1.2 * 1.6 / 6, rtol=ROUNDING)
+
+
+BOX = Box(np.array([0.1, 0.12, 0.14]))
+GRAIN = Ellipsoid(np.array([0.02, 0.021, 0.022]))
+
+
+@pytest.mark.parametrize(("y", "ways"), [(0.1, [1]), (-0.1, [-1]), (0.0, [-1, 1])])
+def test_the_shortest_way_out_of_a_box_is_found_from_a_longer_one(monkeypatch, y, ways) -> None:
+    """A face of the box is 0.12 - |y| away, and the grain reaches 0.021 behind; or 0.1 and 0.02."""
+    without_normals(monkeypatch, len(by_coal.ACCURACIES))  # the direction that is tried then is x
+    way = 1 if y else 0
+    phi = abs(y) - 0.12 - 0.021 if y else -0.1 - 0.02
+    here = ShapeInWorld(BOX, np.eye(3), np.zeros(3))
+    found = coal_witness("p", here, ShapeInWorld(GRAIN, np.eye(3), np.array([0.0, y, 0.0])))
+    np.testing.assert_allclose(found.phi, phi, rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(abs(found.n), np.eye(3)[way], rtol=EXACT, atol=CURVED_PAIR)
+    assert np.sign(found.n[way]) in ways
+
+
+def test_ways_out_are_looked_for_from_the_proved_one_as_far_as_the_solids_are_wide(monkeypatch):
+    """A cone reaches h c or r sqrt(1 - c^2) - h c, with c the cosine to its axis; a ball is round.
+
+    The ball is over the base, 0.01 less than its radius of 0.03 away.
+    """
+    asked = []
+    monkeypatch.setattr(by_coal, "rival_directions", lambda *given: asked.append(given[2:]) or [])
+    without_normals(monkeypatch, len(by_coal.ACCURACIES))
+    turn = Rotation.from_euler("yz", [-np.pi / 2 + 0.1, 0.1]).as_matrix()
+    axis = turn[:, 2]
+    ball = ShapeInWorld(Ellipsoid(np.full(3, 0.03)), np.eye(3), -0.12 * axis)
+    coal_witness("p", ShapeInWorld(Cone(0.3, 0.1), turn, np.zeros(3)), ball)
+    ((first, phi, size),) = asked
+    np.testing.assert_allclose(first, -axis, rtol=EXACT, atol=CURVED_PAIR)
+    np.testing.assert_allclose(phi, -0.01, rtol=EXACT, atol=CURVED_PAIR)
+    reach = [
+        max(0.1 * c, 0.3 * np.sqrt(1 - c * c) - 0.1 * c) for c in (X @ axis, -X @ axis)
+    ]  # along the direction that is tried first, and against it
+    np.testing.assert_allclose(size, sum(reach) + 0.06, rtol=ROUNDING)
+
+
+@pytest.mark.parametrize(
+    ("short", "turn", "refused"),
+    [(0.05, 1.0, False), (0.2, 1.0, True), (0.2, 0.0, False)],
+)
+def test_a_way_that_was_not_followed_to_its_end_may_be_shorter(
+    monkeypatch, short, turn, refused
+) -> None:
+    """The shortest is 0.1 long; another, 0.2 less what is missing: it may be 0.15 long, or none."""
+    a, b = (ShapeInWorld(BOX, np.eye(3), t) for t in (np.zeros(3), 0.1 * X))
+    other = np.array([np.cos(turn), np.sin(turn), 0.0])
+    answers = [Judged(-0.1, a.t, b.t, X, 0.0), Judged(-0.2, a.t, b.t, other, short)]
+    monkeypatch.setattr(by_coal, "_refined", lambda *_: answers.pop(0))
+    monkeypatch.setattr(by_coal, "rival_directions", lambda *_: [other])
+    found = by_coal._shallowest(a, b, answers[0])
+    assert (found.defect == np.inf) == refused
+
+
+def test_a_deep_way_out_that_settles_slowly_is_found() -> None:
+    """An ellipsoid E reaches |E S' n| behind the nearest face of a box of its own size."""
+    half = np.array([0.03, 0.05, 0.08])
+    t = np.array([0.01, 0.02, 0.03])
+    S = Rotation.from_euler("xyz", [0.3, 0.4, 1.1]).as_matrix()
+    here = ShapeInWorld(Box(half), np.eye(3), np.zeros(3))
+    found = coal_witness("p", here, ShapeInWorld(Ellipsoid(half), S, t))
+    expected = (t - half - np.linalg.norm(S * half, axis=1)).max()
+    np.testing.assert_allclose(found.phi, expected, rtol=EXACT, atol=CURVED_PAIR)

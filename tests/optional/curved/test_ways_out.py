@@ -2,14 +2,22 @@
 
 import numpy as np
 import pytest
+from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.contact.separations import gaps
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, Witness
 from quasistatic_ref.contact.solids.polytope import polytope
-from quasistatic_ref.optional.curved.ways_out import APART, REACH, STARTS, rival_directions
+from quasistatic_ref.optional.curved.ways_out import (
+    APART,
+    REACH,
+    STARTS,
+    _sphere,
+    known_gaps,
+    rival_directions,
+)
 from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box, Ellipsoid
+from quasistatic_ref.shapes.placed_shape import Box, Cone, Cylinder, Ellipsoid
 from tests.tolerances import EXACT, ROUNDING
 
 R, S = Rotation.from_euler("xyz", [[0.3, -0.7, 1.1], [1.0, 0.4, 0.2]]).as_matrix()
@@ -52,3 +60,55 @@ def test_ways_out_of_a_polytope_are_its_normals_the_shortest_first(name, turned_
         cosines = np.vstack([found, first]) @ found.T
         assert (cosines[~np.eye(*cosines.shape, dtype=bool)] < APART).all()
         assert len(found) <= STARTS
+
+
+def test_six_ways_of_eight_are_followed() -> None:
+    solid = ShapeInWorld(convex_hull(0.1 * np.concatenate([np.eye(3), -np.eye(3)])), R, AT)
+    inside = ShapeInWorld(Ellipsoid(HALF_AXES), S, AT)
+    first = R @ np.ones(3) / np.sqrt(3)
+    found = rival_directions(solid, inside, first, 0.0, 10.0)
+    assert len(found) == STARTS == 6
+
+
+def test_a_smooth_way_out_between_all_axes_is_near_a_sample() -> None:
+    """Discs tilted by 0.35 and -0.35 about x: the sum of their reaches is least along z and -z."""
+    tilted = [Rotation.from_rotvec([angle, 0, 0]).as_matrix() for angle in (0.35, -0.35)]
+    disc = Ellipsoid(np.array([0.1, 0.1, 0.05]))
+    a, b = (ShapeInWorld(disc, tilt, AT) for tilt in tilted)
+    z = np.array([0.0, 0.0, 1.0])
+    (found,) = rival_directions(a, b, z, float(gaps(a, b, z[None])[0]), 0.05)
+    assert found @ -z > np.cos(REACH)
+
+
+def test_samples_are_unit_vectors_everywhere_with_eight_neighbours() -> None:
+    sphere, neighbours = _sphere()
+    np.testing.assert_allclose(np.linalg.norm(sphere, axis=1), 1.0, rtol=0.0, atol=ROUNDING)
+    tree = KDTree(sphere)
+    anywhere = np.random.default_rng(1).normal(size=(20_000, 3))
+    anywhere = anywhere / np.linalg.norm(anywhere, axis=1)[:, None]
+    assert tree.query(anywhere)[0].max() < REACH
+    own_and_eight = tree.query(sphere, 9)[0]
+    away = np.linalg.norm(sphere[neighbours] - sphere[:, None], axis=2)
+    np.testing.assert_allclose(away, own_and_eight[:, 1:], rtol=0.0, atol=ROUNDING)
+
+
+def test_known_gaps_are_along_axes_and_the_normals_of_faces_at_the_closest_points() -> None:
+    """Of a cone that rises by 2 h over its radius r, above a cylinder."""
+    a = ShapeInWorld(Cylinder(0.1, 0.2), R, AT)
+    b = ShapeInWorld(Cone(0.3, 0.2), S, np.array([0.0, 0.3, 0.4]))
+    around = np.array([0.6, -0.8, 0.0])
+    slant = np.array([0.4 * 0.8, 0.4 * 0.6, 0.3]) / 0.5
+    alpha = R @ (0.1 * around + [0, 0, 0.05]) + a.t
+    beta = S @ [0.15 * 0.8, 0.15 * 0.6, 0.0] + b.t
+    found, ways = known_gaps(a, b, Witness(0.0, alpha, beta, R[:, 2]))
+    z = np.eye(3)[2]
+    axes = np.concatenate([np.eye(3), -np.eye(3)])
+    expected = [axes @ R.T, -axes @ S.T, [around, z, -z] @ R.T, -np.array([slant, -z]) @ S.T]
+    np.testing.assert_allclose(ways, np.concatenate(expected), rtol=0.0, atol=ROUNDING)
+    # A cylinder reaches r |n_xy| + h |n_z| along n, a cone h n_z or r |n_xy| - h n_z.
+    n = ways @ R
+    of_cylinder = 0.1 * np.hypot(n[:, 0], n[:, 1]) + 0.2 * abs(n[:, 2])
+    n = -ways @ S
+    of_cone = np.maximum(0.2 * n[:, 2], 0.3 * np.hypot(n[:, 0], n[:, 1]) - 0.2 * n[:, 2])
+    expected_gaps = ways @ (b.t - a.t) - of_cylinder - of_cone
+    np.testing.assert_allclose(found, expected_gaps, rtol=0.0, atol=ROUNDING)

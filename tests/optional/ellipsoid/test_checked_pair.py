@@ -14,6 +14,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
     _net,
     checked,
 )
+from quasistatic_ref.optional.ellipsoid.interior import Pair
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from tests.helpers import point_on_floor
 from tests.tolerances import ROUNDING
@@ -74,3 +75,24 @@ def test_impulses_of_a_contact_without_load_are_zeros_without_a_sign():
     assert none.tobytes() == np.zeros(4).tobytes()
     some = _impulses(step, form, frame, found, SimpleNamespace(loaded=[True]))
     np.testing.assert_allclose(some, lam, rtol=ROUNDING, atol=0.0)
+
+
+def test_an_answer_in_si_units_is_one_of_the_program_and_back():
+    """Without torsion its row is multiplied by zero, and so is what it carries."""
+    _, form, _, frame = posed()
+    delta_q = np.array([3e-3, -2e-3, 5e-3])
+    lam = np.array([0.02, -3e-3, 4e-3, 7.0])
+    x, y = frame.start(form, delta_q, lam)
+    back_x, back_y = frame.pair(Pair(x, [], y))
+    found_x = [float(v * form.x_unit) for v in back_x.entries()]
+    np.testing.assert_allclose(found_x, delta_q, rtol=ROUNDING)
+    (rows,) = back_y
+    found_lam = [float(m * v * form.lam_unit) for m, v in zip(frame.mu, rows, strict=True)]
+    np.testing.assert_allclose(found_lam, [*lam[:3], 0.0], rtol=ROUNDING)
+
+
+@pytest.mark.parametrize(("phi", "gap"), [(PHI, 1.0), (0.0, 0.0)])
+def test_without_a_load_the_largest_gap_is_the_unit(phi, gap):
+    *_, frame = posed(point_on_floor(M, MU, phi, np.zeros(3), H_STEP))
+    found = [float(v) for v in frame.problem.b[0].entries()]
+    np.testing.assert_allclose(np.abs(found), [gap, 0, 0, 0], rtol=ROUNDING)
