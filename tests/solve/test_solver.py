@@ -19,6 +19,7 @@ from quasistatic_ref.solve.backends import BACKENDS, installed, installed_backen
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import NoSolver, solver_for
 from quasistatic_ref.solve.through_cvxpy import CvxpySolver
+from quasistatic_ref.solve.units import DenseStepInBothUnits
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
 from tests.helpers import (
@@ -224,6 +225,14 @@ def test_the_floor_and_the_limits_of_the_table_are_the_backend_s_own(name):
     assert entry.cvxpy or "cvxpy" not in entry.warm
     assert not entry.sparse or entry.adapter
     assert (name == "quadprog") == (tightest == {})  # which has no tolerance
+
+
+@pytest.mark.parametrize("kind", [CvxpySolver, QpsolversSolver])
+def test_rows_out_of_reach_are_those_of_contacts_that_are_far(kind, step):
+    phi = step.contacts.phi + np.array([0.0, 1e6, 0.0])
+    far = step.replace(contacts=changed(step.contacts, phi=phi))
+    solver = kind(far, "piqp")
+    assert np.flatnonzero(solver.write(DenseStepInBothUnits(far))).tolist() == [6, 7, 8, 9]
 
 
 def test_a_backend_of_studies_only_is_no_backend_of_steps():
