@@ -1,8 +1,8 @@
 """The fields of a file, of a scenario or of a study, as the pages about them list them."""
 
 from quasistatic_ref.formats.declared import Field, Tables
-from quasistatic_ref.formats.fields import REQUIRED
 from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.formats.table_reader import REQUIRED
 from quasistatic_ref.lab.page.markdown import markdown_table
 
 

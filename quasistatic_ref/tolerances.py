@@ -1,4 +1,7 @@
-"""Every tolerance of the package, with its reason; those of the tests are in tests/."""
+"""Tolerances of the package, each with its reason; those of the tests are in tests/.
+
+A threshold that matters to one file alone, such as that of a guess, may stand in that file.
+"""
 
 from typing import Final
 
@@ -115,7 +118,7 @@ fourth is that of the longest push-out b_i / ||a_i|| of a single row, in the nor
 
 Nearly contradictory contacts have exact optima of 1e13 m; steps of grasps stay below 1e2."""
 
-CONVEX: Final = 1e-3
+CONVEX_EXCESS: Final = 1e-3
 """Largest excess of a convex hull over its mesh, relative to size and to volume, at which the mesh
 counts as convex [-]. Single precision and coarse modelling leave 1e-5; a real dent is larger."""
 
@@ -134,7 +137,7 @@ UPRIGHT: Final = 1e-9
 
 The direction of its lowest point is then rounding; on a rim of 1 m all points are level to 1 nm."""
 
-SUPPORT: Final = 1e-9
+SUPPORT_DEFECT: Final = 1e-9
 """Difference between coal's distance and the gap along its normal, relative to the shapes' size, at
 which its answer is taken at once [-]. What is right to rounding is at 1e-12 and below."""
 
@@ -179,7 +182,7 @@ CLOSED_FORM: Final = 1e-12
 
 The optimum is exact and rounded once; formula and data are a few dozen operations in float64."""
 
-COULOMB: Final = 1e-12
+COULOMB_RESIDUAL: Final = 1e-12
 """Largest difference of s from that of the next iterate, relative to the longest motion of a
 contact [-], at which s is its own: each iterate is exact, and s a sum of rounded products."""
 

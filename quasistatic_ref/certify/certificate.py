@@ -65,7 +65,8 @@ class Certificate(Plain, Shown):
         Bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H [-]; 0.0 for ``"exact"``, where the only
         error is the correct rounding of each entry.
     gap : float or None
-        In the ellipsoid: bound of f(delta_q*) - d(lam), the duality gap of lam [N m s].
+        The duality gap of lam in the ellipsoid, no distance: a bound of f(delta_q*) - d(lam)
+        [N m s].
     step : StepData or None
         What it is about. Only kind ``"none"``, which claims nothing, is about no step.
 

@@ -98,6 +98,7 @@ def form_optimum(
 
 
 def _rounded(form: ExactForm, end: Optimum) -> ExactOptimum:
+    """The optimum that the method ended with: what is unique at it, and its numbers, rounded."""
     minimiser = end.minimiser
     working = minimiser.working
     signs = np.array(end.slack_signs, dtype=np.int64)

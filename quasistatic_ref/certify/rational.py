@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.arithmetic import check_arithmetic
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Contacts, StepData
-from quasistatic_ref.step.friction import row_gaps
+from quasistatic_ref.step.friction import row_constants
 
 Integers = NDArray[np.object_]
 
@@ -182,9 +182,9 @@ def exact_form(step: StepData) -> ExactForm:
         If nothing can be proved in this thread.
     """
     of_contacts = exact_friction_rows(step.contacts, step.cone)[step.mask]
-    gaps = row_gaps(step.contacts, step.cone)[step.mask]
+    constants = row_constants(step.contacts, step.cone)[step.mask]
     A = concatenated([of_contacts, dyadic(step.extra.A)])  # Eq. (8)
-    b = concatenated([dyadic(-gaps), dyadic(step.extra.b)])
+    b = concatenated([dyadic(-constants), dyadic(step.extra.b)])
     return form_on(step, A, b)
 
 

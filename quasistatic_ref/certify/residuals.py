@@ -60,7 +60,7 @@ def optimality_residuals(
         Multipliers, contact-major, the user's own rows last.
     judge : callable
         (slack, lam) -> how far Eqs. :eq:`eq-10`-:eq:`eq-12` are from holding: of rows, or of
-        another cone, whose :meth:`~quasistatic_ref.step.cones.Cone.judge` it is.
+        another cone, whose :meth:`~quasistatic_ref.step.cones.FrictionCone.judge` it is.
 
     Returns
     -------

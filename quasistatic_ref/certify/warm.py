@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.step.data import Array
 
-DEPENDENT = 1e-9
+ZERO_SHARE = 1e-9
 """Singular values, and entries of a dependence, below this share of the largest count as zero; a
 wrong guess costs a walk."""
 
@@ -42,11 +42,11 @@ def _basic(A: Array, lam: Array) -> Array:
     dependences = np.eye(len(A))
     if A.size:
         _, size, directions = np.linalg.svd(A.T)
-        rank = np.count_nonzero(size > DEPENDENT * size[0])
+        rank = np.count_nonzero(size > ZERO_SHARE * size[0])
         dependences = directions[rank:].T
     while dependences.shape[1]:
         d = dependences[:, 0]
-        rounding = DEPENDENT * np.abs(d).max()
+        rounding = ZERO_SHARE * np.abs(d).max()
         d = d if d.max() > rounding else -d
         falling = np.flatnonzero(d > rounding)
         first = int(falling[np.argmin(lam[falling] / d[falling])])

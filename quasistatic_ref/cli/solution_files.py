@@ -16,8 +16,8 @@ import numpy as np
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.errors import StepDataError, about_file
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import json_read, json_text
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.step.cones import CLAIMS, PYRAMID, cone
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData
@@ -102,7 +102,7 @@ def solution_read(path: str | Path, step: StepData) -> SolutionFile:
         Naming the file, the field and the value.
     """
     with about_file(path):
-        return _solution(Fields(json_read(path), error=StepDataError), step)
+        return _solution(TableReader(json_read(path), error=StepDataError), step)
 
 
 def _head(step: StepData, status: str) -> dict[str, Any]:
@@ -115,12 +115,12 @@ def _head(step: StepData, status: str) -> dict[str, Any]:
     }
 
 
-def _solution(top: Fields, step: StepData) -> SolutionFile:
+def _solution(top: TableReader, step: StepData) -> SolutionFile:
     first = top.check_format(SOLUTION_FORMAT, 1, VERSION) == 1
     status = top.text("status", choices=("optimal", "infeasible"))
     named = top.text("cone", PYRAMID) if first else top.text("cone")
     if named != step.cone:
-        raise top.fail("cone", f"must be that of the step, {step.cone!r}", named)
+        raise top.error_about("cone", f"must be that of the step, {step.cone!r}", named)
     if first:
         top.text("backend")
     if top.text("step_sha256") != step_sha256(step):
@@ -128,7 +128,7 @@ def _solution(top: Fields, step: StepData) -> SolutionFile:
     if status == "infeasible":
         farkas = top.sequence("farkas")
         if not all(isinstance(y, str) for y in farkas):
-            raise top.fail("farkas", 'must be a list of fractions such as "1/3"', farkas)
+            raise top.error_about("farkas", 'must be a list of fractions such as "1/3"', farkas)
         top.close()
         return SolutionFile(farkas=tuple(farkas), unchecked=("backend",) if first else ())
     lam = _nested(top, step)
@@ -144,16 +144,18 @@ def _solution(top: Fields, step: StepData) -> SolutionFile:
     return solution
 
 
-def _nested(top: Fields, step: StepData) -> Array:
+def _nested(top: TableReader, step: StepData) -> Array:
     value = top.sequence("lam")
     if len(value) != step.contacts.n_c:
-        raise top.fail("lam", f"must have one list for each of {step.contacts.n_c} contacts", value)
-    each = Fields({f"lam[{j}]": part for j, part in enumerate(value)}, error=StepDataError)
+        raise top.error_about(
+            "lam", f"must have one list for each of {step.contacts.n_c} contacts", value
+        )
+    each = TableReader({f"lam[{j}]": part for j, part in enumerate(value)}, error=StepDataError)
     parts = [each.array(f"lam[{j}]", (int(rows),)) for j, rows in enumerate(step.counts)]
     return np.concatenate([np.zeros(0), *parts])
 
 
-def _certificate(table: Fields, step: StepData) -> Certificate:
+def _certificate(table: TableReader, step: StepData) -> Certificate:
     known = cone(step.cone).claims
     kind = table.text("kind", choices=tuple(known))
     claims: dict[str, Any] = {
@@ -162,15 +164,15 @@ def _certificate(table: Fields, step: StepData) -> Certificate:
     table.close()
     active = claims.get("active", ())
     if active != tuple(sorted(set(active))):
-        raise table.fail("active", "must be in increasing order", active)
+        raise table.error_about("active", "must be in increasing order", active)
     return Certificate(kind, **claims, step=None if kind == "none" else step)
 
 
-def _first_certificate(table: Fields, step: StepData) -> Certificate:
+def _first_certificate(table: TableReader, step: StepData) -> Certificate:
     """Version 1: any claim may be missing, or null; its residuals are read and not used."""
     kind = table.text("kind", choices=("exact", "enclosure", "residual", "none"))
     residuals = table.table("residuals", {})
-    for name in residuals.names():
+    for name in residuals.names_left():
         residuals.number(name)
     claims = {name: _claim(table, name, True) for name in CLAIMS["exact"] if name in table}
     table.close()
@@ -178,7 +180,7 @@ def _first_certificate(table: Fields, step: StepData) -> Certificate:
     return Certificate(kind, **made, step=None if kind == "none" else step)
 
 
-def _claim(table: Fields, name: str, may_be_null: bool) -> Any:
+def _claim(table: TableReader, name: str, may_be_null: bool) -> Any:
     """One claim, read as its type in a certificate wants."""
     if may_be_null and table.is_null(name):
         return table.take(name)
@@ -186,7 +188,7 @@ def _claim(table: Fields, name: str, may_be_null: bool) -> Any:
         for pair in (pairs := table.sequence(name)):
             good = isinstance(pair, list) and len(pair) == 2
             if not (good and all(type(i) is int for i in pair)):
-                raise table.fail(name, "must be a list of [contact, row]", pair)
+                raise table.error_about(name, "must be a list of [contact, row]", pair)
         return tuple((j, i) for j, i in pairs)
     kind = get_type_hints(Certificate)[name]
     return table.boolean(name) if kind == bool | None else table.number(name)

@@ -20,9 +20,10 @@ from quasistatic_ref.step.data import Array, Indices
 from quasistatic_ref.step.ordered import crossed, dot, norm, product, rotated
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SKEW
 
-FACES, LEVEL = cos_sin(FACING)
-"""Least cosine of the angle between a face's normal and the pair's, and of an edge's the largest
-[-]."""
+FACE_COSINE = cos_sin(FACING)[0]
+"""Least cosine of the angle between the pair's normal and that of a face whose edges count [-]."""
+EDGE_COSINE = cos_sin(FACING)[1]
+"""Largest cosine of the angle between the pair's normal and an edge that counts by itself [-]."""
 UP = np.array([0.0, 0.0, 1.0])
 ROUND = 3
 """Curves of a solid of revolution: a line on its side and two rims."""
@@ -131,7 +132,7 @@ def line(shape: Revolved, above: float, up: float, way: Array) -> tuple[Array, I
     """
     side = np.array([2 * shape.half_length, up])  # its normal, radial and along the axis
     radial = norm(way[:2])
-    if side[0] * radial + side[1] * way[2] < FACES * norm(side):
+    if side[0] * radial + side[1] * way[2] < FACE_COSINE * norm(side):
         return np.zeros((0, 2, 3)), np.zeros(0, dtype=np.int64)
     outward = way * [1.0, 1.0, 0.0] / radial
     tip = shape.half_length * UP
@@ -142,10 +143,10 @@ def line(shape: Revolved, above: float, up: float, way: Array) -> tuple[Array, I
 def _of_polytope(flat: Polytope, extent: float, x: Array, way: Array) -> tuple[Array, Indices]:
     """The ends of edges (S, 2, 3) [m] of a box or a convex mesh, and their numbers."""
     on = dot(flat.normals, x) >= flat.offsets - OVER_FACE * extent
-    facing = on & (dot(flat.normals, way) >= FACES)
+    facing = on & (dot(flat.normals, way) >= FACE_COSINE)
     ends = flat.vertices[flat.edges]
     along = ends[:, 1] - ends[:, 0]
-    level = np.abs(dot(along, way)) <= LEVEL * norm(along)
+    level = np.abs(dot(along, way)) <= EDGE_COSINE * norm(along)
     some = facing[flat.sides].any(axis=1) | on[flat.sides].all(axis=1) & level
     return ends[some], np.flatnonzero(some)
 

@@ -226,13 +226,14 @@ def _towards(body: ShapeInWorld, nearest: Array, n: Array) -> Array:
 
 
 def ranked_last(candidates: ClosestPoints, k: int) -> Mask:
-    """Which candidates rank last: repetitions, a closest pair if k others are as near, crossings.
+    """Which candidates rank last, so that rounding does not decide which corners are contacts.
 
-    These do if k corners are as near as the closest pair, so that rounding does not decide whether
-    they displace one. The closest pair mostly coincides with a corner candidate. On parallel faces,
-    whose corners are equally near but for rounding, it can be any point between them; ranked by its
-    distance it would displace one of these corners, and a box on a table would have three corner
-    contacts instead of four.
+    - Candidates that repeat an earlier one.
+    - The closest pair, if k other candidates are as near. It mostly coincides with a corner. On
+      parallel faces, whose corners are equally near but for rounding, it can be any point between
+      them. Ranked by its distance it would displace one of these corners, and a box on a table
+      would have three corner contacts instead of four.
+    - Crossings, if k corners are as near as the closest pair.
     """
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
     same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED

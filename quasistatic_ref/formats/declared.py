@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.formats.fields import REQUIRED, Fields
+from quasistatic_ref.formats.table_reader import REQUIRED, TableReader
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Field:
     of: str = ""
     schema: Mapping[str, Any] = field(default_factory=dict)
 
-    def read(self, table: Fields, name: str, default: Any = ...) -> Any:
+    def read(self, table: TableReader, name: str, default: Any = ...) -> Any:
         """The value in a table; `default` in place of the field's own."""
         default = self.default if default is ... else default
         bounds: dict[str, Any] = {"least": self.least, "most": self.most}
@@ -68,14 +68,14 @@ class Field:
         listed = table.words if self.kind == "list of words" else table.sequence
         items = listed(name, default)
         if self.least and items == []:
-            raise table.fail(name, "must not be empty")
+            raise table.error_about(name, "must not be empty")
         return items
 
 
 class Tables(dict[str, dict[str, Field]]):
     """Fields by name, by the kind of table that they are in."""
 
-    def value(self, table: Fields, kind: str, name: str, default: Any = ...) -> Any:
+    def value(self, table: TableReader, kind: str, name: str, default: Any = ...) -> Any:
         """The value of a field in a table of some kind; `default` in place of the field's own.
 
         Raises

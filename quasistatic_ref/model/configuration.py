@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.coordinates import Joint
-from quasistatic_ref.step.arrays import Array, numbers
+from quasistatic_ref.step.arrays import Array, checked_numbers
 from quasistatic_ref.step.ordered import length
 from quasistatic_ref.tolerances import UNIT_QUATERNION, UNIT_ROUNDING
 
@@ -30,7 +30,7 @@ def configuration(joints: Sequence[Joint], n_q: int, q: ArrayLike) -> Array:
     ModelError
         If it is not a configuration; the message names the joint.
     """
-    checked = numbers(q, "q", ModelError) + 0.0
+    checked = checked_numbers(q, "q", ModelError) + 0.0
     if checked.shape != (n_q,):
         raise ModelError(f"must have shape ({n_q},)", field="q", value=checked.shape)
     for joint in joints:

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import ModelError, ScenarioError
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.rotation import quaternion
@@ -25,7 +25,7 @@ from quasistatic_ref.scenario.scenario_table import (
     value,
 )
 from quasistatic_ref.simulate.target import JointTrack, piecewise_linear
-from quasistatic_ref.step.arrays import Array, keep
+from quasistatic_ref.step.arrays import Array, freeze_copies
 from quasistatic_ref.step.pivots import positive_definite
 
 
@@ -49,7 +49,7 @@ class Wrenches(Plain):
     values: Array
 
     def __post_init__(self) -> None:
-        keep(self, "times", "values")
+        freeze_copies(self, "times", "values")
 
     def force(self, system: System, t: float, q: Array) -> Array:
         """Generalised force at time t, shape (n_v,)."""
@@ -64,7 +64,7 @@ class BodyEntry(Plain):
     Parameters
     ----------
     body : Body
-    table : Fields
+    table : TableReader
         For messages.
     K_q : object
         As parsed: a table of joints, or a matrix.
@@ -77,19 +77,19 @@ class BodyEntry(Plain):
     wrenches : Wrenches or None
     joint_friction : object
         As parsed: a table of joints, or ``"urdf"``.
-    support : Fields or None
+    support : TableReader or None
         The table of that name.
     """
 
     body: Body
-    table: Fields = field(compare=False)
+    table: TableReader = field(compare=False)
     K_q: Any
     targets: list[Any]
     cloud: Path | None
     gravity_compensated: bool
     wrenches: Wrenches | None
     joint_friction: Any
-    support: Fields | None = field(compare=False)
+    support: TableReader | None = field(compare=False)
 
     @property
     def rubs(self) -> bool:
@@ -106,28 +106,29 @@ class BodyEntry(Plain):
         return joint.name.removeprefix(f"{self.body.name}/")
 
 
-def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
+def body_entry(name: str, table: TableReader, folder: Path) -> BodyEntry:
     """Read one ``[bodies.NAME]`` table; paths are relative to the scenario's folder."""
     check_names(table, BODY)
     urdf = path_in(folder, table, "urdf")
     mjcf = path_in(folder, table, "mjcf")
     if urdf is None and mjcf is None:
-        raise table.fail("urdf", "is missing")
+        raise table.error_about("urdf", "is missing")
     if urdf is not None and mjcf is not None:
-        raise table.fail("mjcf", "cannot be combined with urdf; remove one of them")
+        raise table.error_about("mjcf", "cannot be combined with urdf; remove one of them")
     base = value(table, BODY, "base")
     actuated = value(table, BODY, "actuated")
     if actuated != "all":
         if not isinstance(actuated, list) or not all(isinstance(a, str) for a in actuated):
-            raise table.fail("actuated", 'must be a list of joint names, or "all"', actuated)
+            raise table.error_about("actuated", 'must be a list of joint names, or "all"', actuated)
         actuated = tuple(actuated)
     xyz, rpy = pose(value(table, BODY, "pose"))
     positions = table.table("positions", {})
-    start = {joint: positions.number(joint) for joint in positions.names()}
+    start = {joint: positions.number(joint) for joint in positions.names_left()}
     folders = [folder / folder_name for folder_name in value(table, BODY, "package_dirs")]
-    moved = "gravity_compensated" in table
-    if moved and not actuated:
-        raise table.fail("gravity_compensated", "needs an actuated joint, and this body has none")
+    if "gravity_compensated" in table and not actuated:
+        raise table.error_about(
+            "gravity_compensated", "needs an actuated joint, and this body has none"
+        )
     robot: str | Path
     if urdf is not None:
         robot = urdf
@@ -154,12 +155,14 @@ def body_entry(name: str, table: Fields, folder: Path) -> BodyEntry:
         support=table.table("support") if "support" in table else None,
     )
     if entry.wrenches is not None and base == "fixed":
-        raise table.fail("wrenches", 'have no effect on a body with base = "fixed"; remove them')
+        raise table.error_about(
+            "wrenches", 'have no effect on a body with base = "fixed"; remove them'
+        )
     return entry
 
 
-def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
-    """Fill a body's block into the system's K_q.
+def stiffness(system: System, entry: BodyEntry) -> Array:
+    """What a body adds to K_q, shape (n_a, n_a): zero at the coordinates of other bodies.
 
     Each joint has a number, a list (diagonal) or a matrix; or the whole body has one matrix.
 
@@ -168,23 +171,29 @@ def stiffness(system: System, entry: BodyEntry, K_q: Array) -> None:
     ScenarioError
         If a joint is left out, unknown, or its stiffness has the wrong shape.
     """
+    K_q = np.zeros((system.n_a, system.n_a))
     joints = entry.actuated(system)
     table = entry.table
     if entry.K_q is None and joints:
-        raise table.fail("K_q", f"is missing for {', '.join(entry.short(j) for j in joints)}")
+        raise table.error_about(
+            "K_q", f"is missing for {', '.join(entry.short(j) for j in joints)}"
+        )
     if isinstance(entry.K_q, list):
         index = np.array([i for j in joints for i in range(j.v.start, j.v.stop)], dtype=np.int64)
-        wrapped = Fields({"K_q": entry.K_q}, table.where, ScenarioError)
+        wrapped = TableReader({"K_q": entry.K_q}, table.where, ScenarioError)
         block = wrapped.array("K_q", (len(index), len(index)))
         positive_definite(table.name("K_q"), block)  # refused here rather than in the first step
         K_q[np.ix_(index, index)] = block
-        return
-    stiffnesses = Fields({} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError)
+        return K_q
+    stiffnesses = TableReader(
+        {} if entry.K_q is None else entry.K_q, table.name("K_q"), ScenarioError
+    )
     stiffnesses.only(entry.short(joint) for joint in joints)
     for joint in joints:
         block = _joint_stiffness(stiffnesses, entry.short(joint), joint)
         positive_definite(stiffnesses.name(entry.short(joint)), block)
         K_q[joint.v, joint.v] = block
+    return K_q
 
 
 def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
@@ -200,16 +209,16 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
     values: dict[str, list[Any]] = {}
     angles = {name: _start_angles(entry.body, name, joint) for name, joint in joints.items()}
     for i, record in enumerate(entry.targets):
-        waypoint = Fields(record, entry.table.name(f"targets[{i}]"), ScenarioError)
-        for name in waypoint.names():
+        waypoint = TableReader(record, entry.table.name(f"targets[{i}]"), ScenarioError)
+        for name in waypoint.names_left():
             if name != "t" and name not in joints:
                 hint = suggestion(name, joints if "t" in waypoint else ["t", *joints])
-                raise waypoint.fail(name, f"is not an actuated joint of this body{hint}")
+                raise waypoint.error_about(name, f"is not an actuated joint of this body{hint}")
         t = value(waypoint, WAYPOINT, "t")
-        if not waypoint.names():
+        if not waypoint.names_left():
             problem = "sets no joint; give the position of at least one"
-            raise entry.table.fail(f"targets[{i}]", problem, record)
-        for name in waypoint.names():
+            raise entry.table.error_about(f"targets[{i}]", problem, record)
+        for name in waypoint.names_left():
             kind = joints[name].kind
             if kind == "floating":
                 xyz, turned = pose(waypoint.table(name))
@@ -232,17 +241,17 @@ def joint_tracks(system: System, entry: BodyEntry) -> list[JointTrack]:
     ]
 
 
-def _joint_stiffness(stiffnesses: Fields, name: str, joint: Joint) -> Array:
+def _joint_stiffness(stiffnesses: TableReader, name: str, joint: Joint) -> Array:
     n = joint.v.stop - joint.v.start
-    value = stiffnesses.take(name)
-    wrapped = Fields({name: value}, stiffnesses.where, ScenarioError)
-    if not isinstance(value, list):
+    given = stiffnesses.take(name)
+    wrapped = TableReader({name: given}, stiffnesses.where, ScenarioError)
+    if not isinstance(given, list):
         return wrapped.number(name, above=0.0) * np.eye(n)
-    if value and isinstance(value[0], list):
+    if given and isinstance(given[0], list):
         return wrapped.array(name, (n, n))
     diagonal = wrapped.array(name, (n,))
     if not (diagonal > 0).all():
-        raise stiffnesses.fail(name, "must be greater than 0 in every entry", value)
+        raise stiffnesses.error_about(name, "must be greater than 0 in every entry", given)
     return np.diag(diagonal)
 
 
@@ -253,7 +262,7 @@ def _start_angles(body: Body, name: str, joint: Joint) -> Array:
     return np.array([body.positions.get(name, 0.0)])
 
 
-def _check_turn(waypoint: Fields, name: str, before: Array, after: Array) -> None:
+def _check_turn(waypoint: TableReader, name: str, before: Array, after: Array) -> None:
     """Refuse angles [rad] of which one differs by more than pi: q holds no number of turns."""
     most = int(np.abs(after - before).argmax())
     turn = float(after[most] - before[most])
@@ -262,10 +271,10 @@ def _check_turn(waypoint: Fields, name: str, before: Array, after: Array) -> Non
             f"turns by {turn:.4g} rad from the pose before, but a spring takes the shorter way: "
             "add waypoints less than half a turn apart, or subtract whole turns"
         )
-        raise waypoint.fail(name, problem, after.tolist())
+        raise waypoint.error_about(name, problem, after.tolist())
 
 
-def _planar(waypoint: Fields, name: str, body: Body) -> tuple[Array, Array]:
+def _planar(waypoint: TableReader, name: str, body: Body) -> tuple[Array, Array]:
     """Origin [m] and roll, pitch, yaw [rad] of a planar base."""
     xyz, rpy = pose(waypoint.table(name), np.asarray(body.xyz))
     height = float(np.asarray(body.xyz)[2])
@@ -274,22 +283,24 @@ def _planar(waypoint: Fields, name: str, body: Body) -> tuple[Array, Array]:
             f"must keep the height {height:g} and turn only about the vertical, because the base "
             "is planar"
         )
-        raise waypoint.fail(name, problem, [*xyz.tolist(), *rpy.tolist()])
+        raise waypoint.error_about(name, problem, [*xyz.tolist(), *rpy.tolist()])
     return xyz, rpy
 
 
-def _wrenches(name: str, table: Fields) -> Wrenches | None:
+def _wrenches(name: str, table: TableReader) -> Wrenches | None:
     times = []
     values = []
     for i, record in enumerate(value(table, BODY, "wrenches")):
-        entry = Fields(record, table.name(f"wrenches[{i}]"), ScenarioError)
+        entry = TableReader(record, table.name(f"wrenches[{i}]"), ScenarioError)
         check_names(entry, WRENCH)
         times.append(value(entry, WRENCH, "t"))
-        if not {"force", "torque"} & set(entry.names()):
-            raise table.fail(f"wrenches[{i}]", "must contain a force, a torque or both", record)
+        if not {"force", "torque"} & set(entry.names_left()):
+            raise table.error_about(
+                f"wrenches[{i}]", "must contain a force, a torque or both", record
+            )
         values.append(np.concatenate([value(entry, WRENCH, key) for key in ("force", "torque")]))
     if not times:
         return None
     if not (np.diff(times) > 0).all():
-        raise table.fail("wrenches", "must have increasing times t", times)
+        raise table.error_about("wrenches", "must have increasing times t", times)
     return Wrenches(name, np.array(times), np.array(values))

@@ -11,8 +11,8 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.quoting import known_names, nearest_name
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.scenario_table import TABLES
 from quasistatic_ref.tolerances import LARGE, WELDED
@@ -21,7 +21,7 @@ NAMED = {"bodies": "urdf", "contacts": "alpha"}
 """Tables of tables, and a field without which none of theirs can be."""
 
 
-def check_names(table: Fields, kind: str) -> None:
+def check_names(table: TableReader, kind: str) -> None:
     """Refuse a name that this kind of table does not hold.
 
     Raises
@@ -31,15 +31,15 @@ def check_names(table: Fields, kind: str) -> None:
         near, that one and its table.
     """
     known = TABLES[kind]
-    for name in table.names():
+    for name in table.names_left():
         if name not in known:
             near = nearest_name(name, known) or _inside(name, table) or _elsewhere(name, kind)
-            raise table.fail(
+            raise table.error_about(
                 name, f"is unknown{near or ';'} {known_names(known)}", table.take(name)
             )
 
 
-def _inside(name: str, table: Fields) -> str:
+def _inside(name: str, table: TableReader) -> str:
     for outer in ("contacts", "bodies", "shapes"):
         inner = table.take(outer, {})
         if isinstance(inner, dict) and name in inner:

@@ -12,8 +12,8 @@ import numpy as np
 from quasistatic_ref.contact.distance import number_within
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, ScenarioError, about_field
-from quasistatic_ref.formats.fields import REQUIRED, Fields
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.table_reader import REQUIRED, TableReader
 from quasistatic_ref.model.readers.clouds import point_cloud
 from quasistatic_ref.model.readers.text import decimal
 from quasistatic_ref.model.rotation import rotation
@@ -31,7 +31,7 @@ WORLD = 0
 
 
 def placed_shapes(
-    system: System, entries: Mapping[str, BodyEntry], world: Fields, folder: Path
+    system: System, entries: Mapping[str, BodyEntry], world: TableReader, folder: Path
 ) -> Shapes:
     """Every name that ``[contacts]`` may use, with its shapes.
 
@@ -41,7 +41,7 @@ def placed_shapes(
     taken.
     """
     named: Shapes = {}
-    for name in world.names():
+    for name in world.names_left():
         named[name] = [world_shape(name, world.table(name), folder)]
     world.close()
     for i, link in enumerate(system.links):
@@ -61,13 +61,13 @@ def placed_shapes(
     return named
 
 
-def world_shape(name: str, table: Fields, folder: Path) -> PlacedShape:
+def world_shape(name: str, table: TableReader, folder: Path) -> PlacedShape:
     """One ``[shapes.NAME]`` table: exactly one solid, and where it stands.
 
     Parameters
     ----------
     name : str
-    table : Fields
+    table : TableReader
     folder : Path
         Of the scenario, which a mesh must not leave.
 
@@ -77,9 +77,11 @@ def world_shape(name: str, table: Fields, folder: Path) -> PlacedShape:
         Naming the field.
     """
     t, rpy = pose(value(table, SHAPE, "pose"))
-    kinds = [kind for kind in table.names() if kind in SOLIDS]
+    kinds = [kind for kind in table.names_left() if kind in SOLIDS]
     if len(kinds) != 1:
-        raise table.fail("shape", f"must be exactly one of {', '.join(SOLIDS)}", table.names())
+        raise table.error_about(
+            "shape", f"must be exactly one of {', '.join(SOLIDS)}", table.names_left()
+        )
     kind = SOLIDS[kinds[0]]
     sizes = table.table(kinds[0])
     given = {name: field.read(sizes, name) for name, field in kind.fields.items()}
@@ -93,13 +95,15 @@ def world_shape(name: str, table: Fields, folder: Path) -> PlacedShape:
     return PlacedShape(name, WORLD, rotation(rpy), t, shape)
 
 
-def contact_pairs(tables: Fields, shapes: Shapes, start: Kinematics) -> tuple[ContactPair, ...]:
+def contact_pairs(
+    tables: TableReader, shapes: Shapes, start: Kinematics
+) -> tuple[ContactPair, ...]:
     """The pairs of all ``[contacts.NAME]`` tables, in file order.
 
     A k that is a distance becomes a number where the scenario starts.
     """
     pairs = []
-    for name in tables.names():
+    for name in tables.names_left():
         table = tables.table(name)
         check_names(table, CONTACT)
         sides = [_side(table, key, shapes) for key in ("alpha", "beta")]
@@ -108,12 +112,12 @@ def contact_pairs(tables: Fields, shapes: Shapes, start: Kinematics) -> tuple[Co
         mu_omega = value(table, CONTACT, "mu_omega", 0.0 if rows == 4 else REQUIRED)
         if rows == 4 and mu_omega > 0:
             problem = "has no effect with rows = 4; set rows = 6, or remove it"
-            raise table.fail("mu_omega", problem, mu_omega)
+            raise table.error_about("mu_omega", problem, mu_omega)
         k_given = value(table, CONTACT, "k")
         within = _within(k_given, table.name("k"))
         k = 1
         if within is None:
-            k = Fields({"k": k_given}, table.where, ScenarioError).integer("k", least=1)
+            k = TableReader({"k": k_given}, table.where, ScenarioError).integer("k", least=1)
         hull = value(table, CONTACT, "hull")
         for alpha in sides[0]:
             for beta in sides[1]:
@@ -132,48 +136,52 @@ def _within(k_given: Any, where: str) -> float | None:
     """The distance [m] of a k such as ``{ within = "5 mm" }``; None of anything but a table."""
     if not isinstance(k_given, dict):
         return None
-    table = Fields(k_given, where, ScenarioError)
+    table = TableReader(k_given, where, ScenarioError)
     check_names(table, WITHIN)
     text = table.take("within")
     length = re.fullmatch(r" *(\d[\d.eE-]*) *([a-z]+) *", text if isinstance(text, str) else "")
     if length is None or length[2] not in METRES:
-        raise table.fail("within", f"must be a length in {', '.join(METRES)}, as '5 mm'", text)
+        raise table.error_about(
+            "within", f"must be a length in {', '.join(METRES)}, as '5 mm'", text
+        )
     with about_field(table.name("within")):
         return decimal(length[1]) * METRES[length[2]]
 
 
-def _side(table: Fields, key: str, shapes: Shapes) -> list[PlacedShape]:
+def _side(table: TableReader, key: str, shapes: Shapes) -> list[PlacedShape]:
     given = value(table, CONTACT, key)
     placed: list[PlacedShape] = []
     for name in given if isinstance(given, list) else [given]:
         if not isinstance(name, str):
-            raise table.fail(key, "must be a name or a list of names", given)
+            raise table.error_about(key, "must be a name or a list of names", given)
         if any(c in name for c in "*?["):
             placed += _matching(table, key, name, shapes)
             continue
         if name not in shapes:
             problem = f"is not a body, link or shape of this scenario{suggestion(name, shapes)}"
-            raise table.fail(key, problem, name)
+            raise table.error_about(key, problem, name)
         if not shapes[name]:
-            raise table.fail(key, "has no collision shape; add one, or give a cloud", name)
+            raise table.error_about(key, "has no collision shape; add one, or give a cloud", name)
         placed += shapes[name]
     if not placed:
-        raise table.fail(key, "must name at least one shape", given)
+        raise table.error_about(key, "must name at least one shape", given)
     names = [shape.name for shape in placed]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
-        raise table.fail(key, f"names {twice} twice, so its friction would count twice", given)
+        raise table.error_about(
+            key, f"names {twice} twice, so its friction would count twice", given
+        )
     return placed
 
 
-def _matching(table: Fields, key: str, pattern: str, shapes: Shapes) -> list[PlacedShape]:
+def _matching(table: TableReader, key: str, pattern: str, shapes: Shapes) -> list[PlacedShape]:
     """Shapes of all links that a pattern matches, in the order of the links."""
     single = {shape.name for matched in shapes.values() for shape in matched}
     links = [name for name in shapes if "/" in name and name not in single]
     names = [name for name in links if fnmatchcase(name, pattern)]
     if not names:
-        raise table.fail(key, "matches no link; a pattern looks like 'hand/*'", pattern)
+        raise table.error_about(key, "matches no link; a pattern looks like 'hand/*'", pattern)
     matched = [shape for name in names for shape in shapes[name]]
     if not matched:
-        raise table.fail(key, "matches no link with a collision shape", pattern)
+        raise table.error_about(key, "matches no link with a collision shape", pattern)
     return matched

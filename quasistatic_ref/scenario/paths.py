@@ -11,7 +11,7 @@ PyPI's ``example-robot-data`` do: in ``cmeel.prefix/share/NAME``, next to the mo
 import sys
 from pathlib import Path
 
-from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.readers.mesh_files import PACKAGE
 
 SHARED = Path("cmeel.prefix", "share")
@@ -24,7 +24,7 @@ class OwnWord(str):
     __slots__ = ()
 
 
-def path_in(folder: Path, table: Fields, field: str) -> Path | None:
+def path_in(folder: Path, table: TableReader, field: str) -> Path | None:
     """The path in one field, or None where there is no such field.
 
     Raises
@@ -37,18 +37,18 @@ def path_in(folder: Path, table: Fields, field: str) -> Path | None:
     if text is None:
         return None
     if not text.strip():
-        raise table.fail(field, "must name a file", text)
+        raise table.error_about(field, "must name a file", text)
     path = folder / text
     try:
         if text.startswith(PACKAGE):
             return _installed(table, field, text)
         inside = isinstance(text, OwnWord) or path.resolve().is_relative_to(folder.resolve())
     except (ValueError, RuntimeError, OSError) as error:  # a NUL character; links in a circle
-        raise table.fail(field, f"cannot be a path: {error}", text) from None
+        raise table.error_about(field, f"cannot be a path: {error}", text) from None
     if not inside:
         remedy = "move the file there, or give the path on the command line, as --set "
         remedy += f"{table.name(field)}=PATH"
-        raise table.fail(field, f"is outside the scenario's folder; {remedy}", text)
+        raise table.error_about(field, f"is outside the scenario's folder; {remedy}", text)
     return path
 
 
@@ -61,7 +61,7 @@ def _shared() -> list[Path]:
     return [Path(place) / SHARED for place in dict.fromkeys(sys.path)]
 
 
-def _installed(table: Fields, field: str, text: str) -> Path:
+def _installed(table: TableReader, field: str, text: str) -> Path:
     name, _, inside = text.removeprefix(PACKAGE).partition("/")
     for shared in _shared():
         path = shared / name / inside
@@ -69,6 +69,6 @@ def _installed(table: Fields, field: str, text: str) -> Path:
         if path.is_file() and package.parent == shared.resolve():
             if path.resolve().is_relative_to(package):
                 return path
-            raise table.fail(field, "must be a path inside the package", text)
+            raise table.error_about(field, "must be a path inside the package", text)
     remedy = "to install the robots, run pip install 'quasistatic-ref[robots]'"
-    raise table.fail(field, f"is not a file of an installed package; {remedy}", text)
+    raise table.error_about(field, f"is not a file of an installed package; {remedy}", text)

@@ -11,12 +11,12 @@ import numpy as np
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import BackendError, InputError, ScenarioError, about_file
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import known_names
 from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
 from quasistatic_ref.parts import needed_part
 from quasistatic_ref.scenario.bodies import (
@@ -45,7 +45,7 @@ from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.simulate.target import Targets
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.solve.backends import CERTIFY, DEFAULT, check_backend
-from quasistatic_ref.step.arrays import Array, keep
+from quasistatic_ref.step.arrays import Array, freeze_copies
 from quasistatic_ref.step.cones import PYRAMID, cone
 from quasistatic_ref.step.extension import NO_RISES, Extension, Rises
 from quasistatic_ref.step.ordered import total
@@ -84,7 +84,7 @@ class Scenario(Plain, Shown):
     limits : Limits
         Beyond which no step is taken.
     rises : Rises
-        Private ones, of friction in joints and of supports.
+        The private rises that model friction in joints and of supports.
 
     Examples
     --------
@@ -115,7 +115,7 @@ class Scenario(Plain, Shown):
     law: str = CONVEX
 
     def __post_init__(self) -> None:
-        keep(self, "gravity", "K_q", "gravity_acts")
+        freeze_copies(self, "gravity", "K_q", "gravity_acts")
 
     def simulator(self, extension: Callable[[Array], Extension] | None = None) -> Simulator:
         """A simulator of this scenario, with an `extension` as it takes one."""
@@ -225,11 +225,11 @@ def load_scenario(name: str | Path, settings: Settings = (), **fields: Any) -> S
         tables = toml_read(path, ScenarioError, "a scenario, which is TOML")
         check_made(apply_settings(tables, settings, fields), tables)
         check_sizes(tables)
-        return _scenario(path, Fields(tables, error=ScenarioError))
+        return _scenario(path, TableReader(tables, error=ScenarioError))
 
 
-def _scenario(path: Path, top: Fields) -> Scenario:
-    if not {"format", "version"} <= set(top.names()):  # another format's names are no mistakes
+def _scenario(path: Path, top: TableReader) -> Scenario:
+    if not {"format", "version"} <= set(top.names_left()):  # another format's names are no mistakes
         check_names(top, TOP)
     top.check_format(FORMAT, VERSION)
     check_names(top, TOP)
@@ -238,9 +238,9 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     fast = value(top, TOP, "fast")
     named = cone(value(top, TOP, "cone")).name
     solver = value(top, TOP, "solver")
-    if "engine" in solver.names():
+    if "engine" in solver.names_left():
         problem = "is no longer a field; write fast = true, next to h and steps"
-        raise solver.fail("engine", problem)
+        raise solver.error_about("engine", problem)
     check_names(solver, SOLVER)
     certify = value(solver, SOLVER, "certify")
     law = value(top, TOP, "law")
@@ -248,16 +248,16 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     limits = _limits(value(top, TOP, "limits"))
 
     tables = value(top, TOP, "bodies")
-    entries = {name: body_entry(name, tables.table(name), path.parent) for name in tables.names()}
+    entries = {
+        name: body_entry(name, tables.table(name), path.parent) for name in tables.names_left()
+    }
     tables.close()
     if not entries:
         raise ScenarioError("has no bodies; add at least one table [bodies.NAME]", field="bodies")
     system = System([entry.body for entry in entries.values()])
     shapes = placed_shapes(system, entries, value(top, TOP, "shapes"), path.parent)
     pairs = contact_pairs(value(top, TOP, "contacts"), shapes, system.kinematics(system.q_start))
-    K_q = np.zeros((system.n_a, system.n_a))
-    for entry in entries.values():
-        stiffness(system, entry, K_q)
+    K_q = total(stiffness(system, entry) for entry in entries.values())
     rises = NO_RISES
     if any(entry.rubs for entry in entries.values()):
         rubbing = needed_part("extensions.scenario_rises", "joint_friction and support")
@@ -305,7 +305,9 @@ def _scenario(path: Path, top: Fields) -> Scenario:
     )
 
 
-def _backend(solver: Fields, certify: str, cone_name: str, entries_of_J: int, fast: bool) -> str:
+def _backend(
+    solver: TableReader, certify: str, cone_name: str, entries_of_J: int, fast: bool
+) -> str:
     """The name of the backend, looked up here rather than in the first step."""
     name: str | None = value(solver, SOLVER, "backend")
     try:
@@ -317,11 +319,11 @@ def _backend(solver: Fields, certify: str, cone_name: str, entries_of_J: int, fa
         name = DEFAULT if name is None else name
         check_backend(name, cone_name, certify)
     except BackendError as error:
-        raise solver.fail(error.field or "backend", error.problem, error.value) from None
+        raise solver.error_about(error.field or "backend", error.problem, error.value) from None
     return name
 
 
-def _limits(table: Fields) -> Limits:
+def _limits(table: TableReader) -> Limits:
     check_names(table, LIMITS)
     return Limits(
         penetration=value(table, LIMITS, "penetration"), reach=value(table, LIMITS, "reach")

@@ -6,7 +6,7 @@ Rules about several fields, such as that rows = 6 needs mu_omega, are checked by
 from numpy.typing import ArrayLike
 
 from quasistatic_ref.formats.declared import Field, Tables
-from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.body import BASES
 from quasistatic_ref.scenario.world_solids import SOLIDS
 from quasistatic_ref.simulate.law import CONVEX, LAWS
@@ -197,7 +197,7 @@ TABLES = Tables({
 value = TABLES.value
 
 
-def pose(table: Fields, xyz: ArrayLike = ORIGIN) -> tuple[Array, Array]:
+def pose(table: TableReader, xyz: ArrayLike = ORIGIN) -> tuple[Array, Array]:
     """Origin [m] and roll, pitch, yaw [rad] of a table of these two, each of shape (3,)."""
     origin = value(table, POSE, "xyz", xyz)
     rpy = value(table, POSE, "rpy")

@@ -16,7 +16,7 @@ from quasistatic_ref.shapes.hull import distance_to_hull, levels
 from quasistatic_ref.shapes.shape import Shape, lengths
 from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.step.ordered import dot, product
-from quasistatic_ref.tolerances import CONVEX
+from quasistatic_ref.tolerances import CONVEX_EXCESS
 
 BLOCK = 1 << 22
 """Points times planes handled at once: some tens of megabytes."""
@@ -59,7 +59,7 @@ class ConvexMesh(Shape):
     @property
     def is_convex(self) -> bool:
         """Whether the mesh that it stands for is its own hull."""
-        return self.excess <= CONVEX
+        return self.excess <= CONVEX_EXCESS
 
     @cached_property
     def coal(self) -> Any:
@@ -181,7 +181,7 @@ def hull_of_mesh(vertices: ArrayLike, triangles: Indices) -> ConvexMesh:
     a, b, c = (points[triangles] - hull.vertices.mean(axis=0)).transpose(1, 0, 2)
     enclosed = abs(float(np.sum(a * np.cross(b, c)))) / 6
     excess = abs(hull.volume - enclosed) / hull.volume
-    if excess <= CONVEX:
+    if excess <= CONVEX_EXCESS:
         excess = max(excess, _deepest(hull, used) / float(np.ptp(used, axis=0).max()))
     return convex_hull(used, min(excess, 1.0))
 

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import ModelError
-from quasistatic_ref.step.arrays import freeze, numbers
+from quasistatic_ref.step.arrays import check_and_freeze, checked_numbers
 from quasistatic_ref.tolerances import SHORT
 
 
@@ -25,12 +25,13 @@ def halved(owner: Any, key: str, half: Any, name: str, whole: Any) -> None:
     if (half is None) == (whole is None):
         problem = f"must be given, or {name}, twice as long, and not both"
         raise ModelError(problem, field=key)
-    object.__setattr__(owner, key, numbers(whole, name, ModelError) / 2 if half is None else half)
+    size = checked_numbers(whole, name, ModelError) / 2 if half is None else half
+    object.__setattr__(owner, key, size)
 
 
 def freeze_array(owner: Any, key: str, shape: tuple[int, ...]) -> None:
     """Replace a field by a read-only float64 copy; ModelError unless finite and of that shape."""
-    freeze(owner, {key: shape}, error=ModelError)
+    check_and_freeze(owner, {key: shape}, error=ModelError)
 
 
 def freeze_size(owner: Any, key: str) -> None:

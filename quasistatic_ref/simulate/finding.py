@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.table_reader import TableReader
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,14 +42,14 @@ def finding_read(table: object, where: str) -> Finding:
     InputError
         If a field is missing, unknown or of another type.
     """
-    fields = Fields(table, where)
+    fields = TableReader(table, where)
     numbers = fields.table("numbers")
     finding = Finding(
         name=fields.text("name"),
         grave=fields.boolean("grave"),
         sentence=fields.text("sentence"),
         remedy=fields.text("remedy"),
-        numbers={name: numbers.number(name) for name in numbers.names()},
+        numbers={name: numbers.number(name) for name in numbers.names_left()},
     )
     fields.close()
     return finding

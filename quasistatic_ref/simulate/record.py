@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from quasistatic_ref.errors import InputError, about_field
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.simulate.finding import finding_read
 from quasistatic_ref.simulate.law import CONVEX, COULOMB, ITERATED, LAWS
 from quasistatic_ref.step.cones import cone
@@ -30,12 +30,12 @@ EXTRA = ("lam_extra", "extra_A", "extra_b")
 """What the rows of an extension add: the multipliers, and to a full record the rows."""
 
 
-def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
+def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
     """Refuse a header and arrays that do not belong together.
 
     Parameters
     ----------
-    top : Fields
+    top : TableReader
         The header.
     arrays : mapping of str to ndarray
         Everything else in the file, of whatever shape [of the notation].
@@ -86,9 +86,9 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
             raise InputError(problem, field=name, value=arrays[name].shape)
     contacts = top.sequence("contacts")
     if full and len(contacts) != steps:
-        raise top.fail("contacts", f"must have {steps} entries", len(contacts))
+        raise top.error_about("contacts", f"must have {steps} entries", len(contacts))
     if not all(isinstance(names, list) for names in contacts):
-        raise top.fail("contacts", "must be lists of names", contacts)
+        raise top.error_about("contacts", "must be lists of names", contacts)
     top.words("warnings", [])  # of files from before there were findings
     for i, table in enumerate(top.sequence("findings", [])):
         finding_read(table, f"findings[{i}]")
@@ -96,7 +96,7 @@ def check_arrays(top: Fields, arrays: Mapping[str, NDArray[Any]]) -> None:
     top.close()
 
 
-def _unless_null(top: Fields, name: str, read: Callable[[str], Any]) -> None:
+def _unless_null(top: TableReader, name: str, read: Callable[[str], Any]) -> None:
     if top.is_null(name):
         top.take(name)
     else:

@@ -25,7 +25,7 @@ from quasistatic_ref.simulate.scene import Scene
 from quasistatic_ref.solve.backends import DEFAULT, check_backend
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import Solver, solver_for
-from quasistatic_ref.step.arrays import frozen
+from quasistatic_ref.step.arrays import checked_array
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Array, StepData, hessian, seconds
 from quasistatic_ref.step.extension import Extension
@@ -67,7 +67,7 @@ class Stopwatch:
         self._last = time.perf_counter()
 
     def __call__(self, name: str, **apart: float) -> None:
-        """End the lap of that name; parts of it that are named stand `apart` [s]."""
+        """Record the lap that ends under a name, and its parts, `apart` [s], under their own."""
         now = time.perf_counter()
         self.seconds[name] = now - self._last - sum(apart.values())
         self.seconds.update(apart)
@@ -124,6 +124,8 @@ class Simulator(Shown):
     ----------
     backend : str
         Name of the backend.
+    gravity_factor : ndarray, shape (n_v,)
+        1.0 at each coordinate on which gravity acts, otherwise 0.0 [-].
     solver : Solver or None
         The object that solved the last step; it solves the next one, too, if that step fits it.
 
@@ -175,11 +177,11 @@ class Simulator(Shown):
         self.scene = Scene(system, self.pairs)
         self.layout = contact_layout(pairs)
         self.h = seconds(h)
-        K_q = frozen(K_q, "K_q", (system.n_a, system.n_a))
+        K_q = checked_array(K_q, "K_q", (system.n_a, system.n_a))
         self.K_q = positive_definite("K_q", K_q)
         self.gravity = tuple(np.asarray(gravity, dtype=np.float64).tolist())
-        self.gravity_acts = np.ones(system.n_v)
-        self.gravity_acts[: system.n_a] = False if gravity_acts is None else gravity_acts
+        self.gravity_factor = np.ones(system.n_v)
+        self.gravity_factor[: system.n_a] = False if gravity_acts is None else gravity_acts
         self.fast = fast
         self.accuracy = accuracy
         self.certify = certify
@@ -214,7 +216,7 @@ class Simulator(Shown):
                 "limits")  # fmt: skip
         settings: dict[str, Any] = {name: getattr(self, name) for name in same}
         settings["backend"] = self.named_backend
-        settings["gravity_acts"] = self.gravity_acts[: self.system.n_a]
+        settings["gravity_acts"] = self.gravity_factor[: self.system.n_a]
         return _remade, (type(self), self.system, self.pairs, settings)
 
     @by_one_thread
@@ -255,8 +257,8 @@ class Simulator(Shown):
         lap("rows")
         solution = self.solution(step) if self.extension is None else self.extended(step, q)
         self.limits.check_penetration(step)  # after the solve: a proof of infeasibility says more
-        # An extension may have added rows and coordinates (step/extension.py). Without one it is
-        # the same step.
+        # An extension adds rows and coordinates (step/extension.py): from here on the step is the
+        # one that was solved. Without an extension it is the same.
         step = solution.step
         lap("solve", proof=solution.statistics.proof_time)
         q_next = self.system.integrate(q, solution.delta_q[: self.system.n_v])  # q (+) delta_q
@@ -304,10 +306,10 @@ class Simulator(Shown):
 
     def generalised_force(self, q: Array, force: Array | float) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
-        if np.shape(force) not in {(), self.gravity_acts.shape}:
-            problem = f"must have shape {self.gravity_acts.shape}"
+        if np.shape(force) not in {(), self.gravity_factor.shape}:
+            problem = f"must have shape {self.gravity_factor.shape}"
             raise StepDataError(problem, field="force", value=np.shape(force))
-        tau: Array = self.gravity_acts * self.system.gravity_force(q, self.gravity) + force
+        tau: Array = self.gravity_factor * self.system.gravity_force(q, self.gravity) + force
         return tau
 
     def extended(self, step: StepData, q: Array) -> StepSolution:

@@ -10,7 +10,7 @@ from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.model.system import System
-from quasistatic_ref.step.arrays import Array, keep
+from quasistatic_ref.step.arrays import Array, freeze_copies
 
 
 def piecewise_linear(times: Array, values: Array, t: float) -> Array:
@@ -58,7 +58,7 @@ class JointTrack(Plain):
     values: Array
 
     def __post_init__(self) -> None:
-        keep(self, "times", "values")
+        freeze_copies(self, "times", "values")
         if not (np.diff(self.times) > 0).all():
             field = f"targets of {self.joint.name}"
             raise ScenarioError("waypoint times must increase", field=field, value=self.times)
@@ -99,7 +99,7 @@ class Targets(Plain):
     tracks: Sequence[JointTrack]
 
     def __post_init__(self) -> None:
-        keep(self, "q_a_start")
+        freeze_copies(self, "q_a_start")
 
     def __call__(self, t: float) -> Array:
         """q_bar_a at time t [s], shape (n_q_a,)."""

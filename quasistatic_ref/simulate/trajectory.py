@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.solution import UNKNOWN
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import written_whole
 from quasistatic_ref.formats.npz import json_array, npz_record
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.quoting import nearest_name
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.simulate import wrenches
 from quasistatic_ref.simulate.finding import Finding, finding_read
@@ -338,7 +338,7 @@ def trajectory_read(path: str | Path) -> Trajectory:
     """
     header, arrays = npz_record(path, WHAT)
     with about_file(path):
-        top = Fields(header)
+        top = TableReader(header)
         top.check_format(FORMAT, VERSION)
         check_arrays(top, arrays)
     return Trajectory(header, arrays)

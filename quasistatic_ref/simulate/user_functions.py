@@ -19,11 +19,11 @@ if TYPE_CHECKING:
 
 OfTime = Callable[[float], ArrayLike]
 OfTimeAndQ = Callable[[float, Array], ArrayLike]
-OfAll = Callable[[float, Array, "StepResult | None"], ArrayLike]
+OfTimeQAndLast = Callable[[float, Array, "StepResult | None"], ArrayLike]
 Checked = Callable[[float, Array, "StepResult | None"], Array]
 """A function of (t, q, last) whose results have the right shape."""
-Target = OfTime | OfTimeAndQ | OfAll | ArrayLike
-Force = OfTime | OfTimeAndQ | OfAll
+Target = OfTime | OfTimeAndQ | OfTimeQAndLast | ArrayLike
+Force = OfTime | OfTimeAndQ | OfTimeQAndLast
 NAMED = (Parameter.POSITIONAL_ONLY, Parameter.POSITIONAL_OR_KEYWORD)
 ANY_NUMBER = (Parameter.VAR_POSITIONAL, Parameter.VAR_KEYWORD)
 
@@ -52,7 +52,7 @@ def target_function(system: System, h: float, target: Target, steps: int) -> Che
         return system.checked(system.with_actuated(system.q_start, q_a))[:n]
 
     if callable(target):
-        goal = _returning(of_all(target, "target"), (n,), "target")
+        goal = _returning(with_all_arguments(target, "target"), (n,), "target")
         return lambda t, q, last: checked(goal(t, q, last))
     values = np.asarray(target, dtype=np.float64)
     if values.shape not in {(n,), (steps, n)} or not np.isfinite(values).all():
@@ -76,11 +76,11 @@ def force_function(system: System, force: Force | None) -> Checked:
     if force is None:
         nothing = np.zeros(system.n_v)
         return lambda t, q, last: nothing
-    return _returning(of_all(force, "force"), (system.n_v,), "force")
+    return _returning(with_all_arguments(force, "force"), (system.n_v,), "force")
 
 
-def of_all(function: Callable[..., Any], name: str) -> OfAll:
-    """A function of t, of (t, q) or of (t, q, last), as one of all; its result keeps its shape.
+def with_all_arguments(function: Callable[..., Any], name: str) -> OfTimeQAndLast:
+    """The same function with the arguments (t, q, last), of which it may take fewer.
 
     The arguments without defaults decide which of these it is; the others keep their defaults.
 
@@ -104,7 +104,7 @@ def of_all(function: Callable[..., Any], name: str) -> OfAll:
 
 
 def needed_arguments(function: Callable[..., Any], name: str) -> int:
-    """How many of (t, q, last) a function takes, 1 to 3 [-]; InputError as of `of_all`."""
+    """How many of (t, q, last) a function takes, 1 to 3 [-]; InputError if it takes others."""
     try:
         parameters = list(signature(function).parameters.values())
     except (TypeError, ValueError):  # compiled, and without a signature
@@ -118,7 +118,7 @@ def needed_arguments(function: Callable[..., Any], name: str) -> int:
     raise InputError(problem, field=name, value=written)
 
 
-def _returning(function: OfAll, shape: tuple[int, ...], name: str) -> Checked:
+def _returning(function: OfTimeQAndLast, shape: tuple[int, ...], name: str) -> Checked:
     """The same function, its results as arrays of one shape."""
 
     def value(t: float, q: Array, last: "StepResult | None") -> Array:

@@ -96,7 +96,7 @@ class Backend:
         return alone if self.required else f"{alone}, or 'quasistatic-ref[study]' for every solver"
 
 
-GAP = 1e-2
+DUALITY_GAP = 1e-2
 """How much smaller than the residuals the duality gap of interior-point methods must be.
 
 By strong convexity ||x - x*||_H^2 <= 2 gap: where a contact just begins to bear load, a gap of
@@ -105,7 +105,7 @@ By strong convexity ||x - x*||_H^2 <= 2 gap: where a contact just begins to bear
 
 def _clarabel(accuracy: float) -> OptionSets:
     feasibility = dict.fromkeys(("tol_feas", "tol_infeas_abs", "tol_infeas_rel"), accuracy)
-    gap = dict.fromkeys(("tol_gap_abs", "tol_gap_rel"), GAP * accuracy)
+    gap = dict.fromkeys(("tol_gap_abs", "tol_gap_rel"), DUALITY_GAP * accuracy)
     # With its default static regularisation of 1e-8 it stops early on 4 of the 300 steps of
     # bunny_grasp, whose sticking patches have many dependent rows. With 1e-10 or 1e-12 it solves
     # them, but fails on single steps of other scenes, never on the same ones: all three are tried.
@@ -132,7 +132,7 @@ def _osqp(accuracy: float) -> OptionSets:
 def _piqp(accuracy: float) -> OptionSets:
     # eps_abs alone leaves the duality gap at 1e-8: it must be set by name.
     feasibility = dict.fromkeys(("eps_abs", "eps_rel"), accuracy)
-    gap = dict.fromkeys(("eps_duality_gap_abs", "eps_duality_gap_rel"), GAP * accuracy)
+    gap = dict.fromkeys(("eps_duality_gap_abs", "eps_duality_gap_rel"), DUALITY_GAP * accuracy)
     # With less regularisation than it comes with, its worst error on bunny_grasp falls from
     # 7e-8 to 2e-10.
     regularisation = {"reg_lower_limit": 1e-13, "reg_finetune_lower_limit": 1e-15}
@@ -256,7 +256,7 @@ def backend(name: str) -> Backend:
     return entry
 
 
-def cone_backend(name: str, what: str) -> None:
+def check_takes_cones(name: str, what: str) -> None:
     """Refuse a backend that takes linear rows only.
 
     Parameters
@@ -305,7 +305,7 @@ def check_backend(name: str, cone_name: str, certify: str = CERTIFY[0]) -> None:
     if name != NONE:
         backend(name)
         if not cone(cone_name).polyhedral:
-            cone_backend(name, f"the {cone_name}")
+            check_takes_cones(name, f"the {cone_name}")
 
 
 def check_certify(name: str | None, certify: str) -> None:

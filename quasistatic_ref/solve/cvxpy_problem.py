@@ -40,7 +40,7 @@ class CvxpyProblem(StepProblem):
         self.problem = cp.Problem(objective, [*self.contact_rows, *self.extra, *constraints(self)])
 
     def check_kind(self) -> None:
-        """Refuse nothing: each cone, and rows of a user's own, have their problem here."""
+        """Accept every cone, and rows of a user's own: this problem states them all."""
 
     def fill(self, step: StepData) -> None:
         """Set every parameter from one step.

@@ -25,7 +25,7 @@ from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.tolerances import ACCURACY, RESIDUAL_LIMIT, WORTHLESS
 
-LARGE = 2.0**200
+FACTOR_LIMIT = 2.0**200
 """Three such factors are far from 2^1024, where the range of float64 ends."""
 NOTHING_CLAIMED = Certificate("none")
 
@@ -144,11 +144,16 @@ def _far_from_largest(solution: StepSolution) -> bool:
     """Whether lam, mu and 1 / h are so small that wrenches, their products, cannot overflow."""
     mu = solution.step.contacts.mu
     lam = solution.lam
-    return bool(solution.step.h > 1 / LARGE and np.vdot(mu, mu) + np.vdot(lam, lam) < LARGE)
+    return bool(
+        solution.step.h > 1 / FACTOR_LIMIT and np.vdot(mu, mu) + np.vdot(lam, lam) < FACTOR_LIMIT
+    )
 
 
 def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSolution:
-    """The proved optimum; if the backend fails, the exact method starts cold: the same answer."""
+    """The proved optimum; if the backend fails, the exact method starts cold: the same answer.
+
+    In a curved cone, where no enclosure of the optimum is found, the backend's answer, judged.
+    """
     step = both.si_step
     units = both.units
     friction_cone = cone(step.cone)
@@ -162,10 +167,7 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     if isinstance(friction_cone, CurvedCone):
         optimum = friction_cone.optimum(step, si_answer)
         if optimum is None:
-            if answer is not None:
-                return uncertified(both, solver, answer, "residual")
-            status = f"{statistics.status}; and no answer strictly inside of all cones was found"
-            raise StepNotSolved(solver.name, status, step, accuracy)
+            return _not_enclosed(both, solver, answer, statistics)
         check_length(step, optimum.delta_q, group_steps(step))
         certificate_of = friction_cone.certificate
     else:
@@ -182,6 +184,19 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     statistics = statistics._replace(proof_time=time.perf_counter() - begin)
     certificate = certificate_of(step, optimum, residuals)
     return step_solution(step, delta_q, lam, certificate, statistics, optimum.net)
+
+
+def _not_enclosed(
+    both: StepInBothUnits,
+    solver: Solver,
+    answer: NaturalAnswer | None,
+    statistics: SolverStatistics,
+) -> StepSolution:
+    """The backend's answer, judged by its residuals; StepNotSolved if it has none."""
+    if answer is None:
+        status = f"{statistics.status}; and no answer strictly inside of all cones was found"
+        raise StepNotSolved(solver.name, status, both.si_step, statistics.accuracy)
+    return uncertified(both, solver, answer, "residual")
 
 
 def _answer_and_statistics(

@@ -177,7 +177,7 @@ class Solver(ABC):
         if not cone(both.si_step.cone).polyhedral:
             return math.inf
         bounds = needed_part("large.bound", RESIDUAL)
-        bound: float = bounds.error_bound(both.si_step, delta_q, lam).error
+        bound: float = bounds.error_bound(both.si_step, delta_q, lam)
         return bound
 
     @abstractmethod

@@ -36,7 +36,7 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
-def numbers(value: Any, name: str, error: type[InputError] = StepDataError) -> Array:
+def checked_numbers(value: Any, name: str, error: type[InputError] = StepDataError) -> Array:
     """Real numbers as a float64 array of the same shape; a float64 array is returned itself.
 
     Raises
@@ -60,22 +60,22 @@ def finite(x: Array) -> bool:
     return math.isfinite(x.dot(x)) or bool(np.isfinite(x).all())
 
 
-def columns(value: Any, name: str, ndim: int) -> int:
+def column_count(value: Any, name: str, ndim: int) -> int:
     """Number of columns of a matrix or a stack of matrices; StepDataError of anything else."""
-    shape = numbers(value, name).shape
+    shape = checked_numbers(value, name).shape
     if len(shape) != ndim:
         raise StepDataError(f"must have {ndim} dimensions, n_v columns", field=name, value=shape)
     return int(shape[-1])
 
 
-def names(value: Any, name: str) -> tuple[str, ...]:
+def checked_names(value: Any, name: str) -> tuple[str, ...]:
     """A tuple of strings; StepDataError of anything else, such as a single string."""
     if isinstance(value, str) or not all(isinstance(one, str) for one in value):
         raise StepDataError("must be a sequence of strings", field=name, value=value)
     return tuple(value)
 
 
-def frozen(
+def checked_array(
     value: Any, name: str, shape: tuple[int, ...], error: type[InputError] = StepDataError
 ) -> Array:
     """A read-only float64 copy of numbers of any unit [-], -0.0 becoming 0.0.
@@ -98,7 +98,7 @@ def frozen(
     InputError
         If the numbers are not finite, or not of that shape.
     """
-    array = numbers(value, name, error)
+    array = checked_numbers(value, name, error)
     if array.shape != shape and (array.size or 0 not in shape):
         raise error(f"must have shape {shape}", field=name, value=array.shape)
     if not np.isfinite(array).all():
@@ -106,18 +106,19 @@ def frozen(
     return read_only(array.reshape(shape) + 0.0)
 
 
-def freeze(
+def check_and_freeze(
     owner: Any,
     shapes: Mapping[str, tuple[int, ...]],
     prefix: str = "",
     error: type[InputError] = StepDataError,
 ) -> None:
-    """Replace fields of a frozen dataclass, of those shapes, by :func:`frozen` of them."""
+    """Replace fields of a frozen dataclass, of those shapes, by :func:`checked_array` of them."""
     for key, shape in shapes.items():
-        object.__setattr__(owner, key, frozen(getattr(owner, key), prefix + key, shape, error))
+        array = checked_array(getattr(owner, key), prefix + key, shape, error)
+        object.__setattr__(owner, key, array)
 
 
-def keep(owner: Any, *fields: str) -> None:
+def freeze_copies(owner: Any, *fields: str) -> None:
     """Replace fields of a frozen dataclass by read-only copies: what was given may change."""
     for field in fields:
         object.__setattr__(owner, field, read_only(np.array(getattr(owner, field))))

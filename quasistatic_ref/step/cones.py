@@ -65,7 +65,7 @@ CLAIMS: dict[str, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True, eq=False)
-class Cone:
+class FrictionCone:
     """A polyhedral friction cone: linear inequalities (rows) describe it.
 
     Parameters
@@ -140,11 +140,11 @@ class Cone:
         return row_violations
 
 
-class CurvedCone(Cone, ABC):
+class CurvedCone(FrictionCone, ABC):
     """A cone that no rows describe: an optional part, which proves its own answers.
 
     Each contact has four rows in A, J_n and its slips and spin, and as many multipliers. Everything
-    that :class:`Cone` does by its rows, and the core by exact rows, it does itself.
+    that :class:`FrictionCone` does by its rows, and the core by exact rows, it does itself.
     """
 
     @abstractmethod
@@ -231,7 +231,7 @@ def pyramid(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
     )
 
 
-def product(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
+def product_cone(gap: Any, slip_1: Any, slip_2: Any, spin: Any) -> Rows:
     r""":math:`|f_1|/\mu_v + |f_2|/\mu_v \le f_n` and :math:`|\tau|/\mu_\omega \le f_n`.
 
     Tangential force and torque do not reduce each other's limit. The rows are +d1, +d2, -d1, -d2,
@@ -275,7 +275,7 @@ def facets(K: int) -> ConeFunction:
 
 
 @cache
-def cone(name: str) -> Cone:
+def cone(name: str) -> FrictionCone:
     """The cone of a name.
 
     Parameters
@@ -294,19 +294,19 @@ def cone(name: str) -> Cone:
     sliding = ("+d1", "+d2", "-d1", "-d2")
     spin = ("+spin", "-spin")
     if name == PYRAMID:
-        return Cone(name, sliding + spin, 4, pyramid)
+        return FrictionCone(name, sliding + spin, 4, pyramid)
     if name == "product":
-        return Cone(name, tuple(d + s for s in spin for d in sliding), 4, product)
+        return FrictionCone(name, tuple(d + s for s in spin for d in sliding), 4, product_cone)
     if name == "frictionless":
-        return Cone(name, ("n",), 1, frictionless)
+        return FrictionCone(name, ("n",), 1, frictionless)
     if name == ELLIPSOID:
-        curved: Cone = needed_part("ellipsoid.cone", f'cone = "{name}"').ELLIPSOID_CONE
+        curved: FrictionCone = needed_part("ellipsoid.cone", f'cone = "{name}"').ELLIPSOID_CONE
         return curved
     prefix, _, sides = str(name).partition("-")
     if prefix == "facets" and sides.isascii() and sides.isdecimal() and str(int(sides)) == sides:
         K = int(sides)
         if K % 2 == 0 and 4 <= K <= MOST_FACETS:
-            return Cone(name, tuple(f"side {k}" for k in range(K)) + spin, K, facets(K))
+            return FrictionCone(name, tuple(f"side {k}" for k in range(K)) + spin, K, facets(K))
     problem = f"must be one of {', '.join(CONES)}, with K even and 4 to {MOST_FACETS}"
     raise StepDataError(f"{problem}{nearest_name(str(name), CONES)}", field="cone", value=name)
 
@@ -327,7 +327,7 @@ def cone_function(name: str) -> ConeFunction:
 
 
 def cone_matrix(name: str) -> Array:
-    """:attr:`Cone.matrix` of a polyhedral cone, (R, 4) [-]; errors of :func:`cone_function`."""
+    """The ``matrix`` of a polyhedral cone, (R, 4) [-]; errors of :func:`cone_function`."""
     cone_function(name)
     return cone(name).matrix
 

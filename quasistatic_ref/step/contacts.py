@@ -13,10 +13,10 @@ from quasistatic_ref.formats.shown import Shown
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
-    columns,
-    freeze,
-    names,
-    numbers,
+    check_and_freeze,
+    checked_names,
+    checked_numbers,
+    column_count,
     read_only,
 )
 from quasistatic_ref.tolerances import ORTHONORMAL
@@ -74,15 +74,15 @@ class Contacts(Plain, Shown):
 
     def __post_init__(self) -> None:
         self._check_all_but_J()
-        n_v = columns(self.J, "contacts.J", 3)
-        freeze(self, {"J": (len(self.name), 4, n_v)}, "contacts.")
+        n_v = column_count(self.J, "contacts.J", 3)
+        check_and_freeze(self, {"J": (len(self.name), 4, n_v)}, "contacts.")
 
     def _check_all_but_J(self) -> None:
-        object.__setattr__(self, "name", names(self.name, "contacts.name"))
+        object.__setattr__(self, "name", checked_names(self.name, "contacts.name"))
         n_c = len(self.name)
         scalars = dict.fromkeys(("phi", "mu_v", "mu_omega"), (n_c,))
         vectors = dict.fromkeys(("n", "d1", "d2"), (n_c, 3))
-        freeze(self, {**scalars, **vectors}, "contacts.")
+        check_and_freeze(self, {**scalars, **vectors}, "contacts.")
         self._check_rows(n_c)
         self._check_friction()
         self._check_frames(n_c)
@@ -136,7 +136,7 @@ class Contacts(Plain, Shown):
 
     def _check_rows(self, n_c: int) -> None:
         whole = isinstance(self.rows, np.ndarray) and self.rows.dtype == np.int64
-        rows = self.rows if whole else numbers(self.rows, "contacts.rows")
+        rows = self.rows if whole else checked_numbers(self.rows, "contacts.rows")
         if rows.shape != (n_c,) or not set(rows.tolist()) <= ROWS:
             problem = "must be 4 or 6 for each contact"
             raise StepDataError(problem, field="contacts.rows", value=rows.tolist())

@@ -21,10 +21,10 @@ from quasistatic_ref.step.arrays import (
     Array,
     Indices,
     Mask,
-    columns,
-    freeze,
-    names,
-    numbers,
+    check_and_freeze,
+    checked_names,
+    checked_numbers,
+    column_count,
     read_only,
 )
 from quasistatic_ref.step.cones import PYRAMID
@@ -58,10 +58,10 @@ class Extra(Plain, Shown):
     b: Array
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "names", names(self.names, "extra.names"))
-        n_v = columns(self.A, "extra.A", 2)
+        object.__setattr__(self, "names", checked_names(self.names, "extra.names"))
+        n_v = column_count(self.A, "extra.A", 2)
         m = len(self.names)
-        freeze(self, {"A": (m, n_v), "b": (m,)}, "extra.")
+        check_and_freeze(self, {"A": (m, n_v), "b": (m,)}, "extra.")
 
 
 @lru_cache(maxsize=8)
@@ -185,8 +185,8 @@ class StepData(Plain, Shown):
         }
         for key, value in given.items():
             object.__setattr__(self, key, value)
-        freeze(self, {"K_q": (n_a, n_a), "M_u": (n_u, n_u)})
-        freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
+        check_and_freeze(self, {"K_q": (n_a, n_a), "M_u": (n_u, n_u)})
+        check_and_freeze(self, {"tau_a": (n_a,), "tau_u": (n_u,), "delta_q_bar_a": (n_a,)})
         for key in ("K_q", "M_u"):
             object.__setattr__(self, key, positive_definite(key, getattr(self, key)))
 
@@ -225,24 +225,24 @@ class StepData(Plain, Shown):
         return int(self.offsets[-1]) + len(self.extra.names)
 
     @cached_property
-    def layout(self) -> RowLayout:
+    def row_layout(self) -> RowLayout:
         """Which rows of the cone the contacts have; one object for steps that have the same."""
         return row_layout(self.cone, self.contacts.rows.tobytes())
 
     @cached_property
     def counts(self) -> Indices:
         """Number of multipliers of each contact, shape (n_c,); in a polyhedral cone, of rows."""
-        return self.layout.counts
+        return self.row_layout.counts
 
     @cached_property
     def mask(self) -> Mask:
         """Which of the cone's rows each contact has, shape (n_c, R)."""
-        return self.layout.mask
+        return self.row_layout.mask
 
     @cached_property
     def offsets(self) -> Indices:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
-        return self.layout.offsets
+        return self.row_layout.offsets
 
     @cached_property
     def H(self) -> Array:
@@ -303,7 +303,7 @@ def hessian_blocks(h: float, K_q: Array, M_u: Array) -> tuple[Array, Array]:
 
 def seconds(h: Any) -> float:
     """A time step h [s], checked; StepDataError unless it is a positive number."""
-    value = numbers(h, "h")
+    value = checked_numbers(h, "h")
     if value.shape != () or not 0 < value < np.inf:
         raise StepDataError("must be a positive number of seconds", field="h", value=h)
     return float(value)

@@ -14,7 +14,7 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.step.arrays import Array, Indices, frozen, keep
+from quasistatic_ref.step.arrays import Array, Indices, checked_array, freeze_copies
 
 if TYPE_CHECKING:
     import cvxpy as cp
@@ -85,8 +85,9 @@ class Rises(Plain):
             object.__setattr__(self, name, np.array(getattr(self, name), dtype=np.int64))
         p = len(self.coordinates) + len(self.contacts)
         for name in ("loads", "masses"):
-            object.__setattr__(self, name, frozen(getattr(self, name), f"rises.{name}", (p,)))
-        keep(self, "coordinates", "contacts")
+            array = checked_array(getattr(self, name), f"rises.{name}", (p,))
+            object.__setattr__(self, name, array)
+        freeze_copies(self, "coordinates", "contacts")
         if (self.loads < 0).any():
             problem = "must be >= 0: friction holds, it does not push"
             raise StepDataError(problem, field="rises.loads", value=self.loads.tolist())

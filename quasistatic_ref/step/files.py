@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from quasistatic_ref.errors import StepDataError, about_file
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import json_read, json_text, text_written
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.step.cones import PYRAMID
 from quasistatic_ref.step.data import Contacts, Extra, StepData
 
@@ -53,7 +53,7 @@ def step_from_record(record: Any) -> StepData:
     StepDataError
         Naming the field and the value; unknown fields are refused.
     """
-    top = Fields(record, error=StepDataError)
+    top = TableReader(record, error=StepDataError)
     top.check_format(STEP_FORMAT, VERSION)
     cone = top.text("cone", PYRAMID)
     h = top.number("h", above=0.0)
@@ -104,9 +104,9 @@ def step_written(path: str | Path, step: StepData) -> Path:
     return text_written(path, step_text(step))
 
 
-def _contacts(top: Fields, n_v: int) -> Contacts:
+def _contacts(top: TableReader, n_v: int) -> Contacts:
     each = [
-        _contact(Fields(record, f"contacts[{j}]", StepDataError), n_v)
+        _contact(TableReader(record, f"contacts[{j}]", StepDataError), n_v)
         for j, record in enumerate(top.sequence("contacts"))
     ]
     columns: dict[str, Any] = {key: [contact[key] for contact in each] for key in CONTACT}
@@ -114,7 +114,7 @@ def _contacts(top: Fields, n_v: int) -> Contacts:
     return Contacts(**columns)
 
 
-def _contact(one: Fields, n_v: int) -> dict[str, Any]:
+def _contact(one: TableReader, n_v: int) -> dict[str, Any]:
     found = {
         "name": one.text("name"),
         "phi": one.number("phi"),
@@ -127,7 +127,7 @@ def _contact(one: Fields, n_v: int) -> dict[str, Any]:
     return found
 
 
-def _extra(top: Fields, n_v: int) -> Extra:
+def _extra(top: TableReader, n_v: int) -> Extra:
     extra_table = top.table("extra", {"names": [], "A": [], "b": []})
     names = extra_table.words("names")
     extra = Extra(

@@ -63,7 +63,7 @@ def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
     return np.array(rows).swapaxes(0, 1)
 
 
-def row_gaps(contacts: Contacts, name: str = PYRAMID) -> Array:
+def row_constants(contacts: Contacts, name: str = PYRAMID) -> Array:
     """The constant term of each row [m]: phi; in a curved cone phi in the row J_n, otherwise 0.
 
     Returns

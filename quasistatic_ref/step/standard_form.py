@@ -10,7 +10,7 @@ import numpy as np
 
 from quasistatic_ref.formats.shown import html_of, text_of
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import friction_rows, row_gaps
+from quasistatic_ref.step.friction import friction_rows, row_constants
 from quasistatic_ref.step.ordered import product
 
 
@@ -59,7 +59,7 @@ def standard_form(step: StepData) -> StandardForm:
     ((6, 6), (6, 6))
     """
     A = friction_rows(step.contacts, step.cone)[step.mask]  # Eq. (8)
-    b = -row_gaps(step.contacts, step.cone)[step.mask]  # Eq. (8)
+    b = -row_constants(step.contacts, step.cone)[step.mask]  # Eq. (8)
     if step.extra.names:
         A = np.vstack([A, step.extra.A])
         b = np.concatenate([b, step.extra.b])

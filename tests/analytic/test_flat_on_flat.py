@@ -5,15 +5,14 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from quasistatic_ref.contact.separations import BISECTOR, OF_CLOUD, OF_PAIR, OWN, SAYS
+from quasistatic_ref.contact.separations import BISECTOR, OF_PAIR, OWN, SAYS
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.shapes.placed_shape import Box, PointCloud
+from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.tolerances import CLOSED_FORM
 from validation.make.forces_by_hand import (
     BOX,
     EDGE,
     FAMILIES,
-    HALF,
     STRAIGHT,
     UP,
     Scene,
@@ -54,13 +53,3 @@ def test_corners_over_an_edge_have_the_normal_of_the_pair_over_a_face_its_own(ha
     points = side_by_side([0.0, 0.0, EDGE], Box(np.array([half, half, 0.5]) * EDGE)).points
     near = np.abs(points.phi) < CLOSED_FORM
     assert points.tie[near].tolist() == [tie] * 4
-
-
-def test_a_cloud_takes_the_face_along_which_it_is_farthest_out():
-    # Side by side the cloud's face x = 0.05 is flush with the box's, and so are y and z.
-    for way in np.eye(3):
-        result = side_by_side(EDGE * way, shape=PointCloud(BOX.corners(UP)[0]))
-        near = result.points.phi < HALF
-        assert near.sum() == 4
-        np.testing.assert_allclose(result.points.n[near], [way] * 4, atol=CLOSED_FORM)
-        assert [*result.tied.values()] == [SAYS[OF_CLOUD]] * 4

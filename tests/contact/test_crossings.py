@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.crossings import crossings
+from quasistatic_ref.contact.crossings import Edges, crossings, edge_crossings, edges, line
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder
 from tests.tolerances import ROUNDING
@@ -107,3 +107,39 @@ def test_rims_of_tilted_discs_do_not_cross_outside_of_them(swapped):
     a, b, n = (top, low, -UP) if swapped else (low, top, UP)
     found = crossings(a, b, touches, touches, n)
     assert (np.sum((found.beta - found.alpha) * n, axis=1) >= -ROUNDING).all()
+
+
+def test_the_line_of_a_cone_leads_from_its_rim_to_its_tip_where_its_side_faces_a_way():
+    # The side of this cone is at 45 degrees.
+    cone = Cone(0.2, 0.1)
+    ends, number = line(cone, 0.0, 0.2, np.array([0.6, 0.8, 1.0]) / np.sqrt(2))
+    np.testing.assert_allclose(ends, [[[0.12, 0.16, -0.1], [0, 0, 0.1]]], atol=ROUNDING)
+    assert number.tolist() == [0]
+    assert not line(cone, 0.0, 0.2, UP)[0].size
+
+
+def diagonal(up):
+    """The normal of the edge between the faces x and z of a box, turned up along the edge [rad]."""
+    return np.array([np.cos(up) / np.sqrt(2), np.sin(up), np.cos(up) / np.sqrt(2)])
+
+
+@pytest.mark.parametrize(
+    ("x", "n", "number"),
+    [
+        ([0, 0, 100 - 1e-8], UP, 4),  # a face, but for 1e-10 of the size
+        ([100, 0, 100], diagonal(0.2), 1),
+        ([100, 0, 100], diagonal(0.3), 0),
+        ([100, 100, 100], np.full(3, np.sqrt(1 / 3)), 0),
+    ],
+)
+def test_edges_may_bear_of_faces_that_face_a_way_and_as_level_ones(x, n, number):
+    body = ShapeInWorld(Box(np.full(3, 100.0)), STRAIGHT, ORIGIN)
+    assert len(edges(body, np.array(x), n).ends) == number
+
+
+@pytest.mark.parametrize("length", [1e-3, 1e3])
+@pytest.mark.parametrize(("angle", "number"), [(1e-5, 1), (1e-7, 0)])
+def test_edges_cross_at_an_angle_above_skew_however_long_they_are(angle, number, length):
+    ways = length * np.array([[1.0, 0.0, 0.0], [np.cos(angle), np.sin(angle), 0.0]])
+    a, b = (Edges(np.array([[-way, way]]), np.zeros(1, dtype=int), 1) for way in ways)
+    assert len(edge_crossings(a, b, UP).number) == number

@@ -4,7 +4,15 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.distance import (
+    ClosestPoints,
+    closest_points,
+    every_candidate,
+    joined_contacts,
+    number_within,
+    ranked_last,
+)
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import (
@@ -15,10 +23,13 @@ from quasistatic_ref.shapes.placed_shape import (
     PointCloud,
     Sphere,
 )
+from quasistatic_ref.tolerances import REPEATED
 from tests.contact.still import found_for, pair, placed, standing
 from tests.tolerances import EXACT, SIGNED_DISTANCE
 
-Z = np.eye(3)[2]
+X, _, Z = np.eye(3)
+FLOOR = HalfSpace(Z, 0.0)
+CUBE = Box(np.full(3, 0.25))
 SOLIDS = {
     "sphere": Sphere(0.1),
     "box": Box(np.array([0.1, 0.15, 0.2])),
@@ -59,7 +70,7 @@ def test_a_cloud_s_contacts_are_its_nearest_points_by_brute_force(name, rng):
 
 
 def test_pairs_follow_one_another_each_nearest_first(rng):
-    floor = placed(HalfSpace(Z, 0.0))
+    floor = placed(FLOOR)
     ball = placed(Sphere(0.1), 2)
     cloud = placed(PointCloud(rng.uniform(-0.4, 0.4, size=(20, 3))), 1)
     kinematics = standing(random_pose(rng, 0.2), random_pose(rng, 0.3))
@@ -82,3 +93,99 @@ def test_a_pose_that_is_not_finite_is_refused() -> None:
     still = Kinematics(np.full((1, 3, 3), np.nan), np.zeros((1, 3)), np.zeros((6, 0)))
     with pytest.raises(ContactError, match="poses: must be finite"):
         closest_points([], still)
+
+
+def listed(phi, x, number):
+    """Candidates at distances phi [m], at places along the x axis [m], with their numbers."""
+    alpha = np.outer(x, X)
+    n = np.tile(Z, (len(phi), 1))
+    return ClosestPoints(phi, alpha, alpha + phi[:, None] * n, n, number, 0 * number)
+
+
+@pytest.mark.parametrize(
+    ("k", "crossing", "nearest"),
+    [(2, True, True), (3, False, True), (4, False, True), (5, False, False)],
+)
+def test_crossings_rank_last_if_k_corners_are_as_near_and_the_closest_pair_if_k_others_are(
+    k, crossing, nearest
+):
+    # Three corners, two of them as near as is rounding; two crossings; the closest pair.
+    phi = np.array([0.5, REPEATED, REPEATED, 0.0, 0.0, 0.0])
+    number = np.array([0, 1, 2, 7, 8, 5])
+    found = ranked_last(listed(phi, np.arange(6.0), number), k)
+    assert found.tolist() == [False] * 3 + [crossing] * 2 + [nearest]
+
+
+def test_a_candidate_that_repeats_an_earlier_one_ranks_last():
+    x = np.array([0.0, REPEATED, 3 * REPEATED, 1.0])
+    found = ranked_last(listed(np.zeros(4), x, np.arange(4)), 4)
+    assert found.tolist() == [False, True, False, False]
+
+
+def test_zero_is_never_minus_zero():
+    points = listed(-np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
+    found = joined_contacts([points.swapped()])
+    assert np.signbit([*found.phi, *found.n[0]]).tolist() == [False, False, False, True]
+
+
+def test_candidates_are_counted_that_are_no_farther_than_the_nearest_by_more_than_a_length():
+    # The lower corners of a cube are 0.5 m above the floor, the upper ones 0.5 m higher.
+    one = pair(placed(FLOOR), placed(CUBE, 1))
+    kinematics = standing((np.eye(3), 0.75 * Z))
+    found = [number_within(one, kinematics.R, kinematics.t, within) for within in (0, 0.25, 0.5)]
+    assert found == [4, 4, 8]
+    assert closest_points([one], kinematics).point.tolist() == [0]
+
+
+def test_cubes_that_overlap_by_a_corner_touch_with_the_corners_of_the_common_square():
+    # The square leads from (0, 0) to (0.25, 0.25). Corners count from 0 (binary: x lowest), alpha's
+    # first: the upper one of alpha is 7, the lower one of beta 8. Of the 12 edges, counted by axis,
+    # alpha's are 3 (along x) and 7 (along y), beta's 0 and 4.
+    there = standing((np.eye(3), np.array([0.25, 0.25, 0.5])))
+    found = found_for(placed(CUBE), placed(CUBE, 1), there, 4)
+    crossings = 16 + 4 + 2 * (12 * np.array([3, 7]) + [4, 0])
+    assert found.point.tolist() == [7, 8, *crossings]
+    assert found.alpha[:, :2].tolist() == [[0.25, 0.25], [0, 0], [0, 0.25], [0.25, 0]]
+
+
+def test_a_capsule_that_lies_above_a_box_has_its_contacts_below_the_centres_of_its_caps():
+    table = Box(np.array([1.0, 1.0, 0.5]))
+    along_x = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
+    there = standing((along_x, 1.0 * Z))
+    found = found_for(placed(table), placed(Capsule(0.125, 0.25), 1), there, 2)
+    assert found.phi.tolist() == [0.375, 0.375]  # 1 - 0.125 - 0.5
+    assert found.alpha.tolist() == [[-0.25, 0, 0.5], [0.25, 0, 0.5]]
+    assert found.beta.tolist() == [[-0.25, 0, 0.875], [0.25, 0, 0.875]]
+
+
+@pytest.mark.parametrize(
+    ("radial", "tilt", "first"), [(0.5, 0.2, 1.0), (0.25, 0.2, 2.5), (0.5, 0.0, 0.0)]
+)
+def test_a_rim_s_first_corner_is_towards_the_closest_point_on_it_or_else_along_the_normal(
+    radial, tilt, first
+):
+    # The closest point is 1 rad from the x axis, the other body along a normal that is tilted to
+    # 2.5 rad. Where the rim is level, its first corner is on the x axis.
+    half = 1.0
+    t = np.array([3.0, -2.0, 5.0])
+    beta = t + np.array([radial * np.cos(1.0), radial * np.sin(1.0), -half])
+    level = np.sin(tilt)
+    n = -np.array([level * np.cos(2.5), level * np.sin(2.5), -np.cos(tilt)])
+    nearest = listed(np.zeros(1), np.zeros(1), np.zeros(1, dtype=int))
+    nearest = nearest._replace(alpha=beta[None], beta=beta[None], n=n[None])
+    rimmed = Cylinder(0.5, half)
+    one = pair(placed(FLOOR), placed(rimmed, 1), 2)
+    a = ShapeInWorld(FLOOR, np.eye(3), np.zeros(3))
+    found = every_candidate(one, a, ShapeInWorld(rimmed, np.eye(3), t), nearest)
+    angle = first + np.arange(4) * np.pi / 2
+    expected = t + np.column_stack([0.5 * np.cos(angle), 0.5 * np.sin(angle), np.full(4, -half)])
+    np.testing.assert_allclose(found.beta[:4], expected, rtol=EXACT, atol=SIGNED_DISTANCE)
+
+
+def test_bars_that_cross_touch_where_their_edges_do_and_not_at_the_closest_pair_again():
+    along_x = placed(Box(np.array([0.5, 0.25, 0.25])))
+    along_y = placed(Box(np.array([0.25, 0.5, 0.25])), 1)
+    found = found_for(along_x, along_y, standing((np.eye(3), 0.5 * Z)), 4)
+    square = [[x, y] for x in (-0.25, 0.25) for y in (-0.25, 0.25)]
+    assert sorted(found.alpha[:, :2].tolist()) == square
+    assert (found.point > 16).all()  # the closest pair's number, after 16 corners

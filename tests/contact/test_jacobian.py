@@ -25,8 +25,9 @@ ALONG_AXES = {
 
 @pytest.mark.parametrize(("n", "d1", "d2"), ALONG_AXES.values(), ids=ALONG_AXES)
 def test_tangents_of_a_normal_along_an_axis_are_axes(n, d1, d2):
-    found = tangents(n[None])
+    found = tangents(n[None] + 0.0)  # as in contacts zero is 0.0
     np.testing.assert_allclose(found, [[d1], [d2]], rtol=EXACT, atol=EXACT)
+    assert not np.signbit(found)[np.array(found) == 0].any()
 
 
 def test_d1_is_the_projection_of_the_world_axis_farthest_from_n_and_d2_is_n_x_d1(rng):
@@ -78,6 +79,15 @@ def test_contacts_are_those_of_the_pairs_in_order(tmp_path, rng):
     )
     for name, value in {"phi": points.phi, "n": points.n, "d1": d1, "d2": d2, "J": J}.items():
         np.testing.assert_allclose(getattr(found, name), value, rtol=EXACT, atol=EXACT)
+
+
+def test_the_world_does_not_move(tmp_path):
+    system = chain_scene(tmp_path)
+    kinematics = system.kinematics(system.q_start)
+    world = np.zeros(1, dtype=int)
+    x = np.ones((1, 3))
+    J = contact_jacobian(kinematics, world, world, x, -x, Z[None])
+    assert J.tobytes() == np.zeros((1, 4, system.n_v)).tobytes()  # never -0.0
 
 
 def test_no_pairs_make_no_contacts(tmp_path):

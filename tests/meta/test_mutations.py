@@ -35,8 +35,8 @@ SAMPLE = {
         "[mu_v * f_d2, mu_v * f_d1, f_n, mu_omega * tau_n]",
     ),
     "certify/test_residuals.py::test_a_planted_optimum_has_no_residual": (
-        f"{FORM} standard_form: -row_gaps(step.contacts, step.cone)[step.mask] -> "
-        "row_gaps(step.contacts, step.cone)[step.mask]",
+        f"{FORM} standard_form: -row_constants(step.contacts, step.cone)[step.mask] -> "
+        "row_constants(step.contacts, step.cone)[step.mask]",
         f"{FORM} linear_term: tau_k + step.tau_a -> tau_k - step.tau_a",
         f"{CONES} row_violations: -slack -> slack",
         f"{CONES} row_violations: -lam -> lam",
@@ -82,7 +82,7 @@ SAMPLE = {
         "cli/decimals.py decimal_string: exponent - digits + 1 -> exponent - digits - 1",
     ),
     "certify/test_farkas.py::test_false_proofs_are_refused_with_a_reason": (
-        f"{FRICTION} row_gaps: cone(name).matrix[:, 0] -> cone(name).matrix[:, 1]",
+        f"{FRICTION} row_constants: cone(name).matrix[:, 0] -> cone(name).matrix[:, 1]",
         f"{FARKAS} farkas_refutation: y_i < 0 -> y_i > 0",
         f"{FARKAS} farkas_refutation: (row * form.b)[0, 0] > 0 -> (row * form.b)[0, 0] >= 0",
     ),

@@ -1,4 +1,4 @@
-"""A default run executes what contributing.md tells a reader to read."""
+"""A default run first calls functions in the order in which contributing.md tells to read them."""
 
 import re
 import sys
@@ -9,33 +9,42 @@ from quasistatic_ref.scenario.scenario import load_scenario
 
 PACKAGE = Path(quasistatic_ref.__file__).parent
 PAGE = PACKAGE.parent / "docs" / "contributing.md"
-FILE = re.compile(r"^\d+\. `([\w/]+\.py)`: (.*)$", re.MULTILINE)
-NAME = re.compile(r"`([A-Z]?\w+(?:\.\w+)?)`")
-NOT_CALLED = {"certify/certificate.py: verify"}
+ITEM = re.compile(r"^\d+\. (.*)$", re.MULTILINE)
+FILE = re.compile(r"`([\w/]+\.py)`")
+NAME = re.compile(r"`(\w+(?:\.\w+)?)`")
+NOT_CALLED = ["verify"]
 """Named as a function that no step calls."""
 
 
 def named():
-    """``FILE: NAME`` of each function in the list; a class stands for its constructor."""
+    """(name, the files of its item) of each function; the name of a class is its constructor's."""
     section = PAGE.read_text().partition("## Read the code")[2].partition("\n## ")[0]
-    for file, words in FILE.findall(section):
-        for name in NAME.findall(words):
-            yield (
-                f"{file}: {name}.__init__"
-                if name[0].isupper() and "." not in name
-                else (f"{file}: {name}")
-            )
+    for words in ITEM.findall(section):
+        files = [f"{PACKAGE}/{file}" for file in FILE.findall(words)]
+        for name in NAME.findall(FILE.sub("", words)):
+            is_class = name[0].isupper() and "." not in name
+            yield (f"{name}.__init__" if is_class else name), files
 
 
-def test_a_run_executes_the_functions_that_the_reading_path_names():
-    codes = set()
+def test_a_run_first_calls_functions_in_the_order_of_the_reading_path():
+    first_calls = {}
+
+    def note(frame, event, _):
+        code = frame.f_code
+        if event == "call":
+            first_calls.setdefault((code.co_filename, code.co_qualname), len(first_calls))
+
     before = sys.getprofile()
-    sys.setprofile(lambda frame, event, _: codes.add(frame.f_code))
+    sys.setprofile(note)
     try:
         load_scenario("bunny_grasp", steps=1).run(progress=False)
     finally:
         sys.setprofile(before)
-    executed = {f"{code.co_filename}: {code.co_qualname}" for code in codes}
-    names = list(named())
-    assert len(names) > 12
-    assert {name for name in names if f"{PACKAGE}/{name}" not in executed} == NOT_CALLED
+    places = {}
+    for name, files in named():
+        found = [first_calls[file, name] for file in files if (file, name) in first_calls]
+        places[name] = min(found, default=None)
+    assert len(places) > 30
+    assert [name for name, place in places.items() if place is None] == NOT_CALLED
+    called = [name for name in places if name not in NOT_CALLED]
+    assert called == sorted(called, key=places.get)

@@ -3,12 +3,12 @@
 import pytest
 
 from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.scenario.paths import path_in, shared_folders
 
 
 def found(folder, address):
-    return path_in(folder, Fields({"urdf": address}, "bodies.arm", ScenarioError), "urdf")
+    return path_in(folder, TableReader({"urdf": address}, "bodies.arm", ScenarioError), "urdf")
 
 
 @pytest.fixture

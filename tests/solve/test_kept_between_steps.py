@@ -9,7 +9,7 @@ from quasistatic_ref.certify.solution import step_solution
 from quasistatic_ref.errors import StepDataError, StepNotSolved
 from quasistatic_ref.solve import solve
 from quasistatic_ref.solve.backends import UNSAFE
-from quasistatic_ref.solve.solve import LARGE, _far_from_largest, solve_step
+from quasistatic_ref.solve.solve import FACTOR_LIMIT, _far_from_largest, solve_step
 from quasistatic_ref.solve.solver import solver_for
 from quasistatic_ref.solve.units import DenseStepInBothUnits
 from quasistatic_ref.step.data import Extra
@@ -73,14 +73,14 @@ def test_a_wrench_that_is_not_finite_is_refused_where_anything_is_claimed(monkey
 
 
 def test_wrenches_are_finite_where_mu_and_lam_are_below_the_largest_by_far():
-    """Each of mu'mu + lam'lam and 1 / h is below LARGE = 2^200; the square of 2^101 is 2^202."""
+    """Each of mu'mu + lam'lam and 1 / h is below 2^200; the square of 2^101 is 2^202."""
 
     def far(mu, lam, h=0.01):
         contacts = SimpleNamespace(mu=np.array([[mu, mu, 0.0]]))
         step = SimpleNamespace(h=h, contacts=contacts)
         return _far_from_largest(SimpleNamespace(step=step, lam=np.array([lam, lam])))
 
-    assert LARGE == 2.0**200
+    assert FACTOR_LIMIT == 2.0**200
     assert far(0.5, 1.0)
     assert not far(2.0**101, 1.0)
     assert not far(0.5, 2.0**101)

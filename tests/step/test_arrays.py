@@ -6,18 +6,18 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.step.arrays import numbers
+from quasistatic_ref.step.arrays import checked_numbers
 
 
 def test_numbers_are_float64_and_no_copy_where_they_are_already():
     given = np.array([1.0, 2.0])
-    assert numbers(given, "x") is given
+    assert checked_numbers(given, "x") is given
     for value in (np.array([1, 2]), np.array([1, 2], dtype=np.float32), [1, 2]):
-        assert numbers(value, "x").dtype == np.float64
-        assert numbers(value, "x").tolist() == [1.0, 2.0]
+        assert checked_numbers(value, "x").dtype == np.float64
+        assert checked_numbers(value, "x").tolist() == [1.0, 2.0]
 
 
 def test_an_empty_array_of_objects_holds_no_number_that_is_none():
-    assert numbers(np.array([], dtype=object), "x").dtype == np.float64
+    assert checked_numbers(np.array([], dtype=object), "x").dtype == np.float64
     with pytest.raises(StepDataError, match="must be numbers"):
-        numbers([Fraction(1, 2)], "x")
+        checked_numbers([Fraction(1, 2)], "x")

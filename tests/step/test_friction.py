@@ -8,7 +8,7 @@ from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.step.friction import (
     contact_wrenches,
     friction_rows,
-    row_gaps,
+    row_constants,
 )
 from tests.helpers import point_on_floor, random_step
 from tests.tolerances import EXACT, ROUNDING
@@ -41,7 +41,7 @@ def test_the_gap_adds_to_the_motion_along_the_normal_of_an_ellipsoid(rng):
     """gap, slip_1, slip_2 and spin without motion: (phi, 0, 0, 0)."""
     contacts = random_step(rng, rows=(4, 6)).contacts
     expected = [[phi, 0.0, 0.0, 0.0] for phi in contacts.phi]
-    actual = row_gaps(contacts, "ellipsoid")
+    actual = row_constants(contacts, "ellipsoid")
     np.testing.assert_allclose(actual, expected, rtol=EXACT, atol=EXACT)
 
 

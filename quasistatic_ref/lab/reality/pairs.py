@@ -8,9 +8,9 @@ from typing import Final
 import numpy as np
 
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import json_read
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.tables import PAIR, table_read
 
@@ -94,8 +94,8 @@ def pairs_read(folder: Path, only: Sequence[str] = ()) -> list[Pair]:
 def outlines_read(path: Path) -> dict[str, Outline]:
     """Outlines by name: lists of vertices (x, y) in the object's frame [m]."""
     with about_file(path):
-        fields = Fields(json_read(path))
-        return {name: Outline(fields.array(name, (None, 2))) for name in fields.names()}
+        fields = TableReader(json_read(path))
+        return {name: Outline(fields.array(name, (None, 2))) for name in fields.names_left()}
 
 
 def published_ratio(row: Mapping[str, float]) -> float | None:

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any, Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import json_read, plain, text_written
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
 
@@ -74,7 +74,7 @@ def inputs_read(folder: str | Path, layer: str) -> list[Case]:
         shapes = top.take("shapes", {})
         cases = []
         for i, entry in enumerate(top.sequence("cases")):
-            one = Fields(entry, f"cases[{i}]")
+            one = TableReader(entry, f"cases[{i}]")
             given = _whole(one.take("input"), shapes)
             cases.append(Case(one.text("id"), one.text("provenance"), given))
             one.close()
@@ -97,7 +97,7 @@ def expected_read(folder: str | Path, layer: str) -> dict[str, dict[str, Json]]:
         top = opened(path, EXPECTED, layer)
         records = top.sequence("cases")
         top.close()
-        ids = [Fields(record, f"cases[{i}]").text("id") for i, record in enumerate(records)]
+        ids = [TableReader(record, f"cases[{i}]").text("id") for i, record in enumerate(records)]
         _check_ids(ids)
     except InputError as error:
         raise error.in_file(path) from None
@@ -121,9 +121,9 @@ def check_layer(name: str) -> str:
     return name
 
 
-def opened(path: Path, wanted: str, layer: str) -> Fields:
+def opened(path: Path, wanted: str, layer: str) -> TableReader:
     """The fields of a file after its head, which says its format, version and layer."""
-    top = Fields(json_read(path))
+    top = TableReader(json_read(path))
     top.check_format(wanted, VERSION)
     top.text("layer", choices=(layer,))
     return top
@@ -143,7 +143,7 @@ def _whole(value: Json, shapes: Json) -> Json:
         return value
     if value.get("kind") != SHARED:
         return {key: _whole(one, shapes) for key, one in value.items()}
-    name = Fields(value).text("name")
+    name = TableReader(value).text("name")
     if name not in shapes:
         raise InputError("is not a shape of this file", field="shapes", value=name)
     return shapes[name]

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import bytes_read, json_read
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.vectors.layers import LAYERS
 
 NAME: Final = "quasi-dynamic vectors"
@@ -92,14 +92,14 @@ def manifest(folder: Path) -> tuple[int, dict[str, str]]:
     path = folder / MANIFEST
     files = {}
     try:
-        top = Fields(json_read(path))
+        top = TableReader(json_read(path))
         top.check_format(FORMAT, FORMAT_VERSION)
         release = top.integer("release", least=1)
         for i, entry in enumerate(top.sequence("files")):
-            one = Fields(entry, f"files[{i}]")
+            one = TableReader(entry, f"files[{i}]")
             name = one.text("path")
             if not PLAIN.fullmatch(name):
-                raise one.fail("path", "is no path inside the folder", name)
+                raise one.error_about("path", "is no path inside the folder", name)
             files[name] = one.text("sha256")
     except InputError as error:
         raise error.in_file(path) from None

@@ -23,7 +23,7 @@ from quasistatic_ref.step.arrays import Array, finite, read_only
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import frame_jacobian
-from quasistatic_ref.tolerances import ACCURACY, COULOMB
+from quasistatic_ref.tolerances import ACCURACY, COULOMB_RESIDUAL
 
 MOST = 200
 """Iterates after which no solution is claimed."""
@@ -113,7 +113,7 @@ def coulomb_step(
         solution = solve_step(raised, solver, accuracy=accuracy)
         own = slip_norms(step, solution.delta_q)
         residual = largest(np.abs(own - s))
-        found = residual <= COULOMB * largest(longest_slips(step, solution.delta_q))
+        found = residual <= COULOMB_RESIDUAL * largest(longest_slips(step, solution.delta_q))
     return CoulombSolution(
         **field_values(solution),
         found=found,

@@ -25,7 +25,7 @@ from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from quasistatic_ref.shapes.placed_shape import Box, Ellipsoid, Shape
 from quasistatic_ref.shapes.revolved import Revolved
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.tolerances import SUPPORT, WITNESS
+from quasistatic_ref.tolerances import SUPPORT_DEFECT, WITNESS
 
 ACCURACIES = (1e-10, 1e-8, 1e-6)
 """Tolerances of coal, tried in turn: the tighter ones sometimes end without an answer."""
@@ -143,7 +143,7 @@ def _by_coal(a: ShapeInWorld, b: ShapeInWorld) -> Judged:
         # NaN compares as false: it never becomes the best unless there is nothing else.
         if best is None or not np.isfinite(best.defect) or found.defect < best.defect:
             best = found
-        if best.defect <= SUPPORT * np.abs(a.t - b.t).max():
+        if best.defect <= SUPPORT_DEFECT * np.abs(a.t - b.t).max():
             break
     assert best is not None
     return best

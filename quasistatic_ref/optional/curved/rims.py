@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.contact.crossings import (
-    FACES,
+    FACE_COSINE,
     ROUND,
     UP,
     Crossings,
@@ -90,7 +90,7 @@ def touching(body: ShapeInWorld, x: Array, n: Array) -> Curves:
         straight = Edges(rotated(body.R, ends) + body.t, number, ROUND)
     else:
         straight = edges(body, x, n)
-    rims = [(z, i) for z, i in _rim_heights(shape) if np.sign(z) * way[2] >= FACES]
+    rims = [(z, i) for z, i in _rim_heights(shape) if np.sign(z) * way[2] >= FACE_COSINE]
     centre = np.array([[0.0, 0.0, z] for z, _ in rims]).reshape(-1, 3)
     return Curves(
         straight,

@@ -4,24 +4,62 @@ r"""How all data of a step change with what the step is a function of.
 :eq:`eq-13` and the motion of the contacts, and with them the optimum as (R33) says.
 """
 
-from functools import partial
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from quasistatic_ref.optional.derivatives.model.mass_rates import MassRates
 from quasistatic_ref.optional.derivatives.model.tangent import difference_rates
 from quasistatic_ref.optional.derivatives.row_rates import RowRates
+from quasistatic_ref.optional.derivatives.step.load_rates import load_rates
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.solve.units import natural_units
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import frame_jacobian
 
+Places = Mapping[str, slice]
+"""Which columns each field of the derivatives has, among all parameters."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pull:
+    """What multipliers of gap, slips and spin exert, by all parameters.
+
+    Parameters
+    ----------
+    rows : RowRates
+        By q.
+    by_friction : mapping of str to ndarray, shape (n_c, 4, n_v)
+        By a coefficient of friction of each contact, of gap, slips and spin [m or rad per unit].
+    of_pair : ndarray, shape (n_c, pairs)
+        1 where a contact is of a pair, else 0 [-].
+    places : mapping of str to slice
+        Which columns each field of the derivatives has.
+    shape : (int, int)
+        n_v and the number of parameters.
+    """
+
+    rows: RowRates
+    by_friction: Mapping[str, Array]
+    of_pair: Array
+    places: Places
+    shape: tuple[int, int]
+
+    def __call__(self, y: Array) -> Array:
+        """Derivatives of the generalised impulse of y (n_c, 4), shape (n_v, P) [N s per unit]."""
+        found = np.zeros(self.shape)
+        found[:, self.places["dq_dq"]] = self.rows.pull(y)
+        for name, J in self.by_friction.items():
+            found[:, self.places[name]] = np.einsum("jiv,ji->vj", J, y) @ self.of_pair
+        return found
+
 
 def data_rates(
     simulator: Simulator, step: StepData, x: Array, rows: RowRates, masses: MassRates
-) -> dict[str, DataRates]:
-    """The data's derivatives by each field of the derivatives, in their order.
+) -> tuple[DataRates, Places]:
+    """The data's derivatives by all parameters, and which of them are of which field.
 
     Parameters
     ----------
@@ -34,35 +72,56 @@ def data_rates(
     """
     h = step.h
     n_a = step.n_a
-    n_v = step.n_v
-    n_c = step.contacts.n_c
-    by_q, by_target = difference_rates(simulator.system.joints, step.delta_q_bar_a)
+    contacts = step.contacts
+    pairs = simulator.pairs
+    joints = simulator.system.joints
+    target_by_q, target_by_next = difference_rates(joints, step.delta_q_bar_a)
     gravity = np.array(simulator.gravity)
-    acts = simulator.gravity_acts[:, None]
+    acts = simulator.gravity_factor[:, None]
     un_actuated = np.concatenate([np.zeros(n_a), x[n_a:]])
 
-    load_q = h * acts * masses.gravity_rates(gravity)
-    load_q[:n_a, :n_a] += h * step.K_q @ by_q
-    if not simulator.system.constant_mass_matrix and n_a < n_v:
-        load_q[n_a:] -= masses.inertial_force_rates(un_actuated)[n_a:] / h
-    targets = np.zeros((n_v, n_a))
-    targets[:n_a] = h * step.K_q @ by_target
-    springs = np.zeros((n_v, n_a))
-    springs[:n_a] = np.diag(h * (step.delta_q_bar_a - x[:n_a]))
     tau = np.concatenate([step.tau_a, step.tau_u])
-    tau[:n_a] += step.K_q @ (step.delta_q_bar_a - x[:n_a])
-    tau[n_a:] += step.M_u @ x[n_a:] / h**2
-    weights = h * acts * masses.by_masses(gravity)
-    weights[n_a:] -= masses.inertial_by_masses(un_actuated)[n_a:] / h
-    return {
-        "dq_dq": DataRates(load_q, rows.of_motion(x), rows.terms, rows.pull),
-        "dq_dq_bar_a": _loads(targets, n_c),
-        "dq_dtau": _loads(h * np.eye(n_v), n_c),
-        **_coefficients(simulator, step, x),
-        "dq_dK_q": _loads(springs, n_c),
-        "dq_dh": _loads(tau[:, None], n_c),
-        "dq_dmasses": _loads(weights, n_c),
+    by = load_rates(h, step.K_q, step.M_u, tau, step.delta_q_bar_a, x)
+    by_q = h * acts * masses.gravity_rates(gravity)
+    by_q[:, :n_a] += by["delta_q_bar_a"] @ target_by_q
+    if not simulator.system.constant_mass_matrix and n_a < step.n_v:
+        by_q[n_a:] -= masses.inertial_force_rates(un_actuated)[n_a:] / h
+    by_masses = h * acts * masses.by_masses(gravity)
+    by_masses[n_a:] -= masses.inertial_by_masses(un_actuated)[n_a:] / h
+    unloaded = np.zeros((step.n_v, len(pairs)))
+    loads = {
+        "dq_dq": by_q,
+        "dq_dq_bar_a": by["delta_q_bar_a"] @ target_by_next,
+        "dq_dtau": by["tau"],
+        "dq_dmu_v": unloaded,
+        "dq_dmu_omega": unloaded,
+        "dq_dK_q": by["K_q"],
+        "dq_dh": by["h"],
+        "dq_dmasses": by_masses,
     }
+    load = np.concatenate([*loads.values()], axis=1)
+    places = {}
+    stop = 0
+    for name, own in loads.items():
+        places[name] = slice(stop, stop + own.shape[1])
+        stop = places[name].stop
+
+    parts = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
+    torsional = (contacts.rows == 6)[:, None, None]
+    by_friction = {
+        "dq_dmu_v": parts * np.array([0, 1, 1, 0])[:, None],
+        "dq_dmu_omega": parts * np.array([0, 0, 0, 1])[:, None] * torsional,
+    }
+    of_pair = np.repeat(np.eye(len(pairs)), [pair.n_c for pair in pairs], axis=0)
+    motion = np.zeros((contacts.n_c, 4, stop))
+    motion[:, :, places["dq_dq"]] = rows.of_motion(x)
+    terms = np.zeros(stop)
+    terms[places["dq_dq"]] = rows.terms
+    for name, J in by_friction.items():
+        motion[:, :, places[name]] = (J @ x)[:, :, None] * of_pair[:, None]
+        terms[places[name]] = (np.abs(J) @ np.abs(x)).max(initial=0.0)
+    pull = Pull(rows, by_friction, of_pair, places, load.shape)
+    return DataRates(load, motion, terms, pull), places
 
 
 def parameter_units(simulator: Simulator, step: StepData) -> dict[str, Array]:
@@ -84,39 +143,3 @@ def parameter_units(simulator: Simulator, step: StepData) -> dict[str, Array]:
         "dq_dh": np.array([step.h]),
         "dq_dmasses": simulator.system.masses,
     }
-
-
-def _loads(load: Array, n_c: int) -> DataRates:
-    """Parameters that change the load alone."""
-    none = np.zeros_like(load)
-    return DataRates(load, np.zeros((n_c, 4, load.shape[1])), none[0], partial(_same, none))
-
-
-def _same(value: Array, y: Array) -> Array:
-    """What no multipliers change."""
-    return value
-
-
-def _coefficients(simulator: Simulator, step: StepData, x: Array) -> dict[str, DataRates]:
-    """Parameters mu_v and mu_omega of each pair."""
-    contacts = step.contacts
-    pairs = simulator.pairs
-    owner = np.repeat(np.arange(len(pairs)), [pair.n_c for pair in pairs])
-    own = np.eye(len(pairs))[owner]  # (n_c, pairs)
-    _, *parts = frame_jacobian(contacts, contacts.J)
-    torsional = (contacts.rows == 6)[:, None]
-    slides = np.stack([parts[0], parts[1], 0 * parts[2]], axis=1)
-    spins = np.stack([0 * parts[0], 0 * parts[1], parts[2] * torsional], axis=1)
-    none = np.zeros((step.n_v, len(pairs)))
-    found = {}
-    for name, J in (("dq_dmu_v", slides), ("dq_dmu_omega", spins)):
-        motion = np.zeros((contacts.n_c, 4, len(pairs)))
-        motion[:, 1:] = (J @ x)[:, :, None] * own[:, None]
-        terms = (np.abs(J) @ np.abs(x)).max(axis=(0, 1), initial=0.0) * np.ones(len(pairs))
-        found[name] = DataRates(none, motion, terms, partial(_exerted, J, own))
-    return found
-
-
-def _exerted(J: Array, own: Array, y: Array) -> Array:
-    """What multipliers of slips and spin exert, pair by pair."""
-    return np.asarray(np.einsum("jiv,ji->vj", J, y[:, 1:]) @ own)

@@ -14,7 +14,12 @@ from dataclasses import replace
 import numpy as np
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.optional.derivatives.gradient import Derivatives, combined, directed
+from quasistatic_ref.optional.derivatives.gradient import (
+    Derivatives,
+    combined,
+    directed,
+    gradient,
+)
 from quasistatic_ref.optional.derivatives.kink_reasons import geometry_reasons, out_of_reach
 from quasistatic_ref.optional.derivatives.program_reasons import (
     forbidden,
@@ -87,27 +92,24 @@ def derivatives(
     result = _certified(simulator, q, q_bar_a, force)
     rates = StepRates(simulator, q, result)
     equations = Equations(touching_rows(result.solution, rates.far))
-    found = equations.rates(rates.data)
-    reach = Reach(equations, found, rates.data)
+    reach = Reach(equations, rates.data)
     near = reach.within(nearly * rates.units)
     if len(near):
         equations = Equations(equations.of.unloaded(near))
     if towards is not None:
-        one = combined(rates.data, directed(rates.widths, towards, "towards"))
+        one = combined(rates.data, directed(rates.places, towards, "towards"))
         equations = Equations(equations.beyond(one))
     touching = equations.of
-    if touching is not reach.touching:
-        found = equations.rates(rates.data)
+    found = reach.rates if touching is reach.touching else equations.rates(rates.data)
 
-    safe = out_of_reach(result, rates.couples, rates.motion.J)
     reasons = [
-        *geometry_reasons(simulator, result, rates, touching, safe),
+        *geometry_reasons(simulator, rates, touching, out_of_reach(simulator, rates)),
         *target_reasons(simulator, result.step.delta_q_bar_a),
-        *row_reasons(simulator, result, touching, found, rates.places, {*map(tuple, near)}),
+        *row_reasons(simulator, rates, touching, found, {*map(tuple, near)}),
     ]
     pairs = [pair.name for pair in simulator.pairs]
     bad = forbidden(found, reasons, rates.places, pairs)
-    return rates.derivatives(found.x, bad, reasons, equations.along, reach)
+    return gradient(rates, found.x, bad, reasons, equations.along, reach)
 
 
 def check_derivable(simulator: Simulator) -> None:

@@ -1,6 +1,6 @@
 """Derivatives of the configuration after a step, as data, and along directions."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -9,24 +9,15 @@ import numpy as np
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.plain import Plain
 from quasistatic_ref.formats.shown import Shown
+from quasistatic_ref.optional.derivatives.data_rates import Places
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
-from quasistatic_ref.optional.derivatives.step.reach import Distance, Reach
+from quasistatic_ref.optional.derivatives.step.reach import NEVER, Distance, Reach
 from quasistatic_ref.optional.derivatives.step.reason import Reason
+from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array
-
-FIELDS = (
-    "dq_dq",
-    "dq_dq_bar_a",
-    "dq_dtau",
-    "dq_dmu_v",
-    "dq_dmu_omega",
-    "dq_dK_q",
-    "dq_dh",
-    "dq_dmasses",
-)
+from quasistatic_ref.step.data import Array, Mask
 
 
 class NextKink(NamedTuple):
@@ -43,32 +34,6 @@ class NextKink(NamedTuple):
 
     distance: float
     where: str
-
-
-@dataclass(frozen=True, eq=False)
-class Parts:
-    """What the derivatives along a direction are made of; see :meth:`Derivatives.along`.
-
-    Parameters
-    ----------
-    displacement : callable
-        Rates of the data by one parameter -> how delta_q changes as that grows, shape (n_v,).
-    data : DataRates
-        By all parameters, in the order of the fields.
-    carried, onward : ndarray, shape (n_v, n_v)
-        Derivatives of q (+) delta_q by q and by delta_q [m, rad per m or rad].
-    units : ndarray, shape (P,)
-        Natural units of the parameters [each in its parameter's unit].
-    reach : Reach or None
-        The distances to kinks; None of a smoothed step, which has none.
-    """
-
-    displacement: Callable[[DataRates], Array]
-    data: DataRates
-    carried: Array
-    onward: Array
-    units: Array
-    reach: Reach | None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -112,7 +77,9 @@ class Derivatives(Shown, Plain):
     differentiable: bool
     reasons: tuple[Reason, ...]
     result: StepResult
-    _parts: Parts = field(compare=False, repr=False)
+    _rates: StepRates = field(compare=False, repr=False)
+    _along: Callable[[DataRates], Array] = field(compare=False, repr=False)
+    _reach: Reach | None = field(compare=False, repr=False)
 
     def along(self, **directions: Array | float) -> Array:
         """The one-sided derivative of q+ along a direction, shape (n_v,).
@@ -136,8 +103,8 @@ class Derivatives(Shown, Plain):
             If a name or a shape is wrong, or the reasons are others.
         """
         direction, one = self._one(directions, "along")
-        x = self._parts.displacement(one)
-        return np.asarray(self._parts.onward @ x + self._parts.carried @ direction[: len(x)])
+        x = self._along(one)
+        return np.asarray(self._rates.onward @ x + self._rates.carried @ direction[: len(x)])
 
     def reach_along(self, **directions: Array | float) -> NextKink:
         """How far the derivative along a direction holds; `directions` and errors as `along`.
@@ -148,40 +115,32 @@ class Derivatives(Shown, Plain):
             Its distance in multiples of the direction.
         """
         _, one = self._one(directions, "reach_along")
-        reach = self._parts.reach
-        return self._named(Distance(np.inf) if reach is None else reach.along(one))
+        return self._named(NEVER if self._reach is None else self._reach.along(one))
 
     @property
     def reaches(self) -> dict[str, tuple[NextKink, ...]]:
         """How far each column holds to both sides, by field; computed when it is read."""
-        found: dict[str, tuple[NextKink, ...]] = {}
-        for p, (name, missing) in enumerate(self._columns()):
-            found[name] = (*found.get(name, ()), self._ahead(p, name, missing))
+        found = {}
+        for name, place in self._rates.places.items():
+            missing = np.isnan(getattr(self, name)).reshape(len(self.dq_dq), -1).any(axis=0)
+            ahead = (self._ahead(p, name, bad) for p, bad in enumerate(missing, place.start))
+            found[name] = tuple(ahead)
         return found
 
     @property
     def reach(self) -> float:
         """The least of these distances, in natural units [-]; computed when it is read."""
-        least = np.inf
-        units = self._parts.units
-        for p, (name, missing) in enumerate(self._columns()):
-            if units[p] > 0:  # that of a link without mass is zero: no change of it matters
-                limit = least * units[p]
-                least = min(least, self._ahead(p, name, missing, limit).distance / units[p])
-        return float(least)
+        distances = np.array([kink.distance for own in self.reaches.values() for kink in own])
+        units = self._rates.units
+        some = units > 0  # that of a link without mass is zero: no change of it matters
+        return float((distances[some] / units[some]).min(initial=np.inf))
 
-    def _columns(self) -> list[tuple[str, bool]]:
-        """Of all columns: the field, and whether it is NaN."""
-        values = [(name, getattr(self, name).reshape(len(self.dq_dq), -1)) for name in FIELDS]
-        return [(name, bool(bad)) for name, own in values for bad in np.isnan(own).any(axis=0)]
-
-    def _ahead(self, p: int, name: str, missing: bool, limit: float = np.inf) -> NextKink:
-        """How far a column holds; where that is beyond a limit, it may be less far than is said."""
+    def _ahead(self, p: int, name: str, missing: bool) -> NextKink:
+        """How far a column holds."""
         for why in self.reasons if missing else ():
             if why.kind not in reason.NO_KINK and name in why.fields:
                 return NextKink(0.0, f"{why.kind}: {', '.join(why.where)}")
-        reach = self._parts.reach
-        return self._named(Distance(np.inf) if reach is None else reach.either(p, limit))
+        return self._named(NEVER if self._reach is None else self._reach.either(p))
 
     def _named(self, kink: Distance) -> NextKink:
         step = self.result.step
@@ -191,25 +150,60 @@ class Derivatives(Shown, Plain):
 
     def _one(self, directions: Mapping[str, Array | float], where: str) -> tuple[Array, DataRates]:
         """A direction of all parameters, shape (P,), and the rates of the data along it."""
-        fields = {name: getattr(self, name) for name in FIELDS}
-        widths = {name: value.size // len(self.dq_dq) for name, value in fields.items()}
-        direction = directed(widths, directions, where)
+        direction = directed(self._rates.places, directions, where)
         used = {f"dq_d{name}" for name, value in directions.items() if np.any(value)}
         for found in self.reasons:
             if found.kind not in reason.ONE_SIDED and used & set(found.fields):
                 raise InputError("has no one-sided derivative here: " + found.sentence, field=where)
-        return direction, combined(self._parts.data, direction)
+        return direction, combined(self._rates.data, direction)
 
 
-def directed(
-    widths: Mapping[str, int], directions: Mapping[str, Array | float], where: str
-) -> Array:
+def gradient(
+    rates: StepRates,
+    x: Array,
+    bad: Mask,
+    reasons: Sequence[Reason],
+    along: Callable[[DataRates], Array],
+    reach: Reach | None,
+) -> Derivatives:
+    """The derivatives of the configuration.
+
+    Parameters
+    ----------
+    rates : StepRates
+    x : ndarray, shape (n_v, P)
+        The derivatives of delta_q.
+    bad : ndarray of bool, shape (P,)
+        Which of them do not exist.
+    reasons : sequence of Reason
+    along : callable
+        Rates of the data by one parameter -> how delta_q changes as that grows, shape (n_v,).
+    reach : Reach or None
+        The distances to kinks; None of a smoothed step, which has none.
+    """
+    columns = rates.onward @ x
+    columns[:, : len(x)] += rates.carried
+    columns[:, bad] = np.nan
+    fields = {name: columns[:, place] for name, place in rates.places.items()}
+    fields["dq_dh"] = fields["dq_dh"][:, 0]
+    return Derivatives(
+        **fields,
+        differentiable=not reasons,
+        reasons=tuple(reasons),
+        result=rates.result,
+        _rates=rates,
+        _along=along,
+        _reach=reach,
+    )
+
+
+def directed(places: Places, directions: Mapping[str, Array | float], where: str) -> Array:
     """A direction of all parameters, by names, in the order of the fields, shape (P,).
 
     Parameters
     ----------
-    widths : Mapping
-        How many columns each field has.
+    places : mapping of str to slice
+        Which columns each field has.
     directions : Mapping
         As those of :meth:`Derivatives.along`.
     where : str
@@ -220,12 +214,12 @@ def directed(
     InputError
         If a name or a shape is wrong.
     """
-    names = {name.removeprefix("dq_d"): width for name, width in widths.items()}
+    widths = {name.removeprefix("dq_d"): own.stop - own.start for name, own in places.items()}
     for name in directions:
-        if name not in names:
-            raise InputError(f"must be one of {', '.join(names)}", field=where, value=name)
+        if name not in widths:
+            raise InputError(f"must be one of {', '.join(widths)}", field=where, value=name)
     parts = []
-    for name, width in names.items():
+    for name, width in widths.items():
         value = np.ravel(np.asarray(directions.get(name, np.zeros(width)), dtype=np.float64))
         if value.shape != (width,):
             raise InputError(

@@ -1,11 +1,10 @@
 """Which kinks of the contacts' geometry the step after q feels."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
 
-from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.kinks import kinks
 from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
 from quasistatic_ref.optional.derivatives.contact.spare_pairs import spare_pair
@@ -14,60 +13,52 @@ from quasistatic_ref.optional.derivatives.step.reason import Reason
 from quasistatic_ref.optional.derivatives.step.touching import Touching
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.optional.derivatives.turned_tangents import stays
-from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone, cone_matrix
-from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.data import Mask
 from quasistatic_ref.step.ordered import crossed
 
 FIELDS = ("dq_dq",)
 
 
 def geometry_reasons(
-    simulator: Simulator,
-    result: StepResult,
-    rates: StepRates,
-    touching: Touching | None,
-    safe: Mask,
+    simulator: Simulator, rates: StepRates, touching: Touching | None, safe: Mask
 ) -> list[Reason]:
     """The kinks that matter to the step: those of contacts that touch, or may where they jump to.
 
     Parameters
     ----------
     simulator : Simulator
-    result : StepResult
     rates : StepRates
     touching : Touching or None
         The rows without slack; None if the step feels every contact, however far.
     safe : ndarray of bool, shape (n_c,)
         Contacts that it would not feel wherever they were.
     """
-    contacts = result.step.contacts
-    kept = rates.couples
-    frames = np.stack([contacts.d1, contacts.d2], axis=1)
+    step = rates.result.step
+    contacts = step.contacts
     quarters = _quarters(simulator.cone)
     felt = range(contacts.n_c) if touching is None else touching.contacts
     reasons = []
-    for kink in kinks(kept, rates.contacts, frames, rates.motion.J, quarters):
-        if kink.contact not in felt and (not kink.jumps or safe[kink.contact]):
+    for kink in kinks(rates.couples, rates.contacts, rates.motion.J, quarters):
+        jumps = kink.kind not in reason.SMOOTH_POINTS
+        if kink.contact not in felt and (not jumps or safe[kink.contact]):
             continue
         name = contacts.name[kink.contact]
         frictionless = (
             not contacts.mu[kink.contact, 0] or cone(simulator.cone).name == "frictionless"
         )
         if kink.kind == reason.TANGENTS and (
-            frictionless
-            or (touching and stays(result.step, result.solution.delta_q, touching, kink.contact))
+            frictionless or (touching and stays(step, rates.x, touching, kink.contact))
         ):
             continue
-        fields = tuple(rates.places) if kink.blurs else FIELDS
+        blurred = kink.kind != reason.CROSSING and rates.contacts.blurred[kink.contact]
+        fields = tuple(rates.places) if blurred else FIELDS
         reasons.append(Reason(kink.kind, (name,), fields, f"{name} {kink.says}"))
-    return [*reasons, *_ties(simulator, result, rates, safe)]
+    return [*reasons, *_ties(simulator, rates, safe)]
 
 
-def _ties(
-    simulator: Simulator, result: StepResult, rates: StepRates, safe: Mask
-) -> Iterator[Reason]:
+def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Reason]:
     """What other points a motion may bring in, pair by pair."""
     kept = rates.couples
     at = 0
@@ -76,7 +67,7 @@ def _ties(
         at += pair.n_c
         if safe[own].all():
             continue
-        points = result.points.chosen(np.arange(own.start, own.stop))
+        points = rates.result.points.chosen(np.arange(own.start, own.stop))
         inside, outside = tied_points(kept[own], points)
         if outside:
             where = tuple(f"{pair.name}/{i}" for i in (*inside, *outside))
@@ -87,36 +78,31 @@ def _ties(
             yield Reason(jump[0], (pair.name,), FIELDS, f"{pair.name} {jump[1]}")
 
 
-def out_of_reach(result: StepResult, kept: Sequence[Couple], J: Array) -> Mask:
+def out_of_reach(simulator: Simulator, rates: StepRates) -> Mask:
     """Contacts whose pair cannot close its distance in this step, whichever points it has.
 
     Parameters
     ----------
-    result : StepResult
-    kept : sequence of Couple, length n_c
-        Its contacts.
-    J : ndarray, shape (L, 6, n_v)
-        Twist of each link at the world's origin, per unit of delta_q [m, rad].
+    simulator : Simulator
+    rates : StepRates
 
     Returns
     -------
     ndarray of bool, shape (n_c,)
     """
-    twist = J @ result.solution.delta_q
-    mu = result.step.contacts.mu
-    spin = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
-    phi = np.array([couple.phi for couple in kept])
-    pairs = [couple.of.pair for couple in kept]
-    link = [pair.alpha.link for pair in pairs] + [pair.beta.link for pair in pairs]
-    ends = np.array([couple.points[side] for side in (0, 1) for couple in kept]).reshape(-1, 3)
-    extents = np.array([couple.of.extents[side] for side in (0, 1) for couple in kept])
-    turn = spin[link]
-    v = twist[link, :3] + crossed(twist[link, 3:], ends)
+    points = rates.result.points
+    mu = rates.result.step.contacts.mu
+    link = np.concatenate([simulator.layout.link_alpha, simulator.layout.link_beta])
+    at = np.concatenate([points.alpha, points.beta])
+    extents = np.array([couple.of.extents for couple in rates.couples]).reshape(-1, 2).T.ravel()
+    twist = (rates.motion.J @ rates.x)[link]
+    v = twist[:, :3] + crossed(twist[:, 3:], at)
     motion = np.sqrt(np.sum(v * v, axis=1))
+    turn = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
     turning = turn > 0  # any other point of the shape is this far from the end
     motion[turning] += np.sqrt(3) * turn[turning] * extents[turning]
     motion, turn = (both.reshape(2, -1).sum(axis=0) for both in (motion, turn))
-    return np.asarray(phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
+    return np.asarray(points.phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
 
 
 @cache

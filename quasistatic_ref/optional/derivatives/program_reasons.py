@@ -1,23 +1,21 @@
 """Which rows of the program, and which targets, stand in the way of derivatives."""
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Sequence, Set
 
 import numpy as np
 
 from quasistatic_ref.formats.quoting import listed
+from quasistatic_ref.optional.derivatives.data_rates import Places
 from quasistatic_ref.optional.derivatives.model.tangent import half_turns
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import OptimumRates
 from quasistatic_ref.optional.derivatives.step.reason import Reason
 from quasistatic_ref.optional.derivatives.step.touching import Touching
-from quasistatic_ref.simulate.result import StepResult
+from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import ON_RIM
-
-Places = Mapping[str, tuple[int, int]]
-"""Which columns each field has, among all: from the first to one beyond the last."""
 
 
 def target_reasons(simulator: Simulator, change: Array) -> list[Reason]:
@@ -39,10 +37,9 @@ def target_reasons(simulator: Simulator, change: Array) -> list[Reason]:
 
 def row_reasons(
     simulator: Simulator,
-    result: StepResult,
+    rates: StepRates,
     touching: Touching,
     found: OptimumRates,
-    places: Places,
     near: Set[tuple[int, ...]],
 ) -> list[Reason]:
     """Rows that stand in the way of some parameters.
@@ -50,20 +47,19 @@ def row_reasons(
     Parameters
     ----------
     simulator : Simulator
-    result : StepResult
+    rates : StepRates
     touching : Touching
     found : OptimumRates
-    places : Mapping
-        As `Places`.
     near : set of (int, int)
         Contact and row of those that nearly touch, or nearly bear no load.
     """
-    names = result.step.contacts.name
-    row_names = cone(result.step.cone).row_names
+    step = rates.result.step
+    names = step.contacts.name
+    row_names = cone(step.cone).row_names
     reasons = []
 
     def fields(bad: Mask) -> tuple[str, ...]:
-        return tuple(name for name, place in places.items() if bad[slice(*place)].any())
+        return tuple(name for name, place in rates.places.items() if bad[place].any())
 
     together: dict[tuple[str, ...], Mask] = {}
     for contacts, bad in found.contradicts:
@@ -115,9 +111,9 @@ def forbidden(
     by_field = (*reason.ONE_SIDED, reason.CONTRADICTION)
     for why in reasons:
         for name in why.fields if why.kind not in by_field else ():
-            first, last = places[name]
+            own = bad[places[name]]
             if why.kind == reason.ZERO_FRICTION:  # that of the pair alone
-                first += list(pairs).index(why.where[0])
-                last = first + 1
-            bad[first:last] = True
+                own[list(pairs).index(why.where[0])] = True
+            else:
+                own[:] = True
     return np.asarray(bad)

@@ -18,7 +18,7 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import Rates
 from quasistatic_ref.optional.derivatives.contact.contact_rates import tangent_rates
-from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
+from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates, wrench_rates
 from quasistatic_ref.step.data import Array, Contacts, Indices
 from quasistatic_ref.step.ordered import crossed
 
@@ -46,7 +46,7 @@ class RowRates:
         """Derivatives by q of gap, slips and spin, (n_c, 4, n_v), x (n_v,) being fixed [m]."""
         r = self.rates
         link, at, d_at = self.ends
-        twist = self.motion.twists(x)[link]
+        twist = (self.motion.J @ x)[link]
         d_twist = self.motion.twist_rates(x)[link]
         omega = twist[:, 3:]
         d_omega = d_twist[:, 3:]
@@ -107,13 +107,12 @@ class RowRates:
         d_force = _opposite(np.einsum("ji,jiak->jak", pressed[:, :3], self.frame_rates))
         torque = _opposite(pressed[:, 3, None] * c.n)
         d_torque = _opposite(pressed[:, 3, None, None] * self.rates.n)
-        moment = crossed(at, force) + torque
-        d_moment = crossed(d_at, force[:, :, None]) + crossed(at[:, :, None], d_force) + d_torque
+        exerted, d_exerted = wrench_rates(at, d_at, force, d_force, torque, d_torque)
         links = len(self.motion.moves)
         wrench = np.zeros((links, 6))
         d_wrench = np.zeros((links, 6, d_at.shape[2]))
-        np.add.at(wrench, link, np.concatenate([force, moment], axis=1))
-        np.add.at(d_wrench, link, np.concatenate([d_force, d_moment], axis=1))
+        np.add.at(wrench, link, exerted)
+        np.add.at(d_wrench, link, d_exerted)
         return self.motion.force_rates(wrench, d_wrench)
 
 

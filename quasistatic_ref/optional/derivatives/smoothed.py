@@ -10,7 +10,7 @@ from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.solution import SolverStatistics, step_solution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.derivatives.derivatives import check_derivable
-from quasistatic_ref.optional.derivatives.gradient import Derivatives
+from quasistatic_ref.optional.derivatives.gradient import Derivatives, gradient
 from quasistatic_ref.optional.derivatives.kink_reasons import geometry_reasons
 from quasistatic_ref.optional.derivatives.program_reasons import target_reasons
 from quasistatic_ref.optional.derivatives.step.barrier import Barrier, barrier_rates, barrier_step
@@ -76,16 +76,16 @@ def smoothed(
 
     nowhere = np.zeros(step.contacts.n_c, dtype=bool)
     reasons = [
-        *geometry_reasons(simulator, result, rates, None, nowhere),
+        *geometry_reasons(simulator, rates, None, nowhere),
         *target_reasons(simulator, step.delta_q_bar_a),
     ]
     bad = np.zeros(rates.data.load.shape[1], dtype=bool)
     for why in reasons:
         for name in why.fields:
-            bad[slice(*rates.places[name])] = True
+            bad[rates.places[name]] = True
     x = barrier_rates(step, found, rates.data)
     along = partial(_displacement, step, found)
-    return rates.derivatives(x, bad, reasons, along, None)
+    return gradient(rates, x, bad, reasons, along, None)
 
 
 def _displacement(step: StepData, found: Barrier, one: DataRates) -> Array:

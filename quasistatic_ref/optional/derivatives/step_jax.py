@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
-from math import prod
 from typing import Any
 
 import numpy as np
@@ -175,15 +174,14 @@ def _differentiable(
     thread.submit(check_arithmetic).result()
 
     def alone(names: tuple[str, ...], *given: Array) -> tuple[Array, ...]:
+        rates_too = ",(q,by_q),(q,by_a),(q,by_v)" if names else ""
+        # Of vmap, one inside of another, there are more axes in front.
+        each = np.vectorize(
+            partial(_rates, system, found, instead, names),
+            signature=f"(q),(a),(v),()->(q),(kinds){rates_too}",
+        )
         with system.lock:  # a system is for one thread, and each function has its own
-            many = given[0].shape[:-1]  # of vmap, one inside of another
-            elements = [one.reshape(prod(many), *one.shape[len(many) :]) for one in given]
-            each = [
-                _rates(system, found, instead, names, *one) for one in zip(*elements, strict=True)
-            ]
-            return tuple(
-                np.reshape(some, (*many, *some[0].shape)) for some in zip(*each, strict=True)
-            )
+            return tuple(each(*given))
 
     @cache  # JAX compiles the call of each function once
     def outside(names: tuple[str, ...]) -> Callable[..., tuple[Array, ...]]:

@@ -1,23 +1,17 @@
 """How everything that a step is made of changes, at one configuration."""
 
-from collections.abc import Callable, Sequence
-
 import numpy as np
 
 from quasistatic_ref.optional.derivatives.contact.contact_rates import contact_rates
 from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.data_rates import data_rates, parameter_units
-from quasistatic_ref.optional.derivatives.gradient import Derivatives, Parts
 from quasistatic_ref.optional.derivatives.model.mass_rates import MassRates
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.optional.derivatives.model.tangent import sum_rates
 from quasistatic_ref.optional.derivatives.row_rates import RowRates
-from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, parameters
-from quasistatic_ref.optional.derivatives.step.reach import Reach
-from quasistatic_ref.optional.derivatives.step.reason import Reason
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.data import Array
 
 
 class StepRates:
@@ -32,13 +26,15 @@ class StepRates:
 
     Attributes
     ----------
+    x : ndarray, shape (n_v,)
+        The displacement [m, rad].
     motion : MotionRates
     couples : list of Couple
         The contacts.
     contacts : Rates
     data : DataRates
         By all parameters.
-    places : dict
+    places : dict of str to slice
         Which columns of them each field of the derivatives has.
     units : ndarray, shape (P,)
         Their natural units.
@@ -53,60 +49,16 @@ class StepRates:
         system = simulator.system
         step = result.step
         points = result.points
-        x = result.solution.delta_q
+        self.x = x = result.solution.delta_q
         kinematics = system.kinematics(q)
         self.motion = MotionRates(kinematics, system.column_map)
         self.couples = couples(simulator.pairs, points, kinematics.R, kinematics.t)
-        tangents = step.contacts.d1, step.contacts.d2
-        self.contacts = contact_rates(self.couples, tangents, self.motion.J)
+        self.contacts = contact_rates(self.couples, self.motion.J)
         rows = RowRates(step.contacts, points, simulator.layout, self.contacts, self.motion)
         masses = MassRates(system, kinematics, self.motion)
-        data = data_rates(simulator, step, x, rows, masses)
-        self.data = parameters(*data.values())
-        ends = np.cumsum([part.load.shape[1] for part in data.values()]).tolist()
-        self.places = dict(zip(data, zip([0, *ends[:-1]], ends, strict=True), strict=True))
+        self.data, self.places = data_rates(simulator, step, x, rows, masses)
         units = parameter_units(simulator, step)
-        self.units = np.concatenate([units[name] for name in data])
+        self.units = np.concatenate([units[name] for name in self.places])
         self.carried, self.onward = sum_rates(system.joints, x)
         both = np.abs(np.stack([points.alpha, points.beta]))
         self.far: Array = both.max(axis=(0, 2), initial=0.0)
-
-    @property
-    def widths(self) -> dict[str, int]:
-        """How many columns each field has."""
-        return {name: stop - start for name, (start, stop) in self.places.items()}
-
-    def derivatives(
-        self,
-        x: Array,
-        bad: Mask,
-        reasons: Sequence[Reason],
-        along: Callable[[DataRates], Array],
-        reach: Reach | None,
-    ) -> Derivatives:
-        """The derivatives of the configuration.
-
-        Parameters
-        ----------
-        x : ndarray, shape (n_v, P)
-            Those of delta_q.
-        bad : ndarray of bool, shape (P,)
-            Which of them do not exist.
-        reasons : sequence of Reason
-        along, reach
-            As `displacement` and `reach` of
-            :class:`~quasistatic_ref.optional.derivatives.gradient.Parts`.
-        """
-        columns = self.onward @ x
-        columns[:, : len(x)] += self.carried
-        columns[:, bad] = np.nan
-        fields = {name: columns[:, slice(*place)] for name, place in self.places.items()}
-        fields["dq_dh"] = fields["dq_dh"][:, 0]
-        parts = Parts(along, self.data, self.carried, self.onward, self.units, reach)
-        return Derivatives(
-            **fields,
-            differentiable=not reasons,
-            reasons=tuple(reasons),
-            result=self.result,
-            _parts=parts,
-        )

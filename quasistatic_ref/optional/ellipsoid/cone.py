@@ -20,7 +20,6 @@ from quasistatic_ref.certify.residuals import largest
 from quasistatic_ref.certify.rounding import rounded_solution
 from quasistatic_ref.certify.rows import contact_rows
 from quasistatic_ref.certify.verdict import Verdict, wrong_bits, wrong_claim
-from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     BITS,
@@ -36,7 +35,6 @@ from quasistatic_ref.optional.ellipsoid.impulses import outside_of_cones, raised
 from quasistatic_ref.step.arrays import Array, Mask
 from quasistatic_ref.step.cones import ELLIPSOID, CurvedCone, Judge, Rows, Violations
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import contact_wrenches
 from quasistatic_ref.tolerances import ENCLOSED, IMPULSES
 
 Active = tuple[tuple[int, int], ...]
@@ -141,13 +139,6 @@ class EllipsoidCone(CurvedCone):
         StepNotSolved
             If no enclosure is found.
         """
-        if near is None:
-            rigid = enclosure(step, None)
-            if rigid is None:
-                status = "no answer strictly inside of all cones was found"
-                raise StepNotSolved("none", status, step, 0.0)
-            lam = rigid.lam[: step.offsets[-1]]
-            near = rigid.delta_q, contact_wrenches(step.contacts, lam, step.h, self.name)
         return compliant_forces(step, compliance, near)
 
     def verdict(

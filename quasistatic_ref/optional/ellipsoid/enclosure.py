@@ -51,6 +51,9 @@ IDLE: Final = arb(2) ** -40
 """Multipliers and slacks below this share of the largest count as zero when it is guessed which
 contacts are at their apex; what follows from the guess is checked."""
 
+ROUNDS: Final = 10
+"""Changes of the states of contacts, at most: Newton's method ends in one or two on grasps."""
+
 Start: TypeAlias = tuple[Array, Array]
 
 
@@ -149,7 +152,7 @@ def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
         return Enclosure(delta_q, nothing, net, (), 0.0, 0.0)
     with ctx.workprec(BITS):
         frame = scaled_blocks(step, form, balls)
-        found = (_enclosed(step, form, balls, frame, g) for g in _guesses(form, frame, start))
+        found = (_enclosed(step, form, balls, frame, g) for g in guesses(form, frame, start))
         return next(filter(None, found), None)
 
 
@@ -157,7 +160,7 @@ def _enclosed(
     step: StepData, form: ExactForm, balls: BallForm, frame: ScaledBlocks, guess: Guess
 ) -> Enclosure | None:
     """Return what a guess proves; None if that is too little."""
-    found = _checked(form, balls, frame, guess.x, guess.y)
+    found = checked(form, balls, frame, guess.x, guess.y)
     if found is None:
         return None
     reserve = guess.reserve * frame.size * frame.size  # in the form's units of energy
@@ -170,7 +173,7 @@ def _enclosed(
     else:
         working = None
         x = point(found)
-        delta_q = _rounded(form, balls, found)
+        delta_q = rounded_displacement(form, balls, found)
         error = enclosed_error(form, replace(found, gap=found.gap + reserve), delta_q)
     gap = duality_gap(form, x, fractions(lam, form.lam_unit))
     gap += 0 if exact is not None else fraction(reserve.upper())
@@ -195,7 +198,7 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
     with ctx.workprec(bits):
         frame = scaled_blocks(step, form, balls)
         pair = interior_point(frame.problem, gap)
-        return None if pair is None else _checked(form, balls, frame, *frame.pair(pair))
+        return None if pair is None else checked(form, balls, frame, *frame.pair(pair))
 
 
 def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
@@ -216,8 +219,8 @@ def fraction(v: arb) -> fmpq:
     return m * fmpq(2) ** int(e)
 
 
-def _guesses(form: ExactForm, frame: ScaledBlocks, start: Start | None) -> Iterator[Guess]:
-    """Yield guesses: Newton's first, which round to the same bits from any start."""
+def guesses(form: ExactForm, frame: ScaledBlocks, start: Start | None) -> Iterator[Guess]:
+    """Guesses: Newton's first, which round to the same bits from any `start`."""
     if start is not None:
         yield from _by_newton(frame, *frame.start(form, *start))
     pair = interior_point(frame.problem, GAP)
@@ -227,13 +230,21 @@ def _guesses(form: ExactForm, frame: ScaledBlocks, start: Start | None) -> Itera
 
 
 def _by_newton(frame: ScaledBlocks, x: arb_mat, y: list[Vector]) -> Iterator[Guess]:
-    """Yield what Newton's method makes of a pair of the program."""
+    """Yield what Newton's method makes of a pair of the program, as long as its states change."""
     states = contact_states(frame.problem, x, y)
-    pair = newton_pair(frame.problem, x, y, states)
-    if pair is not None:
+    for _ in range(ROUNDS):
+        pair = newton_pair(frame.problem, x, y, states)
+        if pair is None:
+            return
         loaded = [state != OPEN for state in states]
         held = [state == STICKS for state in states]
         yield Guess(*frame.pair(pair), loaded, held, RESERVE)
+        before = states
+        x = pair.x
+        y = pair.y
+        states = contact_states(frame.problem, x, y)
+        if states == before:
+            return
 
 
 def _of_interior(frame: ScaledBlocks, pair: Pair) -> Guess:
@@ -245,13 +256,16 @@ def _of_interior(frame: ScaledBlocks, pair: Pair) -> Guess:
     return Guess(x, y, loaded, held, arb(0))
 
 
-def _checked(
+def checked(
     form: ExactForm, balls: BallForm, frame: ScaledBlocks, x: arb_mat, y: list[Vector]
 ) -> Checked | None:
-    """Return x and lam with their gap, if both surely lie inside of all cones."""
+    """A pair x, y in the form's units with its gap, if s and y surely lie inside of all cones."""
     motion = (balls.A * x - balls.b).entries()
     mu = frame.mu
-    s = [[mu[i] * motion[i] for i in block] for block in frame.blocks]
+    s = [
+        [mu[i] * motion[i] + c * y_i for i, y_i in zip(block, y_j, strict=True)]
+        for block, c, y_j in zip(frame.blocks, frame.give, y, strict=True)
+    ]
     for one in (*s, *y):
         if not (one[0] > 0 and one[0] * one[0] > sum((v * v for v in one[1:]), arb(0))):
             return None
@@ -284,8 +298,8 @@ def rounded(ball: arb) -> float:
     return float(ball) if nearest is None else nearest
 
 
-def _rounded(form: ExactForm, balls: BallForm, found: Checked) -> Array:
-    """Return x in float64; an entry that may be zero is zero."""
+def rounded_displacement(form: ExactForm, balls: BallForm, found: Checked) -> Array:
+    """The x of a pair in float64, shape (n_v,) [m, rad]; an entry that may be zero is zero."""
     values = []
     for v in range(form.n):
         radius = square_root(2 * found.gap * balls.H_inv[v, v])

@@ -1,9 +1,11 @@
 r"""A primal-dual interior point in high precision, for steps whose cone is no polyhedron.
 
-.. math:: \min \tfrac12 x^T H x - g^T x \quad\text{s.t.}\quad s_j = A_j x - b_j \in Q,\qquad
+.. math:: \min \tfrac12 x^T H x - g^T x + \sum_j \frac{\|r_j\|^2}{2 c_j}
+          \quad\text{s.t.}\quad s_j = A_j x - b_j + r_j \in Q,\qquad
           Q = \{s : s_0 \ge \|s_{1:}\|\},
 
-one block j per contact, and one of a single row (s >= 0) per row of the user's own. Newton's method
+one block j per contact, and one of a single row (s >= 0) per row of the user's own. A block gives
+way by r_j = c_j y_j, y being the multipliers; where c_j = 0 it is rigid. Newton's method
 with the scaling of Nesterov and Todd, a step towards the answer and one back to the central path by
 turns (Mizuno, Todd and Ye): in 640 bits it needs no case distinction at apexes and no
 regularisation. Nothing here is believed: what comes out is a guess, strictly inside of the cones,
@@ -46,12 +48,20 @@ class Blocks:
         Shapes (n, n) and (n, 1); H positive definite.
     A, b : list of arb_mat
         One (4 or 1, n) and one (4 or 1, 1) per block.
+    give : list of arb
+        The c of each block, 0 or more.
     """
 
     H: arb_mat
     g: arb_mat
     A: list[arb_mat]
     b: list[arb_mat]
+    give: list[arb]
+
+    def slacks(self, x: arb_mat, y: Sequence[Vector]) -> list[arb_mat]:
+        """The s of each block, of which y makes some give way."""
+        blocks = zip(self.A, self.b, self.give, y, strict=True)
+        return [(A_j * x - b_j + _column(y_j) * c_j).mid() for A_j, b_j, c_j, y_j in blocks]
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +72,7 @@ class Pair:
     ----------
     x : arb_mat
     s, y : list of list of arb
-        By block: s is nearly A x - b, and H x - g nearly A'y.
+        By block: s is nearly A x - b + c y, and H x - g nearly A'y.
     """
 
     x: arb_mat
@@ -80,6 +90,7 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
     gap : arb
     """
     A = problem.A
+    give = problem.give
     count = len(problem.A)
     x = problem.H.solve(problem.g).mid()
     s = [_inside(A_j * x - b_j) for A_j, b_j in zip(A, problem.b, strict=True)]
@@ -91,14 +102,14 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
         r_d = problem.g - problem.H * x
         for A_j, y_j in zip(A, y, strict=True):
             r_d += A_j.transpose() * _column(y_j)
-        r_p = [
-            (b_j + _column(s_j) - A_j * x).mid()
-            for A_j, b_j, s_j in zip(A, problem.b, s, strict=True)
-        ]
+        r_p = [_column(u) - v for u, v in zip(s, problem.slacks(x, y), strict=True)]
         worst = max([abs(v) for v in r_d.entries()] + [abs(v) for r in r_p for v in r.entries()])
         if mu * count < gap and worst < gap:
             return Pair(x, s, y)
-        weights = [_inverse_scaling(s_j, y_j) for s_j, y_j in zip(s, y, strict=True)]
+        weights = [
+            _softer(_inverse_scaling(s_j, y_j), c_j)
+            for s_j, y_j, c_j in zip(s, y, give, strict=True)
+        ]
         weighted = [(W_j * A_j).mid() for W_j, A_j in zip(weights, A, strict=True)]
         K = problem.H
         for A_j, WA_j in zip(A, weighted, strict=True):
@@ -113,8 +124,9 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
         for WA_j, c_j, r_j in zip(weighted, c, r_p, strict=True):
             right = right + WA_j.transpose() * (c_j + r_j)
         dx = (inverse * right).mid()
-        ds = [(A_j * dx - r_j).mid() for A_j, r_j in zip(A, r_p, strict=True)]
-        dy = [(W_j * (c_j - ds_j)).mid() for W_j, c_j, ds_j in zip(weights, c, ds, strict=True)]
+        along = [(A_j * dx - r_j).mid() for A_j, r_j in zip(A, r_p, strict=True)]
+        dy = [(W_j * (c_j - d_j)).mid() for W_j, c_j, d_j in zip(weights, c, along, strict=True)]
+        ds = [(d_j + dy_j * k).mid() for d_j, dy_j, k in zip(along, dy, give, strict=True)]
         way = min([_reach(u, v.entries()) for u, v in zip(s + y, ds + dy, strict=True)])
         way = min(SHORT * way, arb(1)).mid()
         for _ in range(BACKTRACKS):
@@ -196,6 +208,15 @@ def _inverse_scaling(s: Vector, y: Vector) -> arb_mat:
         for j in range(k)
     ]
     return arb_mat(k, k, entries)
+
+
+def _softer(weight: arb_mat, give: arb) -> arb_mat:
+    """Return (W^2 + c)^-1 from W^-2, of a block that gives way."""
+    if not give > 0:
+        return weight
+    k = weight.nrows()
+    one = arb_mat([[arb(i == j) for j in range(k)] for i in range(k)])
+    return (one + weight * give).solve(weight).mid()
 
 
 def _reach(v: Vector, d: Sequence[arb]) -> arb:

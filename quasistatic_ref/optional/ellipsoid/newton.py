@@ -1,12 +1,12 @@
 r"""Newton's method from a backend's answer, for steps whose cone is no polyhedron.
 
-A backend's answer mostly shows which contacts j are open (y = 0), which stick (s = A x - b = 0)
-and which slide, :math:`s_0 = \|s_{1:}\|` with y along :math:`(1, -s_{1:}/\|s_{1:}\|)`. With that
-known the optimum solves smooth equations,
+A backend's answer mostly shows which contacts j are open (y = 0), which stick (s = 0) and which
+slide, :math:`s_0 = \|s_{1:}\|` with y along :math:`(1, -s_{1:}/\|s_{1:}\|)`, which is the direction
+of the slip of A x - b, too. With that known the optimum solves smooth equations,
 
 .. math:: H x - g - C^T y = 0, \qquad c(x) = 0,
 
-c being s of what sticks and :math:`s_0 - \|s_{1:}\|` of what slides, C its derivative. Each
+c being s of what sticks and :math:`s_0 - \|s_{1:}\|` of what slides, C its derivative by x. Each
 iteration doubles the digits. What sticks may be held by dependent rows: the method of multipliers,
 :math:`c + C\,dx + \varepsilon\,dy = 0`, then finds the nearest of the many y, and loses nothing
 else. Nothing here is believed: a wrong guess ends in a pair that
@@ -44,8 +44,8 @@ OPEN, STICKS, SLIDES = range(3)
 def contact_states(problem: Blocks, x: arb_mat, y: list[Vector]) -> list[int]:
     """Which blocks are open, stick and slide, as an answer shows it: the larger of two slacks."""
     states = []
-    for A_j, b_j, y_j in zip(problem.A, problem.b, y, strict=True):
-        s = np.array([float(v) for v in (A_j * x - b_j).entries()])
+    for s_j, y_j in zip(problem.slacks(x, y), y, strict=True):
+        s = np.array([float(v) for v in s_j.entries()])
         f = np.array(list(map(float, y_j)))
         inside_s, inside_f = (v[0] - np.linalg.norm(v[1:]) for v in (s, f))
         if inside_s > f[0]:
@@ -69,17 +69,18 @@ def newton_pair(problem: Blocks, x: arb_mat, y: list[Vector], states: list[int])
         Of :func:`contact_states`.
     """
     for _ in range(ITERATIONS):
-        K, C, c, f = _linearised(problem, x, y, states)
+        K, C, c, f, give = _linearised(problem, x, y, states)
         if not c.nrows():
             dx = K.solve(problem.g - problem.H * x).mid()
             df = f
         else:
-            load = problem.g - problem.H * x + C.transpose() * (f - c * (1 / EPSILON))
+            soft = _scaled(C, give)
+            load = problem.g - problem.H * x + C.transpose() * (f - _scaled(c, give))
             try:
-                dx = (K + C.transpose() * C * (1 / EPSILON)).mid().solve(load.mid()).mid()
+                dx = (K + C.transpose() * soft).mid().solve(load.mid()).mid()
             except ZeroDivisionError:
                 return None
-            df = ((c + C * dx) * (-1 / EPSILON)).mid()
+            df = (-_scaled(c + C * dx, give)).mid()
         x = (x + dx).mid()
         y = _with_multipliers(problem, x, y, states, (f + df).mid().entries())
         moved = [*dx.entries(), *(v * EPSILON for v in df.entries())]
@@ -90,19 +91,22 @@ def newton_pair(problem: Blocks, x: arb_mat, y: list[Vector], states: list[int])
 
 def _linearised(
     problem: Blocks, x: arb_mat, y: list[Vector], states: list[int]
-) -> tuple[arb_mat, arb_mat, arb_mat, arb_mat]:
-    """Return H with the curvature of what slides, C, c and the multipliers of c."""
+) -> tuple[arb_mat, arb_mat, arb_mat, arb_mat, Vector]:
+    """Return H with the curvature of what slides, C, c, the multipliers of c, and c by these."""
     n = problem.H.nrows()
     K = problem.H
     rows: list[arb] = []
     c: list[arb] = []
     f: list[arb] = []
-    for A_j, b_j, y_j, state in zip(problem.A, problem.b, y, states, strict=True):
-        s = (A_j * x - b_j).mid()
+    give: list[arb] = []
+    blocks = zip(problem.A, problem.b, problem.give, y, states, strict=True)
+    for A_j, b_j, k, y_j, state in blocks:
+        s = (A_j * x - b_j).mid()  # without what gives way
         if state == STICKS:
             rows = rows + A_j.entries()
-            c = c + s.entries()
+            c = c + [v + k * w for v, w in zip(s.entries(), y_j, strict=True)]
             f = f + y_j
+            give = give + [k if k > 0 else EPSILON] * len(y_j)
         elif state == SLIDES:
             u, slip = _direction(s.entries())
             normal = arb_mat(1, len(u) + 1, [arb(1), *(-v for v in u)]) * A_j
@@ -110,16 +114,27 @@ def _linearised(
             across = (across - arb_mat(len(u), 1, u) * (arb_mat(1, len(u), u) * across)).mid()
             K = K + across.transpose() * across * (y_j[0] / slip)
             rows = rows + normal.entries()
-            c = [*c, s[0, 0] - slip]
+            c = [*c, s[0, 0] - slip + 2 * k * y_j[0]]  # its gap and its slip give way
             f = [*f, y_j[0]]
-    k = len(c)
-    return K.mid(), arb_mat(k, n, rows).mid(), arb_mat(k, 1, c).mid(), arb_mat(k, 1, f)
+            give = [*give, 2 * k if k > 0 else EPSILON]
+    m = len(c)
+    return K.mid(), arb_mat(m, n, rows).mid(), arb_mat(m, 1, c).mid(), arb_mat(m, 1, f), give
+
+
+def _scaled(rows: arb_mat, give: Vector) -> arb_mat:
+    """Return rows over what they give way by."""
+    m = rows.ncols()
+    return arb_mat(len(give), m, [v / give[i // m] for i, v in enumerate(rows.entries())])
 
 
 def _direction(s: Vector) -> tuple[Vector, arb]:
     """Return the direction of the slip s_1: and its length."""
-    slip = sum((v * v for v in s[1:]), arb(0)).sqrt().mid()
+    slip = _length(s[1:])
     return [(v / slip).mid() for v in s[1:]], slip
+
+
+def _length(v: Vector) -> arb:
+    return sum((a * a for a in v), arb(0)).sqrt().mid()
 
 
 def _with_multipliers(
@@ -141,21 +156,33 @@ def _with_multipliers(
 
 
 def _inwards(problem: Blocks, x: arb_mat, y: list[Vector], states: list[int]) -> Pair | None:
-    """Return the pair moved inside of all cones."""
-    touching = [A_j for A_j, state in zip(problem.A, states, strict=True) if state != OPEN]
+    """Return the pair moved inside of all cones: rigid contacts by x, others by their y."""
+    rigid = [not c_j > 0 for c_j in problem.give]
+    touching = [
+        A_j
+        for A_j, state, hard in zip(problem.A, states, rigid, strict=True)
+        if hard and state != OPEN
+    ]
     way = _opening(touching, problem.H.nrows())
     if way is None:
         return None
-    x = (x + arb_mat(len(way), 1, way.tolist()) * INWARDS).mid()
-    s = [(A_j * x - b_j).mid().entries() for A_j, b_j in zip(problem.A, problem.b, strict=True)]
+    moved = arb_mat(len(way), 1, way.tolist()) * INWARDS
     share = INWARDS * largest([v for y_j in y for v in y_j])
-    return Pair(x, s, [[(y_j[0] + share).mid(), *y_j[1:]] for y_j in y])
+    inside = []
+    for A_j, c_j, y_j in zip(problem.A, problem.give, y, strict=True):
+        lift = share
+        if c_j > 0:  # more than what x takes it outwards
+            lift = share + 2 * _length((A_j * moved).entries()) / c_j
+        inside.append([(y_j[0] + lift).mid(), *y_j[1:]])
+    x = (x + moved).mid()
+    return Pair(x, [s_j.entries() for s_j in problem.slacks(x, inside)], inside)
 
 
 def _opening(A: list[arb_mat], n: int) -> Array | None:
     """Return a displacement that moves every contact well inside of its cone, in float64."""
     ends = np.cumsum([A_j.nrows() for A_j in A])
-    rows = np.array([float(v) for A_j in A for v in A_j.entries()]).reshape(-1, n)
+    entries = [float(v) for A_j in A for v in A_j.entries()]
+    rows = np.array(entries).reshape(ends[-1] if len(ends) else 0, n)
     inverse = np.linalg.pinv(rows)
     d = np.zeros(n)
     inner = np.zeros(len(rows))

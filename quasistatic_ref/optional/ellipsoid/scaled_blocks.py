@@ -26,6 +26,8 @@ class ScaledBlocks:
         Unit of each coordinate.
     length : list of arb
         Unit of the rows of each block: their largest absolute entry; 1 if all are zero.
+    give : list of arb
+        What each block gives way by for each unit of y, in the form's units.
     size : arb
         Unit of the step: ||H^-1 g||_H, or the largest gap in units of `length` if g is zero; 1 if
         all gaps are zero, too.
@@ -36,6 +38,7 @@ class ScaledBlocks:
     mu: list[arb]
     root: list[arb]
     length: list[arb]
+    give: list[arb]
     size: arb
 
     def pair(self, found: Pair) -> tuple[arb_mat, list[Vector]]:
@@ -57,7 +60,9 @@ class ScaledBlocks:
         return arb_mat(len(x), 1, x), y
 
 
-def scaled_blocks(step: StepData, form: ExactForm, balls: BallForm) -> ScaledBlocks:
+def scaled_blocks(
+    step: StepData, form: ExactForm, balls: BallForm, compliance: float = 0.0
+) -> ScaledBlocks:
     """The conic program of a step in the ellipsoid.
 
     Parameters
@@ -67,6 +72,8 @@ def scaled_blocks(step: StepData, form: ExactForm, balls: BallForm) -> ScaledBlo
         That of the step.
     balls : BallForm
         That of the form.
+    compliance : float
+        Of each contact [m/N]; the user's rows are rigid.
     """
     n = form.n
     A = balls.A
@@ -79,6 +86,9 @@ def scaled_blocks(step: StepData, form: ExactForm, balls: BallForm) -> ScaledBlo
     gaps = [abs(b[block[0], 0]) / ell for block, ell in zip(blocks, length, strict=True)]
     free = square_root(inner(balls.x_free, arb_mat(form.H) * balls.x_free))
     size = free.mid() if free > 0 else largest(gaps)
+    n_c = step.contacts.n_c
+    soft = arb(compliance) / step.h * form.lam_unit / form.slack_unit
+    give = [soft] * n_c + [arb(0)] * (len(blocks) - n_c)
     problem = Blocks(
         H=arb_mat(
             n, n, [root[u] * form.H[u, v] * root[v] for u in range(n) for v in range(n)]
@@ -92,8 +102,9 @@ def scaled_blocks(step: StepData, form: ExactForm, balls: BallForm) -> ScaledBlo
             arb_mat(len(block), 1, [mu[i] * b[i, 0] / (ell * size) for i in block]).mid()
             for block, ell in zip(blocks, length, strict=True)
         ],
+        give=[(c / ell**2).mid() for c, ell in zip(give, length, strict=True)],
     )
-    return ScaledBlocks(problem, blocks, mu, root, length, size)
+    return ScaledBlocks(problem, blocks, mu, root, length, give, size)
 
 
 def largest(values: list[arb]) -> arb:

@@ -21,7 +21,7 @@ from quasistatic_ref.optional.extensions.conic import ConicProgram, conic_residu
 from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.solve.backends import DEFAULT, backend, cone_backend
+from quasistatic_ref.solve.backends import DEFAULT, backend, check_takes_cones
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import RELAXED, Solver
@@ -177,7 +177,7 @@ def extended_solution(
     StepNotSolved
         If it does not solve the problem, or its residuals are not small.
     """
-    cone_backend(name, "an extension with nonlinear constraints or costs")
+    check_takes_cones(name, "an extension with nonlinear constraints or costs")
     units = natural_units(step)
     if units.size <= STANDSTILL:  # nothing but the extension drives the step
         units = units._replace(size=1.0)

@@ -6,8 +6,8 @@ from typing import Any
 
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import ScenarioError
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.plain import Plain
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.extensions.rises import private_rises, urdf_friction
 from quasistatic_ref.scenario.bodies import BodyEntry
@@ -74,7 +74,7 @@ def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:
     if entry.joint_friction == URDF:
         return urdf_friction(system, entry.body.name)
     table = {} if entry.joint_friction is None else entry.joint_friction
-    given = Fields(table, entry.table.name("joint_friction"), ScenarioError)
+    given = TableReader(table, entry.table.name("joint_friction"), ScenarioError)
     own = [joint for joint in system.joints if joint.name.startswith(f"{entry.body.name}/")]
     rubbed = [joint for joint in own if joint.kind != "floating"]
     given.only(entry.short(joint) for joint in rubbed)
@@ -87,14 +87,14 @@ def joint_friction(system: System, entry: BodyEntry) -> dict[str, float]:
         one = len(coordinates) == 1
         loads = [given.number(name)] if one else given.array(name, (len(coordinates),)).tolist()
         if min(loads) < 0:
-            raise given.fail(name, "must be at least 0", loads)
+            raise given.error_about(name, "must be at least 0", loads)
         found |= {c.name: load for c, load in zip(coordinates, loads, strict=True)}
     return found
 
 
-def _support(entry: BodyEntry, rubs: Fields) -> tuple[float, float]:
+def _support(entry: BodyEntry, rubs: TableReader) -> tuple[float, float]:
     """mu_v [-] and mu_omega [m] of a planar base on its floor."""
     if entry.body.base != "planar":
-        raise entry.table.fail("support", 'is for a body with base = "planar"')
+        raise entry.table.error_about("support", 'is for a body with base = "planar"')
     check_names(rubs, SUPPORT)
     return value(rubs, SUPPORT, "mu_v"), value(rubs, SUPPORT, "mu_omega")

@@ -87,7 +87,7 @@ class NativeSolver(BackendSolver):
     def takes(self, step: StepData) -> bool:
         """Whether a step can be written into the same arrays."""
         # Steps of one run share their layout of rows: an identity test, which takes no time.
-        alike = step.layout is self.template.layout and sizes(step) == self.sizes
+        alike = step.row_layout is self.template.row_layout and sizes(step) == self.sizes
         return alike or super().takes(step)
 
     def write(self, both: Any) -> NDArray[np.bool_] | None:

@@ -15,7 +15,7 @@ from quasistatic_ref.formats.plain import field_values
 from quasistatic_ref.step.arrays import (
     Array,
     Indices,
-    frozen,
+    checked_array,
     whole,
 )
 from quasistatic_ref.step.cones import PYRAMID
@@ -50,7 +50,7 @@ class Constants(NamedTuple):
         No rows of a user's own.
     H : ndarray, shape (n_v, n_v)
         Of Eq. :eq:`eq-13`; where M_u is in blocks, these blocks over h and nothing else.
-    layout : RowLayout
+    row_layout : RowLayout
     """
 
     h: float
@@ -59,7 +59,7 @@ class Constants(NamedTuple):
     M_u: Array
     extra: Extra
     H: Array
-    layout: RowLayout
+    row_layout: RowLayout
 
     @property
     def kind(self) -> "type[PosedStep]":
@@ -92,11 +92,11 @@ def constants(
     """
     n_u = math.prod(M_u.shape[:-1])
     h = seconds(h)
-    K_q = positive_definite("K_q", frozen(K_q, "K_q", (n_a, n_a)))
+    K_q = positive_definite("K_q", checked_array(K_q, "K_q", (n_a, n_a)))
     try:
-        positive_definite("M_u", frozen(M_u, "M_u", M_u.shape))  # all blocks in one call
+        positive_definite("M_u", checked_array(M_u, "M_u", M_u.shape))  # all blocks in one call
     except StepDataError:
-        every_block = frozen(whole(M_u), "M_u", (n_u, n_u))
+        every_block = checked_array(whole(M_u), "M_u", (n_u, n_u))
         positive_definite("M_u", every_block)  # whose sentence shows all of M_u
     layout = row_layout(cone, rows.tobytes())
     H = hessian(h, K_q, M_u) if M_u.ndim == 2 else hessian_blocks(h, K_q, M_u)[1]

@@ -357,7 +357,7 @@ def _coupling(step: StepData) -> Coupling:
         moving = J.any(axis=1).tobytes()
     A = step.extra.A
     own = (A != 0).tobytes() if A.size else b""
-    return [step.h, step.K_q, vars(step)["M_u"], moving, own, step.layout.counts]
+    return [step.h, step.K_q, vars(step)["M_u"], moving, own, step.row_layout.counts]
 
 
 def _same(one: list[Any], two: list[Any]) -> bool:
@@ -388,5 +388,5 @@ def _parts(step: StepData, near: Mask | None, before: list[KeptGroup]) -> list[K
 
 
 def _key(constant: Constants) -> tuple[Any, ...]:
-    numbers = constant.K_q.tobytes(), constant.M_u.tobytes(), constant.layout.counts.tobytes()
+    numbers = constant.K_q.tobytes(), constant.M_u.tobytes(), constant.row_layout.counts.tobytes()
     return constant.h, constant.cone, len(constant.K_q), numbers

@@ -10,13 +10,13 @@ from quasistatic_ref.certify.norm import Norm
 from quasistatic_ref.optional.fast.backends import fast_backend
 from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.native import NativeSolver, native_backends
-from quasistatic_ref.optional.fast.proofs import Kept, Proofs
+from quasistatic_ref.optional.fast.proofs import Proofs
 from quasistatic_ref.optional.fast.second_order import ConeSolver
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
 from quasistatic_ref.parts import needed_part, part
 from quasistatic_ref.solve.backends import RESIDUAL
 from quasistatic_ref.solve.solver import NaturalAnswer, Solver, solver_for
-from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, Units, in_natural
+from quasistatic_ref.solve.units import DenseStepInBothUnits, StepInBothUnits, Units
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import StandardForm
@@ -60,17 +60,15 @@ class FastSolver(NativeSolver):
     ----------
     proofs : Proofs
         Of the steps that are certified.
-    whole : Kept
-        Of the step whose error was bounded last.
     bound : FloatBound or None
-        Of the step whose error was bounded last.
+        For the H of the step whose error was bounded last.
     written : Units or None
         Natural units of the step whose g, A and b compiled code has written into the program.
     """
 
     def __init__(self, template: StepData, name: str) -> None:
         super().__init__(template, name)
-        self.proofs, self.whole = Proofs(), Kept()
+        self.proofs = Proofs()
         self.bound: Any = None
         self.written: Units | None = None
 
@@ -104,14 +102,8 @@ class FastSolver(NativeSolver):
     def error_bound(self, both: StepInBothUnits, delta_q: Array, lam: Array) -> float:
         """A bound of the relative error [-]: in float64, and in balls where that is open."""
         assert isinstance(both, DenseStepInBothUnits)
-        form = both.natural_form
-        S, ell, rho = both.units
-        hessian = self.whole.hessian_of(both.si_step)
-        if self.bound is None or not self.bound.serves(hessian.inverse, S):
-            bounds = needed_part("large.rounded_bound", RESIDUAL)
-            self.bound = bounds.FloatBound(hessian.inverse, hessian.h, form.H, S)
-        x, y = in_natural(delta_q, lam, both.units)
-        error: float | None = self.bound.error(both.si_step, form, (ell, rho), x, y)
-        if error is not None and error <= BOUNDED:
-            return error
-        return super().error_bound(both, delta_q, lam)
+        H = both.hessian.natural_H
+        if self.bound is None or self.bound.H is not H:
+            self.bound = needed_part("large.float_bound", RESIDUAL).FloatBound(H)
+        error: float = self.bound.step_error(both, delta_q, lam)
+        return error if error <= BOUNDED else super().error_bound(both, delta_q, lam)

@@ -2,7 +2,7 @@
 
 As :mod:`~quasistatic_ref.optional.fast.native`, in time and memory that grow with the number of
 entries that are not zero. Answers are judged by residuals and a bound of the error
-(:mod:`~quasistatic_ref.optional.large.sparse_bound`), or proved group by group.
+(:mod:`~quasistatic_ref.optional.large.float_bound`), or proved group by group.
 """
 
 from typing import Any
@@ -84,7 +84,7 @@ class SparseSolver(NativeSolver):
         self.kind = kind
         A = kind.pattern.A.copy()
         m, n = A.shape
-        return SparseProgram(kind.H.H, kind.P, np.zeros(n), A, np.zeros(m))
+        return SparseProgram(kind.bound.H, kind.P, np.zeros(n), A, np.zeros(m))
 
     def takes(self, step: StepData) -> bool:
         """Whether a step has its entries where this pattern has them, and the same H."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.formats.plain import Plain
-from quasistatic_ref.step.arrays import Array, Indices, freeze
+from quasistatic_ref.step.arrays import Array, Indices, check_and_freeze
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ class Blocks(Plain):
             column = column.astype(np.int64)
             column.setflags(write=False)
             object.__setattr__(self, "column", column)
-        freeze(self, {"J": (len(column), 4, column.shape[1])}, "blocks.")
+        check_and_freeze(self, {"J": (len(column), 4, column.shape[1])}, "blocks.")
 
     def dense(self) -> Array:
         """All columns, shape (n_c, 4, n_v)."""

@@ -12,9 +12,9 @@ import numpy as np
 from scipy.sparse import csc_matrix
 
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
-from quasistatic_ref.optional.large.sizes import sizes_of
-from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
-from quasistatic_ref.optional.large.sparse_form import Pattern, sparse_form
+from quasistatic_ref.optional.large.float_bound import FloatBound
+from quasistatic_ref.optional.large.sizes import row_sizes, step_sizes
+from quasistatic_ref.optional.large.sparse_form import Pattern, in_blocks, sparse_form
 from quasistatic_ref.solve.units import (
     check_units,
     coordinate_units,
@@ -41,8 +41,8 @@ class LargeSteps:
         Diagonal of S [m or rad, per (N m s)^0.5].
     P : scipy.sparse.csc_matrix, shape (n_v, n_v)
         Upper triangle of H in natural units [-].
-    H : SparseHessian
-        The whole of it.
+    bound : FloatBound
+        Of errors; it has the whole of H.
 
     Raises
     ------
@@ -58,7 +58,7 @@ class LargeSteps:
         self.P = csc_matrix((P.data * S[P.indices] * S[column], P.indices, P.indptr), P.shape)
         whole = self.P + self.P.T
         whole.setdiag(self.P.diagonal())
-        self.H = SparseHessian(whole.tocsc())
+        self.bound = FloatBound(whole.tocsc())
 
     def fits(self, step: StepData) -> bool:
         """Whether a step is of this kind."""
@@ -86,7 +86,7 @@ class SparseStep:
 
     def __init__(self, step: StepData, kind: LargeSteps) -> None:
         self.si_step = step
-        self.hessian = kind.H
+        self.kind = kind
         form = sparse_form(step, kind.pattern)
         S = kind.coordinate
         rows = form.A.data * S[kind.pattern.column]
@@ -94,14 +94,14 @@ class SparseStep:
         y = form.g * S
         power = small_power(y)
         near_one = np.ldexp(y, -power)
-        square = max(float(near_one @ kind.H.factor.solve(near_one)), 0.0)
+        square = max(float(near_one @ kind.bound.factor.solve(near_one)), 0.0)
         free_length = math.ldexp(math.sqrt(square), power)  # ||H^-1 g||_H
         self.units = units = units_from(S, np.sort(squares), free_length, form.b)
         check_units(units, step)
         self.si_form: Any = form
         A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
         b = form.b / (units.size * units.length)
-        self.natural_form: Any = StandardForm(kind.H.H, y / units.size, A, b)
+        self.natural_form: Any = StandardForm(kind.bound.H, y / units.size, A, b)
 
     def natural_residuals(self, delta_q: Array, lam: Array) -> Residuals:
         """Residuals of Eqs. :eq:`eq-9`-:eq:`eq-12` at delta_q (n_v,), lam (m,) in units [-]."""
@@ -109,8 +109,11 @@ class SparseStep:
 
     def error_bound(self, delta_q: Array, lam: Array) -> float:
         """A rigorous bound of the relative error [-] of delta_q (n_v,), lam (m,) in SI units."""
+        step = self.si_step
         units = self.units
-        sizes = sizes_of(self.si_step, units.coordinate, units.length, units.size)
-        _, g, A, b = self.natural_form
-        form = LargeForm(self.hessian, g, A, b, sizes)
-        return sparse_error_bound(form, *in_natural(delta_q, lam, units))
+        pattern = self.kind.pattern
+        own = row_sizes(step.contacts, in_blocks(step).J, step.cone)[step.mask]
+        entries = own.ravel()[pattern.entry] * (units.coordinate / units.length)[pattern.column]
+        A = csc_matrix((entries, pattern.A.indices, pattern.A.indptr), pattern.A.shape)
+        x, y = in_natural(delta_q, lam, units)
+        return self.kind.bound.error(self.natural_form, step_sizes(step, A, units), x, y)

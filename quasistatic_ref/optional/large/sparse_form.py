@@ -11,7 +11,7 @@ from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.data import Array, StepData, hessian_blocks
-from quasistatic_ref.step.friction import row_gaps, rows_along
+from quasistatic_ref.step.friction import row_constants, rows_along
 from quasistatic_ref.step.ordered import product
 
 
@@ -131,4 +131,4 @@ def sparse_form(step: StepData, pattern: Pattern) -> SparseForm:
     rows = rows_along(step.contacts, blocks.J, step.cone)[step.mask]  # Eqs. (4), (8), (m, w)
     entries = rows.ravel()[pattern.entry]
     A = csc_matrix((entries, pattern.A.indices, pattern.A.indptr), pattern.A.shape)
-    return SparseForm(pattern.P, g, A, -row_gaps(step.contacts, step.cone)[step.mask])
+    return SparseForm(pattern.P, g, A, -row_constants(step.contacts, step.cone)[step.mask])

@@ -21,10 +21,10 @@ import numpy as np
 
 from quasistatic_ref import __version__
 from quasistatic_ref.errors import InputError, about_file
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import is_stream, written_whole
 from quasistatic_ref.formats.npz import header_of, json_array, npz_arrays, npz_record
 from quasistatic_ref.formats.plain import bits
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.simulate import trajectory as whole_run
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.record import EXTRA, FORCES, PER_STEP, PROGRAM
@@ -76,7 +76,7 @@ def run_settings(simulator: Simulator, start: Array, record: str) -> dict[str, s
             settings[f"{field} of {pair.name}"] = repr(getattr(pair, field))
         settings[f"shapes of {pair.name}"] = HASHED + fingerprint((pair.alpha, pair.beta))
     settings["the order of the contacts"] = ", ".join(pair.name for pair in simulator.pairs)
-    arrays = {"K_q": simulator.K_q, "gravity_compensated": simulator.gravity_acts, "start": start}
+    arrays = {"K_q": simulator.K_q, "gravity_compensated": simulator.gravity_factor, "start": start}
     return settings | {name: HASHED + fingerprint(array) for name, array in arrays.items()}
 
 
@@ -143,12 +143,12 @@ class SavedSteps(Observer):
         for path in _files(self.folder):
             header, part = npz_record(path, WHAT)
             with about_file(path):
-                extra = self._checked(Fields(header), part, expected)
+                extra = self._checked(TableReader(header), part, expected)
             expected += len(part["t"])
             yield part, extra
             self._saved += 1
 
-    def _checked(self, top: Fields, part: StepArrays, expected: int) -> tuple[str, ...]:
+    def _checked(self, top: TableReader, part: StepArrays, expected: int) -> tuple[str, ...]:
         """Names of an extension's rows, of a part that begins with the expected step."""
         top.text("format", choices=(FORMAT,))
         fits = top.integer("version") == VERSION and top.integer("first") == expected
@@ -294,7 +294,7 @@ def saved_steps(path: str | Path) -> int:
         return 0
     header = _npz_header(files[-1], WHAT)
     with about_file(files[-1]):
-        top = Fields(header)
+        top = TableReader(header)
         return top.integer("first", least=0) + top.integer("steps", least=0)
 
 
@@ -314,7 +314,7 @@ def steps_in(path: str | Path) -> int:
     if not os.path.isfile(path) or is_stream(path) or not path.stat().st_size:
         return 0
     try:
-        top = Fields(_npz_header(path, whole_run.WHAT))
+        top = TableReader(_npz_header(path, whole_run.WHAT))
         top.check_format(whole_run.FORMAT, whole_run.VERSION)
         return top.integer("steps", least=0)
     except InputError as error:

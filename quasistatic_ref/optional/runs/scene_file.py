@@ -216,7 +216,7 @@ class _SceneFiles:
         if np.any(simulator.K_q[np.ix_(own, ~own)]):
             problem = "couples two bodies, and a scenario has a matrix for each body"
             raise InputError(problem, field="K_q")
-        acts = simulator.gravity_acts[: self.system.n_a][own]
+        acts = simulator.gravity_factor[: self.system.n_a][own]
         if acts.any() and not acts.all():
             problem = f"differs between joints of {body.name}; a scenario says it of a body"
             raise InputError(problem, field="gravity_acts")

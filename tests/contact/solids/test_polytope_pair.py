@@ -15,6 +15,7 @@ from tests.tolerances import CLOSED_FORM, EXACT, OF_DIFFERENCE
 
 SCALES = [1e-5, 1e3]
 X, _, Z = np.eye(3)
+ALONG_X = Rotation.from_euler("y", np.pi / 2).as_matrix()
 HALF = np.array([0.1, 0.3, 0.2])
 CORNERS = HALF * [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
 ROOF = np.array([[0, 0, 0], [0.03, 0.01, 0.05], [-0.02, 0.03, 0.06], [0.01, -0.03, 0.07]])
@@ -61,7 +62,7 @@ def test_edges_that_cross_are_closest_where_they_cross(angle, gap, scale) -> Non
 
 @pytest.mark.parametrize("scale", SCALES)
 @pytest.mark.parametrize(
-    ("angle", "apart"), [(1.0, 0.1), (1.0, 1e-7), (1e-3, 1e-7), (1.0, 0.0), (1e-3, 0.0), (1e-9, 0)]
+    ("angle", "apart"), [(1.0, 0.1), (-1.0, 1e-7), (1e-3, 1e-7), (1.0, 0.0), (1e-3, 0.0), (1e-9, 0)]
 )
 def test_capsules_that_cross_have_the_common_normal_of_their_axes(angle, apart, scale) -> None:
     # Axes along z, and turned about the common normal x; they cross at z = 0.02.
@@ -80,27 +81,62 @@ def test_capsules_that_cross_have_the_common_normal_of_their_axes(angle, apart, 
 
 
 @pytest.mark.parametrize("scale", SCALES)
-def test_capsules_end_to_end_have_their_axis_as_normal(scale) -> None:
+@pytest.mark.parametrize(
+    ("R_a", "R_b", "between"),
+    [(np.eye(3), np.eye(3), 0.2), (np.eye(3), ALONG_X, -0.1), (ALONG_X, np.eye(3), 0.1)],
+    ids=["end to end", "end to side", "side to end"],
+)
+def test_capsules_at_an_end_have_its_axis_as_normal(R_a, R_b, between, scale) -> None:
     capsule = Capsule(0.03 * scale, 0.1 * scale)
     apart = 1e-8
-    found = moved_pair(capsule, np.eye(3), capsule, np.eye(3), scale * (0.2 + apart) * Z, 1)
+    n = np.sign(between) * Z
+    found = moved_pair(capsule, R_a, capsule, R_b, scale * (between * Z + apart * n), 1)
     np.testing.assert_allclose(found.phi / scale, apart - 0.06, rtol=EXACT, atol=CLOSED_FORM)
-    np.testing.assert_allclose(found.n, Z, rtol=EXACT, atol=OF_DIFFERENCE / apart)
+    np.testing.assert_allclose(found.n, n, rtol=EXACT, atol=OF_DIFFERENCE / apart)
+
+
+def test_a_capsule_leaves_an_edge_that_it_crosses_whichever_way_it_is_turned_about_itself() -> None:
+    # An edge of a cube, on top along x; the axis of a capsule along y, below the edge by a depth.
+    cube = Box(np.full(3, 0.1))
+    on_edge = turned(np.pi / 4, 0, 0)
+    depth = 0.01
+    capsule = Capsule(0.03, 0.1)
+    t = np.array([0.02, 0, 0.1 * np.sqrt(2) - depth])
+    for seed in range(12):
+        R = turned(np.pi / 2, 0, 0) @ turned(0, 0, (seed + 0.5) * np.pi / 6)
+        found = moved_pair(cube, on_edge, capsule, R, t, seed)
+        other = moved_pair(capsule, R, cube, on_edge, -t, seed)
+        np.testing.assert_allclose([found.phi, other.phi], -depth - 0.03, rtol=CLOSED_FORM)
+        np.testing.assert_allclose([found.n, -other.n], [Z, Z], rtol=EXACT, atol=CLOSED_FORM)
+
+
+NEAR_EDGE = [
+    *[(0.6 * off, 0.8 * off) for off in (1e-9, 1e-4, 0.05)],
+    *[(beyond, up) for beyond in (1e-6, 3e-8, 1e-9, -1e-9, -1e-6) for up in (1e-5, 0.05)],
+]
 
 
 @pytest.mark.parametrize("scale", SCALES)
-@pytest.mark.parametrize("off", [1e-9, 1e-4, 0.05])
-def test_a_tip_off_an_edge_has_the_way_from_the_edge_as_normal(off, scale) -> None:
-    n = np.array([0.6, 0, 0.8])
+@pytest.mark.parametrize(("beyond", "up"), NEAR_EDGE)
+def test_a_tip_near_an_edge_leans_away_from_it_only_beyond_it(beyond, up, scale) -> None:
+    # The tip is above the face z = 0.2, a little past its edge at x = 0.1 or within it. Distances
+    # to face and edge may differ by beyond^2 / (2 up), less than float64 has: then the foot's place
+    # decides.
+    way = np.array([max(beyond, 0.0), 0.0, up])
+    off = np.sqrt(way @ way)
+    tip = np.array([HALF[0] + beyond, 0.05, HALF[2] + up])
+    t = scale * tip
     roof = convex_hull(scale * ROOF)
-    edge = np.array([HALF[0], 0.05, HALF[2]])
-    t = scale * (edge + off * n)
     for box in (Box(scale * HALF), convex_hull(scale * CORNERS)):
-        for seed in range(2):
+        _, normals = box.signed_distance(t[None])
+        for seed in range(4):
             found = moved_pair(box, np.eye(3), roof, np.eye(3), t, seed)
-            np.testing.assert_allclose(found.phi / scale, off, rtol=EXACT, atol=CLOSED_FORM)
-            np.testing.assert_allclose(found.n, n, rtol=EXACT, atol=OF_DIFFERENCE / off)
-            np.testing.assert_allclose(found.alpha / scale, edge, rtol=EXACT, atol=CLOSED_FORM)
+            other = moved_pair(roof, np.eye(3), box, np.eye(3), -t, seed)
+            for n in (normals[0], found.n, -other.n):
+                np.testing.assert_allclose(n, way / off, rtol=EXACT, atol=OF_DIFFERENCE / off)
+            for phi in (found.phi, other.phi):
+                np.testing.assert_allclose(phi / scale, off, rtol=EXACT, atol=CLOSED_FORM)
+            np.testing.assert_allclose(found.beta / scale, tip, rtol=EXACT, atol=CLOSED_FORM)
 
 
 @pytest.mark.parametrize("scale", SCALES)

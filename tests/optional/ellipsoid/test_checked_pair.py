@@ -10,9 +10,9 @@ from quasistatic_ref.certify.minimiser import form_in_balls
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     Checked,
-    _checked,
     _impulses,
     _net,
+    checked,
 )
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from tests.helpers import point_on_floor
@@ -38,7 +38,7 @@ def units(values, unit):
     return [arb(v) / unit for v in np.asarray(values, float).tolist()]
 
 
-def checked(form, delta_q, gap=0.0):
+def point_at(form, delta_q, gap=0.0):
     """A displacement [m] whose duality gap is `gap` [N m s], in the units of a form."""
     x = arb_mat(form.n, 1, units(delta_q, form.x_unit))
     return Checked(x, [], arb(gap) / (form.net_unit * form.x_unit), arb(1))
@@ -50,7 +50,7 @@ def test_a_pair_outside_of_its_cone_in_any_coordinate_is_refused(k):
     _, form, balls, frame = posed()
     for share, inside in ((0.99, True), (-0.99, True), (1.01, False), (-1.01, False)):
         y = [arb(1), *(arb(share if i == k else 0.0) for i in (1, 2, 3))]
-        found = _checked(form, balls, frame, checked(form, np.zeros(3)).x, [y])
+        found = checked(form, balls, frame, point_at(form, np.zeros(3)).x, [y])
         assert (found is not None) == inside
 
 
@@ -58,7 +58,7 @@ def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
     """H x - g = m x / h - h F; -2^-1200 N s is no float64, and rounded to zero."""
     _, form, _, _ = posed(point_on_floor(M, MU, PHI, (4.0, 0.0, -1.0), H_STEP))
     x = np.array([3e-3, 0.0, 5e-3])
-    found = checked(form, x)
+    found = point_at(form, x)
     found.x[1, 0] = -(arb(2) ** -1200)
     net = _net(form, found)
     expected = M * x / H_STEP - H_STEP * np.array([4.0, 0.0, -1.0])

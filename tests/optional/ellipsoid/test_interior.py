@@ -28,25 +28,28 @@ def floats(values):
     return [float(v) for v in values]
 
 
-def floor_problem(push=0.0):
-    """H = I, g = (-2, push, 0), and the cone x_0 >= |(x_1, x_2)| of the three coordinates."""
+def floor_problem(push, give):
+    """H = I, g = (-2, push, 0), and the cone s_0 >= |(s_1, s_2)| of s = x + give y."""
     A = arb_mat([[arb(int(i == j)) for j in range(3)] for i in range(3)])
-    return Blocks(A, column([-2.0, push, 0.0]), [A], [column([0.0, 0.0, 0.0])])
+    return Blocks(A, column([-2.0, push, 0.0]), [A], [column([0.0, 0.0, 0.0])], [arb(give)])
 
 
+@pytest.mark.parametrize("give", [0.0, 3.0])
 @pytest.mark.parametrize(
-    ("push", "x", "y", "state"),
+    ("push", "s", "pressed", "state"),
     [
-        # The optimum is the projection of g on the cone, and y = x - g.
+        # s is the projection of g on the cone; s = x + give y and y = x - g: (1 + give) y = s - g.
         (1.0, [0.0, 0.0, 0.0], [2.0, -1.0, 0.0], STICKS),
         (4.0, [1.0, 1.0, 0.0], [3.0, -3.0, 0.0], SLIDES),
     ],
 )
-def test_both_methods_project_on_a_cone(push, x, y, state):
-    problem = floor_problem(push)
+def test_both_methods_project_on_a_cone(push, s, pressed, state, give):
+    problem = floor_problem(push, give)
+    y = np.array(pressed) / (1 + give)
+    x = y + np.array([-2.0, push, 0.0])
     with ctx.workprec(640):
         cold = interior_point(problem, arb(2) ** -60)
-        off = column(x) + column([2.0**-20, 0.0, 2.0**-21])
+        off = column(x + np.array([2.0**-20, 0.0, 2.0**-21]))
         near = [balls(np.add(y, [2.0**-20, 0.0, 2.0**-20]))]
         states = contact_states(problem, off, near)
         newton = newton_pair(problem, off, near, states)
@@ -54,4 +57,4 @@ def test_both_methods_project_on_a_cone(push, x, y, state):
     for pair, tolerance in ((cold, 2.0**-25), (newton, 2.0**-52)):
         np.testing.assert_allclose(floats(pair.x.entries()), x, rtol=0, atol=tolerance)
         np.testing.assert_allclose(floats(pair.y[0]), y, rtol=0, atol=4 * tolerance)
-        np.testing.assert_allclose(floats(pair.s[0]), x, rtol=0, atol=tolerance)
+        np.testing.assert_allclose(floats(pair.s[0]), s, rtol=0, atol=tolerance)

@@ -18,7 +18,7 @@ from quasistatic_ref.optional.extensions.extended import (
 )
 from quasistatic_ref.optional.extensions.rises import with_rises
 from quasistatic_ref.simulate.law import CONVEX
-from quasistatic_ref.solve.backends import DEFAULT, cone_backend
+from quasistatic_ref.solve.backends import DEFAULT, check_takes_cones
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.units import natural_step, natural_units
 from quasistatic_ref.step.data import Extra
@@ -148,7 +148,7 @@ def test_an_answer_whose_worst_residual_is_just_the_limit_is_believed(monkeypatc
 
 def test_only_backends_with_cones_take_what_is_no_row():
     for name in ("clarabel", "scs", "none"):
-        cone_backend(name, "the ellipsoid")
+        check_takes_cones(name, "the ellipsoid")
     for name in ("osqp", "daqp", "qpsolvers:clarabel"):
         with pytest.raises(BackendError, match="accepts only linear rows; the ellipsoid needs one"):
-            cone_backend(name, "the ellipsoid")
+            check_takes_cones(name, "the ellipsoid")

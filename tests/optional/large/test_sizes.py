@@ -4,16 +4,31 @@ A number of a step has none. A sum has one more than the worse of its terms, a p
 than both of its factors together; multiplying by zero, one or a unit costs nothing.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.sparse import csc_matrix
 
 from quasistatic_ref.optional.large import sizes as of
-from quasistatic_ref.optional.large.sizes import ROUNDINGS, TINY, UNIT, rounding, sizes_of
-from quasistatic_ref.step.cones import cone_function
+from quasistatic_ref.optional.large.float_bound import FloatBound
+from quasistatic_ref.optional.large.sizes import (
+    ROUNDINGS,
+    TINY,
+    UNIT,
+    TermSizes,
+    rounding,
+    row_sizes,
+    step_sizes,
+    term_sizes,
+)
+from quasistatic_ref.optional.large.sparse import LargeSteps
+from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
+from quasistatic_ref.step.cones import cone_function, cone_matrix
+from quasistatic_ref.step.friction import scaled_by
 from tests.helpers import in_blocks, random_step
 
 CONES = ["pyramid", "product", "facets-4", "facets-8", "frictionless"]
@@ -60,17 +75,16 @@ def most(values):
     return max(v.count or 0 for v in np.ravel(values))
 
 
-def counting(cone, n_c=2):
+def counting(cone, monkeypatch, n_c=2):
     """Sizes of a step whose numbers are counted, and x and lam that are."""
-    step = in_blocks(random_step(np.random.default_rng(0), rows=(6,) * n_c).replace(cone=cone))
-    sizes = sizes_of(step, np.ones(step.n_v), 1.0, 1.0)
-    blocks = object.__new__(type(sizes.blocks))
-    vars(blocks).update(vars(sizes.blocks), J=counted(sizes.blocks.J))
-    sizes = replace(
-        sizes, blocks=blocks, axes=counted(sizes.axes), mu=counted(sizes.mu),
-        cone=counted(sizes.cone), coordinate=np.ones(step.n_v),
-    )  # fmt: skip
-    return sizes, counted(np.ones(step.n_v)), counted(np.ones(sizes.mask.sum()))
+    step = random_step(np.random.default_rng(0), rows=(6,) * n_c).replace(cone=cone)
+    c = step.contacts
+    numbers = SimpleNamespace(n=counted(c.n), d1=counted(c.d1), d2=counted(c.d2), mu=c.mu)
+    monkeypatch.setattr(of, "scaled_by", lambda _: counted(scaled_by(c)))
+    monkeypatch.setattr(of, "cone_matrix", lambda _: counted(cone_matrix(cone)))
+    A = row_sizes(numbers, counted(c.J), cone)[step.mask]
+    m, n_v = A.shape
+    return TermSizes(A, np.zeros(n_v), n_v, m, True), counted(np.ones(n_v)), counted(np.ones(m))
 
 
 def entry(cone):
@@ -89,9 +103,9 @@ def entry(cone):
 
 
 @pytest.mark.parametrize("cone", CONES)
-def test_no_result_has_more_roundings_than_its_bound_allows(cone):
+def test_no_result_has_more_roundings_than_its_bound_allows(cone, monkeypatch):
     for n_c in (1, 2, 5):
-        sizes, x, lam = counting(cone, n_c)
+        sizes, x, lam = counting(cone, monkeypatch, n_c)
         rows = sizes.row_terms + ROUNDINGS
         columns = sizes.column_terms + ROUNDINGS
         assert most(sizes.rows(x)) + 1 <= rows  # and |b| is added
@@ -118,27 +132,51 @@ def test_a_bound_is_not_below_gamma_over_one_minus_gamma(terms):
         assert exact <= Fraction(found) <= exact * (1 + Fraction(1, 2**40)) + 2 * Fraction(TINY)
 
 
-def test_sizes_are_the_sums_of_the_sizes_of_all_terms():
-    for cone in CONES:
-        step = random_step(np.random.default_rng(2)).replace(cone=cone)
-        sparse = in_blocks(step)
-        sizes = sizes_of(sparse, np.full(step.n_v, 0.5), 0.25, 2.0)
-        c = step.contacts
-        rng = np.random.default_rng(3)
-        x = rng.standard_normal(step.n_v)
-        lam = rng.random(step.mask.sum())
-        parts = [np.abs(axis)[:, None] @ np.abs(c.J[:, :3]) for axis in (c.n, c.d1, c.d2)]
-        own = [p[:, 0] for p in parts] + [np.abs(c.J[:, 3])]
-        scaled = [own[0], *(c.mu[:, i, None] * own[i + 1] for i in range(3))]
-        cones = np.abs(np.stack(cone_function(cone)(*np.eye(4))))
-        bar = np.einsum("ri,icv->crv", cones, scaled)[step.mask] * 2.0  # S / ell
-        np.testing.assert_allclose(sizes.rows(x), bar @ np.abs(x), rtol=1e-14)
-        np.testing.assert_allclose(sizes.columns(lam), bar.T @ lam, rtol=1e-14)
-        spring = np.abs(step.K_q) @ np.abs(step.delta_q_bar_a) + np.abs(step.tau_a)
-        load = step.h * np.concatenate([spring, np.abs(step.tau_u)]) * 0.25  # S / rho
-        np.testing.assert_allclose(sizes.load, load, rtol=1e-14)
-        assert sizes.column_terms == step.mask.sum()
-        assert sizes.row_terms == step.n_v
-        assert sizes.usable
-        far = sizes_of(sparse, np.full(step.n_v, 2.0 * of.LARGEST), 1.0, 1.0)
-        assert not far.usable
+@pytest.mark.parametrize("cone", CONES)
+@pytest.mark.parametrize("blocks", [False, True])
+def test_sizes_are_the_sums_of_the_sizes_of_all_terms(monkeypatch, cone, blocks):
+    """Of a step in any units, as a bound of its error takes them, in dense and sparse matrices."""
+    taken = []
+    monkeypatch.setattr(FloatBound, "error", lambda _, form, sizes, x, lam: taken.append(sizes))
+    step = random_step(np.random.default_rng(2)).replace(cone=cone)
+    both = DenseStepInBothUnits(step)
+    if blocks:
+        step = in_blocks(step)
+        both = LargeSteps(step).in_both_units(step)
+        both.error_bound(np.zeros(step.n_v), np.zeros(step.m))
+    else:
+        FloatBound(both.hessian.natural_H).step_error(both, np.zeros(step.n_v), np.zeros(step.m))
+    (sizes,) = taken
+    S, ell, rho = both.units
+    c = step.contacts
+    parts = [np.abs(axis)[:, None] @ np.abs(c.J[:, :3]) for axis in (c.n, c.d1, c.d2)]
+    own = [p[:, 0] for p in parts] + [np.abs(c.J[:, 3])]
+    scaled = [own[0], *(c.mu[:, i, None] * own[i + 1] for i in range(3))]
+    cones = np.abs(np.stack(cone_function(cone)(*np.eye(4))))
+    bar = np.einsum("ri,icv->crv", cones, scaled)[step.mask] * S / ell
+    A = sizes.A.toarray() if blocks else sizes.A
+    np.testing.assert_allclose(A, bar, rtol=1e-14)
+    spring = np.abs(step.K_q) @ np.abs(step.delta_q_bar_a) + np.abs(step.tau_a)
+    load = step.h * np.concatenate([spring, np.abs(step.tau_u)]) * S / rho
+    np.testing.assert_allclose(sizes.load, load, rtol=1e-14)
+    assert sizes.column_terms == step.mask.sum()
+    assert sizes.row_terms == step.n_v
+    assert sizes.usable
+
+
+def test_numbers_beyond_the_largest_are_not_usable():
+    step = random_step(np.random.default_rng(2))
+    A = np.ones((1, step.n_v))
+    one = Units(np.ones(step.n_v), 1.0, 1.0)
+    assert step_sizes(step, A, one).usable
+    assert not step_sizes(step, 2.0 * of.LARGEST * A, one).usable
+    far = 2.0 * of.LARGEST
+    for S, length, size in ((far, 1.0, 1.0), (1.0, 1 / far, 1.0), (1.0, 1.0, 1 / far)):
+        units = Units(S * one.coordinate, length, size)
+        assert not step_sizes(step, A, units).usable
+
+
+def test_a_sum_in_g_may_have_more_terms_than_a_column_of_A():
+    sizes = term_sizes(csc_matrix([[1.0, 0.0, 2.0], [0.0, 0.0, 3.0]]), np.zeros(3))
+    assert (sizes.row_terms, sizes.column_terms) == (2, 2)
+    assert term_sizes(sizes.A, np.zeros(3), 5).column_terms == 5

@@ -37,7 +37,7 @@ SETS = {
     "SYSTEM": "system system_forces system_refusals random_mechanisms",
     "SCENES": "scenario simulator words",
     "FOLLOWED": "tracker_bound tracker",
-    "LARGE": "sparse_bound bound_formulas",
+    "LARGE": "float_bound bound_formulas",
     "CONTACT": "eq02_relative_velocity eq03_contact_jacobian",
 }
 TABLE = """
@@ -75,10 +75,8 @@ certify/minimiser.py
 optional/large/bound.py certify/gap.py optional/ellipsoid/impulses.py optional/large/judged.py
 optional/ellipsoid/apex.py optional/extensions/conic.py
     FORGED
-optional/large/rounded_bound.py
-    bound_formulas
 optional/large/least_eigenvalues.py optional/large/opening.py optional/large/sizes.py
-optional/large/sparse_bound.py
+optional/large/float_bound.py
     LARGE
 optional/large/outward.py
     sizes LARGE
@@ -115,7 +113,7 @@ contact/distance.py
 contact/tied_faces.py
     flat_on_flat PAIRS
 contact/crossings.py
-    own
+    contact/distance crossings
 optional/curved/rims.py
     crossings
 contact/shape_in_world.py contact/solids/polytope.py contact/solids/polytope_pair.py
@@ -124,7 +122,7 @@ optional/curved/ways_out.py shapes/hull.py shapes/revolved.py
 contact/separations.py
     flat_on_flat depth_ties
 contact/solids/solid_pair.py
-    polytope_pair CURVED
+    separations polytope_pair CURVED
 optional/large/sparse_jacobian.py optional/large/blocks.py optional/large/sparse_contacts.py
 optional/large/sparse_form.py
     SPARSE
@@ -195,11 +193,11 @@ optional/fast/native.py
 optional/fast/second_order.py
     native cones
 solve/solve.py
-    SOLVED native rounded_bound
+    SOLVED native float_bound
 solve/solver.py solve/through_cvxpy.py optional/qpsolvers/through_qpsolvers.py
     SOLVED
 optional/large/sparse.py optional/fast/sparse_solver.py
-    SPARSE sparse_bound
+    SPARSE float_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA
 step/pivots.py

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from quasistatic_ref.formats.declared import Field, Tables
-from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.json_schema import json_schema
 from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, SETTINGS
@@ -54,7 +54,7 @@ def _family(says: str) -> Field:
 class WholeTables(Tables):
     """Fields by name, by the kind of table, each of which is read as a whole."""
 
-    def all_values(self, table: Fields, kind: str) -> dict[str, Any]:
+    def all_values(self, table: TableReader, kind: str) -> dict[str, Any]:
         """Every field of a table of some kind, by name.
 
         Raises

@@ -5,8 +5,8 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.study.calling.guests import EVERY, installed_here, known_to
 from quasistatic_ref.lab.study.calling.packages import announced, entry_of
 from quasistatic_ref.lab.study.calling.solvers import INTERFACES, Setting, Solver
@@ -16,7 +16,7 @@ PACKAGE = "package"
 BY_INTERFACE = {interface: known_to(interface) for interface in ("cvxpy", "qpsolvers", "native")}
 
 
-def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, Solver]:
+def own_solvers(tables: TableReader, settings: Mapping[str, Setting]) -> dict[str, Solver]:
     """The solvers that a study defines, by name.
 
     Raises
@@ -25,13 +25,13 @@ def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, So
         If a table names no interface, or more than one.
     """
     solvers = {}
-    for name in tables.names():
+    for name in tables.names_left():
         table = tables.table(name)
         given = TABLES.all_values(table, SOLVER)
         interfaces = [interface for interface in INTERFACES if given[interface] is not None]
         if len(interfaces) != 1:
             words = "must say one of cvxpy, qpsolvers, native, package, callable and executable"
-            raise tables.fail(name, words, interfaces or None)
+            raise tables.error_about(name, words, interfaces or None)
         (interface,) = interfaces
         target = _target(table, interface, given[interface])
         options = _options(given["options"], settings)
@@ -40,7 +40,7 @@ def own_solvers(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, So
 
 
 def chosen_solvers(
-    table: Fields, names: list[str], own: Mapping[str, Solver]
+    table: TableReader, names: list[str], own: Mapping[str, Solver]
 ) -> tuple[Solver, ...]:
     """The solvers of a list: names of the study's own, ``interface:name``, and ``interface:*``.
 
@@ -57,7 +57,7 @@ def chosen_solvers(
             try:
                 found = solvers_named(name, own)
             except InputError as error:
-                raise table.fail("solvers", error.problem, error.value) from None
+                raise table.error_about("solvers", error.problem, error.value) from None
         chosen |= {solver.label: solver for solver in found}
     return tuple(chosen.values())
 
@@ -98,12 +98,12 @@ def _check_installed(interface: str, solver: str) -> None:
         raise InputError(f"is not installed; {remedy}", value=solver)
 
 
-def _target(table: Fields, interface: str, given: Any) -> str | tuple[str, ...]:
+def _target(table: TableReader, interface: str, given: Any) -> str | tuple[str, ...]:
     if interface == "executable":
         return tuple(given)
     if interface == "callable":
         if not re.fullmatch(MODULE, given):
-            raise table.fail(interface, "must read module:function", given)
+            raise table.error_about(interface, "must read module:function", given)
         return str(given)
     try:
         if interface == PACKAGE:
@@ -111,17 +111,17 @@ def _target(table: Fields, interface: str, given: Any) -> str | tuple[str, ...]:
         else:
             _check_installed(interface, given)
     except InputError as error:
-        raise table.fail(interface, error.problem, given) from None
+        raise table.error_about(interface, error.problem, given) from None
     return str(given)
 
 
-def _options(tables: Fields, settings: Mapping[str, Setting]) -> dict[str, dict[str, Any]]:
+def _options(tables: TableReader, settings: Mapping[str, Setting]) -> dict[str, dict[str, Any]]:
     options = {}
-    for name in tables.names():
+    for name in tables.names_left():
         if name not in settings:
-            raise tables.fail(name, f"is not a setting{suggestion(name, settings)}")
+            raise tables.error_about(name, f"is not a setting{suggestion(name, settings)}")
         value = tables.take(name)
         if not isinstance(value, dict):
-            raise tables.fail(name, "must be a table of options", value)
+            raise tables.error_about(name, "must be a table of options", value)
         options[name] = value
     return options

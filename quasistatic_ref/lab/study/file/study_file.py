@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.study.calling.sessions import MODES
 from quasistatic_ref.lab.study.calling.solvers import SETTINGS, Setting, Solver
 from quasistatic_ref.lab.study.file.fields import (
@@ -139,8 +139,8 @@ def study_path(name: str | Path) -> Path:
 
 def study_kind(tables: dict[str, Any]) -> str:
     """``"solvers"`` or ``"sweep"``."""
-    top = Fields(tables)
-    if {"format", "version"} <= set(top.names()):  # another format's names are no mistakes
+    top = TableReader(tables)
+    if {"format", "version"} <= set(top.names_left()):  # another format's names are no mistakes
         top.check_format(FORMAT, VERSION)
     return top.text("kind", "solvers", KINDS)
 
@@ -161,12 +161,13 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
         Naming the file, the field and the value.
     """
     try:
-        top = TABLES.all_values(Fields(tables), SOLVERS)
+        top = TABLES.all_values(TableReader(tables), SOLVERS)
         problems = _problems(top["problems"], path.parent, quick)
         settings = _settings(top["settings"])
         own = own_solvers(top["solvers"], settings)
         parts = tuple(
-            _part(Fields(part, f"runs[{i}]"), settings, own) for i, part in enumerate(top["runs"])
+            _part(TableReader(part, f"runs[{i}]"), settings, own)
+            for i, part in enumerate(top["runs"])
         )
         limits = Limits(top["time_limit"], top["warm_up"], top["repetitions"], top["budget"],
                         top["memory"] * GB)  # fmt: skip
@@ -175,36 +176,36 @@ def solver_study(path: Path, tables: dict[str, Any], quick: bool = False) -> Stu
         raise error.in_file(path) from None
 
 
-def _problems(table: Fields, folder: Path, quick: bool) -> TestSet:
+def _problems(table: TableReader, folder: Path, quick: bool) -> TestSet:
     given = TABLES.all_values(table, PROBLEMS)
     known = scenario_names()
     scenarios = known if given["scenarios"] is None else given["scenarios"]
     files = [name for name in scenarios if name.endswith(".toml")]
     _check_known(table, "scenarios", scenarios, [*known, *files])
     if len({Path(name).stem for name in scenarios}) < len(scenarios):
-        raise table.fail("scenarios", "must have different names", scenarios)
+        raise table.error_about("scenarios", "must have different names", scenarios)
     scenarios = [str(folder / name) if name in files else name for name in scenarios]
     source = given["set"] or ""
     families, most = _counts(given["families"], bool(source))
     if quick:
         families = {name: -(-count // QUICK) for name, count in families.items()}
     if not sum(families.values()):
-        raise table.fail("families", "must name at least one problem")
+        raise table.error_about("families", "must name at least one problem")
     return TestSet(given["seed"], families, tuple(scenarios), source, most)
 
 
-def _counts(table: Fields, of_a_set: bool) -> tuple[dict[str, int], dict[str, float]]:
+def _counts(table: TableReader, of_a_set: bool) -> tuple[dict[str, int], dict[str, float]]:
     """How many problems of each family, and where their dials end."""
     counts = {}
     most = {}
     for name, own in TABLES.all_values(table, COUNTS).items():
-        inner = Fields({"count": own} if isinstance(own, int) else own, table.name(name))
+        inner = TableReader({"count": own} if isinstance(own, int) else own, table.name(name))
         count = TABLES.all_values(inner, COUNT)
         if count["count"] and not of_a_set and name != SCENARIOS:
             words = 'is a family of sets; say set = "contact-qp-2", or "contact-qp-1"'
-            raise table.fail(name, words)
+            raise table.error_about(name, words)
         if count["most"] is not None and not of_a_set:
-            raise table.fail(name, "has no dial to be turned, unless it is taken from a set")
+            raise table.error_about(name, "has no dial to be turned, unless it is taken from a set")
         if count["count"]:
             counts[name] = count["count"]
         if count["most"] is not None:
@@ -212,19 +213,19 @@ def _counts(table: Fields, of_a_set: bool) -> tuple[dict[str, int], dict[str, fl
     return counts, most
 
 
-def _settings(tables: Fields) -> dict[str, Setting]:
+def _settings(tables: TableReader) -> dict[str, Setting]:
     settings = {s.name: s for s in SETTINGS}
-    for name in tables.names():
+    for name in tables.names_left():
         table = tables.table(name)
         given = TABLES.all_values(table, SETTING)
         if name not in settings and given["accuracy"] is None:
-            raise table.fail("accuracy", "is missing")
+            raise table.error_about("accuracy", "is missing")
         was = settings.get(name, Setting(name, None))
         settings[name] = replace(was, **{k: v for k, v in given.items() if v is not None})
     return settings
 
 
-def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solver]) -> Part:
+def _part(table: TableReader, settings: Mapping[str, Setting], own: Mapping[str, Solver]) -> Part:
     given = TABLES.all_values(table, RUN)
     solvers = chosen_solvers(table, given["solvers"], own)
     names = given["settings"]
@@ -232,11 +233,11 @@ def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solv
     _check_known(table, "units", given["units"], UNITS)
     _check_known(table, "modes", given["modes"], MODES)
     if not all(isinstance(warm, bool) for warm in given["warm"]):
-        raise table.fail("warm", "must be a list of true and false", given["warm"])
+        raise table.error_about("warm", "must be a list of true and false", given["warm"])
     for solver in solvers:
         if not any(solver.takes(settings[name]) for name in names):
             words = f"hold nothing that {solver.label} can be set to; add 'default', or give it"
-            raise table.fail("settings", f"{words} options of its own", names)
+            raise table.error_about("settings", f"{words} options of its own", names)
     return Part(
         solvers,
         tuple(settings[name] for name in dict.fromkeys(names)),
@@ -248,7 +249,7 @@ def _part(table: Fields, settings: Mapping[str, Setting], own: Mapping[str, Solv
     )
 
 
-def _check_known(table: Fields, field: str, names: list[str], known: Collection[str]) -> None:
+def _check_known(table: TableReader, field: str, names: list[str], known: Collection[str]) -> None:
     for name in names:
         if name not in known:
-            raise table.fail(field, f"holds an unknown one{suggestion(name, known)}", name)
+            raise table.error_about(field, f"holds an unknown one{suggestion(name, known)}", name)

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import json_text
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.study.file.fields import AXIS, SWEEP, SWEEPS, TABLES
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.tolerances import LARGE
@@ -107,19 +107,19 @@ def sweep_study(path: Path, tables: dict[str, Any], quick: bool = False) -> tupl
         Naming the file, the field and the value.
     """
     try:
-        top = Fields(tables)
+        top = TableReader(tables)
         sweeps: dict[str, Sweep] = {}
         for i, table in enumerate(TABLES.all_values(top, SWEEPS)["sweeps"]):
-            sweep = _sweep(Fields(table, f"sweeps[{i}]"), path.parent, quick)
+            sweep = _sweep(TableReader(table, f"sweeps[{i}]"), path.parent, quick)
             if sweep.name in sweeps:
-                raise top.fail(f"sweeps[{i}].name", "is given twice", sweep.name)
+                raise top.error_about(f"sweeps[{i}].name", "is given twice", sweep.name)
             sweeps[sweep.name] = sweep
     except InputError as error:
         raise error.in_file(path) from None
     return tuple(sweeps.values())
 
 
-def _sweep(table: Fields, folder: Path, quick: bool) -> Sweep:
+def _sweep(table: TableReader, folder: Path, quick: bool) -> Sweep:
     given = TABLES.all_values(table, SWEEP)
     named = given["scenario"]
     link = given["link"]
@@ -129,7 +129,7 @@ def _sweep(table: Fields, folder: Path, quick: bool) -> Sweep:
     sweep = Sweep(name, scenario, link, given["duration"], given["since"], axes)
     count = len(sweep.points())
     if count > MOST_RUNS:
-        raise table.fail("axes", f"make more than {MOST_RUNS} runs", count)
+        raise table.error_about("axes", f"make more than {MOST_RUNS} runs", count)
     sweep_scenario(sweep, sweep.points()[0]).system.link(link)
     return sweep
 
@@ -139,14 +139,14 @@ def sweep_scenario(sweep: Sweep, point: Mapping[str, Any]) -> Scenario:
     return load_scenario(sweep.scenario, sweep.settings(point))
 
 
-def _axes(tables: Fields, quick: bool) -> tuple[Axis, ...]:
+def _axes(tables: TableReader, quick: bool) -> tuple[Axis, ...]:
     axes = []
-    for name in tables.names():
+    for name in tables.names_left():
         table = tables.table(name)
         given = TABLES.all_values(table, AXIS)
         values = given["values"]
         if not all(map(is_value, values)):
-            raise table.fail("values", "must be a list of finite numbers or words", values)
+            raise table.error_about("values", "must be a list of finite numbers or words", values)
         chosen = dict.fromkeys([values[0], values[-1]] if quick else values)
         axes.append(Axis(name, tuple(given["fields"] or [name]), tuple(chosen)))
     if not axes:

@@ -8,11 +8,11 @@ from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.norm import energy_norm
 from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.rigid import actuated_step
-from quasistatic_ref.lab.study.problems.plain_sizes import PlainSizes
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
-from quasistatic_ref.optional.large.sparse_bound import LargeForm, SparseHessian, sparse_error_bound
+from quasistatic_ref.optional.large.float_bound import FloatBound
+from quasistatic_ref.optional.large.sizes import term_sizes
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm
@@ -74,7 +74,8 @@ def _not_bounded(one: Problem) -> str | None:
     natural = one.natural
     H = csc_matrix(natural.H)
     A = csc_matrix(natural.A)
-    form = LargeForm(SparseHessian(H), natural.g, A, natural.b, PlainSizes(natural.A, natural.g))
-    error = sparse_error_bound(form, natural.answer.x, natural.answer.lam)
+    form = StandardForm(H, natural.g, A, natural.b)
+    sizes = term_sizes(abs(A), np.abs(natural.g))
+    error = FloatBound(H).error(form, sizes, natural.answer.x, natural.answer.lam)
     worse = error > 1.01 * one.answer.error
     return f"its error is bounded by {error:.1g} only" if worse else None

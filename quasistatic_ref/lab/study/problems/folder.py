@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import (
     bytes_read,
     json_read,
@@ -25,6 +24,7 @@ from quasistatic_ref.formats.files import (
     written_whole,
 )
 from quasistatic_ref.formats.npz import npz_arrays
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.study.problems.dials import DIALS
 from quasistatic_ref.lab.study.problems.problem import Answer, Problem
 from quasistatic_ref.solve.units import Units
@@ -135,17 +135,17 @@ def manifest(folder: Path) -> dict[str, Any]:
     if not path.exists():
         raise InputError("holds no set of problems", file=folder)
     try:
-        top = Fields(head := json_read(path))
+        top = TableReader(head := json_read(path))
         top.check_format(FORMAT, VERSION)
         top.table("families")
         for i, entry in enumerate(top.sequence("files")):
-            one = Fields(entry, f"files[{i}]")
+            one = TableReader(entry, f"files[{i}]")
             name = one.text("path")
             wanted = one.text("sha256")
             if name not in (FACTS, *(f"{NUMBERS}/{family}.npz" for family in head["families"])):
-                raise one.fail("path", "is no file of a set", name)
+                raise one.error_about("path", "is no file of a set", name)
             if _hash(bytes_read(folder / name)) != wanted:
-                raise one.fail("sha256", "is not that of the file, which was changed", name)
+                raise one.error_about("sha256", "is not that of the file, which was changed", name)
     except InputError as error:
         raise error.in_file(path) from None
     return dict(head)

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from typing import IO, Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.supervised import Supervised
 from quasistatic_ref.lab.vectors.check.answers import QUATERNIONS, TANGENTS, Answers
 from quasistatic_ref.lab.vectors.expected import Json
@@ -169,9 +169,9 @@ class Program:
 
     def _greet(self, record: Json) -> None:
         """Read the line that declares what the program is."""
-        top = Fields(record, "the first line of the program")
+        top = TableReader(record, "the first line of the program")
         if top.take("protocol") != 1:
-            raise top.fail("protocol", "must be 1", record["protocol"])
+            raise top.error_about("protocol", "must be 1", record["protocol"])
         self.said = Answers(
             implementation=top.text("implementation", ""),
             tangent=top.text("tangent", "body", choices=TANGENTS),

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import ANSWERS, opened
 
@@ -56,12 +56,12 @@ def answers_read(folder: str | Path, layer: str) -> Answers:
     problems = []
     for i, entry in enumerate(entries):
         try:
-            one = Fields(entry, f"answers[{i}]")
+            one = TableReader(entry, f"answers[{i}]")
             name = one.text("id")
             output = one.take("output")
             one.close()
             if name in outputs:
-                raise one.fail("id", "is answered twice", name)
+                raise one.error_about("id", "is answered twice", name)
         except InputError as error:
             problems.append(str(error.in_file(path)))
             continue

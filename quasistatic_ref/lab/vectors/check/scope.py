@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Final
 
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.fields import Fields
 from quasistatic_ref.formats.files import toml_read
 from quasistatic_ref.formats.quoting import suggestion
+from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.vectors.check.verdict import DIGITS
 from quasistatic_ref.lab.vectors.distances.shapes import SHAPES
 from quasistatic_ref.lab.vectors.expected import Json
@@ -85,7 +85,7 @@ def scope_read(path: str | Path | None) -> Scope:
     if path is None:
         return WHOLE
     try:
-        top = Fields(toml_read(Path(path)))
+        top = TableReader(toml_read(Path(path)))
         top.check_format(FORMAT, 1)
         layers = top.words("layers", list(LAYERS))
         found = Scope(
@@ -100,11 +100,13 @@ def scope_read(path: str | Path | None) -> Scope:
         for field, given, known in (("layers", layers, LAYERS), ("shapes", found.shapes, SHAPES)):
             for one in given or ():
                 if one not in known:
-                    raise top.fail(field, f"holds an unknown one{suggestion(one, known)}", one)
+                    raise top.error_about(
+                        field, f"holds an unknown one{suggestion(one, known)}", one
+                    )
         for one in found.cones or ():
             cone(one)
         if found.digits is not None and found.digits > DIGITS:
-            raise top.fail("digits", f"must be at most {DIGITS:g}", found.digits)
+            raise top.error_about("digits", f"must be at most {DIGITS:g}", found.digits)
     except InputError as error:
         raise error.in_file(path) from None
     return found

@@ -13,7 +13,7 @@ from quasistatic_ref.lab.vectors.exact.sizes import largest, sizes
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Contacts
-from quasistatic_ref.step.friction import friction_rows, row_gaps
+from quasistatic_ref.step.friction import friction_rows, row_constants
 
 ROUNDINGS = 16
 """Of an entry of A: a dot product of three terms, its product with mu, and the sum of four such,
@@ -54,7 +54,7 @@ def own(case_input: Json) -> Json:
     name = case_input["cone"]
     mask = np.arange(len(cone(name).row_names)) < cone(name).counts(contacts.rows)[:, None]
     A = friction_rows(contacts, name)[mask]
-    b = -row_gaps(contacts, name)[mask]
+    b = -row_constants(contacts, name)[mask]
     return {"A": A.tolist(), "b": b.tolist()}
 
 

@@ -59,17 +59,14 @@ class Rates(NamedTuple):
 
 
 def closest_point_rates(
-    phi: Array, n: Array, frames: Array, features: Sequence[Feature], v: Array, omega: Array,
-    size: Array,
-) -> Rates:  # fmt: skip
+    phi: Array, n: Array, features: Sequence[Feature], v: Array, omega: Array, size: Array
+) -> Rates:
     """The derivatives of all pairs at once.
 
     Parameters
     ----------
     phi : ndarray, shape (N,)
     n : ndarray, shape (N, 3)
-    frames : ndarray, shape (N, 2, 3)
-        Two unit vectors across each n [-].
     features : sequence of Feature, length 2 N
         In the world frame, here and below those of all alpha's bodies first, then beta's.
     v : ndarray, shape (2 N, 3, n_v)
@@ -80,6 +77,7 @@ def closest_point_rates(
         About how large the bodies are [m]: what a singular matrix is measured by.
     """
     N = len(phi)
+    frames = np.linalg.svd(n[:, None])[2][:, 1:]  # two unit vectors across each n
     turn = crossed(omega, np.concatenate([n, n])[:, :, None])  # omega x n
     bend = np.array([f.bend for f in features]).reshape(-1, 3, 3)
     free = _padded(features)

@@ -14,40 +14,34 @@ from quasistatic_ref.optional.derivatives.contact.couples import (
     Rim,
     rim_velocity,
 )
-from quasistatic_ref.optional.derivatives.contact.features import Feature, across
+from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
 
 
-def contact_rates(couples: Sequence[Couple], tangents: tuple[Array, Array], J: Array) -> Rates:
+def contact_rates(couples: Sequence[Couple], J: Array) -> Rates:
     """The derivatives of all contacts.
 
     Parameters
     ----------
     couples : sequence of Couple, length n_c
-    tangents : (ndarray, ndarray), each of shape (n_c, 3)
-        d1 and d2 [-].
     J : ndarray, shape (L, 6, n_v)
         Twist of each link at the world's origin, per unit of delta_q [m, rad].
     """
-    frames = np.stack(tangents, axis=1)
     slides = np.zeros((2, len(couples), 3, J.shape[2]))
     level = np.zeros(len(couples), dtype=bool)
+    slid = np.zeros(len(couples), dtype=bool)
+    taken = list(couples)
     for j, couple in enumerate(couples):
         if couple.rim is not None:
             slide = _rim_slide(couple.of, couple.rim, J)
             level[j] = slide is None
             slides[couple.rim.side, j] = 0.0 if slide is None else slide
-    features = [couple.features for couple in couples]
-    slid = np.zeros(len(couples), dtype=bool)
-    for j, couple in enumerate(couples):
-        if any(len(f.ends) for f in couple.features):
-            merged = merged_features(couple)
-            several = couple_rates([couple], frames[j : j + 1], J, None, [merged])
-            slid[j] = several.unique[0] and _dependent(merged)
-            features[j] = merged if slid[j] else features[j]
-    found = couple_rates(couples, frames, J, slides, features)
+        if couple.at_an_end and couple_rates([couple.merged], J).unique[0]:
+            slid[j] = _dependent(couple.merged.features)
+            taken[j] = couple.merged if slid[j] else couple
+    found = couple_rates(taken, J, slides)
     level_too = np.array([nearly_level(couple) for couple in couples], dtype=bool)
     return found._replace(blurred=found.blurred | level_too, level_rim=level, slides=slid)
 
@@ -65,45 +59,23 @@ def nearly_level(couple: Couple) -> bool:
     return False
 
 
-def merged_features(couple: Couple) -> tuple[Feature, Feature]:
-    """The features of a couple with the directions in which they end as free ones."""
-    found = []
-    for f in couple.features:
-        if len(f.ends):
-            _, s, V = np.linalg.svd(np.concatenate([f.free, f.ends]))
-            f = Feature(f.bend, V[: len(s)][s > ON_RIM][:2])
-        found.append(f)
-    return found[0], found[1]
-
-
 def _dependent(features: tuple[Feature, Feature]) -> bool:
     """Whether both have a straight direction in common."""
     straight = np.concatenate([f.free for f in features])
     return len(straight) > 2 or bool(np.linalg.svd(straight)[1].min(initial=1.0) <= UNIQUE)
 
 
-def couple_rates(
-    couples: Sequence[Couple],
-    frames: Array,
-    J: Array,
-    slides: Array | None = None,
-    features: Sequence[tuple[Feature, Feature]] | None = None,
-) -> Rates:
+def couple_rates(couples: Sequence[Couple], J: Array, slides: Array | None = None) -> Rates:
     """The derivatives of closest points of some couples.
 
     Parameters
     ----------
     couples : sequence of Couple, length N
-    frames : ndarray, shape (N, 2, 3)
-        Two unit vectors across each normal [-].
     J : ndarray, shape (L, 6, n_v)
         As above [m, rad].
     slides : ndarray, shape (2, N, 3, n_v), optional
         How corners move on their bodies [m].
-    features : sequence of (Feature, Feature), optional
-        Others than those of the couples.
     """
-    features = [c.features for c in couples] if features is None else features
     links = [c.of.pair.alpha.link for c in couples] + [c.of.pair.beta.link for c in couples]
     at = np.array([c.points[side] for side in (0, 1) for c in couples]).reshape(-1, 3)
     twist = J[links]
@@ -111,19 +83,17 @@ def couple_rates(
     v = twist[:, :3] + crossed(omega, at[:, :, None])
     v = v if slides is None else v + slides.reshape(v.shape)
     phi = np.array([c.phi for c in couples])
-    size = np.array([c.of.size for c in couples])
-    size = np.maximum(size, np.abs(at).reshape(2, -1, 3).max(axis=(0, 2), initial=0.0))
+    size = np.array([c.reach for c in couples])
     n = np.array([c.n for c in couples]).reshape(-1, 3)
-    both = [own[side] for side in (0, 1) for own in features]
-    return closest_point_rates(phi, n, frames, both, v, omega, size)
+    features = [c.features[side] for side in (0, 1) for c in couples]
+    return closest_point_rates(phi, n, features, v, omega, size)
 
 
 def _rim_slide(of: PairInWorld, rim: Rim, J: Array) -> Array | None:
     """How a corner moves along its rim, shape (3, n_v), as the normal of the closest pair turns."""
-    nearest = of.closest
     n = of.closest.n
-    rates = couple_rates([nearest], across(n)[None], J)
-    if not rates.unique[0] or any(len(f.ends) for f in nearest.features):
+    rates = couple_rates([of.closest], J)
+    if not rates.unique[0] or of.closest.at_an_end:
         return None
     link = (of.pair.alpha, of.pair.beta)[rim.side].link
     turn = rates.n[0] - np.cross(J[link, 3:], n[:, None], axis=0)

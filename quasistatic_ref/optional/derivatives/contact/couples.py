@@ -15,8 +15,8 @@ from quasistatic_ref.contact.distance import (
 )
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.optional.derivatives.contact.features import Feature, across, ball, feature
-from quasistatic_ref.shapes.placed_shape import Cylinder, HalfSpace, PointCloud, Sphere
+from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
+from quasistatic_ref.shapes.placed_shape import Cylinder, PointCloud, Sphere
 from quasistatic_ref.shapes.revolved import QUARTERS
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
@@ -68,22 +68,6 @@ class PairInWorld:
         return first, second
 
     @cached_property
-    def plane(self) -> Feature:
-        """The feature of the half-space that one of them is: the same at every point."""
-        (free,) = [
-            across(body.R @ body.shape.normal)
-            for body in self.bodies
-            if isinstance(body.shape, HalfSpace)
-        ]
-        return Feature(free=free)
-
-    @cached_property
-    def radii(self) -> tuple[float, float]:
-        """Radii of the balls about the corners of both bodies [m]."""
-        first, second = (body.shape.corners(Z)[1] for body in self.bodies)
-        return first, second
-
-    @cached_property
     def size(self) -> float:
         """The larger extent [m]; a half-space has none, and a single point one metre."""
         return max(extent for extent in self.extents if np.isfinite(extent)) or 1.0
@@ -117,9 +101,9 @@ class Couple(NamedTuple):
         Normal from alpha's body to beta's.
     features : (Feature, Feature)
         In the world frame.
-    centre : (int, ndarray, float) or None
-        Where one side is a point with a ball about it: the other side, the point (3,) [m] in the
-        world and the ball's radius [m].
+    centre : (int, ndarray) or None
+        Where one side is a point with a ball about it: the other side, and the point (3,) [m] in
+        the world.
     rim : Rim or None
     crosses : bool
         Whether the points are where edges cross.
@@ -130,7 +114,7 @@ class Couple(NamedTuple):
     points: tuple[Array, Array]
     n: Array
     features: tuple[Feature, Feature]
-    centre: tuple[int, Array, float] | None
+    centre: tuple[int, Array] | None
     rim: Rim | None
     crosses: bool
 
@@ -138,6 +122,17 @@ class Couple(NamedTuple):
     def reach(self) -> float:
         """The size, or a point's largest coordinate [m]: places are rounded to a share of it."""
         return max(self.of.size, *(float(np.abs(point).max()) for point in self.points))
+
+    @property
+    def at_an_end(self) -> bool:
+        """Whether a feature ends here."""
+        return any(len(f.ends) for f in self.features)
+
+    @property
+    def merged(self) -> "Couple":
+        """The same with the directions in which its features end as free ones."""
+        first, second = (f.merged for f in self.features)
+        return self._replace(features=(first, second))
 
 
 def couples(
@@ -167,16 +162,13 @@ def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
         own = corner if corner is not None and corner[0] == side else None
         if own is not None:
             features.append(ball(own[1], outward))
-            centre = (1 - side, end - own[1] * outward, own[1])
+            centre = (1 - side, end - own[1] * outward)
             rim = own[2]
-            continue
-        if isinstance(body.shape, HalfSpace):
-            features.append(of.plane)
             continue
         local = feature(body.shape, body.R.T @ (end - body.t), body.R.T @ outward)
         features.append(local.turned(body.R))
         if isinstance(body.shape, Sphere):
-            centre = (1 - side, body.t, body.shape.radius)
+            centre = (1 - side, body.t)
     crosses = not pair.has_cloud and index >= pair.corners + pair.n_c > pair.corners + 1
     return Couple(of, phi, ends, n, (features[0], features[1]), centre, rim, crosses)
 
@@ -194,7 +186,7 @@ def _corner(of: PairInWorld, index: int) -> tuple[int, float, Rim | None] | None
     before = shape.corner_count % 4  # its rims come last, with four corners each
     if shape.rim_radius is not None and k >= before:
         return side, 0.0, Rim(side, (k - before) % 4, shape.rim_radius)
-    return side, of.radii[side], None
+    return side, shape.corners(Z)[1], None
 
 
 def rim_velocity(rim: Rim, body: ShapeInWorld, towards: Array, turning: Array) -> Array | None:

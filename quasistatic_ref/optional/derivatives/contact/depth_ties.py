@@ -37,7 +37,7 @@ def depth_tie(couple: Couple) -> bool:
     if isinstance(a.shape, HalfSpace) or isinstance(b.shape, HalfSpace):
         return False  # there is one way out of a half-space
     if couple.centre is not None:
-        other, centre, _ = couple.centre
+        other, centre = couple.centre
         solid = couple.of.bodies[other]
         body = couple.of.bodies[1 - other].shape
         corner = not isinstance(body, PointCloud | Sphere)

@@ -29,7 +29,6 @@ from quasistatic_ref.shapes.placed_shape import (
     Sphere,
 )
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
 NONE = np.zeros((0, 3))
@@ -60,6 +59,14 @@ class Feature(NamedTuple):
     ends: Array = NONE
     arc: Array = NONE
     curvature: float = 0.0
+
+    @property
+    def merged(self) -> "Feature":
+        """The same with the directions in which it ends as free ones."""
+        if not len(self.ends):
+            return self
+        _, s, V = np.linalg.svd(np.concatenate([self.free, self.ends]))
+        return Feature(self.bend, V[: len(s)][s > ON_RIM][:2])
 
     def turned(self, R: Array) -> "Feature":
         """The same in another frame, R of shape (3, 3) [-] from this frame to that."""
@@ -95,28 +102,20 @@ def feature(shape: Shape, x: Array, n: Array) -> Feature:
             return ball(shape.radius, n)
         case HalfSpace():
             return Feature(free=across(n))
-        case Box():
-            return _of_box(shape, x, n)
         case Capsule():
             return _of_capsule(shape, x, n)
         case Cylinder():
-            return _of_cylinder(shape, x, n)
+            return _of_revolved(shape, 0.0, x, n)
         case Cone():
-            return _of_cone(shape, x, n)
+            return _of_revolved(shape, shape.radius, x, n)
         case Ellipsoid():
             return _of_ellipsoid(shape, n)
-        case ConvexMesh():
+        case Box() | ConvexMesh():
             flat = polytope(shape)
             assert flat is not None
             return _of_polytope(flat, x, n, ON_RIM * shape.extent)
         case _:
             raise shape.lacks("has no derivatives")
-
-
-def _of_box(box: Box, x: Array, n: Array) -> Feature:
-    fixed = np.abs(x) >= box.half_extents - ON_RIM * box.half_extents.max()
-    axes = np.eye(3)
-    return Feature(free=axes[~fixed], ends=axes[fixed & (np.abs(n) <= ON_RIM)])
 
 
 def _of_capsule(shape: Capsule, x: Array, n: Array) -> Feature:
@@ -128,35 +127,22 @@ def _of_capsule(shape: Capsule, x: Array, n: Array) -> Feature:
     return Feature(bend, ends=axis if abs(n[2]) <= ON_RIM else NONE)
 
 
-def _of_cylinder(shape: Cylinder, x: Array, n: Array) -> Feature:
+def _of_revolved(shape: Cylinder | Cone, taper: float, x: Array, n: Array) -> Feature:
+    """Of a cylinder, or of a cone: its top is narrower than its base by `taper` [m]."""
     near = ON_RIM * (shape.radius + shape.half_length)
-    axis = np.array([0.0, 0.0, 1.0])
-    side = np.hypot(x[0], x[1]) >= shape.radius - near
-    cap = abs(x[2]) >= shape.half_length - near
-    if cap and not side:
-        return Feature(free=across(n))
-    if not cap:
-        return Feature(_around(x, n), axis[None])
-    return _of_rim(x, n, axis[None] if abs(n[2]) <= ON_RIM else NONE)
-
-
-def _of_cone(shape: Cone, x: Array, n: Array) -> Feature:
-    near = ON_RIM * (shape.radius + shape.half_length)
-    r = float(np.hypot(x[0], x[1]))
-    slant = np.hypot(shape.radius, 2 * shape.half_length)
-    radial = np.hypot(n[0], n[1])
-    level = shape.radius / slant
-    base = x[2] <= -shape.half_length + near
-    if base and r < shape.radius - near:
-        return Feature(free=across(n))
-    outward = n[:2] / (radial or 1.0)
-    generator = np.array([*(-level * outward), 2 * shape.half_length / slant])
-    on_slant = generator[None] if abs(n[2] - level) <= ON_RIM else NONE
-    if base:
-        return _of_rim(x, n, on_slant)
-    if x[2] >= shape.half_length - near:
-        return Feature(ends=on_slant)
-    return Feature(_around(x, n), generator[None])
+    slant = np.hypot(taper, 2 * shape.half_length)
+    level = taper / slant  # of the side's normal
+    outward = n[:2] / (np.hypot(*n[:2]) or 1.0)
+    generator = np.array([[*(-level * outward), 2 * shape.half_length / slant]])
+    on_side = generator if abs(n[2] - level) <= ON_RIM else NONE
+    at_top = x[2] >= shape.half_length - near
+    if x[2] <= -shape.half_length + near or (at_top and not taper):
+        if np.hypot(*x[:2]) < shape.radius - near:
+            return Feature(free=across(n))
+        return _of_rim(x, n, on_side)
+    if at_top:
+        return Feature(ends=on_side)
+    return Feature(_around(x, n), generator)
 
 
 def _of_ellipsoid(shape: Ellipsoid, n: Array) -> Feature:
@@ -210,7 +196,4 @@ def _way_around(x: Array) -> Array:
 
 def across(n: Array) -> Array:
     """Two unit vectors across a unit vector n (3,) [-], shape (2, 3)."""
-    first = np.eye(3)[np.abs(n).argmin()]
-    first = first - (first @ n) * n
-    first = first / np.sqrt(first @ first)
-    return np.concatenate([first[None], crossed(n[None], first[None])])
+    return np.linalg.svd(n[None])[2][1:]

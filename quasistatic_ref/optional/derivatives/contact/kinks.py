@@ -6,12 +6,14 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import Rates
-from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, merged_features
+from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.step.data import Array, Mask
 from quasistatic_ref.tolerances import FILLED, TIED, UNIQUE
+
+PARALLEL = reason.MANY, "has more than one closest pair of points: parallel surfaces"
 
 
 class Kink(NamedTuple):
@@ -24,30 +26,20 @@ class Kink(NamedTuple):
         A name of :mod:`~quasistatic_ref.optional.derivatives.step.reason`.
     says : str
         What it is, after the contact's name.
-    jumps : bool
-        Whether points, normal or tangents jump there, rather than turn a corner.
-    blurs : bool
-        Whether float64 does not know the contact well enough for any derivative.
     """
 
     contact: int
     kind: str
     says: str
-    jumps: bool
-    blurs: bool = False
 
 
-def kinks(
-    couples: Sequence[Couple], rates: Rates, frames: Array, J: Array, quarters: bool
-) -> Iterator[Kink]:
+def kinks(couples: Sequence[Couple], rates: Rates, J: Array, quarters: bool) -> Iterator[Kink]:
     """The kinks of all contacts, whether they touch or not.
 
     Parameters
     ----------
     couples : sequence of Couple, length n_c
     rates : Rates
-    frames : ndarray, shape (n_c, 2, 3)
-        d1 and d2 [-].
     J : ndarray, shape (L, 6, n_v)
         Twist of each link at the world's origin, per unit of delta_q [m, rad].
     quarters : bool
@@ -58,42 +50,36 @@ def kinks(
         if couple.phi >= FILLED:
             continue  # it stands for nothing
         if couple.crosses:
-            yield Kink(
-                j, reason.CROSSING, "is where edges cross: its derivative is not computed", False
-            )
+            yield Kink(j, reason.CROSSING, "is where edges cross: its derivative is not computed")
             continue
-        blurs = bool(rates.blurred[j])
         if rates.level_rim[j]:
-            says = "is on a rim that is level: no point of it is lowest"
-            yield Kink(j, reason.RIM, says, True, blurs)
+            yield Kink(j, reason.RIM, "is on a rim that is level: no point of it is lowest")
         if depth_tie(couple):
-            yield Kink(j, reason.SURFACES, "is as deep below another surface", True)
+            yield Kink(j, reason.SURFACES, "is as deep below another surface")
         if not rates.unique[j]:
-            yield _not_unique(j, couple)._replace(blurs=blurs)
-        elif any(len(f.ends) for f in couple.features) and not rates.slides[j]:
-            yield _at_an_end(j, couple, frames[j], J)._replace(blurs=blurs)
+            yield Kink(j, *_not_unique(couple))
+        elif couple.at_an_end and not rates.slides[j]:
+            yield Kink(j, *_at_an_end(couple, J))
         if switching[j]:
             says = "has two axes that are as far from its normal: its tangents jump"
-            yield Kink(j, reason.TANGENTS, says, True)
+            yield Kink(j, reason.TANGENTS, says)
 
 
-def _not_unique(j: int, couple: Couple) -> Kink:
+def _not_unique(couple: Couple) -> tuple[str, str]:
     straight = np.concatenate([f.free for f in couple.features])
     independent = not len(straight) or np.linalg.svd(straight)[1].min() > UNIQUE
-    if len(straight) <= 2 and independent:
-        if abs(couple.phi) <= UNIQUE * couple.reach:
-            return Kink(j, reason.NO_NORMAL, "touches where neither surface has a normal", True)
-        return Kink(j, reason.MANY, "is at a surface's centre of curvature", True)
-    return Kink(j, reason.MANY, "has more than one closest pair of points: parallel surfaces", True)
+    if len(straight) > 2 or not independent:
+        return PARALLEL
+    if abs(couple.phi) <= UNIQUE * couple.reach:
+        return reason.NO_NORMAL, "touches where neither surface has a normal"
+    return reason.MANY, "is at a surface's centre of curvature"
 
 
-def _at_an_end(j: int, couple: Couple, frame: Array, J: Array) -> Kink:
+def _at_an_end(couple: Couple, J: Array) -> tuple[str, str]:
     """A point on the rim of a feature: a kink, or a jump if its neighbour has no unique point."""
-    if not couple_rates([couple], frame[None], J, features=[merged_features(couple)]).unique[0]:
-        return Kink(
-            j, reason.MANY, "has more than one closest pair of points: parallel surfaces", True
-        )
-    return Kink(j, reason.FEATURE, "is where a vertex, an edge or a face of a shape ends", False)
+    if couple_rates([couple.merged], J).unique[0]:
+        return reason.FEATURE, "is where a vertex, an edge or a face of a shape ends"
+    return PARALLEL
 
 
 def _switching(n: Array, d_n: Array, quarters: bool) -> Mask:

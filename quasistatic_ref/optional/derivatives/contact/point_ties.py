@@ -34,10 +34,9 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
     if pair.n_c >= pair.candidates or (pair.n_c == 1 and not pair.has_cloud):
         return [], []  # all of them, or the closest pair of two solids
     number = np.arange(pair.candidates)
-    if isinstance(b.shape, PointCloud):
-        phi = _cloud_distances(a, b, b.shape.points)
-    elif isinstance(a.shape, PointCloud):
-        phi = _cloud_distances(b, a, a.shape.points)
+    if pair.has_cloud:
+        solid, cloud = (a, b) if isinstance(b.shape, PointCloud) else (b, a)
+        phi = _cloud_distances(solid, cloud)
     else:
         every = of.candidates
         phi = np.where(ranked_last(every, pair.k), np.inf, every.phi)
@@ -51,8 +50,9 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
     return points.point[level].tolist(), left_out
 
 
-def _cloud_distances(solid: ShapeInWorld, body: ShapeInWorld, points: Array) -> Array:
+def _cloud_distances(solid: ShapeInWorld, cloud: ShapeInWorld) -> Array:
     """Signed distances of all points of a cloud, shape (N,) [m]."""
-    relative = relative_pose(solid, body)
-    x = rotated(relative[:, :3], points) + relative[:, 3]
+    assert isinstance(cloud.shape, PointCloud)
+    relative = relative_pose(solid, cloud)
+    x = rotated(relative[:, :3], cloud.shape.points) + relative[:, 3]
     return solid.shape.signed_distance(x)[0]

@@ -11,9 +11,8 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
-from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, merged_features
+from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates
 from quasistatic_ref.optional.derivatives.contact.couples import Couple, PairInWorld
-from quasistatic_ref.optional.derivatives.contact.features import across
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.placed_shape import HalfSpace, Sphere
 from quasistatic_ref.step.data import Array
@@ -40,14 +39,11 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
         return None
     nearest = of.closest
     covered = _covered(of)
-    ends = any(len(f.ends) for f in nearest.features)
-    if covered and not ends:
+    if covered and not nearest.at_an_end:
         return None
-    frame = across(nearest.n)[None]
-    if not ends and couple_rates([nearest], frame, J).unique[0]:
+    if not nearest.at_an_end and couple_rates([nearest], J).unique[0]:
         return None
-    merged = couple_rates([nearest], frame, J, features=[merged_features(nearest)])
-    if merged.unique[0]:
+    if couple_rates([nearest.merged], J).unique[0]:
         return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
     if covered:
         return None

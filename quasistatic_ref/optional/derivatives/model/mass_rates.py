@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
-from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
+from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates, wrench_rates
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import crossed
 
@@ -35,7 +35,7 @@ class MassRates:
         """Derivative by q of M x, shape (n_v, n_v), for a fixed x of shape (n_v,) [m, rad]."""
         c = self.centre
         m = self.masses[:, None]
-        twist = self.motion.twists(x)
+        twist = self.motion.J @ x
         rates = self.motion.twist_rates(x)
         nu = twist[:, :3]
         omega = twist[:, 3:]
@@ -43,7 +43,6 @@ class MassRates:
         d_omega = rates[:, 3:]
         p = m * (nu + crossed(omega, c))
         spin = np.einsum("lab,lb->la", self.inertia, omega)
-        wrench = np.concatenate([p, crossed(c, p) + spin], axis=1)
         d_c = self.moved
         d_p = m[:, None] * (
             d_nu + crossed(d_omega, c[:, :, None]) + crossed(omega[:, :, None], d_c)
@@ -51,8 +50,7 @@ class MassRates:
         d_spin = crossed(self.omega, spin[:, :, None]) + self.inertia @ (
             d_omega - crossed(self.omega, omega[:, :, None])
         )
-        d_moment = crossed(d_c, p[:, :, None]) + crossed(c[:, :, None], d_p) + d_spin
-        return self.motion.force_rates(wrench, np.concatenate([d_p, d_moment], axis=1))
+        return self.motion.force_rates(*wrench_rates(c, d_c, p, d_p, spin, d_spin))
 
     def gravity_rates(self, gravity: Array) -> Array:
         """Derivative by q of gravity's generalised force, shape (n_v, n_v).
@@ -63,10 +61,10 @@ class MassRates:
             [m/s^2], world frame.
         """
         weight = self.masses[:, None] * gravity
-        wrench = np.concatenate([weight, crossed(self.centre, weight)], axis=1)
-        rates = np.zeros((*wrench.shape, self.moved.shape[2]))
-        rates[:, 3:] = crossed(self.moved, weight[:, :, None])
-        return self.motion.force_rates(wrench, rates)
+        none = np.zeros_like(self.moved)
+        return self.motion.force_rates(
+            *wrench_rates(self.centre, self.moved, weight, none, 0 * weight, none)
+        )
 
     def by_masses(self, vector: Array) -> Array:
         """Generalised force of `vector` (3,) at each link's centre of mass, shape (n_v, L).

@@ -51,12 +51,8 @@ class MotionRates:
         turned[3:] = _each(omega, omega)
         self.turned: Array = turned * carried
 
-    def twists(self, x: Array) -> Array:
-        """Twist of each link, shape (L, 6) [m, rad], for a displacement x of shape (n_v,)."""
-        return np.asarray(self.J @ x)
-
     def twist_rates(self, x: Array) -> Array:
-        """Their derivatives by q, shape (L, 6, n_v), x of shape (n_v,) [m, rad] being fixed."""
+        """Derivatives by q of J x, shape (L, 6, n_v), x of shape (n_v,) [m, rad] being fixed."""
         of_columns = self.moves * (self.coordinates @ x)  # (L, n_x)
         flat = of_columns @ self.turned.transpose(1, 0, 2).reshape(len(self.coordinates), -1)
         return np.asarray(flat.reshape(len(self.moves), 6, -1) @ self.coordinates)
@@ -75,6 +71,31 @@ class MotionRates:
         on_columns = self.moves.T @ wrenches  # (n_x, 6)
         carried = np.einsum("ajk,ja->jk", self.turned, on_columns)
         return np.asarray(direct + self.coordinates.T @ carried @ self.coordinates)
+
+
+def wrench_rates(
+    at: Array, d_at: Array, force: Array, d_force: Array, torque: Array, d_torque: Array
+) -> tuple[Array, Array]:
+    """Wrenches at the world's origin of forces that act at points, and their derivatives.
+
+    Parameters
+    ----------
+    at, force, torque : ndarray, shape (N, 3)
+        [m, N, N m], or those of impulses.
+    d_at, d_force, d_torque : ndarray, shape (N, 3, n_v)
+        Their derivatives by q [the same per m or rad].
+
+    Returns
+    -------
+    ndarray, shape (N, 6)
+    ndarray, shape (N, 6, n_v)
+    """
+    moment = crossed(at, force) + torque
+    d_moment = crossed(d_at, force[:, :, None]) + crossed(at[:, :, None], d_force) + d_torque
+    return (
+        np.concatenate([force, moment], axis=1),
+        np.concatenate([d_force, d_moment], axis=1),
+    )
 
 
 def _each(a: Array, b: Array) -> Array:

@@ -102,14 +102,12 @@ def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | N
         lam = lam + share * d_lam
         length = float(np.linalg.norm(L.T @ dx))
         size = float(np.linalg.norm(L.T @ x))
-        if mu == kappa and share == 1 and length <= SETTLED * size + NOTHING:
-            return Barrier(x, lam, slack)
-        if share == 1 and length < least:  # after a whole step s = A x - b
+        if mu == kappa and share == 1 and length < least:  # after a whole step s = A x - b
             least = length
             nearest = Barrier(x, lam, slack)
-    if nearest is not None and mu == kappa and least <= 1e5 * SETTLED * size:
-        return nearest
-    return None
+        if least <= SETTLED * size + NOTHING:
+            break
+    return nearest if least <= 1e5 * SETTLED * size + NOTHING else None
 
 
 def _share(values: Array, changes: Array) -> float:

@@ -12,9 +12,8 @@ touches without load must keep its slack of zero. Where one of these fails there
 derivative, but one on each side.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from scipy.optimize import nnls
@@ -159,33 +158,29 @@ class Equations:
         return found
 
     def along(self, data: DataRates) -> Array:
-        """The derivative along a single parameter as it grows, shape (n_v,) [m, rad per unit]."""
-        return self.one_sided(self.rates(data), 0)
-
-    def one_sided(self, rates: OptimumRates, column: int) -> Array:
-        """The derivative along one parameter as it grows, shape (n_v,) [m, rad per unit].
+        """The derivative along a single parameter as it grows, shape (n_v,) [m, rad per unit].
 
         The rows that touch without load keep their slack from falling below zero: the projection
         of the derivative without them on that cone, in the H norm.
 
         Parameters
         ----------
-        rates : OptimumRates
-            Of parameters, the column of which no equation contradicts.
-        column : int
+        data : DataRates
+            Of one parameter that no equation contradicts.
         """
         t = self.of
-        x = rates.x[:, column]
+        rates = self.rates(data)
+        x = rates.x[:, 0]
         if not len(t.idle):
             return x
-        rows, pushes = self._pushes(rates, column)
+        rows, pushes = self._pushes(rates)
         return np.asarray(x + t.inverse.T @ (self.free.T @ (rows.T @ pushes)))
 
-    def _pushes(self, rates: OptimumRates, column: int) -> tuple[Array, Array]:
+    def _pushes(self, rates: OptimumRates) -> tuple[Array, Array]:
         """Rows without load that the other equations leave, and what keeps each from closing."""
         t = self.of
         rows = t.rows(t.idle) @ t.inverse.T @ self.free.T
-        return rows, _complementary(rows, rates.closing[:, column])
+        return rows, _complementary(rows, rates.closing[:, 0])
 
     def beyond(self, data: DataRates) -> Touching:
         """What touches, and bears load, as soon as a single parameter has grown.
@@ -202,7 +197,7 @@ class Equations:
         rates = self.rates(data)
         if not len(t.idle):
             return t
-        rows, pushes = self._pushes(rates, 0)
+        rows, pushes = self._pushes(rates)
         slack = rates.closing[:, 0] + rows @ (rows.T @ pushes)
         opened = slack > CONSISTENT * np.abs(rates.closing[:, 0]).max()
         length = np.linalg.norm(rows, axis=1)
@@ -243,20 +238,3 @@ def _combinations(touching: Touching) -> tuple[Array, Mask]:
     rows = strict[:, :, None] * touching.table * used[:, None]
     _, s, V = np.linalg.svd(rows, full_matrices=False)
     return V, s > DEPENDENT * s[:, :1]
-
-
-def parameters(*parts: DataRates) -> DataRates:
-    """Several groups of parameters as one.
-
-    Parameters
-    ----------
-    parts : DataRates
-    """
-    load = np.concatenate([part.load for part in parts], axis=1)
-    motion = np.concatenate([part.motion for part in parts], axis=2)
-    pull = partial(_pulled, [part.pull for part in parts])
-    return DataRates(load, motion, np.concatenate([part.terms for part in parts]), pull)
-
-
-def _pulled(pulls: Sequence[Callable[[Array], Array]], y: Array) -> Array:
-    return np.concatenate([pull(y) for pull in pulls], axis=1)

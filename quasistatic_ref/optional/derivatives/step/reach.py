@@ -16,11 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import linprog, nnls
 
-from quasistatic_ref.optional.derivatives.step.optimum_rates import (
-    DataRates,
-    Equations,
-    OptimumRates,
-)
+from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, Equations
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import AHEAD, DEPENDENT, FACET, NEARLY, SPLIT
 
@@ -53,16 +49,14 @@ class Reach:
     ----------
     equations : Equations
         What the optimum keeps.
-    rates : OptimumRates
-        Its derivatives.
     data : DataRates
         Those of the step.
     """
 
-    def __init__(self, equations: Equations, rates: OptimumRates, data: DataRates) -> None:
+    def __init__(self, equations: Equations, data: DataRates) -> None:
         t = self.touching = equations.of
-        self.rates = rates
-        closing, known = equations.slack_rates(t.open, rates.x, data)
+        self.rates = equations.rates(data)
+        closing, known = equations.slack_rates(t.open, self.rates.x, data)
         self.closing = np.where(known, closing, 0.0)
         held = np.concatenate([t.strict, t.idle])
         rows = t.rows(held) @ t.inverse.T
@@ -94,30 +88,26 @@ class Reach:
     def along(self, one: DataRates) -> Distance:
         """The distance along a single parameter as it grows, beyond a kink that is here."""
         beyond = Equations(Equations(self.touching).beyond(one))
-        return Reach(beyond, beyond.rates(one), one).ahead(0)
+        return Reach(beyond, one).ahead(0)
 
-    def ahead(self, column: int, sign: int = 1, limit: float = np.inf) -> Distance:
-        """The distance to the next kink where a parameter grows, or falls: its sign is -1.
-
-        One that is farther than a `limit` may be left out.
-        """
+    def ahead(self, column: int, sign: int = 1) -> Distance:
+        """The distance to the next kink where a parameter grows, or falls: its sign is -1."""
         slack = self.touching.slack
         rate = sign * self.closing[:, column]
         left = np.full(len(slack), np.inf)
         np.divide(slack, -rate, out=left, where=rate < 0)
         t = float(left.min(initial=np.inf))
         nearest = Distance(t, self.touching.open[left <= (1 + NEARLY) * t]) if t < np.inf else NEVER
-        if self.loaded[column] >= min(t, limit):
+        if self.loaded[column] >= t:
             return nearest
         return min(nearest, self._unloaded(column, sign), key=lambda one: one.t)
 
-    def either(self, column: int, limit: float = np.inf) -> Distance:
-        """The distance to the next kink on the nearer side; 0 at a kink; `limit` as of `ahead`."""
+    def either(self, column: int) -> Distance:
+        """The distance to the next kink on the nearer side; 0 at a kink."""
         opens = self.rates.opens[:, column]
         if opens.any():
             return Distance(0.0, self.touching.idle[opens])
-        above = self.ahead(column, 1, limit)
-        return min(above, self.ahead(column, -1, min(limit, above.t)), key=lambda one: one.t)
+        return min(self.ahead(column, 1), self.ahead(column, -1), key=lambda one: one.t)
 
     def within(self, distance: Array) -> Indices:
         """The contact and row of every kink nearer than a distance, shape (k, 2).

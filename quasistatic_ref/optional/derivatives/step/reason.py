@@ -25,6 +25,9 @@ KINDS: Final = (
 ONE_SIDED: Final = (WEAK, NEARLY)
 """Those with a derivative on each side."""
 
+SMOOTH_POINTS: Final = (FEATURE, CROSSING)
+"""Those of contacts whose points, normal and tangents do not jump."""
+
 NO_KINK: Final = (*ONE_SIDED, ZERO_FRICTION)
 """Those that leave the distance to the next kink as it is."""
 

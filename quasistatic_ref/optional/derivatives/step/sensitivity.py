@@ -23,7 +23,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from flint import fmpq, fmpq_mat, fmpz, fmpz_mat
+from flint import fmpq_mat, fmpz_mat
 
 from quasistatic_ref.certify.certificate import Certificate
 from quasistatic_ref.certify.dependence import combination, independent_rows, tight_rows
@@ -34,7 +34,11 @@ from quasistatic_ref.certify.rows import flat_rows, row_owners
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import listed
 from quasistatic_ref.formats.shown import Shown
-from quasistatic_ref.optional.derivatives.step.parameters import Change, parameter_changes
+from quasistatic_ref.optional.derivatives.step.parameters import (
+    Change,
+    Fractions,
+    parameter_changes,
+)
 from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
@@ -122,19 +126,22 @@ def sensitivity(step: StepData, certificate: Certificate) -> Sensitivity:
         raise InputError(problem, field="certificate", value=certificate.step_sha256)
     form = exact_form(step)
     active = _active(form, flat_rows(step, certificate.active))
-    changes = parameter_changes(step)
-    dx = _derivatives(form, active, changes)
+    solution = rational_solution(form, active.basis)
+    x, lam = (
+        unit / solution.denominator * np.array(numerators, dtype=object)
+        for unit, numerators in ((form.x_unit, solution.x), (form.lam_unit, solution.lam))
+    )
+    changes = parameter_changes(step, x)
+    columns = _rates(form, active.basis, x, lam, changes).T
     why_not: dict[str, str] = {}
-    columns: dict[str, list[Array]] = {}
-    for p, change in enumerate(changes):
-        derivative = [dx[v, p] for v in range(form.n)]
-        reason = _obstacle(step, form, active, change, derivative)
+    found: dict[str, list[Array]] = {name: [] for name in FIELDS}
+    for change, dx in zip(changes, columns, strict=True):
+        reason = _obstacle(step, form, active, change, x, dx)
         if reason:
             why_not[change.name] = reason
-        values = [nearest_fraction(v * form.x_unit) for v in derivative]
-        column = np.full(form.n, np.nan) if reason else np.array(values, dtype=np.float64)
-        columns.setdefault(change.group, []).append(column)
-    shaped = {name: np.array(columns.get(name, [])).reshape(-1, form.n).T for name in FIELDS}
+        values = [np.nan if reason else nearest_fraction(v) for v in dx]
+        found[change.group].append(np.array(values))
+    shaped = {name: np.array(own).reshape(-1, form.n).T for name, own in found.items()}
     return Sensitivity(**shaped, why_not=why_not)
 
 
@@ -146,101 +153,66 @@ def _active(form: ExactForm, working: tuple[int, ...]) -> Active:
     return Active(independent_rows(form, strict), strict, idle)
 
 
-def _minimiser(form: ExactForm, basis: tuple[int, ...]) -> tuple[list[fmpq], list[fmpq]]:
-    """Return x on a basis, and its multipliers, in the form's units."""
-    solution = rational_solution(form, basis)
-    x = [fmpq(v) / solution.denominator for v in solution.x]
-    lam = [fmpq(v) / solution.denominator for v in solution.lam]
-    return x, lam
-
-
-def _derivatives(form: ExactForm, active: Active, changes: Sequence[Change]) -> fmpq_mat:
-    """Return dx for every change, in the form's units per SI unit of the parameter."""
+def _rates(
+    form: ExactForm,
+    basis: tuple[int, ...],
+    x: Fractions,
+    lam: Fractions,
+    changes: Sequence[Change],
+) -> Fractions:
+    """Return dx for every change, shape (n_v, P), in SI units."""
     n = form.n
-    basis = active.basis
-    right = fmpq_mat(n + len(basis), len(changes))
-    if not (changes and n):
-        return right
-    x, multipliers = _minimiser(form, basis)
-    lam = dict(zip(basis, multipliers, strict=True))
-    A = form.rows(basis)
-    balance = [[*row, *(-a[v] for a in A)] for v, row in enumerate(form.H.tolist())]
-    held = [[*a, *[fmpz(0)] * len(basis)] for a in A]
-    per_H = form.x_unit / form.net_unit
-    per_g = 1 / form.net_unit
-    per_A = form.x_unit / form.slack_unit
-    for p, change in enumerate(changes):
-        top = [dg * per_g for dg in change.g] or [fmpq(0)] * n
-        for (i, j), dH in change.H.items():
-            top[i] -= dH * per_H * x[j]
-        for i, row in change.A.items():
-            if i in lam:
-                top = [t + a * per_A * lam[i] for t, a in zip(top, row, strict=True)]
-        for r, value in enumerate((*top, *(_gap_rate(form, change, i, x) for i in basis))):
-            right[r, p] = value
-    return fmpq_mat(fmpz_mat(balance + held)).solve(right)
-
-
-def _gap_rate(form: ExactForm, change: Change, i: int, x: Sequence[fmpq]) -> fmpq:
-    """Return db_i - dA_i x."""
-    rate = change.b.get(i, fmpq(0)) / form.slack_unit
-    if i in change.A:
-        moved = sum((a * v for a, v in zip(change.A[i], x, strict=True)), fmpq(0))
-        rate -= form.x_unit / form.slack_unit * moved
-    return rate
+    A = np.array(form.rows(basis), dtype=object).reshape(-1, n)
+    free = np.zeros((len(basis), len(basis)), dtype=object)
+    matrix = np.block([[np.array(form.H.tolist(), dtype=object), -A.T], [A, free]])
+    right = []
+    for change in changes:
+        pulled = [
+            m * change.rows[i][:n] for i, m in zip(basis, lam, strict=True) if i in change.rows
+        ]
+        gaps = [change.gap_rate(i, x) / form.slack_unit for i in basis]
+        right.append([*(sum(pulled, change.load) / form.net_unit), *gaps])
+    solution = fmpq_mat(fmpz_mat(matrix.tolist())).solve(fmpq_mat(right).transpose())
+    return np.asarray(form.x_unit * np.array(solution.tolist(), dtype=object)[:n])
 
 
 def _obstacle(
-    step: StepData, form: ExactForm, active: Active, change: Change, dx: Sequence[fmpq]
+    step: StepData, form: ExactForm, active: Active, change: Change, x: Fractions, dx: Fractions
 ) -> str:
     """Return why there is no derivative, or nothing."""
-    touched = [i for i in (*active.strict, *active.idle) if i in change.A or i in change.b]
+    touched = [i for i in (*active.strict, *active.idle) if i in change.rows]
     if change.at_zero and touched:
         return f"it is zero, cannot be smaller, and {_names(step, touched)} touches"
     if any(i in active.strict for i in touched):
         tied = _inconsistent(form, active.strict, change)
         if tied:
             return f"the equations of {_names(step, tied)} would contradict each other"
-    if active.idle:
-        x, _ = _minimiser(form, active.basis)
-        opening = [
-            i
-            for i in active.idle
-            if sum((a * v for a, v in zip(form.row(i), dx, strict=True)), fmpq(0))
-            != _gap_rate(form, change, i, x)
-        ]
-        if opening:
-            return f"{_names(step, opening)} touches without load: it holds on one side only"
+    opening = [i for i in active.idle if _equation(form, i)[:-1] @ dx != change.gap_rate(i, x)]
+    if opening:
+        return f"{_names(step, opening)} touches without load: it holds on one side only"
     return ""
+
+
+def _equation(form: ExactForm, i: int) -> Fractions:
+    """Return [a, b] of a row in SI units."""
+    a = np.array(form.row(i), dtype=object) / form.x_unit
+    return np.asarray(form.slack_unit * np.array([*a, form.b[i, 0]]))
 
 
 def _inconsistent(form: ExactForm, rows: Sequence[int], change: Change) -> list[int]:
     """Return rows whose equations would contradict each other; empty if all stay consistent."""
-    moving = [i for i in rows if i in change.A or i in change.b]
+    moving = [i for i in rows if i in change.rows]
     still = independent_rows(form, [i for i in rows if i not in moving])
     basis = independent_rows(form, (*still, *moving))
-    per_A = form.x_unit / form.slack_unit
-    per_b = 1 / form.slack_unit
-    held = [[fmpq(v) for v in (*form.row(i), form.b[i, 0])] for i in still]
-    changed = []
-    for i in moving:  # by one unit of the parameter
-        dA = change.A.get(i) or [fmpq(0)] * form.n
-        row = [a + per_A * d for a, d in zip(form.row(i), dA, strict=True)]
-        changed.append([*row, form.b[i, 0] + per_b * change.b.get(i, fmpq(0))])
-    if _rank([*held, *changed]) <= len(basis):
+    held = [_equation(form, i) for i in still]
+    changed = [_equation(form, i) + change.rows[i] for i in moving]  # by one unit of the parameter
+    if fmpq_mat([equation.tolist() for equation in held + changed]).rref()[1] <= len(basis):
         return []
     tied = set(moving)
     for i in moving:
         c = None if i in basis else combination(form, basis, i)
         tied |= {j for j, c_j in zip(basis, c or (), strict=False) if c_j}
     return sorted(tied)
-
-
-def _rank(rows: list[list[fmpq]]) -> int:
-    numerators, _ = fmpq_mat(
-        len(rows), len(rows[0]), [v for row in rows for v in row]
-    ).numer_denom()
-    return int(numerators.rank())
 
 
 def _names(step: StepData, rows: Sequence[int]) -> str:

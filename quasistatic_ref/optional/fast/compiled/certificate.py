@@ -83,7 +83,7 @@ class GroupProof:
                 "h": np.array([step.h]), "coordinate": hessian.coordinate,
                 "K_q": step.K_q, "M_u": step.M_u, "guess": np.zeros(n, np.int64),
                 "cone": cone_matrix(step.cone), "integers": combined(step.cone),
-                **places(step.layout),
+                **places(step.row_layout),
                 "hessian": np.zeros(n * n * found.number_size() // 8 + 1, np.int64),
                 "hessian_values": np.zeros((n, n)), "A": np.zeros((m, n)),
                 "J": np.zeros((n_c, 4, n)), "delta_q_bar_a": np.zeros(n_a),

@@ -25,7 +25,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from quasistatic_ref import tolerances
-from quasistatic_ref.contact.crossings import LEVEL
+from quasistatic_ref.contact.crossings import EDGE_COSINE
 from quasistatic_ref.contact.tied_faces import TURNED
 from quasistatic_ref.formats.quoting import clipped, one_line
 
@@ -47,7 +47,7 @@ CONSTANTS = {
             "SAME_NORMAL", "SKEW", "TIED_FACES", "UPRIGHT",
         )
     },
-    "ON_SURFACE_SQUARED": tolerances.ON_SURFACE**2, "TURNED": TURNED, "LEVEL": LEVEL,
+    "ON_SURFACE_SQUARED": tolerances.ON_SURFACE**2, "TURNED": TURNED, "LEVEL": EDGE_COSINE,
 }  # fmt: skip
 """Numbers of Python that C reads by the same names."""
 FLAGS = (

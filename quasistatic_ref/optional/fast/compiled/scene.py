@@ -55,7 +55,7 @@ class Scene(Structure):
         tracker: ContactTracker | None,
     ) -> None:
         column_map = geometry.column_map
-        layout = constant.layout
+        layout = constant.row_layout
         n_c = len(layout.counts)
         m = int(layout.offsets[-1])
         n_a = len(constant.K_q)

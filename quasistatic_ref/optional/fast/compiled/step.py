@@ -95,7 +95,7 @@ class CompiledStep:
         self.geometry = simulator.geometry
         tracker = None if measured_by_numpy(simulator) else simulator.tracker
         constant = simulator.constant
-        weighs = simulator.gravity_acts
+        weighs = simulator.gravity_factor
         self.scene = Scene(self.poses, self.geometry, constant, weighs, tracker)
         self.force = self.scene["force"]
         self.target = self.scene["delta_q_bar_a"]

@@ -32,7 +32,7 @@ from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
 from quasistatic_ref.optional.fast.guess.zeros import zeros
 from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices, StepData
-from quasistatic_ref.step.friction import row_gaps
+from quasistatic_ref.step.friction import row_constants
 
 
 class BallHessian:
@@ -235,8 +235,8 @@ def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:
         directions[k, first + 3] = arb(spin) * mu[k][2]
     J = arb_mat(4 * len(used), step.n_v, contacts.J[used].ravel().tolist())
     entries = (directions * J).entries() + step.extra.A[own].ravel().tolist()
-    gaps = (-row_gaps(contacts, step.cone)[contact, row]).tolist()
-    b = gaps + step.extra.b[own].tolist()
+    constants = (-row_constants(contacts, step.cone)[contact, row]).tolist()
+    b = constants + step.extra.b[own].tolist()
     return arb_mat(len(working), step.n_v, entries), arb_mat(len(working), 1, b)
 
 

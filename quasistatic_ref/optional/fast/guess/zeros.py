@@ -32,7 +32,7 @@ from quasistatic_ref.certify.rational import (
 from quasistatic_ref.certify.rows import places
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Indices, StepData
-from quasistatic_ref.step.friction import row_gaps
+from quasistatic_ref.step.friction import row_constants
 
 
 class Degeneracy(NamedTuple):
@@ -163,10 +163,10 @@ def _some_rows(step: StepData, rows: Sequence[int]) -> tuple[Dyadic, Dyadic]:
     contact, row = places(step, rows)
     own = contact == step.contacts.n_c
     used, at = np.unique(contact[~own], return_inverse=True)
-    gaps = row_gaps(step.contacts, step.cone)[contact[~own], row[~own]]
+    constants = row_constants(step.contacts, step.cone)[contact[~own], row[~own]]
     of_contacts = exact_friction_rows(step.contacts, step.cone, used)[at, row[~own]]
     A = concatenated([of_contacts, dyadic(step.extra.A[row[own]])])  # Eq. (8)
-    b = concatenated([dyadic(-gaps), dyadic(step.extra.b[row[own]])])
+    b = concatenated([dyadic(-constants), dyadic(step.extra.b[row[own]])])
     order = np.argsort(own, kind="stable").argsort()
     return A[order], b[order]
 

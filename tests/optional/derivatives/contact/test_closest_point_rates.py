@@ -21,9 +21,8 @@ def found(features, v, omega, turned=None):
     own = (np.array(v) @ R.T)[:, :, None]
     turn = (np.array(omega) @ R.T)[:, :, None]
     phi = np.array([PHI])
-    frames = (ACROSS @ R.T)[None]
     size = np.array([1.0])
-    return closest_point_rates(phi, (R @ N)[None], frames, both, own, turn, size)
+    return closest_point_rates(phi, (R @ N)[None], both, own, turn, size)
 
 
 @pytest.mark.parametrize("features", [(EDGE, FACE), (FACE, EDGE)])

@@ -29,11 +29,10 @@ def test_an_idle_row_that_moves_with_the_optimum_still_touches(factor, touches_o
     step = free_step(3 * np.eye(1), [0.7], no_contacts(1), 1.0).replace(extra=own)
     form = exact_form(step)
     assert form.slack_unit != 1
-    of_row = Change("", "", A={0: [fmpq(1)]})
-    of_gap = Change("", "", b={0: fmpq(1)})
-    for change, rate in ((of_row, -x), (of_gap, fmpq(1))):
-        dx = fraction(factor) * rate / fraction(a) / form.x_unit
-        said = _obstacle(step, form, Active((), (), (0,)), change, [dx])
+    for da, db in ((fmpq(1), fmpq(0)), (fmpq(0), fmpq(1))):
+        change = Change("", "", np.zeros(1, dtype=object), {0: np.array([da, db])})
+        dx = fraction(factor) * np.array([db - da * x]) / fraction(a)
+        said = _obstacle(step, form, Active((), (), (0,)), change, np.array([x]), dx)
         assert (said == "") == touches_on
 
 

@@ -1,11 +1,11 @@
 """Reading the named fields of a JSON object or a TOML table, with plain errors.
 
-A reader takes each field once, checks it, and refuses in :meth:`Fields.close` whatever was
+A reader takes each field once, checks it, and refuses in :meth:`TableReader.close` whatever was
 not taken: a misspelt name is an error, never a default.
 """
 
 from collections.abc import Iterable
-from typing import Any, Final, TypeVar
+from typing import Any, Final
 
 import numpy as np
 
@@ -13,11 +13,10 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 
 REQUIRED: Final[Any] = object()
-E = TypeVar("E", bound=InputError)
 
 
-class Fields:
-    """The fields of one table.
+class TableReader:
+    """Reads the fields of one table, each once.
 
     Parameters
     ----------
@@ -41,8 +40,8 @@ class Fields:
         """Return the full dotted name of a field."""
         return f"{self.where}.{field}" if self.where else field
 
-    def fail(self, field: str, problem: str, value: Any = None) -> InputError:
-        """Return (not raise) the error about one field."""
+    def error_about(self, field: str, problem: str, value: Any = None) -> InputError:
+        """Return the error about one field, for the caller to raise."""
         return self.error(problem, field=self.name(field), value=value)
 
     def take(self, field: str, default: Any = REQUIRED) -> Any:
@@ -51,7 +50,7 @@ class Fields:
         if field in self._left:
             return self._left.pop(field)
         if default is REQUIRED:
-            raise self.fail(field, "is missing")
+            raise self.error_about(field, "is missing")
         return default
 
     def __contains__(self, field: str) -> bool:
@@ -61,8 +60,8 @@ class Fields:
         """Tell whether a field is there and holds JSON's null."""
         return field in self._left and self._left[field] is None
 
-    def names(self) -> list[str]:
-        """Return the names of the fields not yet taken, in file order."""
+    def names_left(self) -> list[str]:
+        """Return the names of the fields that are not yet taken, in file order."""
         return list(self._left)
 
     def _typed(self, field: str, kind: Any, words: str, default: Any) -> Any:
@@ -70,7 +69,7 @@ class Fields:
         value = self.take(field, default)
         fits = isinstance(value, kind) and (kind is bool or not isinstance(value, bool))
         if not fits and (value is not None or default is not None):
-            raise self.fail(field, f"must be {words}", value)
+            raise self.error_about(field, f"must be {words}", value)
         return value
 
     def number(
@@ -91,13 +90,13 @@ class Fields:
         except OverflowError:
             number = float("inf")
         if not np.isfinite(number):
-            raise self.fail(field, "must be a finite number", value)
+            raise self.error_about(field, "must be a finite number", value)
         if above is not None and not number > above:
-            raise self.fail(field, f"must be greater than {above:g}", value)
+            raise self.error_about(field, f"must be greater than {above:g}", value)
         if least is not None and not number >= least:
-            raise self.fail(field, f"must be at least {least:g}", value)
+            raise self.error_about(field, f"must be at least {least:g}", value)
         if most is not None and not number <= most:
-            raise self.fail(field, f"must be at most {most:g}", value)
+            raise self.error_about(field, f"must be at most {most:g}", value)
         return number
 
     def integer(
@@ -114,11 +113,11 @@ class Fields:
         if value is None:
             return value
         if choices is not None and value not in choices:
-            raise self.fail(field, f"must be {' or '.join(map(str, choices))}", value)
+            raise self.error_about(field, f"must be {' or '.join(map(str, choices))}", value)
         if least is not None and value < least:
-            raise self.fail(field, f"must be at least {least}", value)
+            raise self.error_about(field, f"must be at least {least}", value)
         if most is not None and value > most:
-            raise self.fail(field, f"must be at most {most}", value)
+            raise self.error_about(field, f"must be at most {most}", value)
         return value
 
     def boolean(self, field: str, default: Any = REQUIRED) -> bool:
@@ -135,7 +134,7 @@ class Fields:
             problem = f"is not a choice{suggestion(value, choices)}"
             if len(choices) == 1:  # the format of a file, which is then of another kind
                 problem = f"must be {choices[0]!r}"
-            raise self.fail(field, problem, value)
+            raise self.error_about(field, problem, value)
         return value
 
     def array(
@@ -146,24 +145,26 @@ class Fields:
         wanted = " x ".join("any" if s is None else str(s) for s in shape)
         if isinstance(value, str):
             problem = f"must be {wanted} numbers, with commas between them and brackets around them"
-            raise self.fail(field, problem, value)
+            raise self.error_about(field, problem, value)
         try:
             array = np.array(value, dtype=object)
             if any(isinstance(v, list) for v in array.flat):
-                raise self.fail(field, f"must be {wanted} numbers, in lists of equal length", value)
+                raise self.error_about(
+                    field, f"must be {wanted} numbers, in lists of equal length", value
+                )
             if any(isinstance(v, bool) or not isinstance(v, int | float) for v in array.flat):
-                raise self.fail(field, f"must contain numbers only ({wanted})", value)
+                raise self.error_about(field, f"must contain numbers only ({wanted})", value)
             numbers = array.astype(np.float64)
         except (ValueError, OverflowError, TypeError):
-            raise self.fail(field, f"must be {wanted} finite numbers", value) from None
+            raise self.error_about(field, f"must be {wanted} finite numbers", value) from None
         if numbers.shape == (0,) and 0 in shape:
             numbers = numbers.reshape([s or 0 for s in shape])
         if numbers.ndim != len(shape) or any(
             s is not None and s != n for s, n in zip(shape, numbers.shape, strict=True)
         ):
-            raise self.fail(field, f"must be {wanted} numbers", value)
+            raise self.error_about(field, f"must be {wanted} numbers", value)
         if not np.isfinite(numbers).all():
-            raise self.fail(field, "must contain finite numbers only", value)
+            raise self.error_about(field, "must contain finite numbers only", value)
         return numbers
 
     def sequence(self, field: str, default: Any = REQUIRED) -> list[Any]:
@@ -175,12 +176,12 @@ class Fields:
         """Return a list of strings."""
         value = self.sequence(field, default)
         if value is not default and not all(isinstance(word, str) for word in value):
-            raise self.fail(field, "must be a list of strings", value)
+            raise self.error_about(field, "must be a list of strings", value)
         return value
 
-    def table(self, field: str, default: Any = REQUIRED) -> "Fields":
+    def table(self, field: str, default: Any = REQUIRED) -> "TableReader":
         """Return a nested table."""
-        return Fields(self.take(field, default), self.name(field), self.error)
+        return TableReader(self.take(field, default), self.name(field), self.error)
 
     def check_format(self, name: str, *versions: int) -> int:
         """Take ``format`` and ``version`` of a file, refuse others than these: the version."""
@@ -188,7 +189,9 @@ class Fields:
         version = self.integer("version")
         if version not in versions:
             known = " and ".join(map(str, versions))
-            raise self.fail("version", f"is not known here; this program reads {known}", version)
+            raise self.error_about(
+                "version", f"is not known here; this program reads {known}", version
+            )
         return version
 
     def only(self, known: Iterable[str]) -> None:
@@ -196,7 +199,7 @@ class Fields:
         self._known.update(known)
         for field, value in self._left.items():
             if field not in self._known:
-                raise self.fail(field, f"is unknown{suggestion(field, self._known)}", value)
+                raise self.error_about(field, f"is unknown{suggestion(field, self._known)}", value)
 
     def close(self) -> None:
         """Refuse every field that was not taken."""

@@ -1,22 +1,29 @@
-"""The error bound of large steps, on steps so small that the exact optimum is known."""
+"""The error bound in float64, on steps so small that the exact optimum is known."""
 
 from fractions import Fraction
 
 import numpy as np
+import pytest
 from flint import fmpz_mat
 from scipy.sparse import csc_matrix
 
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.errors import StepNotSolved
+from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
+from quasistatic_ref.optional.large import float_bound
 from quasistatic_ref.optional.large.bound import error_bound
+from quasistatic_ref.optional.large.float_bound import FloatBound, least_way
+from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
-from quasistatic_ref.optional.large.sparse_bound import least_way
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
-from tests.helpers import always_in_blocks, changed, error, in_blocks, random_step
+from quasistatic_ref.solve.units import DenseStepInBothUnits, Units, natural_step
+from quasistatic_ref.step.data import Extra
+from tests.helpers import always_in_blocks, changed, error, in_blocks, point_on_floor, random_step
 from tests.optional.large.test_bound import made_up, within
 from tests.optional.large.test_sparse import step_after
 from tests.oracles.random_steps import any_step
@@ -27,31 +34,81 @@ FUZZED = 60
 RIGHT_OR_WRONG = {"least": -17, "balanced": 0.3, "factors": (1.0, 1.0, 0.5, 2.0, -1.0)}
 
 
-def bound_of(step, delta_q, lam):
-    """The bound of an answer in SI units by the sparse path; infinite where none is known."""
+def dense_bound_of(step, delta_q, lam):
+    """The bound of an answer in SI units by dense matrices; infinite where none is known."""
+    both = DenseStepInBothUnits(step)
+    return FloatBound(both.hessian.natural_H).step_error(both, delta_q, lam)
+
+
+def sparse_bound_of(step, delta_q, lam):
+    """The same by sparse matrices."""
     sparse = in_blocks(step)
     solver = SparseSolver(sparse, "clarabel")
     return solver.error_bound(solver.in_both_units(sparse), delta_q, lam)
 
 
+BOTH = (dense_bound_of, sparse_bound_of)
+
+
 def test_no_answer_of_random_badly_scaled_steps_has_a_false_bound():
     rng = np.random.default_rng(5)
-    bounded = 0
+    bounded = np.zeros(2)
     for _ in range(FUZZED):
         sizes = (int(v) for v in rng.integers((0, 1, 1), (3, 5, 4)))
         step = any_step(rng, *sizes, mass_ratio=rng.choice([1.0, 1e4, 1e9]))
         cone = rng.choice(["pyramid", "product", "facets-6", "frictionless"])
         step = step.replace(cone=str(cone))
+        if rng.random() < 0.5:
+            units = 2.0 ** rng.integers(-20, 21, step.n_v), 2.0 ** int(rng.integers(-20, 21)), 1.0
+            step = natural_step(step, Units(*units))
         try:
             exact = step_optimum(step)
         except StepNotSolved:
             continue
         for _ in range(3):
-            delta_q, lam = made_up(rng, step, exact, **RIGHT_OR_WRONG)
-            bound = bound_of(step, delta_q, lam)
-            assert within(step, exact, delta_q, bound, lam)
-            bounded += bound < 1
-    assert bounded > FUZZED
+            answer = made_up(rng, step, exact, **RIGHT_OR_WRONG)
+            bounds = np.array([bound_of(step, *answer) for bound_of in BOTH])
+            assert all(within(step, exact, answer[0], bound, answer[1]) for bound in bounds)
+            bounded += bounds < 1
+    assert (bounded > FUZZED).all()
+
+
+def test_rows_of_the_user_s_own_are_bounded_in_dense_matrices():
+    """A point on a floor is pulled against a wall, x <= 1e-3 m, and told to be a little beyond."""
+    wall = Extra(("wall",), -np.eye(3)[:1], np.array([-1e-3]))
+    step = point_on_floor(force=(400.0, 0.0, -3.0)).replace(extra=wall)
+    exact = step_optimum(step)
+    beyond = exact.delta_q + np.array([1e-12, 0.0, 0.0])
+    bound = dense_bound_of(step, beyond, exact.lam)
+    assert 1e-12 / np.abs(exact.delta_q).max() < bound < 1e-6
+    assert within(step, exact, beyond, bound, exact.lam)
+
+
+def test_a_bound_that_is_too_large_is_tried_in_balls(monkeypatch):
+    step = grasp_step(np.random.default_rng(4))
+    quick = solve_step(step, "daqp", certify="residual", fast=True)
+    monkeypatch.setattr("quasistatic_ref.optional.fast.solver.BOUNDED", 0.0)
+    slow = solve_step(step, "daqp", certify="residual", fast=True)
+    assert slow.certificate.error_bound == error_bound(step, slow.delta_q, slow.lam)
+    assert quick.certificate.error_bound < 1e-6
+
+
+def test_a_direction_is_kept_while_it_opens_the_rows_that_are_violated(monkeypatch):
+    """Of a block on a slope; what a file would say of its steps is compared in fractions."""
+    sought = []
+    found = float_bound.opening
+    monkeypatch.setattr(float_bound, "opening", lambda *of: sought.append(of) or found(*of))
+    scenario = load_scenario("block_incline", ["solver.certify=residual"], fast=True)
+    simulator = scenario.simulator()
+    q = scenario.system.q_start
+    for _ in range(20):
+        result = simulator.step(q, np.zeros(0))
+        q = result.q
+        answer = result.solution
+        bound = answer.certificate.error_bound
+        assert bound < 1e-6
+        assert bound_verdict(result.step, answer.delta_q, answer.lam.ravel(), bound)
+    assert 1 <= len(sought) <= 5
 
 
 def test_a_sparse_answer_has_a_bound_as_good_as_that_of_a_dense_one(monkeypatch):
@@ -65,13 +122,14 @@ def test_a_sparse_answer_has_a_bound_as_good_as_that_of_a_dense_one(monkeypatch)
     exact = step_optimum(step)
     assert error(step, answer.delta_q, exact.delta_q) <= bound < 1e-4
     assert within(step, exact, answer.delta_q, bound, answer.lam)
-    dense = error_bound(step, answer.delta_q, answer.lam).error
+    dense = error_bound(step, answer.delta_q, answer.lam)
     assert dense / 10 < bound < 10 * dense
     again = solve_step(step.replace(contacts=changed(step.contacts)), "clarabel", certify="off")
     assert error(step, again.delta_q, answer.delta_q) <= 2 * bound
 
 
-def test_what_is_wedged_broken_or_too_large_has_no_bound():
+@pytest.mark.parametrize("bound_of", BOTH)
+def test_what_is_wedged_broken_or_too_large_has_no_bound(bound_of):
     A = csc_matrix(np.array([[1.0, 0.0], [-1.0, 0.0]]))
     assert opening(A, np.zeros(2)) is None
     assert opening(A, np.array([0.0, 1e3])) is not None  # the other wall is far away

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import InputError, ScenarioError
-from quasistatic_ref.formats.fields import Fields
+from quasistatic_ref.formats.table_reader import TableReader
 from tests.tolerances import EXACT
 
 READS = {
@@ -34,12 +34,12 @@ READS = {
 @pytest.mark.parametrize(("table", "read", "says"), READS.values(), ids=READS)
 def test_a_field_is_refused_by_its_full_name(table, read, says):
     with pytest.raises(ScenarioError) as caught:
-        read(Fields(table, "t", ScenarioError))
+        read(TableReader(table, "t", ScenarioError))
     assert str(caught.value).startswith(says)
 
 
 def test_arrays_become_float64_of_the_asked_shape():
-    fields = Fields({"a": [[1, 2], [3, 4]], "b": [], "c": [1, 2, 3]})
+    fields = TableReader({"a": [[1, 2], [3, 4]], "b": [], "c": [1, 2, 3]})
     a = fields.array("a", (2, None))
     assert a.dtype == np.float64
     np.testing.assert_allclose(a, [[1.0, 2.0], [3.0, 4.0]], rtol=EXACT, atol=EXACT)
@@ -48,7 +48,7 @@ def test_arrays_become_float64_of_the_asked_shape():
 
 
 def test_a_missing_field_is_its_default_whatever_that_is():
-    fields = Fields({})
+    fields = TableReader({})
     default = np.zeros(2)
     assert fields.number("a", None) is None
     assert fields.text("b", None, choices=("x",)) is None
@@ -58,7 +58,7 @@ def test_a_missing_field_is_its_default_whatever_that_is():
 
 
 def test_zero_is_a_value_and_not_a_missing_one():
-    fields = Fields({"a": 0, "b": False, "c": ""})
+    fields = TableReader({"a": 0, "b": False, "c": ""})
     assert (fields.number("a", 5.0), fields.boolean("b", True), fields.text("c", "x")) == (
         0.0,
         False,
@@ -67,16 +67,16 @@ def test_zero_is_a_value_and_not_a_missing_one():
 
 
 def test_close_refuses_a_misspelt_field_and_suggests_the_right_one():
-    fields = Fields({"mu_w": 0.1}, "contacts.grip")
+    fields = TableReader({"mu_w": 0.1}, "contacts.grip")
     assert fields.number("mu_v", 0.5) == 0.5
     with pytest.raises(InputError, match=r"grip\.mu_w: is unknown; did you mean 'mu_v'"):
         fields.close()
 
 
 def test_a_field_is_taken_once():
-    fields = Fields({"a": 1})
+    fields = TableReader({"a": 1})
     assert "a" in fields
-    assert fields.names() == ["a"]
+    assert fields.names_left() == ["a"]
     fields.take("a")
     assert "a" not in fields
     with pytest.raises(InputError, match="a: is missing"):
@@ -86,10 +86,10 @@ def test_a_field_is_taken_once():
 @pytest.mark.parametrize("table", [[], "x", None, 3])
 def test_anything_but_a_table_is_refused(table):
     with pytest.raises(InputError, match="must be a table"):
-        Fields(table)
+        TableReader(table)
 
 
 def test_the_caller_s_own_table_is_left_alone():
     table = {"a": 1}
-    Fields(table).take("a")
+    TableReader(table).take("a")
     assert table == {"a": 1}

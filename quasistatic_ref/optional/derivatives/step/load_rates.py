@@ -1,0 +1,40 @@
+"""How the load g - H x of Eq. :eq:`eq-13` changes with what it is made of: (R35)."""
+
+from typing import Any
+
+import numpy as np
+
+
+def load_rates(h: Any, K_q: Any, M_u: Any, tau: Any, delta_q_bar_a: Any, x: Any) -> dict[str, Any]:
+    """Derivatives of the load at a fixed displacement x, in floats or in fractions.
+
+    Parameters
+    ----------
+    h : float or fmpq
+        [s]
+    K_q : ndarray, shape (n_a, n_a)
+        [N/m, N m/rad]
+    M_u : ndarray, shape (n_u, n_u)
+        [kg, kg m, kg m^2]
+    tau : ndarray, shape (n_v,)
+        tau_a and tau_u [N, N m].
+    delta_q_bar_a : ndarray, shape (n_a,)
+        [m, rad]
+    x : ndarray, shape (n_v,)
+        [m, rad]
+
+    Returns
+    -------
+    dict of str to ndarray, shape (n_v, P)
+        By ``"delta_q_bar_a"``, ``"tau"``, the diagonal ``"K_q"`` and ``"h"`` [N s per unit].
+    """
+    n_a = len(K_q)
+    unmoved = np.zeros_like(K_q, shape=(len(M_u), n_a))
+    stretch = delta_q_bar_a - x[:n_a]
+    forces = np.concatenate([K_q @ stretch + tau[:n_a], M_u @ x[n_a:] / h**2 + tau[n_a:]])
+    return {
+        "delta_q_bar_a": np.concatenate([h * K_q, unmoved]),
+        "tau": h * np.eye(len(x), dtype=K_q.dtype),
+        "K_q": np.concatenate([h * np.diag(stretch), unmoved]),
+        "h": forces[:, None],
+    }

@@ -1,0 +1,75 @@
+"""Which normals of two solids are tied, by hand."""
+
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike
+
+from quasistatic_ref.contact.separations import BISECTOR, gaps, pair_normal, rounding
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.solids.solid_pair import pair_and_gaps
+from quasistatic_ref.errors import ContactError
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, PointCloud, Shape
+from quasistatic_ref.tolerances import TIED_FACES
+from tests.tolerances import CLOSED_FORM, EXACT
+
+STRAIGHT = np.eye(3)
+ORIGIN = np.zeros(3)
+X, Y, Z = STRAIGHT
+CUBE = Box(np.ones(3))
+CAPSULE = Capsule(0.25, 1.0)
+TO_X = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
+TO_Y = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])
+
+
+def at(shape: Shape, t: ArrayLike = ORIGIN, R: np.ndarray = STRAIGHT) -> ShapeInWorld:
+    return ShapeInWorld(shape, R, np.array(t))
+
+
+@pytest.mark.parametrize(
+    ("other", "size"),
+    [
+        (at(CUBE, [1.0, -0.5, 0.0]), 2.0),  # the cube's edge
+        (at(CUBE, [1.0, -5.0, 0.0]), 5.0),  # a place
+        (at(PointCloud(np.array([10 * X, -10 * X]))), 2.0),
+    ],
+)
+def test_rounding_is_that_of_the_sizes_of_solids_and_of_places(other, size) -> None:
+    assert rounding(at(CUBE), other) == TIED_FACES * size
+
+
+def test_closest_points_are_apart_by_the_distance_along_a_normal_between_two() -> None:
+    # Cubes with an edge in common but for 1e-10 along both sides.
+    depth = 1e-10
+    found, tie = pair_normal("p", at(CUBE), at(CUBE, [2 - depth, 0.0, 2 - depth]))
+    between = (X + Z) / np.sqrt(2)
+    np.testing.assert_allclose(found.n, between, rtol=EXACT, atol=CLOSED_FORM)
+    np.testing.assert_allclose(found.phi, -np.sqrt(2) * depth, rtol=EXACT, atol=CLOSED_FORM)
+    way = found.beta - found.alpha
+    np.testing.assert_allclose(way, -np.sqrt(2) * depth * between, rtol=EXACT, atol=CLOSED_FORM)
+    assert tie == BISECTOR
+
+
+@pytest.mark.parametrize(
+    ("a", "b"),
+    [
+        # Axes that cross: out along either side of their plane.
+        (at(CAPSULE, R=TO_X), at(CAPSULE, R=TO_Y)),
+        # A corner in a corner: out along three normals.
+        (at(CUBE), at(CUBE, [1.5, 1.5, 1.5])),
+    ],
+)
+def test_solids_as_deep_along_several_normals_are_refused(a, b) -> None:
+    with pytest.raises(ContactError, match=r"along \[.*\] as along \[.*\], 0.5 m: ") as refusal:
+        pair_normal("p", a, b)
+    assert "-0." not in str(refusal.value)
+
+
+def test_listed_gaps_of_two_polytopes_are_those_along_the_listed_normals() -> None:
+    for a, b in ((CUBE, CAPSULE), (CAPSULE, CUBE)):
+        one = at(a)
+        other = at(b, [1.0, 0.2, 1.1], TO_Y)
+        witness, listed = pair_and_gaps("p", one, other)
+        assert listed is not None
+        found, normals = listed
+        np.testing.assert_allclose(found, gaps(one, other, normals), rtol=EXACT, atol=CLOSED_FORM)
+        np.testing.assert_allclose(witness.phi, found.max(), rtol=EXACT, atol=CLOSED_FORM)
