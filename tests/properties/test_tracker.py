@@ -1,7 +1,9 @@
 """Contacts followed from step to step against the brute force: the same bits, whatever happens."""
 
 import copy
+import itertools
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,12 +11,18 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref.contact import separations
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.contact.separations import OF_CLOUD
+from quasistatic_ref.contact.tied_faces import cloud_surface
 from quasistatic_ref.errors import ContactError
-from quasistatic_ref.optional.fast.tracker import ball_tree
+from quasistatic_ref.optional.fast.compiled import compiled
+from quasistatic_ref.optional.fast.tracker import ball_tree, cloud_pairs
 from quasistatic_ref.optional.fast.tracker import tracker as following
+from quasistatic_ref.optional.fast.tracker.cloud_pairs import distances
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
+from quasistatic_ref.optional.fast.tracker.tracker_bound import shortlist
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
     Box,
@@ -27,7 +35,6 @@ from quasistatic_ref.shapes.placed_shape import (
     Sphere,
 )
 from tests.contact.still import pair, placed, standing
-from tests.tolerances import EXACT
 
 WEDGE = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2], [0.2, 0.2, 0.1]])
 SHAPES = {
@@ -41,7 +48,6 @@ SHAPES = {
     "tilted half-space": HalfSpace(np.array([1.0, 2.0, 2.0]), 0.1),
     "hull": convex_hull(WEDGE),
 }
-FIELDS = ("phi", "alpha", "beta", "n", "point")
 
 
 def cloud(kind, N, rng):
@@ -96,13 +102,16 @@ def scene(names, kinds, rng, N, k):
     return pairs
 
 
+def bits(values):
+    return np.ascontiguousarray(values).view(np.int64)
+
+
 def same_bits(tracker, pairs, R, t):
     expected = closest_points(pairs, standing(*zip(R[1:], t[1:], strict=True)))
     found = tracker.closest_points(R, t)
-    for field in FIELDS:
-        np.testing.assert_allclose(
-            getattr(found, field), getattr(expected, field), rtol=EXACT, atol=EXACT, err_msg=field
-        )
+    for field, own in found._asdict().items():
+        np.testing.assert_array_equal(bits(own), bits(getattr(expected, field)), err_msg=field)
+    return found
 
 
 @settings(max_examples=25)
@@ -178,17 +187,91 @@ def test_points_from_the_side_are_seen_once_they_are_nearer(name, rng):
     assert tracker.lists_made < 26
 
 
-def test_a_sheet_that_comes_and_goes_above_a_floor_needs_no_new_list(rng):
-    points = sheet(40, 1 / 256)
+FLOOR = HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0)
+
+
+@pytest.mark.parametrize(("solid", "top", "away"), [(FLOOR, 0.0, 1.0), (SHAPES["box"], 0.25, 0.0)])
+def test_a_sheet_that_comes_and_goes_needs_no_new_list(solid, top, away, rng):
+    """Its first point is far beyond the sides of the box, with another normal."""
+    points = sheet(40, 1 / 512)
     points[:, 2] = rng.uniform(0, 0.01, size=len(points))
-    pairs = one_pair(HalfSpace(np.array([0.0, 0.0, 1.0]), 0.0), points, 5)
+    points[0] = [-1.0, 0.0, 0.01]
+    pairs = one_pair(solid, points, 5)
     tracker = ContactTracker(pairs)
-    for z in rng.uniform(-0.5, 0.5, size=50):
-        same_bits(tracker, pairs, *poses((0, 0, 0), (z, 0, z)))
+    for z in rng.uniform(0, 0.2, size=50):
+        same_bits(tracker, pairs, *poses((0, 0, 0), (away * z, 0, top + z)))
     assert tracker.lists_made == 1
 
 
-def test_pairs_of_solids_and_of_clouds_stay_in_their_order(rng):
+def test_a_list_that_proves_nothing_is_replaced_by_one_of_all_points(monkeypatch, rng):
+    def short(tree, solid, R, t, n, phi_k, k, width):
+        made = shortlist(tree, solid, R, t, n, phi_k, k, width)
+        return replace(made, by_distance=-1.0) if width < 500 else made
+
+    monkeypatch.setattr(following, "shortlist", short)
+    pairs = one_pair(SHAPES["box"], cloud("random", 500, rng), 5)
+    tracker = ContactTracker(pairs)
+    same_bits(tracker, pairs, *poses((0, 0, 0), (0, 0, 1)))
+    assert len(tracker.lists[0].list.index) == 500
+
+
+@pytest.mark.parametrize("cloud_first", [False, True])
+def test_zero_is_positive(cloud_first):
+    """Half a turn about z whose zeros are -0.0, and a height that is -0.0."""
+    turned = -np.eye(3)
+    turned[2, 2] = 1.0
+    points = placed(PointCloud(np.array([[1.0, 1.0, 0.0]])), 1)
+    pairs = []
+    for z in (1.0, -1.0):
+        solid = placed(HalfSpace(np.array([0.0, 0.0, z]), 0.0), R=turned)
+        pairs.append(pair(points, solid) if cloud_first else pair(solid, points))
+    found = same_bits(ContactTracker(pairs), pairs, *poses((0, 0, 0)))
+    assert not bits(found.phi).any()
+    assert not bits(found.n[:, :2]).any()
+
+
+def test_pairs_that_touch_two_faces_at_once_are_decided_and_no_others(monkeypatch):
+    """Points about two edges of a box, at multiples of half of what counts as equal."""
+    share = 2.0**-10
+    monkeypatch.setattr(separations, "TIED_FACES", share)
+    monkeypatch.setattr(cloud_pairs, "TIED_FACES", share)
+    asked = []
+
+    def recorded(name, *args):
+        asked.append(name)
+        return cloud_surface(name, *args)
+
+    monkeypatch.setattr(cloud_pairs, "cloud_surface", recorded)
+    far = np.array([4.0, 0.0, 0.0])  # of the cloud's frame: no place is larger
+    half = share * far[0] / 2
+    x, y, z = 0.25, 0.5, 1.0
+    box = placed(Box(np.array([x, y, z])), 1)
+    pairs = []
+    tied = []
+    for i, j, side in itertools.product(range(-4, 4), range(-4, 4), (1, -1)):
+        # The other point makes the whole cloud farthest out along y.
+        points = side * np.array([(x + i * half, y + j * half, 0.0), (x / 2, 1.5 * y, 0.0)]) - far
+        cloud = placed(PointCloud(points), 2)
+        pairs.append(ContactPair(f"{i} {j} {side}", box, cloud, 0.5, 0.0, 4, 1))
+        phi = max(i, j) if max(i, j) <= 0 else np.hypot(max(i, 0), max(j, 0))
+        if phi <= 2 and abs(i - j) <= 2:
+            tied.append(pairs[-1].name)
+    found = same_bits(ContactTracker(pairs), pairs, *poses((0, 0, 0), far))
+    assert asked == tied
+    assert [pairs[i].name for i in np.flatnonzero(found.tie == OF_CLOUD)] == tied
+
+
+def test_boxes_spheres_and_capsules_in_a_row_are_measured_together():
+    names = ("box", "sphere", "cylinder", "capsule", "hull", "sphere", "box")
+    lists = [slice(i, i + 1) for i in range(len(names))]
+    found = distances([SHAPES[name] for name in names], lists)
+    assert [own for own, _ in found] == [slice(0, 2), *lists[2:5], slice(5, 7)]
+
+
+@pytest.mark.parametrize("in_c", [True, False])
+def test_pairs_of_solids_and_of_clouds_stay_in_their_order(in_c, monkeypatch, rng):
+    if not in_c:
+        monkeypatch.setattr(following, "compiled", lambda _: None)
     solid = [placed(SHAPES["box"], i) for i in (1, 2)]
     points = placed(PointCloud(cloud("random", 99, rng)), 3)
     sphere = placed(SHAPES["sphere"], 3)
@@ -198,6 +281,8 @@ def test_pairs_of_solids_and_of_clouds_stay_in_their_order(rng):
     for other in (tracker, copy.deepcopy(tracker), pickle.loads(pickle.dumps(tracker))):
         same_bits(other, pairs, *poses((0, 0, 0.4), (0, 0.3, 0), (0.1, 0, 0.1)))
     same_bits(ContactTracker(pairs[1::2]), pairs[1::2], *poses((0, 0, 0.4), (0, 0.3, 0), (0, 0, 0)))
+    assert ContactTracker(pairs[::2]).solids is None
+    assert (tracker.solids is not None) == (in_c and compiled("solids") is not None)
 
 
 @pytest.mark.parametrize("first", [True, False])

@@ -228,6 +228,14 @@ def test_the_floor_and_the_limits_of_the_table_are_the_backend_s_own(name):
     assert (name == "quadprog") == (tightest == {})  # which has no tolerance
 
 
+@pytest.mark.parametrize("kind", [CvxpySolver, QpsolversSolver])
+def test_rows_out_of_reach_are_those_of_contacts_that_are_far(kind, step):
+    phi = step.contacts.phi + np.array([0.0, 1e6, 0.0])
+    far = step.replace(contacts=changed(step.contacts, phi=phi))
+    solver = kind(far, "piqp")
+    assert np.flatnonzero(solver.write(DenseStepInBothUnits(far))).tolist() == [6, 7, 8, 9]
+
+
 def test_a_backend_of_studies_only_is_no_backend_of_steps():
     assert not BACKENDS["qpalm"].steps
     for name in ("qpalm", "qpsolvers:qpalm"):

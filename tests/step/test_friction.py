@@ -51,3 +51,9 @@ def test_a_wrench_that_is_rounded_to_zero_has_no_sign():
     wrench = rounded_wrenches(contacts, np.array([0.0, 0.0, 0.0, 5e-324]), 1.0)
     assert wrench[0].tolist() == [0.0, 0.0, 5e-324, 0.0]
     assert not np.signbit(wrench).any()
+
+
+def test_a_wrench_beyond_float64_is_infinite_with_its_sign():
+    contacts = point_on_floor(mu_v=0.25).contacts
+    wrench = rounded_wrenches(contacts, np.array([0.0, 0.0, 0.0, 1e308]), 0.01)
+    assert wrench[0].tolist() == [0.0, -np.inf, np.inf, 0.0]

@@ -145,6 +145,11 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         pcd("binary", b"", PCD_HEADER.replace("y z", "y w")),
         "FIELDS: must name z once",
     ),
+    "ascii pcd with a short line": (
+        ".pcd",
+        pcd("ascii", b"255 0.1 -0.2 0.3\n\n0 1.0\n"),
+        "line 14: must be 4 numbers .got '0 1.0'",
+    ),
     "pcd with a line twice": (
         ".pcd",
         pcd("ascii", PCD_BODY, PCD_HEADER.replace("COUNT", "SIZE 1 4 4 4\nCOUNT")),
@@ -194,6 +199,16 @@ BAD: dict[str, tuple[str, bytes, str]] = {
         ".ply",
         PLY_ASCII.split("1.0 2e-3")[0].encode(),
         r"body: must contain 2 vertices \(got 1\)",
+    ),
+    "ascii ply with a short line": (
+        ".ply",
+        PLY_ASCII.replace(" -0.5 0", "").encode(),
+        "line 13: must be 4 numbers .got '1.0 2e-3'",
+    ),
+    "a count beyond 64 bits": (
+        ".ply",
+        PLY_ASCII.replace("vertex 2", "vertex 9999999999999999999").encode(),
+        "line 4: is not understood",
     ),
     "no property z": (
         ".ply",

@@ -10,6 +10,7 @@ import pytest
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.readers.mesh_files import mesh_hull, mesh_path
 from quasistatic_ref.model.urdf.urdf import loaded_urdf
+from quasistatic_ref.optional.readers.dae import check_dae
 from quasistatic_ref.shapes.convex_mesh import ConvexMesh
 from tests.model.urdf.urdf_texts import collision, link, robot, written
 from tests.tolerances import CLOSED_FORM, EXACT
@@ -108,6 +109,10 @@ def test_a_collada_mesh_is_loaded(tmp_path: Path) -> None:
     hull = mesh_hull(mesh_path("a.dae", tmp_path, ()), np.ones(3))
     assert len(hull.vertices) == len(hull.triangles) == 4
     np.testing.assert_allclose(hull.volume, 1 / 6, rtol=EXACT, atol=CLOSED_FORM)
+
+
+def test_an_index_may_be_the_largest_of_31_bits(tmp_path: Path) -> None:
+    check_dae(written(tmp_path, "<mesh><p>2147483647</p></mesh>", "a.dae"))
 
 
 @pytest.mark.parametrize(("right", "wrong", "words"), HOSTILE.values(), ids=HOSTILE)

@@ -1,17 +1,28 @@
 """Extensions in SI units: further rows, slacks, a cost that alone drives the step, refusals."""
 
+from types import SimpleNamespace
+
 import cvxpy as cp
 import numpy as np
 import pytest
 
-from quasistatic_ref.errors import BackendError, StepNotSolved
+from quasistatic_ref.errors import BackendError, InputError, StepNotSolved
 from quasistatic_ref.optional.extensions import extended
-from quasistatic_ref.optional.extensions.extended import _symbols, extended_solution, with_rows
-from quasistatic_ref.solve.backends import check_takes_cones
+from quasistatic_ref.optional.extensions.extended import (
+    _symbols,
+    extended_solution,
+    extended_step,
+    extension_rows,
+    simulated_solution,
+    with_rows,
+)
+from quasistatic_ref.optional.extensions.rises import with_rises
+from quasistatic_ref.simulate.law import CONVEX
+from quasistatic_ref.solve.backends import DEFAULT, check_takes_cones
 from quasistatic_ref.solve.cvxpy_problem import CvxpyProblem
 from quasistatic_ref.solve.units import natural_step, natural_units
 from quasistatic_ref.step.data import Extra
-from quasistatic_ref.step.extension import Extension
+from quasistatic_ref.step.extension import Extension, Rises
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, point_on_floor, random_step
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
@@ -24,6 +35,33 @@ def test_further_rows_stand_after_those_that_a_step_has(rng):
     assert found.names == ("a", "b", "c", "d")
     np.testing.assert_allclose(found.A, [*one, *two], rtol=EXACT, atol=EXACT)
     assert found.b.tolist() == [1.0, 2.0, 3.0, 4.0]
+
+
+def test_an_equation_is_a_row_either_way_and_an_inequality_one_row(rng):
+    step = random_step(rng)
+    C = rng.normal(size=(2, 7))
+    d = np.array([0.25, -0.5])
+    own = extension_rows(step, Extension(lambda s: [C @ s.delta_q == d, s.delta_q_u[1] <= 2.0]))
+    numbers = ("0[0]", "0[1]", "0[0] reversed", "0[1] reversed", "1[0]")
+    assert own.names == tuple(f"extension {number}" for number in numbers)
+    np.testing.assert_array_equal(own.A, [*-C, *C, -np.eye(7)[4]])
+    np.testing.assert_array_equal(own.b, [*-d, *d, -2.0])
+
+
+def test_symbols_leave_private_rises_out(rng):
+    rises = Rises(loads=[1.0], masses=[1e-3], coordinates=[0])
+    step = with_rises(random_step(rng), rises)
+    units = natural_units(step)
+    problem = CvxpyProblem(natural_step(step, units))
+    delta_q = rng.normal(size=8)
+    x = delta_q / (units.size * units.coordinate)
+    problem.delta_q_a.value = x[:3]
+    problem.delta_q_u.value = x[3:]
+    own = _symbols(problem, step, units, len(rises))
+    for found, expected in (
+        (own.delta_q, delta_q[:7]), (own.delta_q_a, delta_q[:3]), (own.delta_q_u, delta_q[3:7])
+    ):  # fmt: skip
+        np.testing.assert_allclose(found.value, expected, rtol=ROUNDING)
 
 
 def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
@@ -46,14 +84,15 @@ def test_slacks_that_an_extension_speaks_of_are_in_metres(rng):
     np.testing.assert_allclose(found, slack[order], rtol=ROUNDING, atol=16 * ROUNDING)
 
 
-def test_a_cost_that_alone_drives_a_step_moves_it_as_far_as_in_closed_form():
-    """m/2h |x|^2 + k/2 |x - p|^2 has its least at k p / (m/h + k)."""
-    step = point_on_floor(m=0.3, h=0.01, phi=0.0)
+@pytest.mark.parametrize("force", [(0.0, 0.0, 0.0), (20.0, -30.0, 40.0)])
+def test_a_cost_moves_a_step_as_far_as_in_closed_form(force):
+    """m/2h |x|^2 - h f'x + k/2 |x - p|^2 has its least at (h f + k p) / (m/h + k)."""
+    step = point_on_floor(m=0.3, h=0.01, phi=0.0, force=force)
     k = 10.0
     p = np.array([0.02, -0.01, 0.03])
     cost = Extension(lambda s: [k / 2 * cp.sum_squares(s.delta_q - p)])
     answer = extended_solution(step, cost, "clarabel", 1e-10, "residual")
-    expected = k * p / (0.3 / 0.01 + k)
+    expected = (0.01 * np.array(force) + k * p) / (0.3 / 0.01 + k)
     size = np.abs(expected).max()
     np.testing.assert_allclose(answer.delta_q, expected, rtol=0.0, atol=OPTIMUM * size)
     assert max(answer.certificate.residuals.values()) < OPTIMUM
@@ -70,9 +109,27 @@ def test_a_curved_extension_is_judged_with_h_as_it_is(rng):
     """Its K_q couples the actuated coordinates: the residuals are of the whole of H."""
     step = random_step(rng)
     assert np.abs(np.triu(step.H, 1)).max() > 0
-    loose = Extension(lambda s: [cp.norm(s.delta_q) <= 1e3])
-    answer = extended_solution(step, loose, "clarabel", 1e-10, "residual")
+    answer = extended_solution(step, LOOSE, "clarabel", 1e-10, "residual")
     assert max(answer.certificate.residuals.values()) < OPTIMUM
+
+
+LOOSE = Extension(lambda s: [cp.norm(s.delta_q) <= 1e3])
+
+
+def test_a_curved_extension_is_solved_by_the_default_where_no_backend_is_named(rng):
+    answer = extended_step(random_step(rng), LOOSE, None, False, 1e-10, "residual")
+    assert answer.statistics.backend == DEFAULT
+
+
+def test_a_curved_extension_is_refused_under_coulombs_law_alone(rng):
+    step = random_step(rng)
+    own = SimpleNamespace(law=CONVEX, named_backend=None, accuracy=1e-10, certify="residual")
+    assert simulated_solution(own, step, LOOSE).certificate.kind == "residual"
+    own.law = "coulomb"
+    with pytest.raises(
+        InputError, match=r'extension: holds costs or .* which law = "coulomb" does'
+    ):
+        simulated_solution(own, step, LOOSE)
 
 
 def test_an_answer_whose_worst_residual_is_just_the_limit_is_believed(monkeypatch):

@@ -215,7 +215,7 @@ optional/show/show.py optional/show/step_words.py
 certify/solution.py
     certificate newton compliance/forces
 cli/solution_files.py
-    certify/solution solution_files solutions_of_version_1 FORGED
+    step/friction certify/solution solution_files solutions_of_version_1 FORGED
 optional/derivatives/step/optimum_rates.py optional/derivatives/step/reason.py
 optional/derivatives/step/touching.py optional/derivatives/contact/couples.py
 optional/derivatives/contact/depth_ties.py optional/derivatives/contact/features.py
