@@ -2,8 +2,6 @@
 
 #include "scene.h"
 
-int64_t scene_size(void) { return sizeof(Scene); }
-
 /* contact/tied_faces: whether two faces of a solid are as high, within twice what counts there, where a
    point touches or is inside. NumPy then says which one the normal is of. */
 static int faces_tie(const Solid *solid, const double *x, double phi, double places)

@@ -5,7 +5,7 @@
 
 #include "solids.h"
 
-/* One for one the fields of Scene in scene.py. */
+/* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t pairs, n_c, n_v, n_a, n_x, links, mimics;
     /* Poses of the links: R by columns, as pinocchio keeps it; columns of the Jacobian. */

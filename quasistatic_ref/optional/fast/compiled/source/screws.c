@@ -8,7 +8,7 @@
 
 enum { FLOATING, PLANAR, CONTINUOUS, SCALAR };
 
-/* One for one the fields of Screws in screws.py. */
+/* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t joints;
     /* Of each joint: its kind, and where its entries of q and of delta_q start. */
@@ -21,8 +21,6 @@ typedef struct {
     /* Of each joint, the vector (x, y) whose angle is asked for in a difference. */
     double *x, *y;
 } Screws;
-
-int64_t screws_size(void) { return sizeof(Screws); }
 
 static double dot(const double *a, const double *b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
 
