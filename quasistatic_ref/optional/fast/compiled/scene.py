@@ -98,11 +98,10 @@ class Scene(Structure):
         self.lists_made = tracker.lists_made
         clouds = tracker.clouds
         bounds = np.full(clouds.P, clouds.offset.shape[1])
-        x, y, z = clouds.points.T
         self.put(
             {
                 "first": clouds.start[:-1], "length": np.diff(clouds.start), "index": clouds.index,
-                "x": x, "y": y, "z": z,
+                "points": clouds.points,
                 "bounds": starts(bounds), "slope": clouds.slope, "offset": clouds.offset,
             },
         )  # fmt: skip

@@ -15,9 +15,9 @@ typedef struct {
     const double *on_solid, *on_cloud;
     const Solid *const *solid;
     const double *sign; /* of the solid's normal in the contact's */
-    /* The short list: points x, y, z apart, their numbers, and the bounds of all others. */
+    /* The short list: points, their numbers, and the bounds of all others. */
     const int64_t *first, *length, *index;
-    const double *x, *y, *z;
+    const double *points;
     const int64_t *bounds;
     const double *slope, *offset;
     /* Where the contacts of the pair go, and how many. */
