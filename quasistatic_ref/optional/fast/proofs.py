@@ -230,11 +230,14 @@ class Proofs:
         self._of_small: Coupling = []
         self._small: Mask | None = None
         self.prover: Any = None
-        self._group = np.zeros(0, np.int64)  # of each coordinate
+
+    def norms(self) -> list[tuple[Indices, EnergyNorm]]:
+        """Coordinates of each group of the last step, and its norm."""
+        return [(part.group.coordinates, part.kept.norm) for part in self.parts]
 
     def norm(self) -> Norm:
         """The norm ||.||_H of the last step."""
-        norms = [(part.group.coordinates, part.kept.norm) for part in self.parts]
+        norms = self.norms()
         return norms[0][1] if len(norms) == 1 else GroupNorm(norms)
 
     def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
@@ -273,7 +276,7 @@ class Proofs:
                 optimum = with_far(step, optimum, near, slacks)
                 break
             near = _unless_all(near | doubtful)
-        if self._may_be_long(both, optimum.delta_q):
+        if self._may_be_long(both.si_form.g, optimum.delta_q):
             check_length(step, optimum.delta_q, group_steps(step))
         return optimum
 
@@ -287,20 +290,15 @@ class Proofs:
             self.prover = in_c.Prover(both.si_step, groups)
         return self.prover
 
-    def _may_be_long(self, both: StepInBothUnits, delta_q: Array) -> bool:
-        """Whether delta_q (n_v,) may be absurdly long in one of the groups; mostly it is not."""
-        # Of three loads' steps the longest is at least a third of their sum's.
+    def _may_be_long(self, g: Array, delta_q: Array) -> bool:
+        """Whether delta_q (n_v,) may be absurdly long in one of the groups; mostly it is not.
+
+        Of three loads' steps the longest is at least a third of that of their sum, g (n_v,).
+        """
         most = ILL_POSED / 4
-        g = both.si_form.g
-        if isinstance(both, DenseStepInBothUnits):
-            norm = both.hessian.norm  # whose factor has the blocks of H: the groups
-            moved = np.bincount(self._group, np.abs(norm.L.T.dot(delta_q / norm.unit)))
-            free = np.bincount(self._group, np.abs(norm.inverse.dot(g * norm.unit)))
-            # A vector's length is at most the sum of its entries, and that root n of the length.
-            return not (math.sqrt(len(g)) * moved <= most * free).all()
-        norms = [(part.group.coordinates, part.kept.norm) for part in self.parts]
         return not all(
-            norm.of_displacement(delta_q[v]) <= most * norm.of_impulse(g[v]) for v, norm in norms
+            norm.of_displacement(delta_q[v]) <= most * norm.of_impulse(g[v])
+            for v, norm in self.norms()
         )
 
     def _near(self, step: StepData, coupling: Coupling, lam: Array, slack: Array) -> Mask | None:
@@ -338,9 +336,6 @@ class Proofs:
             self.parts = _parts(step, near, self.parts)
             self._of_parts = coupling
             self.prover = None
-            self._group = np.zeros(step.n_v, np.int64)
-            for i, part in enumerate(self.parts):
-                self._group[part.group.coordinates] = i
         return self.parts
 
 

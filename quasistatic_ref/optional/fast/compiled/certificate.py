@@ -6,33 +6,15 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.certify.exact import ExactOptimum
-from quasistatic_ref.optional.fast.compiled import natural
+from quasistatic_ref.certify.rows import places
 from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.guess.exchange import Proof, Refuted
 from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, combined, zeros
 from quasistatic_ref.solve.units import DenseStepInBothUnits, Units
 from quasistatic_ref.step.cones import cone_matrix
-from quasistatic_ref.step.data import Array, Indices, RowLayout, StepData
+from quasistatic_ref.step.data import Array, Indices, StepData
 from quasistatic_ref.step.groups import Group
-
-NUMBERS = ("n_a", "n_v", "n_c", "rows", "working")
-ARRAYS = (
-    "coordinates", "contacts", "rows_of_step",
-    "h", "coordinate", "units", "natural", "g", "A", "b", "pressure", "gap",
-    "K_q", "M_u", "delta_q_bar_a", "tau", "phi", "n", "d1", "d2", "J", "mu",
-    "cone", "integers", "contact", "row", "guess",
-    "hessian", "hessian_values",
-    "delta_q", "lam", "net", "slack", "idle", "still", "counts", "implied", "least",
-)  # fmt: skip
-"""The fields of ``Proof`` in proof.h."""
-
-OF_STEP = ("n_v", "groups")
-ARRAYS_OF_STEP = (
-    "group", "delta_q_bar_a", "tau", "phi", "n", "d1", "d2", "J", "mu", "g", "A", "b", "pressure",
-    "gap", "code", "delta_q", "lam", "net", "slack", "least",
-)  # fmt: skip
-"""The fields of ``Step`` in groups.c."""
 
 DECIDED = 0
 REFUTED = 6
@@ -69,28 +51,22 @@ class GroupProof:
         hessian = own.hessian
         self._prove = found.proof
         self.code = NOT_POSED
-        n_a = step.n_a
         n = step.n_v
-        n_c = step.contacts.n_c
-        m = int(step.offsets[-1])
-        self.s = s = Structure(NUMBERS, ARRAYS, found.proof_size)
-        self._natural = Structure(natural.NUMBERS, natural.ARRAYS, found.natural_size)
+        m = step.m
+        contact, row = places(step, range(m))
+        self.s = s = Structure("proof.h", "Proof")
+        self._natural = Structure("natural.c", "Natural")
         s.put(
             {
-                "n_a": n_a, "n_v": n, "n_c": n_c, "rows": m, "working": 0,
+                "n_a": step.n_a, "n_v": n, "n_c": step.contacts.n_c, "rows": m, "working": 0,
                 "coordinates": group.coordinates, "contacts": group.contacts,
                 "rows_of_step": group.rows, "natural": self._natural.address,
                 "h": np.array([step.h]), "coordinate": hessian.coordinate,
                 "K_q": step.K_q, "M_u": step.M_u, "guess": np.zeros(n, np.int64),
                 "cone": cone_matrix(step.cone), "integers": combined(step.cone),
-                **places(step.row_layout),
+                "contact": contact, "row": row,
                 "hessian": np.zeros(n * n * found.number_size() // 8 + 1, np.int64),
-                "hessian_values": np.zeros((n, n)), "A": np.zeros((m, n)),
-                "J": np.zeros((n_c, 4, n)), "delta_q_bar_a": np.zeros(n_a),
-                **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net")},
-                **{name: np.zeros((n_c, 3)) for name in ("n", "d1", "d2", "mu")},
-                **{name: np.zeros(m) for name in ("b", "pressure", "gap", "lam", "slack")},
-                "phi": np.zeros(n_c), "units": np.zeros(2), "least": np.zeros(2),
+                "hessian_values": np.zeros((n, n)), "units": np.zeros(2), **room(step),
                 "idle": np.zeros(m, np.int64), "still": np.zeros(n, np.int64),
                 "counts": np.zeros(2, np.int64), "implied": np.zeros(m + n, np.int64),
             }
@@ -156,6 +132,26 @@ class GroupProof:
         return _optimum(self.s, self.guess.tolist(), Degeneracy(unique, smooth=True))
 
 
+def room(step: StepData) -> dict[str, Array]:
+    """Arrays for the data of a step like one, a backend's answer to it, and its optimum.
+
+    Returns
+    -------
+    dict of str to ndarray
+        Of the shapes that a StepData, a StandardForm and an ExactOptimum have: (n_v,), (m,), ...
+    """
+    n_c = step.contacts.n_c
+    n = step.n_v
+    m = step.m
+    return {
+        "delta_q_bar_a": np.zeros(step.n_a), "phi": np.zeros(n_c), "J": np.zeros((n_c, 4, n)),
+        "A": np.zeros((m, n)), "least": np.zeros(2),
+        **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net")},
+        **{name: np.zeros((n_c, 3)) for name in ("n", "d1", "d2", "mu")},
+        **{name: np.zeros(m) for name in ("b", "pressure", "gap", "lam", "slack")},
+    }  # fmt: skip
+
+
 def _optimum(s: Structure, working: Sequence[int], means: Degeneracy) -> ExactOptimum:
     """The optimum that C has written, of a group or of a step."""
     least_slack, least_multiplier = s["least"].tolist()
@@ -197,19 +193,12 @@ class Prover:
         self._prove = found.groups_proved
         self.proofs = [group_proof(*each) for each in groups]
         addresses = [0 if proof is None else proof.s.address for proof in self.proofs]
-        n = step.n_v
-        m = step.m
-        n_c = step.contacts.n_c
-        self.s = Structure(OF_STEP, ARRAYS_OF_STEP, found.step_size)
+        self.s = Structure("groups.c", "Step")
         self.s.put(
             {
-                "n_v": n, "groups": len(groups),
+                "n_v": step.n_v, "groups": len(groups),
                 "group": np.array(addresses, np.int64), "code": np.zeros(len(groups), np.int64),
-                "delta_q_bar_a": np.zeros(step.n_a), "J": np.zeros((n_c, 4, n)),
-                "A": np.zeros((m, n)), "phi": np.zeros(n_c), "least": np.zeros(2),
-                **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net")},
-                **{name: np.zeros((n_c, 3)) for name in ("n", "d1", "d2", "mu")},
-                **{name: np.zeros(m) for name in ("b", "pressure", "gap", "lam", "slack")},
+                **room(step),
             }
         )  # fmt: skip
 
@@ -237,10 +226,10 @@ class Prover:
         s["pressure"][:] = lam
         s["gap"][:] = slack
         idle = self._prove(s.address)
+        for proof, code in zip(self.proofs, s["code"].tolist(), strict=True):
+            if proof is not None:
+                proof.code = code
         if idle < 0:
-            for proof, code in zip(self.proofs, s["code"].tolist(), strict=True):
-                if proof is not None:
-                    proof.code = code
             return None
         return _optimum(s, s["lam"].nonzero()[0].tolist(), Degeneracy(not idle, True))
 
@@ -258,9 +247,3 @@ def group_proof(group: Group, own: DenseStepInBothUnits) -> GroupProof | None:
         return None
     proof = GroupProof(group, own)
     return proof if proof.usable else None
-
-
-def places(layout: RowLayout) -> dict[str, Indices]:
-    """The contact of each row, and its number there; each of shape (m,)."""
-    contact, row = np.nonzero(layout.mask)
-    return {"contact": contact, "row": row}

@@ -10,13 +10,6 @@ from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.units import HessianInBothUnits, Units
 from quasistatic_ref.step.data import StepData
 
-NUMBERS = ("n", "m", "row", "column")
-ARRAYS = (
-    "g", "A", "b", "coordinate", "squared", "inverse",
-    "squares", "scale", "units", "f", "natural_A", "natural_b",
-)  # fmt: skip
-"""The fields of ``Natural`` in natural.c."""
-
 MOST = 1024
 """Most coordinates for which ``OFF`` in natural.c is enough."""
 
@@ -38,11 +31,10 @@ class NaturalProgram:
     def __init__(
         self, scene: Scene, solver: FastSolver, program: Program, hessian: HessianInBothUnits
     ) -> None:
-        found = library()
-        self._write = found.natural_program
+        self._write = library().natural_program
         self._solver = solver
         self._hessian = hessian
-        self._structure = s = Structure(NUMBERS, ARRAYS, found.natural_size)
+        self._structure = s = Structure("natural.c", "Natural")
         m, n = program.A.shape
         row, column = (stride // program.A.itemsize for stride in program.A.strides)
         s.put(

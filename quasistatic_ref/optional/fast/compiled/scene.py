@@ -3,7 +3,6 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.solids import SolidPairs, solid
 from quasistatic_ref.optional.fast.compiled.structure import Structure
@@ -13,21 +12,6 @@ from quasistatic_ref.optional.fast.tracker.cloud_pairs import starts
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices
-
-NUMBERS = ("pairs", "n_c", "n_v", "n_a", "n_x", "links", "mimics")
-ARRAYS = (
-    "R", "t", "column",
-    "link_solid", "link_cloud", "on_solid", "on_cloud",
-    "solid", "sign",
-    "first", "length", "index", "x", "y", "z", "bounds", "slope", "offset",
-    "start", "count",
-    "owner", "moves_alpha", "moves_beta", "mu_v", "mu_omega", "rows",
-    "coefficient", "has",
-    "world", "nearest", "rank", "point", "tie",
-    "phi", "n", "alpha", "beta", "d1", "d2", "J", "A", "b", "work",
-    "h", "weighs", "gravity", "force", "K_q", "delta_q_bar_a", "tau", "g", "solids",
-)  # fmt: skip
-"""The fields of ``Scene`` in scene.h, one for one."""
 
 
 class Scene(Structure):
@@ -61,7 +45,7 @@ class Scene(Structure):
         n_a = len(constant.K_q)
         n_x = len(column_map.owner)
         n_v = column_map.n_v
-        super().__init__(NUMBERS, ARRAYS, library().scene_size)
+        super().__init__("scene.h", "Scene")
         self.given = given = np.dtype(
             [
                 *((name, np.int64, (n_c,)) for name in ("point", "tie")),
@@ -114,11 +98,10 @@ class Scene(Structure):
         self.lists_made = tracker.lists_made
         clouds = tracker.clouds
         bounds = np.full(clouds.P, clouds.offset.shape[1])
-        x, y, z = clouds.points.T
         self.put(
             {
                 "first": clouds.start[:-1], "length": np.diff(clouds.start), "index": clouds.index,
-                "x": x, "y": y, "z": z,
+                "points": clouds.points,
                 "bounds": starts(bounds), "slope": clouds.slope, "offset": clouds.offset,
             },
         )  # fmt: skip

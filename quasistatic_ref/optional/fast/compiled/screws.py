@@ -1,7 +1,6 @@
 """Sums q (+) delta_q and differences of configurations, whose sines Python decides if C cannot."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -13,12 +12,6 @@ from quasistatic_ref.optional.fast.compiled.library import library
 from quasistatic_ref.optional.fast.compiled.poses import Poses
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.step.data import Array
-
-NUMBERS = ("joints",)
-ARRAYS = (
-    "kind", "q_start", "v_start", "angle", "cosine", "sine", "q", "q_next", "delta_q", "x", "y"
-)  # fmt: skip
-"""The fields of ``Screws`` in screws.c."""
 
 
 class Screws:
@@ -41,8 +34,8 @@ class Screws:
         self._subtract = found.changes
         joints = system.joints
         n_a = system.n_a
-        self._sums = _structure(found, poses.q, joints, system.n_v)
-        self._differences = _structure(found, poses.q, [j for j in joints if j.actuated], n_a)
+        self._sums = _structure(poses.q, joints, system.n_v)
+        self._differences = _structure(poses.q, [j for j in joints if j.actuated], n_a)
         self._of_sums, self._of_differences = (
             tuple(s[name] for name in ("q_next", "delta_q", "angle", "cosine", "sine", "x", "y"))
             for s in (self._sums, self._differences)
@@ -75,9 +68,9 @@ class Screws:
         return change.copy()
 
 
-def _structure(found: Any, q: Array, joints: Sequence[Joint], n_v: int) -> Structure:
+def _structure(q: Array, joints: Sequence[Joint], n_v: int) -> Structure:
     """The structure for some joints at q, whose delta_q has n_v entries."""
-    made = Structure(NUMBERS, ARRAYS, found.screws_size)
+    made = Structure("screws.c", "Screws")
     kinds = [*TURNING, "prismatic", "revolute"]  # of the two last, q is a number: SCALAR
     made.put(
         {

@@ -37,11 +37,7 @@ class Solid(Structure):
     """``Solid`` of solid.h: one of `KINDS`."""
 
     def __init__(self, shape: shapes.Shape) -> None:
-        numbers = ("kind", "corners", "faces", "edges", "triangles")
-        arrays = (
-            "size", "extent", "vertices", "normals", "offsets", "ends", "sides", "surface"
-        )  # fmt: skip
-        super().__init__(numbers, arrays, library().solid_size)
+        super().__init__("solid.h", "Solid")
         flat = polytope(shape)
         extent = shape.extent
         self.put(
@@ -128,13 +124,7 @@ class SolidPairs(Structure):
         t: Indices,
         written: Mapping[str, Any],
     ) -> None:
-        numbers = ("pairs",)
-        arrays = (
-            "R", "t", "a", "b", "link_a", "link_b", "on_a", "on_b", "k", "start", "count",
-            "corners", "candidates", "order", "late", "decided",
-            "phi", "n", "alpha", "beta", "point", "tie",
-        )  # fmt: skip
-        super().__init__(numbers, arrays, library().solid_pairs_size)
+        super().__init__("solids.h", "SolidPairs")
         mine = [measured(pair) and not pair.has_cloud for pair in pairs]
         self.solids = [
             [solid(pair.alpha.shape), solid(pair.beta.shape)] if own else []

@@ -1,11 +1,17 @@
 """Structures of C: numbers, and addresses of arrays that are kept as long as they are."""
 
 import ctypes
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from quasistatic_ref.optional.fast.compiled.library import SOURCE
+
+COMMENT = re.compile(r"/\*.*?\*/", re.DOTALL)
 
 
 class Structure:
@@ -13,18 +19,12 @@ class Structure:
 
     Parameters
     ----------
-    numbers, arrays : sequence of str
-        Names of its fields in their order: 64-bit integers, then pointers.
-    size : callable
-        The C function that says how large the structure is there.
+    file, name : str
+        Where C declares it, and its name there.
     """
 
-    def __init__(self, numbers: Sequence[str], arrays: Sequence[str], size: Any) -> None:
-        fields = [*((name, ctypes.c_int64) for name in numbers)]
-        kinds = [*fields, *((name, ctypes.c_void_p) for name in arrays)]
-        self._fields = type("Fields", (ctypes.Structure,), {"_fields_": kinds})()
-        size.restype = ctypes.c_int64
-        assert size() == ctypes.sizeof(self._fields)
+    def __init__(self, file: str, name: str) -> None:
+        self._fields = fields(file, name)()
         self._arrays: dict[str, NDArray[Any]] = {}
         self.address = ctypes.addressof(self._fields)
 
@@ -46,3 +46,17 @@ class Structure:
             assert array.dtype in (np.float64, np.int64)
             self._arrays[name] = array
             setattr(self._fields, name, array.ctypes.data)
+
+
+@cache
+def fields(file: str, name: str) -> type[ctypes.Structure]:
+    """The fields that C declares: 64-bit integers, and pointers."""
+    text = COMMENT.sub("", (SOURCE / file).read_text())
+    declared = re.search(rf"typedef struct[^{{}}]*{{([^{{}}]*)}} {name};", text)
+    assert declared is not None
+    each = re.split("[;,]", declared.group(1).strip().rstrip(";"))
+    kinds = [
+        (re.findall(r"\w+", one)[-1], ctypes.c_void_p if "*" in one else ctypes.c_int64)
+        for one in each
+    ]
+    return type(name, (ctypes.Structure,), {"_fields_": kinds})

@@ -8,7 +8,6 @@
 
 #include "proof.h"
 
-int64_t proof_size(void) { return sizeof(Proof); }
 int64_t number_size(void) { return sizeof(Number); }
 
 /* gap, slip_1, slip_2 and spin of a contact, without friction's coefficients' rows, and bounds. */

@@ -2,8 +2,6 @@
 
 #include "scene.h"
 
-int64_t scene_size(void) { return sizeof(Scene); }
-
 /* contact/tied_faces: whether two faces of a solid are as high, within twice what counts there, where a
    point touches or is inside. NumPy then says which one the normal is of. */
 static int faces_tie(const Solid *solid, const double *x, double phi, double places)
@@ -33,12 +31,6 @@ static double limit(const Scene *s, int64_t pair, const double *pose)
     return least;
 }
 
-static void in_solid(const double *pose, double x, double y, double z, double *at)
-{
-    for (int i = 0; i < 3; i++)
-        at[i] = along(pose + 4 * i, x, y, z) + pose[4 * i + 3];
-}
-
 /* contact/distance: the `count` least distances in ascending order, ties by index; 0 if one is NaN. */
 static int selected(const Scene *s, int64_t pair, const double *pose)
 {
@@ -46,7 +38,7 @@ static int selected(const Scene *s, int64_t pair, const double *pose)
     for (int64_t w = 0; w < s->length[pair]; w++) {
         double at[3];
         int64_t p = s->first[pair] + w;
-        in_solid(pose, s->x[p], s->y[p], s->z[p], at);
+        carried(pose, s->points + 3 * p, at);
         double phi = signed_distance(s->solid[pair], at, 0);
         if (phi != phi)
             return 0;
@@ -66,9 +58,9 @@ static int selected(const Scene *s, int64_t pair, const double *pose)
 /* contact/distance: the points and normal of one contact in the world; 0 if faces tie. */
 static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, int64_t p)
 {
-    const double *solid = s->world + 24 * pair, *cloud = solid + 12;
-    double at[3], normal[3];
-    in_solid(pose, s->x[p], s->y[p], s->z[p], at);
+    const double *solid = s->world + 24 * pair, *cloud = solid + 12, *point = s->points + 3 * p;
+    double at[3], normal[3], n[3], centre[3], foot[3];
+    carried(pose, point, at);
     s->phi[c] = signed_distance(s->solid[pair], at, normal) + 0.0;
     s->point[c] = s->index[p];
     s->tie[c] = OWN;
@@ -77,15 +69,14 @@ static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, 
         places += fabs(solid[4 * i + 3]) + fabs(cloud[4 * i + 3]);
     if (faces_tie(s->solid[pair], at, s->phi[c], places))
         return 0;
-    for (int i = 0; i < 3; i++) {
-        double n = along(solid + 4 * i, normal[0], normal[1], normal[2]);
-        double centre = along(cloud + 4 * i, s->x[p], s->y[p], s->z[p]) + cloud[4 * i + 3];
-        double foot = centre - s->phi[c] * n;
-        int swapped = s->sign[pair] < 0.0;
-        s->n[3 * c + i] = s->sign[pair] * n + 0.0; /* zero is 0.0, never -0.0 */
-        s->alpha[3 * c + i] = swapped ? centre : foot;
-        s->beta[3 * c + i] = swapped ? foot : centre;
-    }
+    turned(solid, normal, n);
+    carried(cloud, point, centre);
+    moved_by(centre, -s->phi[c], n, foot);
+    int swaps = s->sign[pair] < 0.0;
+    copied(swaps ? centre : foot, s->alpha + 3 * c);
+    copied(swaps ? foot : centre, s->beta + 3 * c);
+    for (int i = 0; i < 3; i++)
+        s->n[3 * c + i] = s->sign[pair] * n[i] + 0.0; /* zero is 0.0, never -0.0 */
     return 1;
 }
 

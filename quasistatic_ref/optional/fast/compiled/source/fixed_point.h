@@ -92,27 +92,17 @@ static inline void add_product(Sum *sum, const Number *x, const Float *f, int si
 {
     if (x->low == x->high || (!f->d[0] && !f->d[1]))
         return;
-    int by = f->start - FRACTION;
-    if (x->low + by >= 0 && x->high + by < DIGITS) {
-        int64_t low = sign * f->d[0], high = sign * f->d[1];
-        reach(sum, x->low + by, x->high + by + 1);
-        for (int j = x->low; low && j < x->high; j++)
-            sum->d[j + by] += (__int128)x->d[j] * low;
-        for (int j = x->low; high && j < x->high; j++)
-            sum->d[j + by + 1] += (__int128)x->d[j] * high;
+    int64_t low = sign * f->d[0], high = sign * f->d[1];
+    int by = f->start - FRACTION, first = x->low + by + (low == 0), last = x->high + by + (high != 0);
+    if (first < 0 || last > DIGITS) {
+        *lost = 1;
         return;
     }
-    for (int j = x->low; j < x->high; j++)
-        for (int k = 0; k < 2; k++) {
-            if (!x->d[j] || !f->d[k])
-                continue;
-            if (j + by + k < 0 || j + by + k >= DIGITS) {
-                *lost = 1;
-                continue;
-            }
-            reach(sum, j + by + k, j + by + k + 1);
-            sum->d[j + by + k] += (__int128)(sign * x->d[j]) * f->d[k];
-        }
+    reach(sum, first, last);
+    for (int j = x->low; low && j < x->high; j++)
+        sum->d[j + by] += (__int128)x->d[j] * low;
+    for (int j = x->low; high && j < x->high; j++)
+        sum->d[j + by + 1] += (__int128)x->d[j] * high;
 }
 
 static inline Number carried(const Sum *sum, int *lost)

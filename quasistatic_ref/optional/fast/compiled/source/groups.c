@@ -3,7 +3,7 @@
 
 #include "proof.h"
 
-/* One for one the fields of Step in certificate.py. */
+/* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t n_v, groups;
     Proof *const *group; /* 0: of one that is not proved here */
@@ -14,8 +14,6 @@ typedef struct {
     int64_t *code;
     double *delta_q, *lam, *net, *slack, *least;
 } Step;
-
-int64_t step_size(void) { return sizeof(Step); }
 
 /* Some rows of a matrix, or some columns of them (all if NULL): whether a number has changed. */
 static int taken(double *to, const double *from, const int64_t *rows, int64_t n_rows,

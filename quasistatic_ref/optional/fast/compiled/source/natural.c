@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdint.h>
 
-/* One for one the fields of Natural in natural.py. */
+/* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct Natural {
     int64_t n, m;
     /* From row to row, and from column to column, of A as it is written. */
@@ -18,8 +18,6 @@ typedef struct Natural {
        {length, size}; -g, A and b in them. */
     double *squares, *scale, *units, *f, *natural_A, *natural_b;
 } Natural;
-
-int64_t natural_size(void) { return sizeof(Natural); }
 
 #define LARGEST 0x1p400 /* squares, and products of two units, stay far inside of float64 */
 #define OFF 0x1p-40     /* sums of n terms and n such sums, n <= 1024, differ by less: 4 n 2^-53 */

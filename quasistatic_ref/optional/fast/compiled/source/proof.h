@@ -23,7 +23,7 @@ enum { REFINED = 160, FINEST = 400, GRID = 440, ROUNDS = 16 };
 
 struct Natural;
 
-/* One for one the fields of Proof in certificate.py. */
+/* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t n_a, n_v, n_c, rows, working;
     /* Where the group's coordinates, contacts and rows stand in the step. */

@@ -9,11 +9,11 @@ static void tangents(const double *n, double *d1, double *d2)
     if (fabs(n[2]) < fabs(n[axis]))
         axis = 2;
     double a[3] = {axis == 0, axis == 1, axis == 2};
-    double along = (n[0] * a[0] + n[1] * a[1]) + n[2] * a[2], length = sqrt(1 - along * along);
+    double along = dot(n, a), length = sqrt(1 - along * along), across[3];
+    cross(n, a, across);
     for (int i = 0; i < 3; i++) {
-        int next = (i + 1) % 3, last = (i + 2) % 3;
         d1[i] = (a[i] - along * n[i]) / length;
-        d2[i] = (n[next] * a[last] - n[last] * a[next]) / length + 0.0; /* n x axis */
+        d2[i] = across[i] / length + 0.0;
     }
 }
 

@@ -5,7 +5,7 @@
 
 #include "solids.h"
 
-/* One for one the fields of Scene in scene.py. */
+/* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t pairs, n_c, n_v, n_a, n_x, links, mimics;
     /* Poses of the links: R by columns, as pinocchio keeps it; columns of the Jacobian. */
@@ -15,9 +15,9 @@ typedef struct {
     const double *on_solid, *on_cloud;
     const Solid *const *solid;
     const double *sign; /* of the solid's normal in the contact's */
-    /* The short list: points x, y, z apart, their numbers, and the bounds of all others. */
+    /* The short list: points, their numbers, and the bounds of all others. */
     const int64_t *first, *length, *index;
-    const double *x, *y, *z;
+    const double *points;
     const int64_t *bounds;
     const double *slope, *offset;
     /* Where the contacts of the pair go, and how many. */

@@ -3,12 +3,11 @@
    Sines and angles are correctly rounded: those of long double, where their error leaves no doubt
    about that, or else those of Python. */
 
-#include <math.h>
-#include <stdint.h>
+#include "solid.h"
 
 enum { FLOATING, PLANAR, CONTINUOUS, SCALAR };
 
-/* One for one the fields of Screws in screws.py. */
+/* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t joints;
     /* Of each joint: its kind, and where its entries of q and of delta_q start. */
@@ -21,10 +20,6 @@ typedef struct {
     /* Of each joint, the vector (x, y) whose angle is asked for in a difference. */
     double *x, *y;
 } Screws;
-
-int64_t screws_size(void) { return sizeof(Screws); }
-
-static double dot(const double *a, const double *b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
 
 /* Sum of v, once w x v and twice e x (e x v), where w = a e. */
 static void combined(const double *v, const double *w, double a, double once, double twice, double *out)

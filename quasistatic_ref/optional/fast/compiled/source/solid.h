@@ -27,7 +27,7 @@ typedef struct {
     double normal[3], offset, corners[3][3], ways[3][3], squares[3], inward[3][3];
 } Triangle;
 
-/* One for one the fields of Solid in solid.py. */
+/* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t kind, corners, faces, edges, triangles;
     /* Half extents of the core and the ball's radius; or normal and offset; or radius and half

@@ -5,9 +5,6 @@
 
 #include "solids.h"
 
-int64_t solid_size(void) { return sizeof(Solid); }
-int64_t solid_pairs_size(void) { return sizeof(SolidPairs); }
-
 Contact swapped(const Contact *contact)
 {
     Contact other = *contact;

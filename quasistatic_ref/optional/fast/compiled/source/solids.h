@@ -15,7 +15,7 @@ typedef struct {
     int64_t point, tie;
 } Contact;
 
-/* One for one the fields of SolidPairs in solids.py. */
+/* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t pairs;
     const double *const *R, *const *t; /* of the links, as in Scene */
