@@ -9,7 +9,7 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.optional.readers.point_table import PointTable, header_lines, table_points
 from quasistatic_ref.step.arrays import Array
 
-_SIZES = {"F": ["4", "8"], "I": ["1", "2", "4", "8"], "U": ["1", "2", "4", "8"]}
+_SIZES = {"F": ("4", "8"), "I": ("1", "2", "4", "8"), "U": ("1", "2", "4", "8")}
 """The sizes of each type, which NumPy has by the same letter [bytes]."""
 _WORDS = (
     "VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA",
@@ -69,7 +69,7 @@ def _columns(header: dict[str, list[str]]) -> tuple[tuple[str, str, int], ...]:
         raise ModelError(problem, field="FIELDS", value=names)
     columns = []
     for name, size, kind, count in zip(names, sizes, types, counts, strict=True):
-        if size not in _SIZES.get(kind, []):
+        if size not in _SIZES.get(kind, ()):
             raise ModelError("has an unknown SIZE and TYPE", field=name, value=f"{size} {kind}")
         columns.append((name, f"<{kind.lower()}{size}", _whole("COUNT", count)))
     if sum(n for _, _, n in columns) > MOST_COLUMNS:

@@ -90,8 +90,9 @@ def test_noise_of_rounding_size_does_not_change_them(cone):
 
 
 def walled_block():
-    """One that slides against a wall: x <= 0."""
-    return block(push=9.0).replace(extra=Extra(("wall",), -np.eye(6)[:1], np.zeros(1)))
+    """One that slides against a wall, x <= 0, before another one, x <= 1 m."""
+    rows = Extra(("beyond", "wall"), -np.eye(6)[[0, 0]], np.array([-1.0, 0.0]))
+    return block(push=9.0).replace(extra=rows)
 
 
 @pytest.mark.parametrize("step", [block(push=1.0), walled_block()])
