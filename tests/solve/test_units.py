@@ -155,7 +155,7 @@ def test_tiny_and_huge_steps_have_the_least_size_or_none():
     one = np.ones(2)
     none = np.zeros(0)
     assert units_from(one, none, 1.7e308, none).size == np.inf
-    assert np.isnan(units_from(one, np.array([1.0, np.inf]), 1.0, np.zeros(2)).size)
+    assert np.isnan(units_from(one, np.array([1.0, 1.0, np.inf]), 1.0, np.zeros(3)).size)
     assert np.isnan(units_from(one, np.array([np.inf]), 1.0, np.zeros(1)).length)
 
 
