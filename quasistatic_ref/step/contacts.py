@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -95,6 +95,10 @@ class Contacts(Plain, Shown):
     def n_v(self) -> int:
         """Number of columns of J."""
         return int(self.J.shape[-1])
+
+    def raised(self, s: Array) -> Contacts:
+        """These contacts with phi + s, shape (n_c,) [m], in the place of phi."""
+        return replace(self, phi=self.phi + s)
 
     def motion(self, delta_q: Array) -> Array:
         """J delta_q of each contact, shape (n_c, 4) [m, m, m, rad]."""

@@ -8,7 +8,7 @@ correction; Acary, Cadoux, Lemarechal and Malick (2011) find s by iteration, as 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -109,7 +109,7 @@ def coulomb_step(
     while not found and iterations < most:
         iterations += 1
         s = own
-        raised = step.replace(contacts=replace(contacts, phi=contacts.phi + s))
+        raised = step.replace(contacts=contacts.raised(s))
         solution = solve_step(raised, solver, accuracy=accuracy)
         own = slip_norms(step, solution.delta_q)
         residual = largest(np.abs(own - s))

@@ -43,6 +43,12 @@ class SparseContacts(Contacts):
             problem = f"must have {self.n_c} contacts"
             raise StepDataError(problem, field="contacts.blocks", value=len(blocks.J))
 
+    def raised(self, s: Array) -> Contacts:
+        """These contacts with phi + s, shape (n_c,) [m], in the place of phi."""
+        new, (name, phi, *others) = self.__reduce__()
+        raised: Contacts = new(name, phi + s, *others)
+        return raised
+
     def __reduce__(self) -> tuple[Any, ...]:
         own = self.name, self.phi, self.n, self.d1, self.d2, self.blocks
         return SparseContacts, (*own, self.mu_v, self.mu_omega, self.rows)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -105,8 +104,7 @@ def _posed_again(
             if k >= cold:
                 _ask(simulator, step, linear)
             if "s" in part:
-                raised = step.contacts.phi + part["s"][i]
-                step = step.replace(contacts=replace(step.contacts, phi=raised))
+                step = step.replace(contacts=step.contacts.raised(part["s"][i]))
             rows.append(program(step) if full else {})
     return {key: np.array([row[key] for row in rows]) for key in (rows[0] if rows else ())}
 

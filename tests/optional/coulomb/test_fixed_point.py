@@ -20,7 +20,7 @@ from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step, slip_norms
 from quasistatic_ref.step.friction import frame_jacobian
 from quasistatic_ref.tolerances import CLOSED_FORM
-from tests.helpers import point_on_floor, random_step, sphere_on_floor
+from tests.helpers import in_blocks, point_on_floor, random_step, sphere_on_floor
 
 M = 0.3
 H = 0.01
@@ -110,6 +110,14 @@ def test_a_guide_slides_as_far_as_the_start_says(s):
     friction = F - M * x / H**2
     assert -along.sum() == pytest.approx(friction, abs=1e-10 * F)
     assert mu * normal.sum() >= (1 - 1e-10) * friction
+
+
+def test_contacts_in_blocks_have_the_same_step():
+    step = random_step(np.random.default_rng(3))
+    dense, blocks = (coulomb_step(one, "clarabel", fast=True) for one in (step, in_blocks(step)))
+    assert blocks.found
+    np.testing.assert_array_equal(blocks.delta_q, dense.delta_q)
+    np.testing.assert_array_equal(blocks.s, dense.s)
 
 
 def test_what_is_not_usable_is_refused_in_a_sentence():

@@ -66,7 +66,7 @@ class GroupProof:
                 "cone": cone_matrix(step.cone), "integers": combined(step.cone),
                 "contact": contact, "row": row,
                 "hessian": np.zeros(n * n * found.number_size() // 8 + 1, np.int64),
-                "hessian_values": np.zeros((n, n)), "units": np.zeros(2), **room(step),
+                "hessian_values": np.zeros((n, n)), "units": np.zeros(2), **step_arrays(step),
                 "idle": np.zeros(m, np.int64), "still": np.zeros(n, np.int64),
                 "counts": np.zeros(2, np.int64), "implied": np.zeros(m + n, np.int64),
             }
@@ -132,7 +132,7 @@ class GroupProof:
         return _optimum(self.s, self.guess.tolist(), Degeneracy(unique, smooth=True))
 
 
-def room(step: StepData) -> dict[str, Array]:
+def step_arrays(step: StepData) -> dict[str, Array]:
     """Arrays for the data of a step like one, a backend's answer to it, and its optimum.
 
     Returns
@@ -198,7 +198,7 @@ class Prover:
             {
                 "n_v": step.n_v, "groups": len(groups),
                 "group": np.array(addresses, np.int64), "code": np.zeros(len(groups), np.int64),
-                **room(step),
+                **step_arrays(step),
             }
         )  # fmt: skip
 

@@ -33,7 +33,7 @@ K = 5
 WIDTH = 32
 
 
-def room(shape, points, x):
+def rounding_margin(shape, points, x):
     """For rounding, relative to the sizes of solid and cloud and their distance [m]."""
     return UNSEEN * (size(shape) + np.abs(points).max() + np.abs(x).max())
 
@@ -72,7 +72,7 @@ def test_points_left_out_lie_beyond_a_bound_with_room_for_rounding(name, kind, r
         made = shortlist(ball_tree.ball_tree(points), shape, R, t, n, np.inf, K, WIDTH)
         beyond = spare(made, shape, points, R, t, n)
         assert K <= len(made.index) < len(points)
-        assert beyond.min() >= (1 - 1e-3) * room(shape, points, x)
+        assert beyond.min() >= (1 - 1e-3) * rounding_margin(shape, points, x)
         assert made.limit(np.column_stack([R, t])) > np.sort(phi)[K - 1]
         tightest = min(tightest, beyond.min())
     assert tightest < 1.0  # the bounds say something
@@ -82,7 +82,7 @@ def test_points_that_rounding_may_order_otherwise_are_all_in_the_list(rng):
     points = rng.uniform(-1, 1, size=(300, 3))
     points[:, 2] = 0.0
     floor = HalfSpace(Z, 0.0)
-    points[:, 2] = rng.uniform(0, 1.9, size=300) * room(floor, points, points + Z)
+    points[:, 2] = rng.uniform(0, 1.9, size=300) * rounding_margin(floor, points, points + Z)
     made = shortlist(ball_tree.ball_tree(points), floor, np.eye(3), Z, Z, np.inf, K, WIDTH)
     assert len(made.index) == 300
 
