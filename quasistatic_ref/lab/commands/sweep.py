@@ -4,8 +4,10 @@ import argparse
 
 from quasistatic_ref.cli import options as shared
 from quasistatic_ref.errors import InputError
+from quasistatic_ref.formats.files import json_text
 from quasistatic_ref.lab.study.measuring.many import TABLE, simulate_many, swept_values
 from quasistatic_ref.lab.study.measuring.sweep import DONE
+from quasistatic_ref.scenario.scenario import load_scenario
 
 MEASURES = ("rotation_deg", "rise_mm", "travel_mm", "exact")
 """What is printed of each run; the rest is in the table."""
@@ -32,18 +34,23 @@ def run(options: argparse.Namespace) -> int:
         if field in variations:
             raise InputError("is swept twice; give all of its values at once", field=field)
         variations[field] = values
+    settings = shared.scenario_settings(options)
     rows = simulate_many(
         options.scenario,
         variations,
         options.out,
-        settings=shared.scenario_settings(options),
+        settings=settings,
         workers=options.jobs,
         scheduler=options.scheduler,
         progress=not options.quiet,
     )
     failed = sum(row["outcome"] != DONE for row in rows)
+    # Of a field that is swept, the scene may need a value of the sweep.
+    first = [f"{name}={json_text(values[0])}" for name, values in variations.items()]
+    fast = load_scenario(options.scenario, [*settings, *first]).fast
     if options.json:
-        shared.print_json({"runs": len(rows), "failed": failed, "store": str(options.out)})
+        told = {"runs": len(rows), "fast": fast, "failed": failed, "store": str(options.out)}
+        shared.print_json(told)
         return int(failed > 0)
     swept = [name for name, values in variations.items() if len(values) > 1]
     table: list[tuple[str, ...]] = [(*swept, "outcome", *MEASURES)]
@@ -52,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
         cells = ("-" if v is None else f"{v:.4g}" for v in found)
         table.append((*(f"{row['values'][name]}" for name in swept), row["outcome"], *cells))
     shared.print_rows(table)
-    speed = "fast" if options.fast else "plain"
+    speed = "fast" if fast else "plain"
     print(
         f"{len(rows)} runs ({speed} path), {failed} of which not done; wrote {options.out / TABLE}"
     )

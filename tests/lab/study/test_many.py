@@ -40,16 +40,18 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, capsys):
     tables.close()
     kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
     assert main([*argv, "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["runs"] == 4
+    told = json.loads(capsys.readouterr().out)
+    assert (told["runs"], told["fast"]) == (4, False)
     written = [path for path, time in kept.items() if path.stat().st_mtime_ns != time]
     assert len(written) == 1
     assert [line["run"] for line in table(tmp_path)] == [line["run"] for line in lines]
 
 
-def test_a_list_is_set_for_every_run_and_no_two_columns_have_one_name(tmp_path):
+def test_a_list_is_set_for_every_run_and_no_two_columns_have_one_name(tmp_path, capsys):
     sideways = "gravity=[0.0, 0.5, -9.81]"
     argv = ["run", "block_incline", "--set", sideways, "--sweep", "steps=1,2", "--jobs", "1"]
-    assert main([*argv, "--quiet", "--out", str(tmp_path)]) == 0
+    assert main([*argv, "--set", "fast=true", "--quiet", "--out", str(tmp_path)]) == 0
+    assert "2 runs (fast path)" in capsys.readouterr().out
     header = (tmp_path / TABLE).read_text().splitlines()[0].split(",")
     assert len(set(header)) == len(header)
     lines = table(tmp_path)
