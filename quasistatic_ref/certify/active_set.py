@@ -66,7 +66,7 @@ def most_violated(minimiser: Minimiser) -> int | None:
     Any violated row would do. With this one a grasp takes, from a cold start, a fifth of the walks
     that it takes with :func:`least_index`.
     """
-    shown = [i for i, sign in enumerate(minimiser.shown_slack_signs) if sign == -1]
+    shown = [i for i, sign in enumerate(minimiser.ball_slack_signs) if sign == -1]
     if shown and minimiser.balls is not None:
         slack = minimiser.balls.slack
         return min(shown, key=lambda i: slack[i].mid())
@@ -79,7 +79,7 @@ def least_index(minimiser: Minimiser) -> int | None:
     The choice depends on exact signs alone, not on the midpoints of balls: every implementation of
     the method takes the same path.
     """
-    violated = (i for i, sign in enumerate(minimiser.decided_slack_signs) if sign == -1)
+    violated = (i for i, sign in enumerate(minimiser.exact_slack_signs) if sign == -1)
     return next(violated, None)
 
 
@@ -113,7 +113,7 @@ def dual_active_set(
     while True:
         p = entering_row(minimiser)
         if p is None:  # All slacks are >= 0, too: the optimum.
-            return Optimum(_without_zeros(minimiser), minimiser.decided_slack_signs, walks)
+            return Optimum(_without_zeros(minimiser), minimiser.exact_slack_signs, walks)
         after = _walk(minimiser, p)
         if isinstance(after, Farkas):
             return after
@@ -146,16 +146,19 @@ def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
                 support = {i: -c_j for i, c_j in zip(working, c, strict=True) if c_j}
                 return Farkas({**support, p: fmpq(1)})
         rest = working[:leaving] + working[leaving + 1 :]
-        minimiser = minimiser.on(rest)  # the start of the line on which the walk goes on
+        minimiser = minimiser.on(rest)  # where the next line starts
 
 
 def _first_to_vanish(minimiser: Minimiser, after: Minimiser) -> int | None:
     """Ratio test: index in W of the multiplier that vanishes first between two points, or None.
 
-    That is the least l_j / (l_j - u_j) over u_j < 0; of a tie the first of W. After a row has left,
-    the walk is somewhere on this line, and not at its start, where the multiplier of p is zero. The
-    ratios hold all the same: a multiplier that is >= 0 where the walk is, and ends at u_j < 0, is
-    >= 0 at the start, and none of these vanishes behind the walk.
+    l are the multipliers on W, u those on W and p. The index is that of the least l_j / (l_j - u_j)
+    over u_j < 0; of a tie the first of W.
+
+    After a row has left, the method is at a point inside this line, not at its start, where the
+    multiplier of p is zero. The ratios of the whole line are valid all the same: a multiplier that
+    is >= 0 at that point and ends at u_j < 0 decreases along the line, so that it vanishes at that
+    point or after it.
     """
     first = None
     for j in range(len(minimiser.working)):

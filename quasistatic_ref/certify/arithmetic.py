@@ -25,7 +25,7 @@ def check_arithmetic() -> None:
     Raises
     ------
     InputError
-        Which says what is wrong.
+        If rounding is not to nearest, or subnormal numbers are flushed to zero.
     """
     if ONE + TINY == ONE - TINY and NORMAL * HALF > 0.0:
         return

@@ -49,29 +49,31 @@ def differentiable(form: ExactForm, working: Sequence[int], unspanned: Sequence[
     """Whether delta_q is differentiable in g; parameters as of :func:`multipliers_unique`."""
     if len(unspanned) <= 1:
         return not unspanned
-    moves = form.rows(unspanned)
-    total = [sum(column, fmpz(0)) for column in zip(*moves, strict=True)]
-    return not feasible(form, working, [*moves, total], [0] * len(unspanned) + [1])
+    rows = form.rows(unspanned)
+    # A_E v >= 0 is not zero iff the sum of its entries is positive, and then v can be scaled so
+    # that the sum is at least 1.
+    total = [sum(column, fmpz(0)) for column in zip(*rows, strict=True)]
+    return not feasible(form, working, [*rows, total], [0] * len(unspanned) + [1])
 
 
 def feasible(
-    form: ExactForm, working: Sequence[int], moves: list[list[fmpz]], least: list[int]
+    form: ExactForm, working: Sequence[int], bounded: list[list[fmpz]], least: list[int]
 ) -> bool:
-    """Whether some v has A_W v = 0 and moves v >= least, by the active-set method.
+    """Whether some v has A_W v = 0 and B v >= least, by the active-set method.
 
     Parameters
     ----------
     form : ExactForm
     working : sequence of int
         W.
-    moves : list of list of fmpz
-        Rows.
+    bounded : list of list of fmpz
+        The rows of B.
     least : list of int
         One for each row.
     """
     n = form.n
     held = form.rows(working)
-    rows = held + [[-a for a in row] for row in held] + moves
+    rows = held + [[-a for a in row] for row in held] + bounded
     identity = [[int(i == j) for j in range(n)] for i in range(n)]
     one = fmpq(1)
     feasibility = ExactForm(

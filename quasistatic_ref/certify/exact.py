@@ -245,11 +245,11 @@ def relative_length(step: StepData, delta_q: Array) -> float:
     It is compared with ``ILL_POSED`` for each group of a step by itself, lest a heavy body hide
     what is absurd in a light one.
 
-    That is the largest of four lengths in the H norm. Three are those of the unconstrained steps
-    that the targets, tau_a and tau_u would each cause alone (together they may cancel, but for
-    rounding). The fourth is max_i b_i / ||a_i||, in the norm of H^-1: the shortest step that
-    satisfies the row i alone (a body pushed out of penetration moves however small g is). Without
-    loads and penetration, zero is the optimum.
+    The length that delta_q is divided by is the largest of four in the H norm. Three are those of
+    the unconstrained steps that the targets, tau_a and tau_u would each cause alone (together they
+    may cancel, but for rounding). The fourth is max_i b_i / ||a_i||, in the norm of H^-1: the
+    shortest step that satisfies the row i alone (a body pushed out of penetration moves however
+    small g is). Without loads and penetration, zero is the optimum.
 
     Parameters
     ----------

@@ -210,13 +210,13 @@ class Minimiser:
         return tuple(i for j, i in enumerate(self.working) if self.lam_sign(j) > 0)
 
     def surely_positive(self) -> tuple[int, ...]:
-        """Return those of them whose balls show it."""
+        """Return the rows of the working set whose multipliers have balls above zero."""
         if self.balls is None:
             return ()
         return tuple(i for i, ball in zip(self.working, self.balls.lam, strict=True) if ball > 0)
 
     @cached_property
-    def shown_slack_signs(self) -> list[int | None]:
+    def ball_slack_signs(self) -> list[int | None]:
         """Signs of all slacks as the balls show them: 1, -1, or None where they do not."""
         if self.balls is None:
             return [None] * self.form.m
@@ -224,9 +224,9 @@ class Minimiser:
         return [sign if sign else None for sign in signs]  # Zeros are decided by `spanned`.
 
     @cached_property
-    def decided_slack_signs(self) -> list[int]:
+    def exact_slack_signs(self) -> list[int]:
         """Exact signs of all slacks."""
-        signs = list(self.shown_slack_signs)
+        signs = list(self.ball_slack_signs)
         for i in self.working:
             signs[i] = 0
         for i in self.spanned([i for i, sign in enumerate(signs) if sign is None]):

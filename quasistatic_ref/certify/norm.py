@@ -111,7 +111,10 @@ def digits_of_error(error: float) -> float:
 
 
 def relative_digits(off: float, unconstrained: float) -> float:
-    """Correct digits, 0 to 16 [-], of what is `off` where ||H^-1 g||_H is `unconstrained`."""
+    """Correct digits, 0 to 16 [-], of an answer at the distance `off` from the optimum.
+
+    Both lengths are in the norm of H; `unconstrained` is ||H^-1 g||_H.
+    """
     if unconstrained == 0:
         return MOST if off == 0 else 0.0
     return digits_of_error(off / unconstrained)

@@ -1,9 +1,9 @@
-"""Which rows a solver's answer shows to be active, in floating point: a guess, made well.
+"""The rows that a solver's answer shows to be active, from which the exact method starts.
 
-An interior-point method presses on all rows of a sticking contact, six of rank four, where the
-exact method needs independent ones with multipliers >= 0. Such a choice exists (Caratheodory):
-moving lam along a dependence of the pressed rows changes neither A'lam nor the optimum, and each
-move empties one of them.
+An interior-point method returns positive multipliers for all six rows of a sticking contact, whose
+rank is four. The exact method needs independent rows with multipliers >= 0. Such a choice exists
+(Caratheodory): moving lam along a dependence of the rows with positive multipliers changes neither
+A'lam nor the optimum, and each move makes one multiplier zero.
 """
 
 import numpy as np
@@ -12,7 +12,7 @@ from quasistatic_ref.step.data import Array
 
 ZERO_SHARE = 1e-9
 """Singular values, and entries of a dependence, below this share of the largest count as zero; a
-wrong guess costs a walk."""
+wrong start costs steps of the active-set method, not correctness."""
 
 
 def warm_rows(A: Array, lam: Array, slack: Array) -> list[int]:

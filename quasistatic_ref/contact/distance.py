@@ -237,12 +237,14 @@ def ranked_last(candidates: ClosestPoints, k: int) -> Mask:
     """
     every = np.column_stack([candidates.phi, candidates.alpha, candidates.n])
     same = np.abs(every[:, None] - every).max(axis=2) <= REPEATED
-    found = np.tril(same, -1).any(axis=1)
-    level = ~found & (candidates.phi <= candidates.phi[-1] + REPEATED)
-    found[-1] |= np.count_nonzero(level[:-1]) >= k
-    corner = candidates.point < candidates.point[-1]
-    found |= ~corner & (np.count_nonzero(level & corner) >= k)
-    return np.asarray(found)
+    last = np.tril(same, -1).any(axis=1)
+    as_near = ~last & (candidates.phi <= candidates.phi[-1] + REPEATED)
+    last[-1] |= np.count_nonzero(as_near[:-1]) >= k
+    # Candidates are numbered: corners first, then the closest pair, which stands at the end of the
+    # arrays, then crossings.
+    is_corner = candidates.point < candidates.point[-1]
+    last |= ~is_corner & (np.count_nonzero(as_near & is_corner) >= k)
+    return np.asarray(last)
 
 
 def _cloud_on_solid(

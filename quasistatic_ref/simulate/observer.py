@@ -43,9 +43,9 @@ class Observer:
 
 
 def doctors(printed: bool = False) -> list[Observer]:
-    """What finds at the end of a run what is wrong with it, and perhaps prints it.
+    """The observer that reports findings at the end of a run, and perhaps prints them.
 
-    Nothing does where ``optional/doctor`` is missing.
+    Where ``optional/doctor`` is missing, the list is empty.
     """
     doctor = part("doctor.observer")
     return [] if doctor is None else [doctor.Doctor(printed)]

@@ -1,4 +1,4 @@
-"""What one step of a simulator came to."""
+"""The result of one step of a simulator."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from quasistatic_ref.step.data import Array, StepData
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StepResult(Plain, Shown):
-    """Everything that one step came to.
+    """The result of one step of a simulator.
 
     Parameters
     ----------

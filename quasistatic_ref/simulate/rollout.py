@@ -28,8 +28,10 @@ if TYPE_CHECKING:
     from quasistatic_ref.simulate.simulator import Simulator
 
 COLD_EVERY = 1000
-"""Steps after which the solver starts cold: what it keeps of earlier steps decides the last bits of
-multipliers, and of answers that are not certified, and a run that is resumed has to make it again.
+"""Steps after which the solver starts cold.
+
+What a solver keeps of earlier steps decides the last bits of multipliers, and of answers that are
+not certified. A run that is resumed must take these steps again.
 """
 
 

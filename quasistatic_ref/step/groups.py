@@ -62,13 +62,14 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
     contact, of_contact, _ = step.contacts.entries()
     contact, of_contact = contact[near[contact]], of_contact[near[contact]]
     first, second = step.coupled()
-    pairs = np.arange(len(first)) + n_c + n_extra
-    link = np.concatenate([contact, n_c + extra_row, pairs, pairs])
+    of_hessian = np.arange(len(first)) + n_c + n_extra
+    coupling = np.concatenate([contact, n_c + extra_row, of_hessian, of_hessian])
     coordinate = np.concatenate([of_contact, of_extra, first, second])
-    label, of_link = _labels(step.n_v, n_c + n_extra + len(first), link, coordinate)
+    count = n_c + n_extra + len(first)
+    label, of_coupling = _labels(step.n_v, count, coupling, coordinate)
     firsts = np.unique(label) if step.n_v else np.zeros(1, np.int64)
-    of_contacts = np.where(near, of_link[:n_c], -1)
-    of_extra_rows = of_link[n_c : n_c + n_extra]
+    of_contacts = np.where(near, of_coupling[:n_c], -1)
+    of_extra_rows = of_coupling[n_c : n_c + n_extra]
     of_rows = np.concatenate([np.repeat(of_contacts, step.counts), of_extra_rows])
     labels = (label, of_contacts, of_extra_rows, of_rows)
     members = []
@@ -78,17 +79,21 @@ def groups(step: StepData, near: Mask | None = None) -> list[Group]:
     return [Group(*parts) for parts in zip(*members, strict=True)]
 
 
-def _labels(n: int, links: int, link: Indices, coordinate: Indices) -> tuple[Indices, Indices]:
-    """The first coordinate of the group of each coordinate, (n,), and of each link, (links,).
+def _labels(
+    n: int, couplings: int, coupling: Indices, coordinate: Indices
+) -> tuple[Indices, Indices]:
+    """The first coordinate of the group of each coordinate, (n,), and of each coupling.
 
-    Each pair says that a link moves with a coordinate. Labels fall until none changes.
+    A coupling is a contact, a row of the user's own, or an entry of H off its diagonal. Each pair
+    (coupling, coordinate) says that the coupling has this coordinate. Each coordinate takes the
+    least label among those that share a coupling with it, until no label changes.
     """
     label = np.arange(n)
     while True:
-        least = np.full(links, n)
-        np.minimum.at(least, link, label[coordinate])
+        least = np.full(couplings, n)
+        np.minimum.at(least, coupling, label[coordinate])
         lower = label.copy()
-        np.minimum.at(lower, coordinate, least[link])
+        np.minimum.at(lower, coordinate, least[coupling])
         lower = lower[lower]  # a label is a coordinate of the same group
         if np.array_equal(lower, label):
             return label, np.where(least < n, least, 0)

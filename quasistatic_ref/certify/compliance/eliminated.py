@@ -140,7 +140,7 @@ class EliminatedStep:
 
     def wrong_faces(self, found: Candidate) -> list[int]:
         """The contacts that break a condition of their face."""
-        signs = np.array(found.minimiser.decided_slack_signs[: self.step.offsets[-1]])
+        signs = np.array(found.minimiser.exact_slack_signs[: self.step.offsets[-1]])
         broken = np.flatnonzero(signs < 0)
         return sorted({*(np.searchsorted(self.step.offsets, broken, side="right") - 1).tolist()})
 

@@ -11,14 +11,15 @@ from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import SLOW
 
 SLOWER = 16.0
-"""By what M_u is divided, and with it the drag, to see what contacts bear without its doing."""
+"""By what M_u is divided, and with it the drag, to see what contacts bear without drag."""
 
 
 def drag(run: Run) -> Iterator[Said]:
     """The worst step, if its drag exceeds a tenth of the friction of the same step without drag.
 
-    Drag presses contacts, too, by which it hides: a pusher with friction mu presses with it. With
-    M_u / 16, and all loads as they were, the same step tells what they bear.
+    Drag increases normal forces, too: a pusher has to overcome it. This raises the friction that
+    contacts can bear, and makes the share too small. So the friction is that of the same step with
+    M_u / 16 and the same loads.
     """
     shares = run.noted("pushed")
     if np.isnan(shares).all() or np.nanmax(shares) <= SLOW / 2:

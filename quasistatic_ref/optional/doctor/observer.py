@@ -14,7 +14,7 @@ from quasistatic_ref.optional.doctor.artifacts import (
 )
 from quasistatic_ref.optional.doctor.run import Run, largest
 from quasistatic_ref.optional.doctor.start import Start
-from quasistatic_ref.optional.doctor.table import AFTER, BEFORE, findings
+from quasistatic_ref.optional.doctor.table import AFTER, OF_SCENE, findings
 from quasistatic_ref.simulate.observer import Observer
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.result import StepResult
@@ -60,9 +60,9 @@ class Doctor(Observer):
         """The trajectory with its findings."""
         if trajectory.steps:
             run = Run(recorder, trajectory.arrays)
-            found = findings((*BEFORE, *AFTER), run)
+            found = findings((*OF_SCENE, *AFTER), run)
         else:
-            found = findings(BEFORE, Start(recorder.simulator, recorder.start))
+            found = findings(OF_SCENE, Start(recorder.simulator, recorder.start))
         header = {
             **trajectory.header,
             "quasi_dynamic_number": largest(recorder.noted("Pi")),

@@ -41,7 +41,7 @@ class Kind(NamedTuple):
     found: Callable[..., Iterator[Said]]
 
 
-BEFORE = (
+OF_SCENE = (
     Kind("unit of a shape", True, units.long_shapes),
     Kind("unit of mu_omega", True, units.large_mu_omega),
     Kind("sizes apart", True, contradictions.sizes_apart),
@@ -70,7 +70,7 @@ OF_TIME = (Kind("time of proof", False, proofs.proofs),)
 
 def scene_findings(simulator: Simulator, q: Array) -> list[Finding]:
     """The findings on the scene of a simulator that is to start at q, shape (n_q,)."""
-    return findings(BEFORE, Start(simulator, q))
+    return findings(OF_SCENE, Start(simulator, q))
 
 
 def findings(kinds: Iterable[Kind], of: Start | Trajectory) -> list[Finding]:
@@ -79,7 +79,7 @@ def findings(kinds: Iterable[Kind], of: Start | Trajectory) -> list[Finding]:
     Parameters
     ----------
     kinds : iterable of Kind
-        `BEFORE`, `AFTER` or `OF_TIME`.
+        `OF_SCENE`, `AFTER` or `OF_TIME`.
     of : Start, Run or Trajectory
         The scene at its start, the run at its end, or the trajectory of a run that has steps.
     """

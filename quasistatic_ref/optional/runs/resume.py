@@ -34,9 +34,10 @@ def begun_or_resumed(
     given: Mapping[str, tuple[Any, Checked]],
     cold_every: int,
 ) -> SavedSteps:
-    """The observer that saves a run, which the recorder has then; and perhaps its saved steps.
+    """Add the observer that saves a run to the recorder; with `resume`, load the saved steps.
 
-    Those are handed to the recorder, and those since the solver last started cold to the solver.
+    Saved steps are handed to the recorder, and those since the solver last started cold are posed
+    to the solver again.
 
     Parameters
     ----------

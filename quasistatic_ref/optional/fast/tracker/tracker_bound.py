@@ -15,9 +15,9 @@ from quasistatic_ref.step.ordered import rotated
 from quasistatic_ref.tolerances import UNSEEN
 
 RATIO = 16.0
-"""How much farther than in height a point must be in distance to be left out.
+"""A point is left out by its distance only if its margin is this many times that by height.
 
-Distances change as fast as a cloud comes or goes, the order of heights only as fast as it turns."""
+Distances change as fast as a cloud moves, the order of heights only as fast as it turns."""
 
 BEAM = 48
 """Balls of a level that are opened, at least."""
@@ -68,14 +68,16 @@ class Shortlist:
         -----
         A point that moves by u has its height changed by n . u, its distance by |u| at most, and
         what is rounded by UNSEEN |u|. All these are concave in u, and u is affine in the point:
-        over the box the least is at a corner. |u| <= sqrt(3) max |u_i| makes them linear.
+        over the box the least is at a corner. |u| <= sqrt(3) max |u_i| makes them linear: six
+        directions at eight corners for either case.
         """
         ways = _SQRT_3 * np.concatenate([np.eye(3), -np.eye(3)])
         here = np.column_stack([self.box, np.ones(CORNERS)])
-        by_height = self.n + UNSEEN * ways, self.by_height
+        of_heights = self.n + UNSEEN * ways
+        of_distances = (1 + UNSEEN) * ways
         slopes = []
         offsets = []
-        for directions, bound in (by_height, ((1 + UNSEEN) * ways, self.by_distance)):
+        for directions, bound in ((of_heights, self.by_height), (of_distances, self.by_distance)):
             slopes.append(np.einsum("ai,cj->acij", directions, here).reshape(-1, 12))
             offsets.append(bound - (directions @ self.corners.T).ravel())
         return np.concatenate(slopes), np.concatenate(offsets)
@@ -92,7 +94,7 @@ class Shortlist:
         return float((slope @ pose.ravel() + offset).min())
 
 
-def reach(shape: Shape, n: Array) -> float:
+def support_height(shape: Shape, n: Array) -> float:
     """How far a solid reaches along a unit vector: the height of the plane that touches it [m].
 
     A half-space has such a plane along its own normal only.
@@ -102,11 +104,11 @@ def reach(shape: Shape, n: Array) -> float:
     return float(shape.support_value(n[None])[0])
 
 
-def size(shape: Shape) -> float:
+def solid_extent(shape: Shape) -> float:
     """About how far from its origin a solid's numbers go [m], at least that far."""
     if isinstance(shape, HalfSpace):
         return abs(shape.offset)
-    return float(sum(reach(shape, n) for n in np.concatenate([np.eye(3), -np.eye(3)])))
+    return float(sum(support_height(shape, n) for n in np.concatenate([np.eye(3), -np.eye(3)])))
 
 
 def shortlist(
@@ -135,8 +137,8 @@ def shortlist(
     Shortlist
     """
     corners = rotated(R, tree.box) + t
-    slack = UNSEEN * (size(solid) + np.abs(tree.box).max() + np.abs(corners).max())
-    touching = reach(solid, n)
+    slack = UNSEEN * (solid_extent(solid) + np.abs(tree.box).max() + np.abs(corners).max())
+    touching = support_height(solid, n)
     by_distance = by_height = np.inf
     n_cloud = np.abs(n[0] * R[0] + n[1] * R[1] + n[2] * R[2])  # n along the axes of the boxes
     nodes = np.arange(len(tree.levels[0].centre))

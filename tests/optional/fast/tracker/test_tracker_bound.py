@@ -11,9 +11,9 @@ from quasistatic_ref.optional.fast.tracker import ball_tree
 from quasistatic_ref.optional.fast.tracker.tracker import SHORT, ContactTracker
 from quasistatic_ref.optional.fast.tracker.tracker_bound import (
     Shortlist,
-    reach,
     shortlist,
-    size,
+    solid_extent,
+    support_height,
 )
 from quasistatic_ref.shapes.convex_mesh import convex_hull
 from quasistatic_ref.shapes.placed_shape import (
@@ -35,7 +35,7 @@ WIDTH = 32
 
 def rounding_margin(shape, points, x):
     """For rounding, relative to the sizes of solid and cloud and their distance [m]."""
-    return UNSEEN * (size(shape) + np.abs(points).max() + np.abs(x).max())
+    return UNSEEN * (solid_extent(shape) + np.abs(points).max() + np.abs(x).max())
 
 
 def spare(made, shape, points, R, t, n):
@@ -43,7 +43,7 @@ def spare(made, shape, points, R, t, n):
     out = np.setdiff1d(np.arange(len(points)), made.index)
     x = rotated(R, points[out]) + t
     by_distance = shape.signed_distance(x)[0] - made.by_distance
-    by_height = x @ n - reach(shape, n) - made.by_height
+    by_height = x @ n - support_height(shape, n) - made.by_height
     return np.maximum(by_distance, by_height)
 
 
@@ -90,8 +90,8 @@ def test_points_that_rounding_may_order_otherwise_are_all_in_the_list(rng):
 def test_a_solid_s_size_is_no_less_than_it_reaches_in_any_direction():
     for shape in (*SHAPES.values(), convex_hull(-WEDGE)):
         if not isinstance(shape, HalfSpace):
-            reaches = [reach(shape, sign * axis) for axis in np.eye(3) for sign in (1, -1)]
-            assert size(shape) >= max(reaches)
+            reaches = [support_height(shape, sign * axis) for axis in np.eye(3) for sign in (1, -1)]
+            assert solid_extent(shape) >= max(reaches)
 
 
 @pytest.mark.parametrize("name", SHAPES)
