@@ -2,16 +2,19 @@
 
 import numpy as np
 import pytest
+from flint import arb
 
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.contacts import no_contacts
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step, grasp_step
 from quasistatic_ref.optional.fast.compiled import why_not
-from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep
+from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep, all_nearest
 from quasistatic_ref.step.data import Extra
+from quasistatic_ref.step.standard_form import linear_term
 from tests.certify.test_exact import resting_point
 from tests.helpers import pinch, planted_step, random_step, sphere_on_floor
+from tests.tolerances import ROUNDING
 from validation.make import confirmed_bits
 from validation.make.confirmed_bits import CONES, checked, differing
 
@@ -41,6 +44,49 @@ def some_steps():
 
 
 STEPS = dict(some_steps())
+
+
+def test_an_inverse_is_kept_for_the_same_h_and_matrices_alone():
+    step = STEPS["grasp"]
+    hessian = BallHessian(step)
+    assert hessian.fits(step)
+    for other in ({"h": 2 * step.h}, {"K_q": 2 * step.K_q}, {"M_u": 2 * step.M_u}):
+        assert not hessian.fits(step.replace(**other))
+
+
+def test_the_net_impulse_is_that_of_the_force_balance():
+    """H delta_q - g of Eq. (9)."""
+    rng = np.random.default_rng(4)
+    step = random_step(rng)
+    delta_q = rng.normal(size=step.n_v)
+    net = BallHessian(step).net(step, [arb(v) for v in delta_q.tolist()])
+    expected = step.H @ delta_q - linear_term(step)
+    size = np.abs(step.H) @ np.abs(delta_q) + np.abs(linear_term(step))
+    assert np.abs(step.tau_a).min() > 0
+    np.testing.assert_array_less(np.abs([float(v) for v in net] - expected), ROUNDING * size)
+
+
+X = 1 + 2.0**-52
+"""An odd number: of a tie next to it, the other number is the nearest."""
+
+
+@pytest.mark.parametrize(
+    ("ball", "nearest"),
+    [
+        (arb(0), 0.0),
+        (arb(0, 1e-3), None),
+        (-(arb(2) ** -1100), 0.0),
+        (arb(X), X),
+        (arb(X, 2.0**-54), X),
+        (arb(X, 2.0**-53), None),  # half of the distance to its neighbours
+        (arb(X, 2.0**-52), None),
+    ],
+)
+def test_a_number_is_shown_to_be_nearest_only_to_all_of_its_ball(ball, nearest):
+    found, shown = all_nearest([ball])
+    assert shown.tolist() == [nearest is not None]
+    if nearest is not None:
+        assert found.tobytes() == np.array([nearest]).tobytes()
 
 
 @pytest.mark.parametrize("step", STEPS.values(), ids=STEPS)

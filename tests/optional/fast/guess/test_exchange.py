@@ -114,6 +114,17 @@ def test_a_walk_adds_the_row_and_drops_what_stops_pressing():
     # x <= -1 against x >= 1: nothing gives way.
     form = StandardForm(np.eye(1), np.zeros(1), np.array([[1.0], [-1.0]]), np.ones(2))
     assert walked(form, np.eye(1), refuted(form, [0], [1.0])) is None
+    # x >= 1 twice: rows that depend on each other are no working set.
+    form = line(1.0, 1.0, 2.0)
+    assert walked(form, np.eye(1), refuted(form, [0, 1], [0.5, 0.5])) is None
+
+
+@pytest.mark.parametrize(("a", "b"), [(1.0, 1.0), (1e-6, 1.0), (1.0, 1e-9)])
+def test_a_row_that_stays_violated_when_another_is_added_is_added_too(a, b):
+    """X >= 2 b and x + y >= 3 b, both times a: the second leaves x at 1.5 b; on both, both bear."""
+    A = a * np.array([[1.0, 0.0], [1.0, 1.0]])
+    form = StandardForm(np.eye(2), np.zeros(2), A, a * b * np.array([2.0, 3.0]))
+    assert walked(form, np.eye(2), refuted(form, [], [])).tolist() == [0, 1]
 
 
 @pytest.mark.parametrize(
