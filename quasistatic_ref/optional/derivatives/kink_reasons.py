@@ -9,7 +9,7 @@ from quasistatic_ref.optional.derivatives.contact.kinks import kinks
 from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
 from quasistatic_ref.optional.derivatives.contact.spare_pairs import spare_pair
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.optional.derivatives.step.reason import Reason
+from quasistatic_ref.optional.derivatives.step.reason import Obstacle
 from quasistatic_ref.optional.derivatives.step.touching import Touching
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.optional.derivatives.turned_tangents import stays
@@ -21,9 +21,9 @@ from quasistatic_ref.step.ordered import crossed
 FIELDS = ("dq_dq",)
 
 
-def geometry_reasons(
+def geometry_obstacles(
     simulator: Simulator, rates: StepRates, touching: Touching | None, safe: Mask
-) -> list[Reason]:
+) -> list[Obstacle]:
     """The kinks that matter to the step: those of contacts that touch, or may where they jump to.
 
     Parameters
@@ -39,7 +39,7 @@ def geometry_reasons(
     contacts = step.contacts
     quarters = _quarters(simulator.cone)
     felt = range(contacts.n_c) if touching is None else touching.contacts
-    reasons = []
+    found = []
     for kink in kinks(rates.couples, rates.contacts, rates.motion.J, quarters):
         jumps = kink.kind not in reason.SMOOTH_POINTS
         if kink.contact not in felt and (not jumps or safe[kink.contact]):
@@ -54,11 +54,11 @@ def geometry_reasons(
             continue
         blurred = kink.kind != reason.CROSSING and rates.contacts.blurred[kink.contact]
         fields = tuple(rates.places) if blurred else FIELDS
-        reasons.append(Reason(kink.kind, (name,), fields, f"{name} {kink.says}"))
-    return [*reasons, *_ties(simulator, rates, safe)]
+        found.append(rates.obstacle(kink.kind, (name,), fields, f"{name} {kink.says}"))
+    return [*found, *_ties(simulator, rates, safe)]
 
 
-def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Reason]:
+def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Obstacle]:
     """What other points a motion may bring in, pair by pair."""
     kept = rates.couples
     at = 0
@@ -72,10 +72,10 @@ def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Reason
         if outside:
             where = tuple(f"{pair.name}/{i}" for i in (*inside, *outside))
             says = f"{', '.join(where)} are as near as each other, and not all of them are kept"
-            yield Reason(reason.POINTS, where, FIELDS, says)
+            yield rates.obstacle(reason.POINTS, where, FIELDS, says)
         jump = spare_pair(kept[own], points, rates.motion.J)
         if jump is not None:
-            yield Reason(jump[0], (pair.name,), FIELDS, f"{pair.name} {jump[1]}")
+            yield rates.obstacle(jump[0], (pair.name,), FIELDS, f"{pair.name} {jump[1]}")
 
 
 def out_of_reach(simulator: Simulator, rates: StepRates) -> Mask:
