@@ -51,7 +51,7 @@ class RowRates:
         self.motion = motion
         self.links = np.stack([layout.link_beta, layout.link_alpha])
         frames = np.stack([contacts.n, contacts.d1, contacts.d2], axis=2)
-        d_frames = np.stack([rates.n, *tangent_rates(contacts.n, rates.n)], axis=2)
+        d_frames = np.stack([rates.n, *tangent_rates(contacts, rates.n)], axis=2)
         of_beta, d_of_beta = _screws(points.beta, rates.beta, frames, d_frames)
         of_alpha, d_of_alpha = _screws(points.alpha, rates.alpha, frames, d_frames)
         scale = scaled_by(contacts)[:, None]

@@ -16,8 +16,8 @@ from quasistatic_ref.contact.distance import (
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
-from quasistatic_ref.shapes.placed_shape import Cylinder, PointCloud, Sphere
-from quasistatic_ref.shapes.revolved import QUARTERS
+from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
+from quasistatic_ref.shapes.revolved import rim_corners
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
@@ -207,14 +207,12 @@ def rim_velocity(rim: Rim, body: ShapeInWorld, towards: Array, turning: Array) -
         None where the rim is level but does not stay so: no point of it is the nearest, or float64
         does not know which.
     """
-    own = (body.R.T @ towards)[:2]
+    own = body.R.T @ towards
     d_own = (body.R.T @ turning)[:2]
-    length = np.hypot(*own)
-    first = Cylinder(1.0, 1.0).corners(np.array([*own, 0.0]))[0][0, :2]
+    length = np.hypot(*own[:2])
     if length <= LEVEL:
         return None if np.abs(d_own).max(initial=0.0) > ON_RIM else np.zeros_like(turning)
-    d_first = (d_own - np.outer(first, first @ d_own)) / length
-    c, s = QUARTERS[rim.quarter]
-    # The quarter's point is c u + s (-u_y, u_x).
-    turned = np.stack([c * d_first[0] - s * d_first[1], c * d_first[1] + s * d_first[0]])
-    return np.asarray(rim.radius * body.R[:, :2] @ turned)
+    around = rim_corners(1.0, 0.0, own)
+    turn = around[1, :2] @ d_own / length
+    # Each corner moves towards the next one.
+    return np.outer(rim.radius * body.R @ around[(rim.quarter + 1) % 4], turn)

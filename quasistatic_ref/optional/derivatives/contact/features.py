@@ -61,6 +61,11 @@ class Feature(NamedTuple):
     curvature: float = 0.0
 
     @property
+    def ways(self) -> Array:
+        """Its free directions, or that of a rim, shape (2, 3), filled up by zeros [-]."""
+        return np.concatenate([self.free, self.arc, np.zeros((2, 3))])[:2]
+
+    @property
     def merged(self) -> "Feature":
         """The same with the directions in which it ends as free ones."""
         if not len(self.ends):

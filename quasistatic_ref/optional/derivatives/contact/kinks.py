@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import Rates
-from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates
+from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, dependent
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.optional.derivatives.step import reason
@@ -66,9 +66,7 @@ def kinks(couples: Sequence[Couple], rates: Rates, J: Array, quarters: bool) -> 
 
 
 def _not_unique(couple: Couple) -> tuple[str, str]:
-    straight = np.concatenate([f.free for f in couple.features])
-    independent = not len(straight) or np.linalg.svd(straight)[1].min() > UNIQUE
-    if len(straight) > 2 or not independent:
+    if dependent(couple.features):
         return PARALLEL
     if abs(couple.phi) <= UNIQUE * couple.reach:
         return reason.NO_NORMAL, "touches where neither surface has a normal"

@@ -18,6 +18,7 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import impulses
 from quasistatic_ref.step.standard_form import standard_form
 
 STEPS = 200
@@ -129,10 +130,8 @@ def barrier_rates(step: StepData, found: Barrier, data: DataRates) -> Array:
     """
     form = standard_form(step)
     table = cone_matrix(step.cone)
-    every = np.argwhere(step.mask)
-    multipliers = np.zeros((step.contacts.n_c, 4))
-    np.add.at(multipliers, every[:, 0], found.lam[:, None] * table[every[:, 1]])
-    moved = np.einsum("ki,kip->kp", table[every[:, 1]], data.motion[every[:, 0]])
+    multipliers = impulses(step.contacts, found.lam, step.cone) @ table
+    moved = (table @ data.motion)[step.mask]
     weighted = form.A.T * (found.lam / found.slack)
     right = data.load + data.pull(multipliers) - weighted @ moved
     return np.asarray(np.linalg.solve(form.H + weighted @ form.A, right))

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import nnls
 
-from quasistatic_ref.optional.derivatives.step.touching import Touching, bearing
+from quasistatic_ref.optional.derivatives.step.touching import Touching, bearing, unit_rows
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, INDEPENDENT, SPLIT
 
@@ -85,10 +85,8 @@ class Equations:
         self.of = touching
         self.E, self.kept = _combinations(touching)
         rows = self._combined(touching.generators) @ touching.inverse.T
-        self.length = np.linalg.norm(rows, axis=1)
-        self.length[self.length == 0] = 1.0
-        self.rows = rows / self.length[:, None]
-        U, s, V = np.linalg.svd(self.rows)
+        unit, self.length = unit_rows(rows)
+        U, s, V = np.linalg.svd(unit)
         rank = int(np.count_nonzero(s > INDEPENDENT))
         self.U = U[:, :rank]
         self.s = s[:rank]
@@ -127,7 +125,7 @@ class Equations:
         rates, known : ndarray, shape (k, P)
         """
         rows = self.of.rows(some)
-        moved = np.einsum("ki,kip->kp", self.of.table[some[:, 1]], data.motion[some[:, 0]])
+        moved = (self.of.table @ data.motion)[tuple(some.T)]
         rates = rows @ x + moved
         scale = np.abs(rows) @ np.abs(x) + np.abs(moved) + data.terms
         return rates, np.abs(rates) > CONSISTENT * scale
@@ -200,13 +198,11 @@ class Equations:
         rows, pushes = self._pushes(rates)
         slack = rates.closing[:, 0] + rows @ (rows.T @ pushes)
         opened = slack > CONSISTENT * np.abs(rates.closing[:, 0]).max()
-        length = np.linalg.norm(rows, axis=1)
-        length[length == 0] = 1.0
+        unit, length = unit_rows(rows)
         size = float(np.linalg.norm(rows.T @ pushes))
         pressed = np.zeros(len(rows), dtype=bool)
         if size:
-            unit = rows[~opened] / length[~opened, None]
-            pressed[~opened] = bearing(unit, (pushes * length)[~opened], size)
+            pressed[~opened] = bearing(unit[~opened], (pushes * length)[~opened], size)
         strict = np.concatenate([t.strict, t.idle[pressed]])
         return replace(t, strict=strict, idle=t.idle[~pressed & ~opened])
 
