@@ -16,7 +16,6 @@ from quasistatic_ref.optional.derivatives.turned_tangents import stays
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Mask
-from quasistatic_ref.step.ordered import crossed
 
 FIELDS = ("dq_dq",)
 
@@ -40,21 +39,19 @@ def geometry_obstacles(
     quarters = _quarters(simulator.cone)
     felt = range(contacts.n_c) if touching is None else touching.contacts
     found = []
-    for kink in kinks(rates.couples, rates.contacts, rates.motion.J, quarters):
-        jumps = kink.kind not in reason.SMOOTH_POINTS
-        if kink.contact not in felt and (not jumps or safe[kink.contact]):
+    for j, kind, says in kinks(rates.couples, rates.contacts, rates.motion.J, quarters):
+        jumps = kind not in reason.SMOOTH_POINTS
+        if j not in felt and (not jumps or safe[j]):
             continue
-        name = contacts.name[kink.contact]
-        frictionless = (
-            not contacts.mu[kink.contact, 0] or cone(simulator.cone).name == "frictionless"
-        )
-        if kink.kind == reason.TANGENTS and (
-            frictionless or (touching and stays(step, rates.x, touching, kink.contact))
+        frictionless = not contacts.mu[j, 0] or cone(simulator.cone).name == "frictionless"
+        if kind == reason.TANGENTS and (
+            frictionless or (touching and stays(step, rates.x, touching, j))
         ):
             continue
-        blurred = kink.kind != reason.CROSSING and rates.contacts.blurred[kink.contact]
+        blurred = kind != reason.CROSSING and rates.contacts.blurred[j]
         fields = tuple(rates.places) if blurred else FIELDS
-        found.append(rates.obstacle(kink.kind, (name,), fields, f"{name} {kink.says}"))
+        name = contacts.name[j]
+        found.append(rates.obstacle(kind, (name,), fields, f"{name} {says}"))
     return [*found, *_ties(simulator, rates, safe)]
 
 
@@ -92,17 +89,16 @@ def out_of_reach(simulator: Simulator, rates: StepRates) -> Mask:
     """
     points = rates.result.points
     mu = rates.result.step.contacts.mu
-    link = np.concatenate([simulator.layout.link_alpha, simulator.layout.link_beta])
-    at = np.concatenate([points.alpha, points.beta])
-    extents = np.array([couple.of.extents for couple in rates.couples]).reshape(-1, 2).T.ravel()
-    twist = (rates.motion.J @ rates.x)[link]
-    v = twist[:, :3] + crossed(twist[:, 3:], at)
-    motion = np.sqrt(np.sum(v * v, axis=1))
-    turn = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
+    links = np.stack([simulator.layout.link_alpha, simulator.layout.link_beta])
+    at = np.stack([points.alpha, points.beta])
+    twists = (rates.motion.J @ rates.x)[links]
+    motion = np.linalg.norm(twists[..., :3] + np.cross(twists[..., 3:], at), axis=2)
+    turn = np.linalg.norm(twists[..., 3:], axis=2)
+    extents = np.array([couple.of.extents for couple in rates.couples]).reshape(-1, 2).T
     turning = turn > 0  # any other point of the shape is this far from the end
     motion[turning] += np.sqrt(3) * turn[turning] * extents[turning]
-    motion, turn = (both.reshape(2, -1).sum(axis=0) for both in (motion, turn))
-    return np.asarray(points.phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
+    closed = (1 + 2 * mu[:, 0]) * motion.sum(axis=0) + mu[:, 2] * turn.sum(axis=0)
+    return np.asarray(points.phi > closed)
 
 
 @cache

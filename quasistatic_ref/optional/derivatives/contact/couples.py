@@ -84,8 +84,8 @@ class PairInWorld:
 
     @cached_property
     def closest(self) -> "Couple":
-        """The closest pair of two solids as a couple."""
-        return _couple(self, self.nearest._replace(point=np.array([self.pair.corners])), 0)
+        """The closest pair of two solids, of which several contacts are kept, as a couple."""
+        return _couple(self, self.nearest, 0)
 
 
 class Couple(NamedTuple):

@@ -75,9 +75,7 @@ class Feature(NamedTuple):
 
     def turned(self, R: Array) -> "Feature":
         """The same in another frame, R of shape (3, 3) [-] from this frame to that."""
-        free, ends, arc = (
-            some @ R.T if len(some) else some for some in (self.free, self.ends, self.arc)
-        )
+        free, ends, arc = (some @ R.T for some in (self.free, self.ends, self.arc))
         return Feature(R @ self.bend @ R.T, free, ends, arc, self.curvature)
 
 

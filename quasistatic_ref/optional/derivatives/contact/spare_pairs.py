@@ -39,9 +39,7 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
         return None
     nearest = of.closest
     covered = _covered(of)
-    if covered and not nearest.at_an_end:
-        return None
-    if not nearest.at_an_end and couple_rates([nearest], J).unique[0]:
+    if not nearest.at_an_end and (covered or couple_rates([nearest], J).unique[0]):
         return None
     if couple_rates([nearest.merged], J).unique[0]:
         return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"

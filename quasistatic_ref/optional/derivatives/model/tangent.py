@@ -116,12 +116,11 @@ def entry_rates(joints: Sequence[Joint], q: Array) -> Array:
             turned = cross_matrix(x)
             e[:3, :3] = np.eye(3) + 2 * (w * turned + turned @ turned) / (x @ x + w * w)
             e[3:6, 3:], e[6, 3:] = (w * np.eye(3) + turned) / 2, -x / 2
-        elif joint.kind == "planar":
-            c, s = own[2:]
-            e[:2, :2] = np.array([[c, -s], [s, c]]) / np.hypot(c, s)
-            e[2:, 2] = -s, c
-        elif joint.kind == "continuous":
-            e[:, 0] = -own[1], own[0]
+        elif joint.kind in UNIT_PART:
+            c, s = own[-2:]
+            e[-2:, -1] = -s, c
+            if joint.kind == "planar":
+                e[:2, :2] = np.array([[c, -s], [s, c]]) / np.hypot(c, s)
         else:
             e[0, 0] = 1.0
     return E

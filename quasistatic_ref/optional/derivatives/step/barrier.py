@@ -79,8 +79,9 @@ def barrier_step(step: StepData, kappa: float) -> Barrier:
 def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | None:
     L = np.linalg.cholesky(H)
     x = np.linalg.solve(H, g)
-    slack = np.maximum(A @ x - b, np.abs(A @ x - b).max(initial=0.0) + kappa**0.5)
-    mu = float(max(kappa, np.abs(slack).max(initial=0.0) * np.abs(L.T @ x).max(initial=0.0)))
+    room = float(np.abs(A @ x - b).max(initial=0.0)) + kappa**0.5
+    slack = np.full(len(b), room)
+    mu = max(kappa, room * float(np.abs(L.T @ x).max(initial=0.0)))
     lam = mu / slack
     least = np.inf
     size = 0.0
@@ -113,9 +114,8 @@ def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | N
 
 def _share(values: Array, changes: Array) -> float:
     falling = changes < 0
-    if not falling.any():
-        return 1.0
-    return float(min(1.0, SHORTEN * (-values[falling] / changes[falling]).min()))
+    until = (-values[falling] / changes[falling]).min(initial=np.inf)
+    return float(min(1.0, SHORTEN * until))
 
 
 def barrier_rates(step: StepData, found: Barrier, data: DataRates) -> Array:

@@ -121,10 +121,10 @@ class Reach:
         slack = self.touching.slack[:, None]
         rates = np.abs(self.closing)
         found = [self.touching.open[(slack < distance * rates).any(axis=1)]]
-        for column in np.flatnonzero(self.loaded < distance):
+        for column in np.flatnonzero(self.loaded < distance).tolist():
             for sign in (1, -1):
-                if not self._goes_on(int(column), sign, float(distance[column])):
-                    one = self._unloaded(int(column), sign)
+                if not self._goes_on(column, sign, distance[column]):
+                    one = self._unloaded(column, sign)
                     found += [one.rows] if one.t < distance[column] else []
         near = np.concatenate(found)
         return np.unique(near, axis=0) if len(near) else near
