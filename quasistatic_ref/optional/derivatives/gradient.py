@@ -103,7 +103,7 @@ class Derivatives(Shown, Plain):
             If a name or a shape is wrong, or the reasons are others.
         """
         direction, one = self._one(directions, "along")
-        x = self._along(one)
+        x = np.ravel(self._along(one))
         return np.asarray(self._rates.onward @ x + self._rates.carried @ direction[: len(x)])
 
     def reach_along(self, **directions: Array | float) -> NextKink:
@@ -175,7 +175,7 @@ def gradient(
     obstacles : sequence of Obstacle
         Why some of them do not exist.
     along : callable
-        Rates of the data by one parameter -> how delta_q changes as that grows, shape (n_v,).
+        Rates of the data by one parameter -> how delta_q changes as that grows, n_v numbers.
     reach : Reach or None
         The distances to kinks; None of a smoothed step, which has none.
     """

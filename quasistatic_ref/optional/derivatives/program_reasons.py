@@ -60,11 +60,8 @@ def row_obstacles(
         fields = tuple(name for name, place in rates.places.items() if bad[place].any())
         obstacles.append(Obstacle(Reason(kind, where, fields, sentence), bad))
 
-    together: dict[tuple[str, ...], Mask] = {}
-    for contacts, bad in found.contradicts:
-        where = tuple(names[j] for j in sorted(contacts))
-        together[where] = together.get(where, np.zeros_like(bad)) | bad
-    for where, bad in together.items():
+    for contacts, bad in found.contradicts.items():
+        where = tuple(names[j] for j in contacts)
         says = f"the equations of {listed(where)} would contradict each other"
         add(reason.CONTRADICTION, where, bad, says)
     for (j, i), bad in zip(touching.idle.tolist(), found.opens, strict=True):

@@ -13,12 +13,11 @@ from quasistatic_ref.optional.derivatives.derivatives import check_derivable
 from quasistatic_ref.optional.derivatives.gradient import Derivatives, gradient
 from quasistatic_ref.optional.derivatives.kink_reasons import geometry_obstacles
 from quasistatic_ref.optional.derivatives.program_reasons import target_obstacles
-from quasistatic_ref.optional.derivatives.step.barrier import Barrier, barrier_rates, barrier_step
-from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
+from quasistatic_ref.optional.derivatives.step.barrier import barrier_rates, barrier_step
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array
 
 
 def smoothed(
@@ -80,9 +79,5 @@ def smoothed(
         *target_obstacles(simulator, rates),
     ]
     x = barrier_rates(step, found, rates.data)
-    along = partial(_displacement, step, found)
+    along = partial(barrier_rates, step, found)
     return gradient(rates, x, obstacles, along, None)
-
-
-def _displacement(step: StepData, found: Barrier, one: DataRates) -> Array:
-    return barrier_rates(step, found, one)[:, 0]

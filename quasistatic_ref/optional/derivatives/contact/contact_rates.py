@@ -65,7 +65,7 @@ def dependent(features: tuple[Feature, Feature]) -> bool:
     return len(straight) > 2 or bool(np.linalg.svd(straight)[1].min(initial=1.0) <= UNIQUE)
 
 
-def couple_rates(couples: Sequence[Couple], J: Array, slides: Array | None = None) -> Rates:
+def couple_rates(couples: Sequence[Couple], J: Array, slides: Array | float = 0.0) -> Rates:
     """The derivatives of closest points of some couples.
 
     Parameters
@@ -80,8 +80,7 @@ def couple_rates(couples: Sequence[Couple], J: Array, slides: Array | None = Non
     at = np.array([[c.points[side] for c in couples] for side in (0, 1)]).reshape(2, -1, 3)
     twist = J[np.array(links, dtype=np.int64)]
     omega = twist[:, :, 3:]
-    v = twist[:, :, :3] - cross_matrix(at) @ omega
-    v = v if slides is None else v + slides
+    v = twist[:, :, :3] - cross_matrix(at) @ omega + slides
     phi = np.array([c.phi for c in couples])
     size = np.array([c.reach for c in couples])
     n = np.array([c.n for c in couples]).reshape(-1, 3)

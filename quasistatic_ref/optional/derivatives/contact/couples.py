@@ -140,11 +140,10 @@ def couples(
 ) -> list[Couple]:
     """The contacts of all pairs at their closest points; R (L, 3, 3), t (L, 3) are the links'."""
     found = list[Couple]()
-    at = 0
     for pair in pairs:
         of = PairInWorld(pair, in_world(pair, R, t))
+        at = len(found)
         found += [_couple(of, points, j) for j in range(at, at + pair.n_c)]
-        at += pair.n_c
     return found
 
 
@@ -154,16 +153,13 @@ def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
     index = int(points.point[j])
     ends = (points.alpha[j], points.beta[j])
     pair = of.pair
-    corner = _corner(of, index)
+    corner, radius, rim = _corner(of, index)
     features = []
     centre = None
-    rim = None
     for side, (body, end, outward) in enumerate(zip(of.bodies, ends, (n, -n), strict=True)):
-        own = corner if corner is not None and corner[0] == side else None
-        if own is not None:
-            features.append(ball(own[1], outward))
-            centre = (1 - side, end - own[1] * outward)
-            rim = own[2]
+        if side == corner:
+            features.append(ball(radius, outward))
+            centre = (1 - side, end - radius * outward)
             continue
         local = feature(body.shape, body.R.T @ (end - body.t), body.R.T @ outward)
         features.append(local.turned(body.R))
@@ -173,13 +169,13 @@ def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
     return Couple(of, phi, ends, n, (features[0], features[1]), centre, rim, crosses)
 
 
-def _corner(of: PairInWorld, index: int) -> tuple[int, float, Rim | None] | None:
-    """Which side is a corner, the ball about it and its rim; None of a closest pair."""
+def _corner(of: PairInWorld, index: int) -> tuple[int | None, float, Rim | None]:
+    """Which side is a corner, the ball about it and its rim; of a closest pair neither side is."""
     for side, body in enumerate(of.bodies):
         if isinstance(body.shape, PointCloud):
             return side, 0.0, None
     if of.pair.n_c == 1 or index >= of.pair.corners:
-        return None
+        return None, 0.0, None
     first = of.bodies[0].shape.corner_count
     side, k = (0, index) if index < first else (1, index - first)
     shape = of.bodies[side].shape

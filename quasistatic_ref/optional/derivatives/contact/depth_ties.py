@@ -94,7 +94,7 @@ def _inside_tie(shape: Shape, p: Array, size: float, way: Array | None = None) -
 def _on_medial_plane(shape: Ellipsoid, p: Array, near: float) -> bool:
     """Whether p is on the disc from which the surface is as far above as below."""
     e = shape.half_axes
-    least = int(shape.half_axes.argmin())
+    least = int(e.argmin())
     if abs(p[least]) > near or np.sum((p / e) ** 2) >= 1:
         return False
     rest = [i for i in range(3) if i != least]

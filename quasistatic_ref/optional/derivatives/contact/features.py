@@ -112,7 +112,7 @@ def feature(shape: Shape, x: Array, n: Array) -> Feature:
         case Cone():
             return _of_revolved(shape, shape.radius, x, n)
         case Ellipsoid():
-            return _of_ellipsoid(shape, n)
+            return Feature(shape.curvature(n))
         case Box() | ConvexMesh():
             flat = polytope(shape)
             assert flat is not None
@@ -146,13 +146,6 @@ def _of_revolved(shape: Cylinder | Cone, taper: float, x: Array, n: Array) -> Fe
     if at_top:
         return Feature(ends=on_side)
     return Feature(_around(x, n), generator)
-
-
-def _of_ellipsoid(shape: Ellipsoid, n: Array) -> Feature:
-    squares = shape.half_axes**2
-    height = np.sqrt(n @ (squares * n))
-    scaled = squares * n / height
-    return Feature((np.diag(squares) - np.outer(scaled, scaled)) / height)
 
 
 def _of_polytope(flat: Polytope, x: Array, n: Array, near: float) -> Feature:

@@ -55,11 +55,10 @@ def _covered(of: PairInWorld) -> bool:
     every = of.candidates
     level = every.phi <= of.closest.phi + REPEATED
     of_alpha = every.point < a.shape.corner_count
-    of_beta = every.point < of.pair.corners
-    counts = int((level & of_alpha).sum()), int((level & of_beta & ~of_alpha).sum())
-    for body, way, count in ((a, n, counts[0]), (b, -n, counts[1])):
+    of_beta = (every.point < of.pair.corners) & ~of_alpha
+    for body, way, own in ((a, n, of_alpha), (b, -n, of_beta)):
         whole = not isinstance(body.shape, HalfSpace | Sphere)
-        if whole and count >= _face_corners(body, way):
+        if whole and np.count_nonzero(level & own) >= _face_corners(body, way):
             return True
     return False
 

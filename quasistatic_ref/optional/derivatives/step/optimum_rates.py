@@ -54,8 +54,8 @@ class OptimumRates:
     ----------
     x : ndarray, shape (n_v, P)
         Right for the parameters that nothing forbids [m, rad per unit].
-    contradicts : list of (set of int, ndarray of bool)
-        Contacts whose rows depend on each other and would not any more, and for which of the
+    contradicts : dict of tuple of int to ndarray of bool
+        By the contacts whose rows depend on each other and would not any more, for which of the
         parameters, shape (P,).
     opens : ndarray of bool, shape (idle rows, P)
         Which rows that touch without load would open on one side.
@@ -67,7 +67,7 @@ class OptimumRates:
     """
 
     x: Array
-    contradicts: list[tuple[set[int], Mask]]
+    contradicts: dict[tuple[int, ...], Mask]
     opens: Mask
     closing: Array
     exerted: Array
@@ -136,9 +136,9 @@ class Equations:
 
     def _contradictions(
         self, data: DataRates, right: Array, y: Array
-    ) -> list[tuple[set[int], Mask]]:
+    ) -> dict[tuple[int, ...], Mask]:
         """Dependent rows that a parameter would set against each other."""
-        found = []
+        found: dict[tuple[int, ...], Mask] = {}
         terms = data.terms / self.length.min(initial=1.0)
         size = np.abs(right).max(axis=0, initial=0.0) + np.linalg.norm(y, axis=0) + terms
         owner = np.nonzero(self.kept)[0]
@@ -152,7 +152,8 @@ class Equations:
                 across = np.linalg.norm(self.free @ pulled, axis=0)
                 bad |= across > CONSISTENT * np.maximum(np.linalg.norm(pulled, axis=0), 1.0)
             if bad.any():
-                found.append((set(owner[np.abs(nu) > DEPENDENT].tolist()), bad))
+                contacts = tuple(np.unique(owner[np.abs(nu) > DEPENDENT]).tolist())
+                found[contacts] = found.get(contacts, False) | bad
         return found
 
     def along(self, data: DataRates) -> Array:
