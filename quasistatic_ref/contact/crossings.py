@@ -103,7 +103,7 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
     flat = polytope(shape)
     assert flat is not None
     if isinstance(shape, Capsule):
-        ends, number = line(shape, shape.radius, 0.0, way)
+        ends, number = line(shape, shape.radius, way)
         total = ROUND
     else:
         ends, number = _of_polytope(flat, shape.extent, product(body.R.T, x - body.t), way)
@@ -111,7 +111,7 @@ def edges(body: ShapeInWorld, x: Array, n: Array) -> Edges:
     return Edges(rotated(body.R, ends) + body.t, number, total)
 
 
-def line(shape: Revolved, above: float, up: float, way: Array) -> tuple[Array, Indices]:
+def line(shape: Revolved, above: float, way: Array) -> tuple[Array, Indices]:
     """The line on the side of a solid of revolution that faces a way, if one does.
 
     Parameters
@@ -119,8 +119,6 @@ def line(shape: Revolved, above: float, up: float, way: Array) -> tuple[Array, I
     shape : Revolved
     above : float
         Radius of its upper end [m].
-    up : float
-        The lower radius less that [m].
     way : ndarray, shape (3,)
         In the solid's frame [-].
 
@@ -130,7 +128,9 @@ def line(shape: Revolved, above: float, up: float, way: Array) -> tuple[Array, I
         [m], with S 0 or 1.
     number : ndarray of int, shape (S,)
     """
-    side = np.array([2 * shape.half_length, up])  # its normal, radial and along the axis
+    side = np.array(
+        [2 * shape.half_length, shape.radius - above]
+    )  # its normal, radial and along the axis
     radial = norm(way[:2])
     if side[0] * radial + side[1] * way[2] < FACE_COSINE * norm(side):
         return np.zeros((0, 2, 3)), np.zeros(0, dtype=np.int64)

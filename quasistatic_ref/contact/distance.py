@@ -23,7 +23,7 @@ import numpy as np
 from quasistatic_ref.contact.crossings import crossings
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import BISECTOR, OWN, pair_normal, rounding
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
 from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, corner_surface
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
@@ -252,7 +252,7 @@ def _cloud_on_solid(
 ) -> ClosestPoints:
     """The k closest points of a cloud on a solid."""
     relative = relative_pose(solid, cloud)
-    x = rotated(relative[:, :3], points) + relative[:, 3]
+    x = moved(relative, points)
     phi, normal = solid.shape.signed_distance(x)
     point = closest(phi, pair.k)
     found = cloud_surface(pair.name, solid, cloud, relative, x[point], phi[point], normal[point])
@@ -266,7 +266,7 @@ def _corners_on_solid(
     if not len(corners):
         return joined_contacts([])
     relative = relative_pose(solid, other)
-    x = rotated(relative[:, :3], corners) + relative[:, 3]
+    x = moved(relative, corners)
     found = corner_surface(solid, x, product(solid.R.T, n), rounding(solid, other))
     return _contacts(solid, other, corners, radius, found)
 

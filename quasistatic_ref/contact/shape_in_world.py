@@ -34,3 +34,8 @@ class Witness(NamedTuple):
     def swapped(self) -> "Witness":
         """The same with alpha and beta exchanged."""
         return Witness(self.phi, self.beta, self.alpha, -self.n)
+
+
+def moved(pose: Array, points: Array) -> Array:
+    """Points (N, 3) [m] of one frame in another; the pose is [R, t], shape (3, 4) [-, m]."""
+    return rotated(pose[:, :3], points) + pose[:, 3]

@@ -21,12 +21,12 @@ from quasistatic_ref.contact.separations import (
     refuse_unless_touching,
     rounding,
 )
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
 from quasistatic_ref.model.angles import cos_sin
 from quasistatic_ref.shapes.hull import CHUNK
 from quasistatic_ref.shapes.placed_shape import HalfSpace, PointCloud, Shape
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.step.ordered import dot, product, rotated
+from quasistatic_ref.step.ordered import dot, product
 from quasistatic_ref.tolerances import FACING, OVER_FACE, SAME_NORMAL
 
 TURNED = cos_sin(FACING)[0]
@@ -194,7 +194,7 @@ def _of_cloud(
 ) -> tuple[Array, int]:
     """The one of several normals along which a cloud is farthest out."""
     assert isinstance(cloud.shape, PointCloud)
-    points = rotated(relative[:, :3], cloud.shape.points) + relative[:, 3]
+    points = moved(relative, cloud.shape.points)
     out = np.array([dot(points, way).min() for way in ways]) - solid.shape.support_value(ways)
     level = out >= out.max() - within
     if np.count_nonzero(level) == 1:

@@ -92,6 +92,13 @@ class Ellipsoid(Shape):
         scaled = directions * self.half_axes
         return norm(scaled)
 
+    def curvature(self, direction: Array) -> Array:
+        """Hessian of its reach at a unit vector of shape (3,) [-], shape (3, 3) [m]."""
+        squares = self.half_axes**2
+        height = np.sqrt(direction @ (squares * direction))
+        scaled = squares * direction / height
+        return np.asarray((np.diag(squares) - np.outer(scaled, scaled)) / height)
+
     def words(self) -> str:
         """Kind and axes [m]."""
         return f"ellipsoid {lengths(2 * self.half_axes)}"

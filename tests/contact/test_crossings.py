@@ -103,10 +103,10 @@ def test_rims_of_tilted_discs_do_not_cross_outside_of_them(swapped):
 def test_the_line_of_a_cone_leads_from_its_rim_to_its_tip_where_its_side_faces_a_way():
     # The side of this cone is at 45 degrees.
     cone = Cone(0.2, 0.1)
-    ends, number = line(cone, 0.0, 0.2, np.array([0.6, 0.8, 1.0]) / np.sqrt(2))
+    ends, number = line(cone, 0.0, np.array([0.6, 0.8, 1.0]) / np.sqrt(2))
     np.testing.assert_allclose(ends, [[[0.12, 0.16, -0.1], [0, 0, 0.1]]], atol=ROUNDING)
     assert number.tolist() == [0]
-    assert not line(cone, 0.0, 0.2, UP)[0].size
+    assert not line(cone, 0.0, UP)[0].size
 
 
 def diagonal(up):

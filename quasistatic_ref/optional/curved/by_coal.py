@@ -161,9 +161,14 @@ def judged(
     """
     if not (np.isfinite((phi, *alpha, *beta, *n)).all() and abs(n @ n - 1) <= WITNESS):
         return Judged(phi, alpha, beta, n, np.inf)
-    gap = n @ (b.farthest(-n) - a.farthest(n))
+    gap = _gap(a, b, n)
     apart = np.abs(beta - alpha - phi * n).max()
     return Judged(phi, alpha, beta, n, float(max(abs(gap - phi), apart)))
+
+
+def _gap(a: ShapeInWorld, b: ShapeInWorld, n: Array) -> float:
+    """The gap s(n) from a to b along a unit vector."""
+    return float(n @ (b.farthest(-n) - a.farthest(n)))
 
 
 def _shallowest(a: ShapeInWorld, b: ShapeInWorld, first: Judged) -> Judged:
@@ -196,7 +201,7 @@ def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
     """
     best = Judged(-np.inf, a.t, b.t, n, np.inf)
     for k in range(ROUNDS):
-        gap = float(n @ (b.farthest(-n) - a.farthest(n)))
+        gap = _gap(a, b, n)
         # Round surfaces settle faster from afar, corners from close by: in turn.
         clearance = CLEARANCE * abs(gap) + (LEAST * size if k % 2 == 0 else 0.0)
         shift = (clearance - gap) * n
@@ -205,8 +210,7 @@ def _refined(a: ShapeInWorld, b: ShapeInWorld, n: Array, size: float) -> Judged:
             break
         before = n
         n = parted.n
-        phi = float(n @ (b.farthest(-n) - a.farthest(n)))
-        found = _best(a, b, judged(a, b, phi, parted.alpha, parted.beta - shift, n))
+        found = _best(a, b, judged(a, b, _gap(a, b, n), parted.alpha, parted.beta - shift, n))
         if found.defect < best.defect:
             best = found
         if best.defect <= ENOUGH:

@@ -12,7 +12,8 @@ import numpy as np
 
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.contact.solids.polytope import polytope
-from quasistatic_ref.shapes.placed_shape import Capsule, Cone, Cylinder, Ellipsoid, Shape
+from quasistatic_ref.shapes.convex_mesh import ConvexMesh
+from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cone, Cylinder, Ellipsoid, Shape
 from quasistatic_ref.step.data import Array
 
 FLAT = 1e-11
@@ -114,10 +115,7 @@ def curvature(solid: ShapeInWorld, n: Array) -> Array:
     own = solid.R.T @ n
     match shape:
         case Ellipsoid():
-            squares = shape.half_axes**2
-            height = np.sqrt(own @ (squares * own))
-            scaled = squares * own / height
-            D = (np.diag(squares) - np.outer(scaled, scaled)) / height
+            D = shape.curvature(own)
         case Capsule():
             D = shape.radius * (np.eye(3) - np.outer(own, own))
         case Cylinder() | Cone():
@@ -188,8 +186,6 @@ def face(solid: ShapeInWorld, n: Array) -> Face:
     corners = solid.farthest(n)[None]
     radius = 0.0
     match shape:
-        case Ellipsoid():
-            pass
         case Cylinder() | Cone() if kinks(shape).near(own, FLAT).normals.size:
             corners = solid.t[None] + np.sign(own[2]) * shape.half_length * solid.R[None, :, 2]
             radius = shape.radius
@@ -202,9 +198,7 @@ def face(solid: ShapeInWorld, n: Array) -> Face:
             level = n - own[2] * solid.R[:, 2]
             rim = shape.radius * level / np.sqrt(level @ level) - tip
             corners = solid.t + np.stack([rim, tip])
-        case Capsule() | Cylinder() | Cone():
-            pass
-        case _:
+        case Box() | ConvexMesh():
             corners = _polygon(solid, n)
     return Face(corners, radius, n)
 

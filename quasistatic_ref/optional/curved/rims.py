@@ -21,9 +21,12 @@ from quasistatic_ref.contact.crossings import (
 )
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.shapes.placed_shape import Cone, Cylinder, Shape
-from quasistatic_ref.step.data import Array, Indices
+from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.ordered import crossed, dot, product, rotated
 from quasistatic_ref.tolerances import OVER_FACE, SKEW
+
+BOTH = np.array([[-1.0], [1.0]])
+"""Signs of the two roots."""
 
 
 class Curves(NamedTuple):
@@ -85,8 +88,8 @@ def touching(body: ShapeInWorld, x: Array, n: Array) -> Curves:
     shape = body.shape
     way = product(body.R.T, n)
     if isinstance(shape, Cylinder | Cone):
-        above, up = (0.0, shape.radius) if isinstance(shape, Cone) else (shape.radius, 0.0)
-        ends, number = line(shape, above, up, way)
+        above = 0.0 if isinstance(shape, Cone) else shape.radius
+        ends, number = line(shape, above, way)
         straight = Edges(rotated(body.R, ends) + body.t, number, ROUND)
     else:
         straight = edges(body, x, n)
@@ -130,19 +133,17 @@ def _edge_and_rim(on_a: Curves, on_b: Curves, n: Array, swapped: bool = False) -
     crossing = inside > SKEW**2 * square * on_b.radius[j] ** 2
     root = np.sqrt(np.where(crossing, inside, 0.0))
     square = np.where(crossing, square, 1.0)
+    s = (-half + BOTH * root) / square
+    on_edge = tail + s[..., None] * u
+    on_rim = on_edge + (lift + s * lifts)[..., None] * n
+    good = crossing & (s >= 0) & (s <= 1)
     edge = on_a.straight.number[i]
     rim = on_b.rims[j]
-    number = crossing_number(edge, rim, on_b.straight.total)
     if swapped:
         number = crossing_number(rim, edge, on_a.straight.total)
-    found = []
-    for which, sign in enumerate((-1.0, 1.0)):
-        s = (-half + sign * root) / square
-        good = crossing & (s >= 0) & (s <= 1)
-        ends = [tail + s[:, None] * u, tail + s[:, None] * u + (lift + s * lifts)[:, None] * n]
-        alpha, beta = reversed(ends) if swapped else ends
-        found.append(Crossings(alpha[good], beta[good], number[good] + which))
-    return Crossings(*map(np.concatenate, zip(*found, strict=True)))
+        return _numbered(on_rim, on_edge, number, good)
+    number = crossing_number(edge, rim, on_b.straight.total)
+    return _numbered(on_edge, on_rim, number, good)
 
 
 def _rims(on_a: Curves, on_b: Curves, n: Array, least: float) -> Crossings:
@@ -164,14 +165,17 @@ def _rims(on_a: Curves, on_b: Curves, n: Array, least: float) -> Crossings:
     crossing = apart & (across * square**2 > (SKEW * r * s) ** 2)
     across = np.sqrt(np.where(crossing, across, 0.0))
     aside = crossed(np.broadcast_to(n, away.shape), away)
+    x = on_a.centre[i] + along[:, None] * away + (BOTH * across)[..., None] * aside
+    alpha, beta = (
+        x + (dot(on.axis[k], on.centre[k] - x) / dot(on.axis[k], n))[..., None] * n
+        for on, k in ((on_a, i), (on_b, j))
+    )
+    good = crossing & (dot(beta - alpha, n) >= least - OVER_FACE * (r + s))
     number = crossing_number(on_a.rims[i], on_b.rims[j], on_b.straight.total)
-    found = []
-    for which, sign in enumerate((-1.0, 1.0)):
-        x = on_a.centre[i] + along[:, None] * away + sign * across[:, None] * aside
-        ends = [
-            x + (dot(on.axis[k], on.centre[k] - x) / dot(on.axis[k], n))[:, None] * n
-            for on, k in ((on_a, i), (on_b, j))
-        ]
-        good = crossing & (dot(ends[1] - ends[0], n) >= least - OVER_FACE * (r + s))
-        found.append(Crossings(ends[0][good], ends[1][good], number[good] + which))
-    return Crossings(*map(np.concatenate, zip(*found, strict=True)))
+    return _numbered(alpha, beta, number, good)
+
+
+def _numbered(alpha: Array, beta: Array, number: Indices, good: Mask) -> Crossings:
+    """The good ones of crossings (2, N), two for each number."""
+    numbers = np.stack([number, number + 1])
+    return Crossings(alpha[good], beta[good], numbers[good])

@@ -5,7 +5,7 @@ r"""How all data of a step change with what the step is a function of.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -21,39 +21,6 @@ from quasistatic_ref.step.friction import frame_jacobian
 
 Places = Mapping[str, slice]
 """Which columns each field of the derivatives has, among all parameters."""
-
-
-@dataclass(frozen=True, eq=False)
-class Pull:
-    """What multipliers of gap, slips and spin exert, by all parameters.
-
-    Parameters
-    ----------
-    rows : RowRates
-        By q.
-    by_friction : mapping of str to ndarray, shape (n_c, 4, n_v)
-        By a coefficient of friction of each contact, of gap, slips and spin [m or rad per unit].
-    of_pair : ndarray, shape (n_c, pairs)
-        1 where a contact is of a pair, else 0 [-].
-    places : mapping of str to slice
-        Which columns each field of the derivatives has.
-    shape : (int, int)
-        n_v and the number of parameters.
-    """
-
-    rows: RowRates
-    by_friction: Mapping[str, Array]
-    of_pair: Array
-    places: Places
-    shape: tuple[int, int]
-
-    def __call__(self, y: Array) -> Array:
-        """Derivatives of the generalised impulse of y (n_c, 4), shape (n_v, P) [N s per unit]."""
-        found = np.zeros(self.shape)
-        found[:, self.places["dq_dq"]] = self.rows.pull(y)
-        for name, J in self.by_friction.items():
-            found[:, self.places[name]] = np.einsum("jiv,ji->vj", J, y) @ self.of_pair
-        return found
 
 
 def data_rates(
@@ -87,7 +54,7 @@ def data_rates(
     if not simulator.system.constant_mass_matrix and n_a < step.n_v:
         by_q[n_a:] -= masses.inertial_force_rates(un_actuated)[n_a:] / h
     by_masses = h * acts * masses.by_masses(gravity)
-    by_masses[n_a:] -= masses.inertial_by_masses(un_actuated)[n_a:] / h
+    by_masses[n_a:] -= masses.by_masses(masses.moved @ un_actuated)[n_a:] / h
     unloaded = np.zeros((step.n_v, len(pairs)))
     loads = {
         "dq_dq": by_q,
@@ -120,8 +87,24 @@ def data_rates(
     for name, J in by_friction.items():
         motion[:, :, places[name]] = (J @ x)[:, :, None] * of_pair[:, None]
         terms[places[name]] = (np.abs(J) @ np.abs(x)).max(initial=0.0)
-    pull = Pull(rows, by_friction, of_pair, places, load.shape)
+    pull = partial(_pull, rows, by_friction, of_pair, places, load.shape)
     return DataRates(load, motion, terms, pull), places
+
+
+def _pull(
+    rows: RowRates,
+    by_friction: Mapping[str, Array],
+    of_pair: Array,
+    places: Places,
+    shape: tuple[int, ...],
+    y: Array,
+) -> Array:
+    """Derivatives by all parameters of what multipliers y (n_c, 4) exert, shape (n_v, P)."""
+    found = np.zeros(shape)
+    found[:, places["dq_dq"]] = rows.pull(y)
+    for name, J in by_friction.items():
+        found[:, places[name]] = np.einsum("jiv,ji->vj", J, y) @ of_pair
+    return found
 
 
 def parameter_units(simulator: Simulator, step: StepData) -> dict[str, Array]:

@@ -20,12 +20,8 @@ from quasistatic_ref.optional.derivatives.gradient import (
     directed,
     gradient,
 )
-from quasistatic_ref.optional.derivatives.kink_reasons import geometry_reasons, out_of_reach
-from quasistatic_ref.optional.derivatives.program_reasons import (
-    forbidden,
-    row_reasons,
-    target_reasons,
-)
+from quasistatic_ref.optional.derivatives.kink_reasons import geometry_obstacles, out_of_reach
+from quasistatic_ref.optional.derivatives.program_reasons import row_obstacles, target_obstacles
 from quasistatic_ref.optional.derivatives.step.optimum_rates import Equations
 from quasistatic_ref.optional.derivatives.step.reach import Reach
 from quasistatic_ref.optional.derivatives.step.touching import touching_rows
@@ -102,14 +98,12 @@ def derivatives(
     touching = equations.of
     found = reach.rates if touching is reach.touching else equations.rates(rates.data)
 
-    reasons = [
-        *geometry_reasons(simulator, rates, touching, out_of_reach(simulator, rates)),
-        *target_reasons(simulator, result.step.delta_q_bar_a),
-        *row_reasons(simulator, rates, touching, found, {*map(tuple, near)}),
+    obstacles = [
+        *geometry_obstacles(simulator, rates, touching, out_of_reach(simulator, rates)),
+        *target_obstacles(simulator, rates),
+        *row_obstacles(simulator, rates, touching, found, {*map(tuple, near)}),
     ]
-    pairs = [pair.name for pair in simulator.pairs]
-    bad = forbidden(found, reasons, rates.places, pairs)
-    return gradient(rates, found.x, bad, reasons, equations.along, reach)
+    return gradient(rates, found.x, obstacles, equations.along, reach)
 
 
 def check_derivable(simulator: Simulator) -> None:

@@ -13,11 +13,11 @@ from quasistatic_ref.optional.derivatives.data_rates import Places
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.optional.derivatives.step.reach import NEVER, Distance, Reach
-from quasistatic_ref.optional.derivatives.step.reason import Reason
+from quasistatic_ref.optional.derivatives.step.reason import Obstacle, Reason
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import Array, Mask
+from quasistatic_ref.step.data import Array
 
 
 class NextKink(NamedTuple):
@@ -103,7 +103,7 @@ class Derivatives(Shown, Plain):
             If a name or a shape is wrong, or the reasons are others.
         """
         direction, one = self._one(directions, "along")
-        x = self._along(one)
+        x = np.ravel(self._along(one))
         return np.asarray(self._rates.onward @ x + self._rates.carried @ direction[: len(x)])
 
     def reach_along(self, **directions: Array | float) -> NextKink:
@@ -161,8 +161,7 @@ class Derivatives(Shown, Plain):
 def gradient(
     rates: StepRates,
     x: Array,
-    bad: Mask,
-    reasons: Sequence[Reason],
+    obstacles: Sequence[Obstacle],
     along: Callable[[DataRates], Array],
     reach: Reach | None,
 ) -> Derivatives:
@@ -173,23 +172,23 @@ def gradient(
     rates : StepRates
     x : ndarray, shape (n_v, P)
         The derivatives of delta_q.
-    bad : ndarray of bool, shape (P,)
-        Which of them do not exist.
-    reasons : sequence of Reason
+    obstacles : sequence of Obstacle
+        Why some of them do not exist.
     along : callable
-        Rates of the data by one parameter -> how delta_q changes as that grows, shape (n_v,).
+        Rates of the data by one parameter -> how delta_q changes as that grows, n_v numbers.
     reach : Reach or None
         The distances to kinks; None of a smoothed step, which has none.
     """
     columns = rates.onward @ x
     columns[:, : len(x)] += rates.carried
-    columns[:, bad] = np.nan
+    for obstacle in obstacles:
+        columns[:, obstacle.columns] = np.nan
     fields = {name: columns[:, place] for name, place in rates.places.items()}
     fields["dq_dh"] = fields["dq_dh"][:, 0]
     return Derivatives(
         **fields,
-        differentiable=not reasons,
-        reasons=tuple(reasons),
+        differentiable=not obstacles,
+        reasons=tuple(obstacle.reason for obstacle in obstacles),
         result=rates.result,
         _rates=rates,
         _along=along,

@@ -9,21 +9,20 @@ from quasistatic_ref.optional.derivatives.contact.kinks import kinks
 from quasistatic_ref.optional.derivatives.contact.point_ties import tied_points
 from quasistatic_ref.optional.derivatives.contact.spare_pairs import spare_pair
 from quasistatic_ref.optional.derivatives.step import reason
-from quasistatic_ref.optional.derivatives.step.reason import Reason
+from quasistatic_ref.optional.derivatives.step.reason import Obstacle
 from quasistatic_ref.optional.derivatives.step.touching import Touching
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.optional.derivatives.turned_tangents import stays
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Mask
-from quasistatic_ref.step.ordered import crossed
 
 FIELDS = ("dq_dq",)
 
 
-def geometry_reasons(
+def geometry_obstacles(
     simulator: Simulator, rates: StepRates, touching: Touching | None, safe: Mask
-) -> list[Reason]:
+) -> list[Obstacle]:
     """The kinks that matter to the step: those of contacts that touch, or may where they jump to.
 
     Parameters
@@ -39,26 +38,24 @@ def geometry_reasons(
     contacts = step.contacts
     quarters = _quarters(simulator.cone)
     felt = range(contacts.n_c) if touching is None else touching.contacts
-    reasons = []
-    for kink in kinks(rates.couples, rates.contacts, rates.motion.J, quarters):
-        jumps = kink.kind not in reason.SMOOTH_POINTS
-        if kink.contact not in felt and (not jumps or safe[kink.contact]):
+    found = []
+    for j, kind, says in kinks(rates.couples, rates.contacts, rates.motion.J, quarters):
+        jumps = kind not in reason.SMOOTH_POINTS
+        if j not in felt and (not jumps or safe[j]):
             continue
-        name = contacts.name[kink.contact]
-        frictionless = (
-            not contacts.mu[kink.contact, 0] or cone(simulator.cone).name == "frictionless"
-        )
-        if kink.kind == reason.TANGENTS and (
-            frictionless or (touching and stays(step, rates.x, touching, kink.contact))
+        frictionless = not contacts.mu[j, 0] or cone(simulator.cone).name == "frictionless"
+        if kind == reason.TANGENTS and (
+            frictionless or (touching and stays(step, rates.x, touching, j))
         ):
             continue
-        blurred = kink.kind != reason.CROSSING and rates.contacts.blurred[kink.contact]
+        blurred = kind != reason.CROSSING and rates.contacts.blurred[j]
         fields = tuple(rates.places) if blurred else FIELDS
-        reasons.append(Reason(kink.kind, (name,), fields, f"{name} {kink.says}"))
-    return [*reasons, *_ties(simulator, rates, safe)]
+        name = contacts.name[j]
+        found.append(rates.obstacle(kind, (name,), fields, f"{name} {says}"))
+    return [*found, *_ties(simulator, rates, safe)]
 
 
-def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Reason]:
+def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Obstacle]:
     """What other points a motion may bring in, pair by pair."""
     kept = rates.couples
     at = 0
@@ -72,10 +69,10 @@ def _ties(simulator: Simulator, rates: StepRates, safe: Mask) -> Iterator[Reason
         if outside:
             where = tuple(f"{pair.name}/{i}" for i in (*inside, *outside))
             says = f"{', '.join(where)} are as near as each other, and not all of them are kept"
-            yield Reason(reason.POINTS, where, FIELDS, says)
+            yield rates.obstacle(reason.POINTS, where, FIELDS, says)
         jump = spare_pair(kept[own], points, rates.motion.J)
         if jump is not None:
-            yield Reason(jump[0], (pair.name,), FIELDS, f"{pair.name} {jump[1]}")
+            yield rates.obstacle(jump[0], (pair.name,), FIELDS, f"{pair.name} {jump[1]}")
 
 
 def out_of_reach(simulator: Simulator, rates: StepRates) -> Mask:
@@ -92,17 +89,16 @@ def out_of_reach(simulator: Simulator, rates: StepRates) -> Mask:
     """
     points = rates.result.points
     mu = rates.result.step.contacts.mu
-    link = np.concatenate([simulator.layout.link_alpha, simulator.layout.link_beta])
-    at = np.concatenate([points.alpha, points.beta])
-    extents = np.array([couple.of.extents for couple in rates.couples]).reshape(-1, 2).T.ravel()
-    twist = (rates.motion.J @ rates.x)[link]
-    v = twist[:, :3] + crossed(twist[:, 3:], at)
-    motion = np.sqrt(np.sum(v * v, axis=1))
-    turn = np.sqrt(np.sum(twist[:, 3:] ** 2, axis=1))
+    links = np.stack([simulator.layout.link_alpha, simulator.layout.link_beta])
+    at = np.stack([points.alpha, points.beta])
+    twists = (rates.motion.J @ rates.x)[links]
+    motion = np.linalg.norm(twists[..., :3] + np.cross(twists[..., 3:], at), axis=2)
+    turn = np.linalg.norm(twists[..., 3:], axis=2)
+    extents = np.array([couple.of.extents for couple in rates.couples]).reshape(-1, 2).T
     turning = turn > 0  # any other point of the shape is this far from the end
     motion[turning] += np.sqrt(3) * turn[turning] * extents[turning]
-    motion, turn = (both.reshape(2, -1).sum(axis=0) for both in (motion, turn))
-    return np.asarray(points.phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
+    closed = (1 + 2 * mu[:, 0]) * motion.sum(axis=0) + mu[:, 2] * turn.sum(axis=0)
+    return np.asarray(points.phi > closed)
 
 
 @cache

@@ -1,16 +1,12 @@
 r"""How gap, slips and spin of all contacts change with q, and what multipliers exert: (R34).
 
-At a fixed displacement x, a contact's relative velocity is :math:`u = \nu_\beta +
-\omega_\beta\times\beta - \nu_\alpha - \omega_\alpha\times\alpha`, of its links' twists, its gap
-:math:`\phi + n\cdot u`, its slips :math:`\mu_v d_i\cdot u`, and its spin
-:math:`\mu_\omega n\cdot(\omega_\beta - \omega_\alpha)`. Multipliers y of these are a wrench on
-beta's link, of the force :math:`f = y_0 n + \mu_v(y_1 d_1 + y_2 d_2)` through beta and the torque
-:math:`\mu_\omega y_3 n`, and the opposite one, through alpha, on alpha's. Both are differentiated
-by the product rule, with everything that a contact is.
+Gap, slips and spin of a contact are products of screws with the twists of its links, all at the
+world's origin. The motion of the point :math:`\beta` along a unit vector e has the screw
+:math:`[e;\, \beta\times e]`, with n, :math:`\mu_v d_1` and :math:`\mu_v d_2` for e. The spin has
+:math:`[0;\, \mu_\omega n]`. Those of alpha's link are the opposite ones, at :math:`\alpha`.
+Multipliers exert the same screws as wrenches. Screws are differentiated by the product rule, with
+everything that a contact is.
 """
-
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -18,12 +14,12 @@ from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactLayout
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import Rates
 from quasistatic_ref.optional.derivatives.contact.contact_rates import tangent_rates
-from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates, wrench_rates
-from quasistatic_ref.step.data import Array, Contacts, Indices
+from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
+from quasistatic_ref.step.data import Array, Contacts
+from quasistatic_ref.step.friction import scaled_by
 from quasistatic_ref.step.ordered import crossed
 
 
-@dataclass(frozen=True, eq=False)
 class RowRates:
     """The contacts of a step with their derivatives.
 
@@ -34,62 +30,42 @@ class RowRates:
     layout : ContactLayout
     rates : Rates
     motion : MotionRates
+
+    Attributes
+    ----------
+    screws : ndarray, shape (2, n_c, 6, 4)
+        Of beta's links and of alpha's, by which gap, slips and spin are products with twists.
+    d_screws : ndarray, shape (2, n_c, 6, 4, n_v)
+        Their derivatives by q.
     """
 
-    contacts: Contacts
-    points: ClosestPoints
-    layout: ContactLayout
-    rates: Rates
-    motion: MotionRates
+    def __init__(
+        self,
+        contacts: Contacts,
+        points: ClosestPoints,
+        layout: ContactLayout,
+        rates: Rates,
+        motion: MotionRates,
+    ) -> None:
+        self.rates = rates
+        self.motion = motion
+        self.links = np.stack([layout.link_beta, layout.link_alpha])
+        frames = np.stack([contacts.n, contacts.d1, contacts.d2], axis=2)
+        d_frames = np.stack([rates.n, *tangent_rates(contacts, rates.n)], axis=2)
+        of_beta, d_of_beta = _screws(points.beta, rates.beta, frames, d_frames)
+        of_alpha, d_of_alpha = _screws(points.alpha, rates.alpha, frames, d_frames)
+        scale = scaled_by(contacts)[:, None]
+        self.screws = np.stack([of_beta, -of_alpha]) * scale
+        self.d_screws = np.stack([d_of_beta, -d_of_alpha]) * scale[..., None]
 
     def of_motion(self, x: Array) -> Array:
         """Derivatives by q of gap, slips and spin, (n_c, 4, n_v), x (n_v,) being fixed [m]."""
-        r = self.rates
-        link, at, d_at = self.ends
-        twist = (self.motion.J @ x)[link]
-        d_twist = self.motion.twist_rates(x)[link]
-        omega = twist[:, 3:]
-        d_omega = d_twist[:, 3:]
-        u = _relative(twist[:, :3] + crossed(omega, at))
-        d_u = _relative(
-            d_twist[:, :3] + crossed(d_omega, at[:, :, None]) + crossed(omega[:, :, None], d_at)
-        )
-        turn = _relative(omega)
-        d_turn = _relative(d_omega)
-        found = np.empty((len(u), 4, len(x)))
-        found[:, :3] = self.frames @ d_u + np.einsum("ja,jiak->jik", u, self.frame_rates)
-        found[:, 3] = _along(turn, r.n) + _along(self.contacts.n, d_turn)
-        found[:, 0] += r.phi
-        found[:, 1:] *= self.contacts.mu[:, :, None]
-        return found
-
-    @cached_property
-    def ends(self) -> tuple[Indices, Array, Array]:
-        """Links, points and their derivatives, shapes (2 n_c, ...), beta's first [-, m, m].
-
-        Returns
-        -------
-        link : ndarray of int, shape (2 n_c,)
-        at : ndarray, shape (2 n_c, 3)
-            [m].
-        d_at : ndarray, shape (2 n_c, 3, n_v)
-            [m per m or rad].
-        """
-        of = self.layout
-        link = np.concatenate([of.link_beta, of.link_alpha])
-        at = np.concatenate([self.points.beta, self.points.alpha])
-        return link, at, np.concatenate([self.rates.beta, self.rates.alpha])
-
-    @cached_property
-    def frames(self) -> Array:
-        """Rows n, d1, d2 of each contact, shape (n_c, 3, 3) [-]."""
-        return np.stack([self.contacts.n, self.contacts.d1, self.contacts.d2], axis=1)
-
-    @cached_property
-    def frame_rates(self) -> Array:
-        """Derivatives of n, d1 and d2, shape (n_c, 3, 3, n_v) [-]."""
-        d_n = self.rates.n
-        return np.stack([d_n, *tangent_rates(self.contacts.n, d_n)], axis=1)
+        twists = (self.motion.J @ x)[self.links]
+        d_twists = self.motion.twist_rates(x)[self.links]
+        found = np.einsum("sjaik,sja->jik", self.d_screws, twists)
+        found += (self.screws.transpose(0, 1, 3, 2) @ d_twists).sum(axis=0)
+        found[:, 0] += self.rates.phi
+        return np.asarray(found)
 
     @property
     def terms(self) -> Array:
@@ -99,33 +75,27 @@ class RowRates:
 
     def pull(self, y: Array) -> Array:
         """Derivative by q of what multipliers y (n_c, 4) exert, (n_v, n_v) [N s]."""
-        c = self.contacts
-        link, at, d_at = self.ends
-        pressed = y.copy()
-        pressed[:, 1:] *= c.mu
-        force = _opposite(np.einsum("ji,jia->ja", pressed[:, :3], self.frames))
-        d_force = _opposite(np.einsum("ji,jiak->jak", pressed[:, :3], self.frame_rates))
-        torque = _opposite(pressed[:, 3, None] * c.n)
-        d_torque = _opposite(pressed[:, 3, None, None] * self.rates.n)
-        exerted, d_exerted = wrench_rates(at, d_at, force, d_force, torque, d_torque)
-        links = len(self.motion.moves)
-        wrench = np.zeros((links, 6))
-        d_wrench = np.zeros((links, 6, d_at.shape[2]))
-        np.add.at(wrench, link, exerted)
-        np.add.at(d_wrench, link, d_exerted)
-        return self.motion.force_rates(wrench, d_wrench)
+        wrenches = np.zeros(self.motion.J.shape[:2])
+        d_wrenches = np.zeros(self.motion.J.shape)
+        np.add.at(wrenches, self.links, np.einsum("sjai,ji->sja", self.screws, y))
+        np.add.at(d_wrenches, self.links, np.einsum("sjaik,ji->sjak", self.d_screws, y))
+        return self.motion.force_rates(wrenches, d_wrenches)
 
 
-def _relative(ends: Array) -> Array:
-    """What is of beta's bodies, less what is of alpha's; shape (n_c, ...)."""
-    n_c = len(ends) // 2
-    return np.asarray(ends[:n_c] - ends[n_c:])
+def _screws(at: Array, d_at: Array, frames: Array, d_frames: Array) -> tuple[Array, Array]:
+    """Screws of motions along n, d1 and d2 of points, and about n, (n_c, 6, 4), and their rates.
 
-
-def _opposite(exerted: Array) -> Array:
-    """What contacts exert, (n_c, ...), on beta's bodies, and the opposite on alpha's."""
-    return np.concatenate([exerted, -exerted])
-
-
-def _along(vectors: Array, rates: Array) -> Array:
-    return np.asarray(np.einsum("ja,jak->jk", vectors, rates))
+    The axes are the columns of `frames`, (n_c, 3, 3), and all rates, (..., n_v), are by q.
+    """
+    n_c, _, n_v = d_at.shape
+    arm = at[:, :, None]
+    screws = np.zeros((n_c, 6, 4))
+    screws[:, :3, :3] = frames
+    screws[:, 3:, :3] = crossed(arm, frames)
+    screws[:, 3:, 3] = frames[:, :, 0]
+    rates = np.zeros((n_c, 6, 4, n_v))
+    rates[:, :3, :3] = d_frames
+    turned = crossed(d_at[:, :, None], frames[..., None])
+    rates[:, 3:, :3] = turned + crossed(arm[..., None], d_frames)
+    rates[:, 3:, 3] = d_frames[:, :, 0]
+    return screws, rates

@@ -11,14 +11,13 @@ from quasistatic_ref.certify.solution import SolverStatistics, step_solution
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.optional.derivatives.derivatives import check_derivable
 from quasistatic_ref.optional.derivatives.gradient import Derivatives, gradient
-from quasistatic_ref.optional.derivatives.kink_reasons import geometry_reasons
-from quasistatic_ref.optional.derivatives.program_reasons import target_reasons
-from quasistatic_ref.optional.derivatives.step.barrier import Barrier, barrier_rates, barrier_step
-from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
+from quasistatic_ref.optional.derivatives.kink_reasons import geometry_obstacles
+from quasistatic_ref.optional.derivatives.program_reasons import target_obstacles
+from quasistatic_ref.optional.derivatives.step.barrier import barrier_rates, barrier_step
 from quasistatic_ref.optional.derivatives.step_rates import StepRates
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
-from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.data import Array
 
 
 def smoothed(
@@ -75,18 +74,10 @@ def smoothed(
     rates = StepRates(simulator, q, result)
 
     nowhere = np.zeros(step.contacts.n_c, dtype=bool)
-    reasons = [
-        *geometry_reasons(simulator, rates, None, nowhere),
-        *target_reasons(simulator, step.delta_q_bar_a),
+    obstacles = [
+        *geometry_obstacles(simulator, rates, None, nowhere),
+        *target_obstacles(simulator, rates),
     ]
-    bad = np.zeros(rates.data.load.shape[1], dtype=bool)
-    for why in reasons:
-        for name in why.fields:
-            bad[rates.places[name]] = True
     x = barrier_rates(step, found, rates.data)
-    along = partial(_displacement, step, found)
-    return gradient(rates, x, bad, reasons, along, None)
-
-
-def _displacement(step: StepData, found: Barrier, one: DataRates) -> Array:
-    return barrier_rates(step, found, one)[:, 0]
+    along = partial(barrier_rates, step, found)
+    return gradient(rates, x, obstacles, along, None)

@@ -212,17 +212,16 @@ def _differentiable(
     once = jax.custom_jvp(called, nondiff_argnums=(0,))
     once.defjvp(twice)
 
-    def checked(q: Any, q_bar_a: Any, force: Any, kappa: Any) -> Any:
-        given = q, q_bar_a, force, kappa
+    def checked(*given: Any) -> Any:
         traced = any(isinstance(one, jax.core.Tracer) for one in given)
         arrays = jax.numpy if traced else np
-        q, q_bar_a, force, kappa = map(arrays.asarray, given)
+        given = tuple(map(arrays.asarray, given))
         wide = jax.dtypes.canonicalize_dtype(np.float64)
-        if not all(one.dtype == wide == np.float64 for one in (q, q_bar_a, force, kappa)):
+        if not all(one.dtype == wide == np.float64 for one in given):
             problem = "must be float64: jax.config.update('jax_enable_x64', True)"
             raise InputError(problem, field="step in JAX")
-        force = arrays.broadcast_to(force, (system.n_v,))
-        given = q, q_bar_a, force, kappa
+        q, q_bar_a, force, kappa = given
+        given = q, q_bar_a, arrays.broadcast_to(force, (system.n_v,)), kappa
         return step(*given) if traced else called((), *given)
 
     return checked

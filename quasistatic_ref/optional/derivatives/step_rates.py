@@ -1,5 +1,7 @@
 """How everything that a step is made of changes, at one configuration."""
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from quasistatic_ref.optional.derivatives.contact.contact_rates import contact_rates
@@ -9,6 +11,7 @@ from quasistatic_ref.optional.derivatives.model.mass_rates import MassRates
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.optional.derivatives.model.tangent import sum_rates
 from quasistatic_ref.optional.derivatives.row_rates import RowRates
+from quasistatic_ref.optional.derivatives.step.reason import Obstacle, Reason
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
@@ -62,3 +65,12 @@ class StepRates:
         self.carried, self.onward = sum_rates(system.joints, x)
         both = np.abs(np.stack([points.alpha, points.beta]))
         self.far: Array = both.max(axis=(0, 2), initial=0.0)
+
+    def obstacle(
+        self, kind: str, where: tuple[str, ...], fields: Iterable[str], sentence: str
+    ) -> Obstacle:
+        """A reason for which no column of some fields exists."""
+        columns = np.zeros(len(self.units), dtype=bool)
+        for name in fields:
+            columns[self.places[name]] = True
+        return Obstacle(Reason(kind, where, tuple(fields), sentence), columns)

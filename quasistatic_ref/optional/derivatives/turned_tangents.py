@@ -33,32 +33,30 @@ def stays(step: StepData, x: Array, touching: Touching, j: int) -> bool:
     load = touching.multipliers[j]
     motion[0] += contacts.phi[j]
     strict, idle = (int(np.sum(rows[:, 0] == j)) for rows in (touching.strict, touching.idle))
-    frames = [_turn(contacts.d1[j], contacts.d2[j], other) for other in _others(contacts.n[j])]
+    turns = _turns(contacts.n[j], contacts.d1[j], contacts.d2[j])
     if strict == len(table):
-        return all(_inside(table, turn @ load) for turn in frames)
+        return all(_inside(table, turn @ load) for turn in turns)
     if strict or idle:
         return False
     room = INSIDE * np.abs(motion).max()
-    return all(bool((table @ turn @ motion > room).all()) for turn in frames)
+    return all(bool((table @ turn @ motion > room).all()) for turn in turns)
 
 
-def _others(n: Array) -> list[Array]:
-    """The frames (2, 3) [-] of the axes of the world that are as far from n as the first."""
+def _turns(n: Array, d1: Array, d2: Array) -> list[Array]:
+    """What takes gap, slips and spin, or their multipliers, to the frames of other axes, (4, 4).
+
+    These are the axes of the world that are as far from n as the first.
+    """
     size = np.abs(n)
     tied = np.flatnonzero(size - size.min() <= TIED)
     found = []
     for axis in np.eye(3)[tied[tied != size.argmin()]]:
-        d1 = axis - (axis @ n) * n
-        d1 = d1 / np.sqrt(d1 @ d1)
-        found.append(np.stack([d1, np.cross(n, d1)]))
+        across = axis - (axis @ n) * n
+        across = across / np.sqrt(across @ across)
+        turn = np.eye(4)
+        turn[1:3, 1:3] = np.stack([across, np.cross(n, across)]) @ np.stack([d1, d2], axis=1)
+        found.append(turn)
     return found
-
-
-def _turn(d1: Array, d2: Array, frame: Array) -> Array:
-    """What takes gap, slips and spin, or their multipliers, to another frame, shape (4, 4)."""
-    turn = np.eye(4)
-    turn[1:3, 1:3] = frame @ np.stack([d1, d2], axis=1)
-    return turn
 
 
 def _inside(table: Array, load: Array) -> bool:

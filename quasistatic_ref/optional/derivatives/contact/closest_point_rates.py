@@ -25,8 +25,8 @@ from typing import NamedTuple
 import numpy as np
 
 from quasistatic_ref.optional.derivatives.contact.features import Feature
+from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
 from quasistatic_ref.step.data import Array, Mask
-from quasistatic_ref.step.ordered import crossed
 from quasistatic_ref.tolerances import CONSISTENT, SPLIT, UNIQUE
 
 
@@ -68,43 +68,57 @@ def closest_point_rates(
     phi : ndarray, shape (N,)
     n : ndarray, shape (N, 3)
     features : sequence of Feature, length 2 N
-        In the world frame, here and below those of all alpha's bodies first, then beta's.
-    v : ndarray, shape (2 N, 3, n_v)
+        In the world frame, those of all alpha's bodies first, then beta's.
+    v : ndarray, shape (2, N, 3, n_v)
         Velocity of the point that is the closest one now, on its body or with a corner [m].
-    omega : ndarray, shape (2 N, 3, n_v)
+    omega : ndarray, shape (2, N, 3, n_v)
         Angular velocity of the body [rad].
     size : ndarray, shape (N,)
         About how large the bodies are [m]: what a singular matrix is measured by.
     """
     N = len(phi)
     frames = np.linalg.svd(n[:, None])[2][:, 1:]  # two unit vectors across each n
-    turn = crossed(omega, np.concatenate([n, n])[:, :, None])  # omega x n
-    bend = np.array([f.bend for f in features]).reshape(-1, 3, 3)
-    free = _padded(features)
-    curved = np.array([f.curvature for f in features])
-    apart = v[N:] - v[:N]
-    matrix, right = _system(phi, frames, bend, free, curved, turn, apart, size)
+    across = frames.transpose(0, 2, 1)
+    turn = -cross_matrix(n) @ omega  # omega x n
+    bend = np.array([f.bend for f in features]).reshape(2, N, 3, 3)
+    free = np.array([f.ways for f in features]).reshape(2, N, 2, 3)
+    curvature = np.array([f.curvature for f in features]).reshape(2, N)
+    apart = v[1] - v[0]
+
+    # Lengths are in units of s, and a way that a feature has not is held.
+    s = size[:, None, None]
+    bends = frames @ (bend.sum(axis=0) / s) @ across + phi[:, None, None] / s * np.eye(2)
+    along = free @ across
+    held = np.eye(2) * ~np.any(free, axis=3)[..., None]
+    held[:, :, 0, 0] -= np.array([[1.0], [-1.0]]) * curvature * size
+    matrix = np.block([
+        [bends, along[0].transpose(0, 2, 1), -along[1].transpose(0, 2, 1)],
+        [along[0], held[0], 0 * held[0]],
+        [along[1], 0 * held[1], held[1]],
+    ])  # fmt: skip
+    bent = (bend @ turn).sum(axis=0)
+    right = np.concatenate([frames @ (apart + bent) / s, *(free @ turn)], axis=1)
+
     least = np.linalg.svd(matrix, compute_uv=False)[:, -1]
     good = least > UNIQUE
-    turns = omega[N:] - omega[:N]
-    solutions = {
-        int(j): _sliding(matrix[j], right[j], free[j], turns[j]) for j in np.flatnonzero(~good)
-    }
-    matrix[~good] = np.eye(6)
+    singular = np.flatnonzero(~good).tolist()
+    turns = omega[1] - omega[0]
+    sliding = [_sliding(matrix[j], right[j], free[0, j], turns[j]) for j in singular]
+    matrix[singular] = np.eye(6)
     solved = np.linalg.solve(matrix, right)
-    for j, solution in solutions.items():
+    for j, solution in zip(singular, sliding, strict=True):
         if solution is not None:
             solved[j] = solution
             good[j] = True
-    dn = frames.transpose(0, 2, 1) @ solved[:, :2]
-    z = np.concatenate([solved[:, 2:4], solved[:, 4:]])
-    bent = bend @ (np.concatenate([dn, dn]) - turn)
-    bent[N:] *= -1
-    slid = free.transpose(0, 2, 1) @ z * np.concatenate([size, size])[:, None, None]
-    moved = v + bent + slid
+
+    dn = across @ solved[:, :2]
+    z = np.stack([solved[:, 2:4], solved[:, 4:]])
+    outward = np.array([1.0, -1.0])[:, None, None, None]  # n is outward from alpha's bodies
+    bent = outward * (bend @ (dn - turn))
+    d_alpha, d_beta = v + bent + free.transpose(0, 1, 3, 2) @ z * s
     d_phi = np.einsum("ja,jak->jk", n, apart)
     no = np.zeros(N, dtype=bool)  # of rims and lines a single pair knows nothing
-    return Rates(d_phi, moved[:N], moved[N:], dn, good, ~good & (least > SPLIT), no, no)
+    return Rates(d_phi, d_alpha, d_beta, dn, good, ~good & (least > SPLIT), no, no)
 
 
 def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | None:
@@ -121,39 +135,3 @@ def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | 
         if np.abs(np.cross(turns, way[:, None], axis=0)).max(initial=0.0) > CONSISTENT:
             return None
     return np.asarray(V[:rank].T @ ((U[:, :rank].T @ right) / s[:rank, None]))
-
-
-def _system(
-    phi: Array, frames: Array, bend: Array, free: Array, curved: Array, turn: Array,
-    apart: Array, size: Array,
-) -> tuple[Array, Array]:  # fmt: skip
-    """The matrices (N, 6, 6) [-] and right sides (N, 6, n_v), lengths in units of `size`."""
-    N = len(phi)
-    s = size[:, None, None]
-    across = frames.transpose(0, 2, 1)
-    matrix = np.zeros((N, 6, 6))
-    right = np.zeros((N, 6, apart.shape[2]))
-    matrix[:, :2, :2] = frames @ ((bend[:N] + bend[N:]) / s) @ across
-    matrix[:, :2, :2] += (phi / size)[:, None, None] * np.eye(2)
-    bent = bend @ turn
-    right[:, :2] = frames @ (apart + bent[:N] + bent[N:]) / s
-    along = free @ np.concatenate([across, across])
-    held = free @ turn
-    idle = ~np.any(free, axis=2)
-    none = np.eye(2) * idle[:, :, None]
-    for at, side, sign in ((slice(2, 4), slice(N), 1), (slice(4, 6), slice(N, None), -1)):
-        matrix[:, :2, at] = sign * along[side].transpose(0, 2, 1)
-        matrix[:, at, :2] = along[side]
-        matrix[:, at, at] = none[side]
-        matrix[:, at.start, at.start] -= sign * curved[side] * size
-        right[:, at] = held[side]
-    return matrix, right
-
-
-def _padded(features: Sequence[Feature]) -> Array:
-    """The free directions of features, or that of a rim, (2 N, 2, 3), filled up by zeros."""
-    padded = np.zeros((len(features), 2, 3))
-    for own, f in zip(padded, features, strict=True):
-        own[: len(f.free)] = f.free
-        own[: len(f.arc)] = f.arc
-    return padded

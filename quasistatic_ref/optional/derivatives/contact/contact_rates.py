@@ -15,8 +15,8 @@ from quasistatic_ref.optional.derivatives.contact.couples import (
     rim_velocity,
 )
 from quasistatic_ref.optional.derivatives.contact.features import Feature
-from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import crossed
+from quasistatic_ref.optional.derivatives.model.tangent import cross_matrix
+from quasistatic_ref.step.data import Array, Contacts
 from quasistatic_ref.tolerances import LEVEL, ON_RIM, SPLIT, UNIQUE
 
 
@@ -39,7 +39,7 @@ def contact_rates(couples: Sequence[Couple], J: Array) -> Rates:
             level[j] = slide is None
             slides[couple.rim.side, j] = 0.0 if slide is None else slide
         if couple.at_an_end and couple_rates([couple.merged], J).unique[0]:
-            slid[j] = _dependent(couple.merged.features)
+            slid[j] = dependent(couple.merged.features)
             taken[j] = couple.merged if slid[j] else couple
     found = couple_rates(taken, J, slides)
     level_too = np.array([nearly_level(couple) for couple in couples], dtype=bool)
@@ -59,13 +59,13 @@ def nearly_level(couple: Couple) -> bool:
     return False
 
 
-def _dependent(features: tuple[Feature, Feature]) -> bool:
+def dependent(features: tuple[Feature, Feature]) -> bool:
     """Whether both have a straight direction in common."""
     straight = np.concatenate([f.free for f in features])
     return len(straight) > 2 or bool(np.linalg.svd(straight)[1].min(initial=1.0) <= UNIQUE)
 
 
-def couple_rates(couples: Sequence[Couple], J: Array, slides: Array | None = None) -> Rates:
+def couple_rates(couples: Sequence[Couple], J: Array, slides: Array | float = 0.0) -> Rates:
     """The derivatives of closest points of some couples.
 
     Parameters
@@ -76,12 +76,11 @@ def couple_rates(couples: Sequence[Couple], J: Array, slides: Array | None = Non
     slides : ndarray, shape (2, N, 3, n_v), optional
         How corners move on their bodies [m].
     """
-    links = [c.of.pair.alpha.link for c in couples] + [c.of.pair.beta.link for c in couples]
-    at = np.array([c.points[side] for side in (0, 1) for c in couples]).reshape(-1, 3)
-    twist = J[links]
-    omega = twist[:, 3:]
-    v = twist[:, :3] + crossed(omega, at[:, :, None])
-    v = v if slides is None else v + slides.reshape(v.shape)
+    links = [[c.of.pair.alpha.link for c in couples], [c.of.pair.beta.link for c in couples]]
+    at = np.array([[c.points[side] for c in couples] for side in (0, 1)]).reshape(2, -1, 3)
+    twist = J[np.array(links, dtype=np.int64)]
+    omega = twist[:, :, 3:]
+    v = twist[:, :, :3] - cross_matrix(at) @ omega + slides
     phi = np.array([c.phi for c in couples])
     size = np.array([c.reach for c in couples])
     n = np.array([c.n for c in couples]).reshape(-1, 3)
@@ -101,20 +100,21 @@ def _rim_slide(of: PairInWorld, rim: Rim, J: Array) -> Array | None:
     return rim_velocity(rim, of.bodies[rim.side], sign * n, sign * turn)
 
 
-def tangent_rates(n: Array, d_n: Array) -> tuple[Array, Array]:
-    """Derivatives of the tangents d1 and d2, each of shape (n_c, 3, n_v).
+def tangent_rates(contacts: Contacts, d_n: Array) -> tuple[Array, Array]:
+    r"""Derivatives of the tangents d1 and d2, each of shape (n_c, 3, n_v).
+
+    The frame turns with n, and about n by :math:`-(c/s)\,d_2\cdot dn`: c and s are the cosine and
+    the sine of the angle between n and the axis of the world whose projection d1 is.
 
     Parameters
     ----------
-    n : ndarray, shape (n_c, 3)
+    contacts : Contacts
     d_n : ndarray, shape (n_c, 3, n_v)
         Derivatives of n [per m or rad].
     """
-    axis = np.eye(3)[np.abs(n).argmin(axis=1)]
-    along = np.vecdot(n, axis)[:, None, None]
-    d_along = np.einsum("ja,jak->jk", axis, d_n)[:, None]
-    length = np.sqrt(1 - along * along)
-    d1 = (axis[:, :, None] - along * n[:, :, None]) / length
-    d_d1 = -(d_along * n[:, :, None] + along * d_n) / length + d1 * (along * d_along) / length**2
-    d_d2 = crossed(d_n, d1) + crossed(n[:, :, None], d_d1)
-    return d_d1, d_d2
+    axis = np.eye(3)[np.abs(contacts.n).argmin(axis=1)]
+    c = np.vecdot(contacts.n, axis)[:, None, None]
+    n, d1, d2 = (own[:, :, None] for own in (contacts.n, contacts.d1, contacts.d2))
+    along_1, along_2 = ((own * d_n).sum(axis=1, keepdims=True) for own in (d1, d2))
+    about = -c / np.sqrt(1 - c * c) * along_2
+    return about * d2 - along_1 * n, -about * d1 - along_2 * n

@@ -16,8 +16,8 @@ from quasistatic_ref.contact.distance import (
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
 from quasistatic_ref.optional.derivatives.contact.features import Feature, ball, feature
-from quasistatic_ref.shapes.placed_shape import Cylinder, PointCloud, Sphere
-from quasistatic_ref.shapes.revolved import QUARTERS
+from quasistatic_ref.shapes.placed_shape import PointCloud, Sphere
+from quasistatic_ref.shapes.revolved import rim_corners
 from quasistatic_ref.step.data import Array
 from quasistatic_ref.tolerances import LEVEL, ON_RIM
 
@@ -84,8 +84,8 @@ class PairInWorld:
 
     @cached_property
     def closest(self) -> "Couple":
-        """The closest pair of two solids as a couple."""
-        return _couple(self, self.nearest._replace(point=np.array([self.pair.corners])), 0)
+        """The closest pair of two solids, of which several contacts are kept, as a couple."""
+        return _couple(self, self.nearest, 0)
 
 
 class Couple(NamedTuple):
@@ -140,11 +140,10 @@ def couples(
 ) -> list[Couple]:
     """The contacts of all pairs at their closest points; R (L, 3, 3), t (L, 3) are the links'."""
     found = list[Couple]()
-    at = 0
     for pair in pairs:
         of = PairInWorld(pair, in_world(pair, R, t))
+        at = len(found)
         found += [_couple(of, points, j) for j in range(at, at + pair.n_c)]
-        at += pair.n_c
     return found
 
 
@@ -154,16 +153,13 @@ def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
     index = int(points.point[j])
     ends = (points.alpha[j], points.beta[j])
     pair = of.pair
-    corner = _corner(of, index)
+    corner, radius, rim = _corner(of, index)
     features = []
     centre = None
-    rim = None
     for side, (body, end, outward) in enumerate(zip(of.bodies, ends, (n, -n), strict=True)):
-        own = corner if corner is not None and corner[0] == side else None
-        if own is not None:
-            features.append(ball(own[1], outward))
-            centre = (1 - side, end - own[1] * outward)
-            rim = own[2]
+        if side == corner:
+            features.append(ball(radius, outward))
+            centre = (1 - side, end - radius * outward)
             continue
         local = feature(body.shape, body.R.T @ (end - body.t), body.R.T @ outward)
         features.append(local.turned(body.R))
@@ -173,13 +169,13 @@ def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
     return Couple(of, phi, ends, n, (features[0], features[1]), centre, rim, crosses)
 
 
-def _corner(of: PairInWorld, index: int) -> tuple[int, float, Rim | None] | None:
-    """Which side is a corner, the ball about it and its rim; None of a closest pair."""
+def _corner(of: PairInWorld, index: int) -> tuple[int | None, float, Rim | None]:
+    """Which side is a corner, the ball about it and its rim; of a closest pair neither side is."""
     for side, body in enumerate(of.bodies):
         if isinstance(body.shape, PointCloud):
             return side, 0.0, None
     if of.pair.n_c == 1 or index >= of.pair.corners:
-        return None
+        return None, 0.0, None
     first = of.bodies[0].shape.corner_count
     side, k = (0, index) if index < first else (1, index - first)
     shape = of.bodies[side].shape
@@ -207,14 +203,12 @@ def rim_velocity(rim: Rim, body: ShapeInWorld, towards: Array, turning: Array) -
         None where the rim is level but does not stay so: no point of it is the nearest, or float64
         does not know which.
     """
-    own = (body.R.T @ towards)[:2]
+    own = body.R.T @ towards
     d_own = (body.R.T @ turning)[:2]
-    length = np.hypot(*own)
-    first = Cylinder(1.0, 1.0).corners(np.array([*own, 0.0]))[0][0, :2]
+    length = np.hypot(*own[:2])
     if length <= LEVEL:
         return None if np.abs(d_own).max(initial=0.0) > ON_RIM else np.zeros_like(turning)
-    d_first = (d_own - np.outer(first, first @ d_own)) / length
-    c, s = QUARTERS[rim.quarter]
-    # The quarter's point is c u + s (-u_y, u_x).
-    turned = np.stack([c * d_first[0] - s * d_first[1], c * d_first[1] + s * d_first[0]])
-    return np.asarray(rim.radius * body.R[:, :2] @ turned)
+    around = rim_corners(1.0, 0.0, own)
+    turn = around[1, :2] @ d_own / length
+    # Each corner moves towards the next one.
+    return np.outer(rim.radius * body.R @ around[(rim.quarter + 1) % 4], turn)

@@ -43,18 +43,18 @@ def depth_tie(couple: Couple) -> bool:
         corner = not isinstance(body, PointCloud | Sphere)
         way = solid.R.T @ (couple.n if other == 0 else -couple.n) if corner else None
         return _inside_tie(solid.shape, solid.R.T @ (centre - solid.t), couple.of.size, way)
-    if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
-        radii = a.shape.radius + b.shape.radius
-        return bool(abs(couple.phi + radii) <= TIED * couple.of.size)  # where the axes cross
     if couple.phi > 0:
         return False
     P = polytope(a.shape)
     Q = polytope(b.shape)
     if P is None or Q is None:
         return _rival(a, b, couple)
-    every, normals = gaps_between(P, Q.moved(a.R.T @ b.R, a.R.T @ (b.t - a.t)))
     core = couple.phi + P.margin + Q.margin
-    level = every >= core - TIED * couple.of.size
+    within = TIED * couple.of.size
+    if isinstance(a.shape, Capsule) and isinstance(b.shape, Capsule):
+        return core <= within  # where the axes cross
+    every, normals = gaps_between(P, Q.moved(a.R.T @ b.R, a.R.T @ (b.t - a.t)))
+    level = every >= core - within
     return core < 0 and _differ(normals[level], a.R.T @ couple.n)
 
 
@@ -94,7 +94,7 @@ def _inside_tie(shape: Shape, p: Array, size: float, way: Array | None = None) -
 def _on_medial_plane(shape: Ellipsoid, p: Array, near: float) -> bool:
     """Whether p is on the disc from which the surface is as far above as below."""
     e = shape.half_axes
-    least = int(shape.half_axes.argmin())
+    least = int(e.argmin())
     if abs(p[least]) > near or np.sum((p / e) ** 2) >= 1:
         return False
     rest = [i for i in range(3) if i != least]

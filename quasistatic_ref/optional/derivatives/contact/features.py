@@ -61,6 +61,11 @@ class Feature(NamedTuple):
     curvature: float = 0.0
 
     @property
+    def ways(self) -> Array:
+        """Its free directions, or that of a rim, shape (2, 3), filled up by zeros [-]."""
+        return np.concatenate([self.free, self.arc, np.zeros((2, 3))])[:2]
+
+    @property
     def merged(self) -> "Feature":
         """The same with the directions in which it ends as free ones."""
         if not len(self.ends):
@@ -70,9 +75,7 @@ class Feature(NamedTuple):
 
     def turned(self, R: Array) -> "Feature":
         """The same in another frame, R of shape (3, 3) [-] from this frame to that."""
-        free, ends, arc = (
-            some @ R.T if len(some) else some for some in (self.free, self.ends, self.arc)
-        )
+        free, ends, arc = (some @ R.T for some in (self.free, self.ends, self.arc))
         return Feature(R @ self.bend @ R.T, free, ends, arc, self.curvature)
 
 
@@ -109,7 +112,7 @@ def feature(shape: Shape, x: Array, n: Array) -> Feature:
         case Cone():
             return _of_revolved(shape, shape.radius, x, n)
         case Ellipsoid():
-            return _of_ellipsoid(shape, n)
+            return Feature(shape.curvature(n))
         case Box() | ConvexMesh():
             flat = polytope(shape)
             assert flat is not None
@@ -143,13 +146,6 @@ def _of_revolved(shape: Cylinder | Cone, taper: float, x: Array, n: Array) -> Fe
     if at_top:
         return Feature(ends=on_side)
     return Feature(_around(x, n), generator)
-
-
-def _of_ellipsoid(shape: Ellipsoid, n: Array) -> Feature:
-    squares = shape.half_axes**2
-    height = np.sqrt(n @ (squares * n))
-    scaled = squares * n / height
-    return Feature((np.diag(squares) - np.outer(scaled, scaled)) / height)
 
 
 def _of_polytope(flat: Polytope, x: Array, n: Array, near: float) -> Feature:

@@ -1,12 +1,11 @@
 """Where the contacts of a step have no derivative: kinks and jumps of their geometry, by name."""
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import Rates
-from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates
+from quasistatic_ref.optional.derivatives.contact.contact_rates import couple_rates, dependent
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.optional.derivatives.contact.depth_ties import depth_tie
 from quasistatic_ref.optional.derivatives.step import reason
@@ -16,25 +15,10 @@ from quasistatic_ref.tolerances import FILLED, TIED, UNIQUE
 PARALLEL = reason.MANY, "has more than one closest pair of points: parallel surfaces"
 
 
-class Kink(NamedTuple):
-    """Something about one contact that has no derivative.
-
-    Parameters
-    ----------
-    contact : int
-    kind : str
-        A name of :mod:`~quasistatic_ref.optional.derivatives.step.reason`.
-    says : str
-        What it is, after the contact's name.
-    """
-
-    contact: int
-    kind: str
-    says: str
-
-
-def kinks(couples: Sequence[Couple], rates: Rates, J: Array, quarters: bool) -> Iterator[Kink]:
-    """The kinks of all contacts, whether they touch or not.
+def kinks(
+    couples: Sequence[Couple], rates: Rates, J: Array, quarters: bool
+) -> Iterator[tuple[int, str, str]]:
+    """What has no derivative about the contacts, whether they touch or not.
 
     Parameters
     ----------
@@ -44,31 +28,37 @@ def kinks(couples: Sequence[Couple], rates: Rates, J: Array, quarters: bool) -> 
         Twist of each link at the world's origin, per unit of delta_q [m, rad].
     quarters : bool
         Whether the friction cone is the same after a quarter turn about n.
+
+    Yields
+    ------
+    int
+        The contact.
+    kind, says : str
+        A name of :mod:`~quasistatic_ref.optional.derivatives.step.reason`, and what it is, after
+        the contact's name.
     """
     switching = _switching(np.array([c.n for c in couples]).reshape(-1, 3), rates.n, quarters)
     for j, couple in enumerate(couples):
         if couple.phi >= FILLED:
             continue  # it stands for nothing
         if couple.crosses:
-            yield Kink(j, reason.CROSSING, "is where edges cross: its derivative is not computed")
+            yield j, reason.CROSSING, "is where edges cross: its derivative is not computed"
             continue
         if rates.level_rim[j]:
-            yield Kink(j, reason.RIM, "is on a rim that is level: no point of it is lowest")
+            yield j, reason.RIM, "is on a rim that is level: no point of it is lowest"
         if depth_tie(couple):
-            yield Kink(j, reason.SURFACES, "is as deep below another surface")
+            yield j, reason.SURFACES, "is as deep below another surface"
         if not rates.unique[j]:
-            yield Kink(j, *_not_unique(couple))
+            yield j, *_not_unique(couple)
         elif couple.at_an_end and not rates.slides[j]:
-            yield Kink(j, *_at_an_end(couple, J))
+            yield j, *_at_an_end(couple, J)
         if switching[j]:
             says = "has two axes that are as far from its normal: its tangents jump"
-            yield Kink(j, reason.TANGENTS, says)
+            yield j, reason.TANGENTS, says
 
 
 def _not_unique(couple: Couple) -> tuple[str, str]:
-    straight = np.concatenate([f.free for f in couple.features])
-    independent = not len(straight) or np.linalg.svd(straight)[1].min() > UNIQUE
-    if len(straight) > 2 or not independent:
+    if dependent(couple.features):
         return PARALLEL
     if abs(couple.phi) <= UNIQUE * couple.reach:
         return reason.NO_NORMAL, "touches where neither surface has a normal"

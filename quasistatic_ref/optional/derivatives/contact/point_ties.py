@@ -5,11 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from quasistatic_ref.contact.distance import ClosestPoints, ranked_last, relative_pose
-from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld, moved
 from quasistatic_ref.optional.derivatives.contact.couples import Couple
 from quasistatic_ref.shapes.placed_shape import PointCloud
 from quasistatic_ref.step.data import Array
-from quasistatic_ref.step.ordered import rotated
 from quasistatic_ref.tolerances import TIED
 
 
@@ -53,6 +52,5 @@ def tied_points(kept: Sequence[Couple], points: ClosestPoints) -> tuple[list[int
 def _cloud_distances(solid: ShapeInWorld, cloud: ShapeInWorld) -> Array:
     """Signed distances of all points of a cloud, shape (N,) [m]."""
     assert isinstance(cloud.shape, PointCloud)
-    relative = relative_pose(solid, cloud)
-    x = rotated(relative[:, :3], cloud.shape.points) + relative[:, 3]
+    x = moved(relative_pose(solid, cloud), cloud.shape.points)
     return solid.shape.signed_distance(x)[0]

@@ -39,9 +39,7 @@ def spare_pair(kept: Sequence[Couple], points: ClosestPoints, J: Array) -> tuple
         return None
     nearest = of.closest
     covered = _covered(of)
-    if covered and not nearest.at_an_end:
-        return None
-    if not nearest.at_an_end and couple_rates([nearest], J).unique[0]:
+    if not nearest.at_an_end and (covered or couple_rates([nearest], J).unique[0]):
         return None
     if couple_rates([nearest.merged], J).unique[0]:
         return reason.FEATURE, "has a closest pair where a vertex, an edge or a face ends"
@@ -57,11 +55,10 @@ def _covered(of: PairInWorld) -> bool:
     every = of.candidates
     level = every.phi <= of.closest.phi + REPEATED
     of_alpha = every.point < a.shape.corner_count
-    of_beta = every.point < of.pair.corners
-    counts = int((level & of_alpha).sum()), int((level & of_beta & ~of_alpha).sum())
-    for body, way, count in ((a, n, counts[0]), (b, -n, counts[1])):
+    of_beta = (every.point < of.pair.corners) & ~of_alpha
+    for body, way, own in ((a, n, of_alpha), (b, -n, of_beta)):
         whole = not isinstance(body.shape, HalfSpace | Sphere)
-        if whole and count >= _face_corners(body, way):
+        if whole and np.count_nonzero(level & own) >= _face_corners(body, way):
             return True
     return False
 

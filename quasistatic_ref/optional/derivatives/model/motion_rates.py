@@ -15,8 +15,8 @@ import numpy as np
 
 from quasistatic_ref.model.column_map import ColumnMap
 from quasistatic_ref.model.kinematics import Kinematics
+from quasistatic_ref.optional.derivatives.model.tangent import bracket
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import crossed
 
 
 class MotionRates:
@@ -37,25 +37,19 @@ class MotionRates:
     """
 
     def __init__(self, kinematics: Kinematics, column_map: ColumnMap) -> None:
-        self.columns = kinematics.columns
+        columns = kinematics.columns
         self.moves = column_map.moves[:, 0]
         self.coordinates = column_map.coordinates
-        self.J: Array = (self.columns * column_map.moves) @ self.coordinates
+        self.J: Array = (columns * column_map.moves) @ self.coordinates
         # Column k carries column j along if it moves every link that j moves.
-        others = self.moves.T @ (1 - self.moves)
-        carried = others == 0
-        nu = self.columns[:3].T
-        omega = self.columns[3:].T
-        turned = np.empty((6, *carried.shape))  # S_k x S_j at [:, j, k]
-        turned[:3] = _each(omega, nu) + _each(nu, omega)
-        turned[3:] = _each(omega, omega)
-        self.turned: Array = turned * carried
+        carried = self.moves.T @ (1 - self.moves) == 0
+        turned = bracket(columns[None], columns.T[:, :, None])  # S_k x S_j at [j, :, k]
+        self.turned: Array = turned * carried[:, None]
 
     def twist_rates(self, x: Array) -> Array:
         """Derivatives by q of J x, shape (L, 6, n_v), x of shape (n_v,) [m, rad] being fixed."""
         of_columns = self.moves * (self.coordinates @ x)  # (L, n_x)
-        flat = of_columns @ self.turned.transpose(1, 0, 2).reshape(len(self.coordinates), -1)
-        return np.asarray(flat.reshape(len(self.moves), 6, -1) @ self.coordinates)
+        return np.asarray(np.tensordot(of_columns, self.turned, 1) @ self.coordinates)
 
     def force_rates(self, wrenches: Array, rates: Array) -> Array:
         """Derivative by q of the generalised force of wrenches on the links, shape (n_v, n_v).
@@ -67,37 +61,7 @@ class MotionRates:
         rates : ndarray, shape (L, 6, n_v)
             Their derivatives by q [the same per m or rad].
         """
-        direct = self.J.reshape(-1, self.J.shape[2]).T @ rates.reshape(-1, rates.shape[2])
+        direct = np.tensordot(self.J, rates, ([0, 1], [0, 1]))
         on_columns = self.moves.T @ wrenches  # (n_x, 6)
-        carried = np.einsum("ajk,ja->jk", self.turned, on_columns)
+        carried = np.einsum("jak,ja->jk", self.turned, on_columns)
         return np.asarray(direct + self.coordinates.T @ carried @ self.coordinates)
-
-
-def wrench_rates(
-    at: Array, d_at: Array, force: Array, d_force: Array, torque: Array, d_torque: Array
-) -> tuple[Array, Array]:
-    """Wrenches at the world's origin of forces that act at points, and their derivatives.
-
-    Parameters
-    ----------
-    at, force, torque : ndarray, shape (N, 3)
-        [m, N, N m], or those of impulses.
-    d_at, d_force, d_torque : ndarray, shape (N, 3, n_v)
-        Their derivatives by q [the same per m or rad].
-
-    Returns
-    -------
-    ndarray, shape (N, 6)
-    ndarray, shape (N, 6, n_v)
-    """
-    moment = crossed(at, force) + torque
-    d_moment = crossed(d_at, force[:, :, None]) + crossed(at[:, :, None], d_force) + d_torque
-    return (
-        np.concatenate([force, moment], axis=1),
-        np.concatenate([d_force, d_moment], axis=1),
-    )
-
-
-def _each(a: Array, b: Array) -> Array:
-    """The products a_k x b_j at [:, j, k], shape (3, n, n); a and b have the shape (n, 3)."""
-    return crossed(a.T[None], b[:, :, None]).transpose(1, 0, 2)

@@ -14,12 +14,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from quasistatic_ref.model.configuration import UNIT_PART
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.ordered import crossed
 
-PLANAR = np.ix_([0, 1, 5], [0, 1, 5])
-"""What of a twist a planar base has."""
+COORDINATES = {"floating": [0, 1, 2, 3, 4, 5], "planar": [0, 1, 5]}
+"""What of a twist a base has."""
 
 TERMS = 28
 """Of the series: of a turn by pi the rest is below 1e-16 of the twist."""
@@ -31,18 +32,28 @@ def cross_matrix(r: Array) -> Array:
     return columns.reshape(*r.shape, 3)
 
 
-def bracket(twist: Array) -> Array:
-    """The matrix ad of a twist (6,) [m, rad], shape (6, 6): linear part first."""
-    along, about = cross_matrix(twist.reshape(2, 3))
-    ad = np.zeros((6, 6))
-    ad[:3, :3] = ad[3:, 3:] = about
-    ad[:3, 3:] = along
-    return ad
+def bracket(S: Array, T: Array) -> Array:
+    """The brackets S x T of twists, shape (N, 6, ...), linear part first.
+
+    Parameters
+    ----------
+    S, T : ndarray, shape (N, 6, ...)
+        [m, rad]; an axis of length 1 in the one stands for all of the other.
+    """
+    nu, omega = np.split(S, 2, axis=1)
+    along, about = np.split(T, 2, axis=1)
+    linear = crossed(omega, along) + crossed(nu, about)
+    return np.concatenate([linear, crossed(omega, about)], axis=1)
+
+
+def adjoint(twist: Array) -> Array:
+    """The matrix ad of a twist (6,) [m, rad], shape (6, 6): ad T is the bracket with T."""
+    return np.asarray(bracket(twist[None, :, None], np.eye(6)[None])[0])
 
 
 def right_jacobian(ad: Array) -> Array:
-    """J(x), shape (6, 6), of the matrix ad, shape (6, 6) [m, rad], of a twist x."""
-    one = np.eye(6)
+    """J(x), shape (n, n), of the matrix ad, shape (n, n) [m, rad], of a twist x."""
+    one = np.eye(len(ad))
     J = one
     for k in range(TERMS, 1, -1):  # from the last term on
         J = one - ad @ J / k
@@ -60,12 +71,9 @@ def sum_rates(joints: Sequence[Joint], delta_q: Array) -> tuple[Array, Array]:
     """
     by_q = np.eye(len(delta_q))
     by_change = np.eye(len(delta_q))
-    for joint, x in _bases(joints, delta_q):
-        ad = bracket(x)
-        J = right_jacobian(ad)
-        own = joint.v, joint.v
-        by_q[own] = _of(joint, np.eye(6) - ad @ J)
-        by_change[own] = _of(joint, J)
+    for own, ad in _bases(joints, delta_q):
+        by_change[own] = right_jacobian(ad)
+        by_q[own] -= ad @ by_change[own]
     return by_q, by_change
 
 
@@ -80,10 +88,9 @@ def difference_rates(joints: Sequence[Joint], change: Array) -> tuple[Array, Arr
     """
     by_q = -np.eye(len(change))
     by_next = np.eye(len(change))
-    for joint, y in _bases(joints, change):
-        own = joint.v, joint.v
-        by_q[own] = -np.linalg.inv(_of(joint, right_jacobian(bracket(-y))))
-        by_next[own] = np.linalg.inv(_of(joint, right_jacobian(bracket(y))))
+    for own, ad in _bases(joints, change):
+        by_q[own] = -np.linalg.inv(right_jacobian(-ad))
+        by_next[own] = np.linalg.inv(right_jacobian(ad))
     return by_q, by_next
 
 
@@ -109,12 +116,11 @@ def entry_rates(joints: Sequence[Joint], q: Array) -> Array:
             turned = cross_matrix(x)
             e[:3, :3] = np.eye(3) + 2 * (w * turned + turned @ turned) / (x @ x + w * w)
             e[3:6, 3:], e[6, 3:] = (w * np.eye(3) + turned) / 2, -x / 2
-        elif joint.kind == "planar":
-            c, s = own[2:]
-            e[:2, :2] = np.array([[c, -s], [s, c]]) / np.hypot(c, s)
-            e[2:, 2] = -s, c
-        elif joint.kind == "continuous":
-            e[:, 0] = -own[1], own[0]
+        elif joint.kind in UNIT_PART:
+            c, s = own[-2:]
+            e[-2:, -1] = -s, c
+            if joint.kind == "planar":
+                e[:2, :2] = np.array([[c, -s], [s, c]]) / np.hypot(c, s)
         else:
             e[0, 0] = 1.0
     return E
@@ -131,23 +137,22 @@ def half_turns(joints: Sequence[Joint], change: Array, within: float) -> list[st
     within : float
         Largest deviation from pi that counts as none [rad].
     """
-    turning = [j for j in joints if j.kind == "continuous" and j.v.stop <= len(change)]
-    angles = [(joint, abs(change[joint.v.start])) for joint in turning]
-    angles += [(joint, float(np.hypot.reduce(x[3:]))) for joint, x in _bases(joints, change)]
-    return [joint.name for joint, angle in angles if angle >= np.pi - within]
-
-
-def _bases(joints: Sequence[Joint], change: Array) -> list[tuple[Joint, Array]]:
-    """Floating and planar bases, each with its part of a change as a twist."""
     found = []
     for joint in joints:
-        if joint.kind in ("floating", "planar") and joint.v.stop <= len(change):
-            twist = change[joint.v]
-            if joint.kind == "planar":
-                twist = np.array([twist[0], twist[1], 0.0, 0.0, 0.0, twist[2]])
-            found.append((joint, twist))
+        if joint.kind in UNIT_PART and joint.v.stop <= len(change):
+            turn = change[joint.v][UNIT_PART[joint.kind] :]  # it comes last, as in q
+            if np.linalg.norm(turn) >= np.pi - within:
+                found.append(joint.name)
     return found
 
 
-def _of(joint: Joint, matrix: Array) -> Array:
-    return matrix[PLANAR] if joint.kind == "planar" else matrix
+def _bases(joints: Sequence[Joint], change: Array) -> list[tuple[tuple[slice, slice], Array]]:
+    """Of each floating and planar base its block of a matrix, and ad of its part of a change."""
+    found = []
+    for joint in joints:
+        if joint.kind in COORDINATES and joint.v.stop <= len(change):
+            own = COORDINATES[joint.kind]
+            twist = np.zeros(6)
+            twist[own] = change[joint.v]
+            found.append(((joint.v, joint.v), adjoint(twist)[np.ix_(own, own)]))
+    return found

@@ -18,6 +18,7 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, StepData
+from quasistatic_ref.step.friction import impulses
 from quasistatic_ref.step.standard_form import standard_form
 
 STEPS = 200
@@ -78,8 +79,9 @@ def barrier_step(step: StepData, kappa: float) -> Barrier:
 def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | None:
     L = np.linalg.cholesky(H)
     x = np.linalg.solve(H, g)
-    slack = np.maximum(A @ x - b, np.abs(A @ x - b).max(initial=0.0) + kappa**0.5)
-    mu = float(max(kappa, np.abs(slack).max(initial=0.0) * np.abs(L.T @ x).max(initial=0.0)))
+    room = float(np.abs(A @ x - b).max(initial=0.0)) + kappa**0.5
+    slack = np.full(len(b), room)
+    mu = max(kappa, room * float(np.abs(L.T @ x).max(initial=0.0)))
     lam = mu / slack
     least = np.inf
     size = 0.0
@@ -112,9 +114,8 @@ def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | N
 
 def _share(values: Array, changes: Array) -> float:
     falling = changes < 0
-    if not falling.any():
-        return 1.0
-    return float(min(1.0, SHORTEN * (-values[falling] / changes[falling]).min()))
+    until = (-values[falling] / changes[falling]).min(initial=np.inf)
+    return float(min(1.0, SHORTEN * until))
 
 
 def barrier_rates(step: StepData, found: Barrier, data: DataRates) -> Array:
@@ -129,10 +130,8 @@ def barrier_rates(step: StepData, found: Barrier, data: DataRates) -> Array:
     """
     form = standard_form(step)
     table = cone_matrix(step.cone)
-    every = np.argwhere(step.mask)
-    multipliers = np.zeros((step.contacts.n_c, 4))
-    np.add.at(multipliers, every[:, 0], found.lam[:, None] * table[every[:, 1]])
-    moved = np.einsum("ki,kip->kp", table[every[:, 1]], data.motion[every[:, 0]])
+    multipliers = impulses(step.contacts, found.lam, step.cone) @ table
+    moved = (table @ data.motion)[step.mask]
     weighted = form.A.T * (found.lam / found.slack)
     right = data.load + data.pull(multipliers) - weighted @ moved
     return np.asarray(np.linalg.solve(form.H + weighted @ form.A, right))

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import nnls
 
-from quasistatic_ref.optional.derivatives.step.touching import Touching, bearing
+from quasistatic_ref.optional.derivatives.step.touching import Touching, bearing, unit_rows
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import CONSISTENT, DEPENDENT, INDEPENDENT, SPLIT
 
@@ -54,8 +54,8 @@ class OptimumRates:
     ----------
     x : ndarray, shape (n_v, P)
         Right for the parameters that nothing forbids [m, rad per unit].
-    contradicts : list of (set of int, ndarray of bool)
-        Contacts whose rows depend on each other and would not any more, and for which of the
+    contradicts : dict of tuple of int to ndarray of bool
+        By the contacts whose rows depend on each other and would not any more, for which of the
         parameters, shape (P,).
     opens : ndarray of bool, shape (idle rows, P)
         Which rows that touch without load would open on one side.
@@ -67,7 +67,7 @@ class OptimumRates:
     """
 
     x: Array
-    contradicts: list[tuple[set[int], Mask]]
+    contradicts: dict[tuple[int, ...], Mask]
     opens: Mask
     closing: Array
     exerted: Array
@@ -85,10 +85,8 @@ class Equations:
         self.of = touching
         self.E, self.kept = _combinations(touching)
         rows = self._combined(touching.generators) @ touching.inverse.T
-        self.length = np.linalg.norm(rows, axis=1)
-        self.length[self.length == 0] = 1.0
-        self.rows = rows / self.length[:, None]
-        U, s, V = np.linalg.svd(self.rows)
+        unit, self.length = unit_rows(rows)
+        U, s, V = np.linalg.svd(unit)
         rank = int(np.count_nonzero(s > INDEPENDENT))
         self.U = U[:, :rank]
         self.s = s[:rank]
@@ -127,7 +125,7 @@ class Equations:
         rates, known : ndarray, shape (k, P)
         """
         rows = self.of.rows(some)
-        moved = np.einsum("ki,kip->kp", self.of.table[some[:, 1]], data.motion[some[:, 0]])
+        moved = (self.of.table @ data.motion)[tuple(some.T)]
         rates = rows @ x + moved
         scale = np.abs(rows) @ np.abs(x) + np.abs(moved) + data.terms
         return rates, np.abs(rates) > CONSISTENT * scale
@@ -138,9 +136,9 @@ class Equations:
 
     def _contradictions(
         self, data: DataRates, right: Array, y: Array
-    ) -> list[tuple[set[int], Mask]]:
+    ) -> dict[tuple[int, ...], Mask]:
         """Dependent rows that a parameter would set against each other."""
-        found = []
+        found: dict[tuple[int, ...], Mask] = {}
         terms = data.terms / self.length.min(initial=1.0)
         size = np.abs(right).max(axis=0, initial=0.0) + np.linalg.norm(y, axis=0) + terms
         owner = np.nonzero(self.kept)[0]
@@ -154,7 +152,8 @@ class Equations:
                 across = np.linalg.norm(self.free @ pulled, axis=0)
                 bad |= across > CONSISTENT * np.maximum(np.linalg.norm(pulled, axis=0), 1.0)
             if bad.any():
-                found.append((set(owner[np.abs(nu) > DEPENDENT].tolist()), bad))
+                contacts = tuple(np.unique(owner[np.abs(nu) > DEPENDENT]).tolist())
+                found[contacts] = found.get(contacts, False) | bad
         return found
 
     def along(self, data: DataRates) -> Array:
@@ -200,13 +199,11 @@ class Equations:
         rows, pushes = self._pushes(rates)
         slack = rates.closing[:, 0] + rows @ (rows.T @ pushes)
         opened = slack > CONSISTENT * np.abs(rates.closing[:, 0]).max()
-        length = np.linalg.norm(rows, axis=1)
-        length[length == 0] = 1.0
+        unit, length = unit_rows(rows)
         size = float(np.linalg.norm(rows.T @ pushes))
         pressed = np.zeros(len(rows), dtype=bool)
         if size:
-            unit = rows[~opened] / length[~opened, None]
-            pressed[~opened] = bearing(unit, (pushes * length)[~opened], size)
+            pressed[~opened] = bearing(unit[~opened], (pushes * length)[~opened], size)
         strict = np.concatenate([t.strict, t.idle[pressed]])
         return replace(t, strict=strict, idle=t.idle[~pressed & ~opened])
 

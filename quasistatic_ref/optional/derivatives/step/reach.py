@@ -17,6 +17,7 @@ import numpy as np
 from scipy.optimize import linprog, nnls
 
 from quasistatic_ref.optional.derivatives.step.optimum_rates import DataRates, Equations
+from quasistatic_ref.optional.derivatives.step.touching import unit_rows
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.tolerances import AHEAD, DEPENDENT, FACET, NEARLY, SPLIT
 
@@ -60,20 +61,20 @@ class Reach:
         self.closing = np.where(known, closing, 0.0)
         held = np.concatenate([t.strict, t.idle])
         rows = t.rows(held) @ t.inverse.T
-        length = np.linalg.norm(rows, axis=1)
-        self.held = held[length > 0]
-        self.cone = rows[length > 0] / length[length > 0, None]
+        moving = rows.any(axis=1)
+        self.held = held[moving]
+        self.cone, _ = unit_rows(rows[moving])
         exerted = np.einsum("jiv,ji->v", t.generators, t.multipliers)
         self.force: Array = t.inverse @ exerted  # what the rows exert [(N m s)^0.5]
+        self.size = float(np.linalg.norm(self.force))
 
     @cached_property
     def loads(self) -> Array:
         """Multipliers of the touching rows of length one, each far from zero if it can be, (k,)."""
-        size = float(np.linalg.norm(self.force))
-        for share in 10.0 ** -np.arange(1, 12) if size else ():
-            least = np.full(len(self.cone), share * size / len(self.cone))
+        for share in self.size * 10.0 ** -np.arange(1, 12) if self.size else ():
+            least = np.full(len(self.cone), share / len(self.cone))
             more, miss = nnls(self.cone.T, self.force - self.cone.T @ least)
-            if miss <= SPLIT * share * size:
+            if miss <= SPLIT * share:
                 return np.asarray(least + more)
         return np.zeros(len(self.cone))
 
@@ -120,10 +121,10 @@ class Reach:
         slack = self.touching.slack[:, None]
         rates = np.abs(self.closing)
         found = [self.touching.open[(slack < distance * rates).any(axis=1)]]
-        for column in np.flatnonzero(self.loaded < distance):
+        for column in np.flatnonzero(self.loaded < distance).tolist():
             for sign in (1, -1):
-                if not self._goes_on(int(column), sign, float(distance[column])):
-                    one = self._unloaded(int(column), sign)
+                if not self._goes_on(column, sign, distance[column]):
+                    one = self._unloaded(column, sign)
                     found += [one.rows] if one.t < distance[column] else []
         near = np.concatenate(found)
         return np.unique(near, axis=0) if len(near) else near
@@ -131,19 +132,18 @@ class Reach:
     def _goes_on(self, column: int, sign: int, distance: float) -> bool:
         """Whether the rows surely bear what they exert beyond a distance: their cone is convex."""
         change = sign * self.rates.exerted[:, column]
-        size = float(np.linalg.norm(self.force))
         speed = float(np.linalg.norm(change))
-        if not size or not speed:
+        if not self.size or not speed:
             return True
-        ahead = max(2 * distance, AHEAD * size / speed)
+        ahead = max(2 * distance, AHEAD * self.size / speed)
         miss = nnls(self.cone.T, self.force + ahead * change)[1]
-        return bool(miss <= SPLIT * size)
+        return bool(miss <= SPLIT * self.size)
 
     def _unloaded(self, column: int, sign: int) -> Distance:
         """Where rows bear no more load."""
         change = sign * self.rates.exerted[:, column]
-        size = np.linalg.norm(self.force)
-        speed = np.linalg.norm(change)
+        size = self.size
+        speed = float(np.linalg.norm(change))
         if not size or not speed:
             return NEVER
         _, s, V = np.linalg.svd(self.cone, full_matrices=False)
@@ -158,7 +158,7 @@ class Reach:
         on = rows[rows @ u <= FACET * np.linalg.norm(u)]
         u = u - np.linalg.pinv(on, rcond=DEPENDENT) @ (on @ u)
         t = max(float(u @ v) / -float(u @ dv), 0.0)
-        return Distance(t * float(size / speed), self.held[_unused(rows, v + t * dv)])
+        return Distance(t * size / speed, self.held[_unused(rows, v + t * dv)])
 
 
 def _unused(rows: Array, force: Array) -> Mask:

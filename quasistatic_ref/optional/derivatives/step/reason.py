@@ -2,6 +2,8 @@
 
 from typing import Final, NamedTuple
 
+from quasistatic_ref.step.data import Mask
+
 WEAK = "weakly active row"
 CONTRADICTION = "rows that would contradict each other"
 ZERO_FRICTION = "friction of zero"
@@ -53,3 +55,16 @@ class Reason(NamedTuple):
 
     def __str__(self) -> str:
         return self.sentence
+
+
+class Obstacle(NamedTuple):
+    """A reason, and the columns that do not exist for it.
+
+    Parameters
+    ----------
+    reason : Reason
+    columns : ndarray of bool, shape (P,)
+    """
+
+    reason: Reason
+    columns: Mask

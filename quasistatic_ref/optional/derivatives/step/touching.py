@@ -14,7 +14,7 @@ from scipy.optimize import nnls
 from quasistatic_ref.certify.solution import StepSolution
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Array, Indices, Mask
-from quasistatic_ref.step.friction import frame_jacobian
+from quasistatic_ref.step.friction import frame_jacobian, impulses, scaled_by
 from quasistatic_ref.step.standard_form import linear_term
 from quasistatic_ref.tolerances import BEARING, DEPENDENT, FILLED, SHARE, SPLIT, TOUCHING
 
@@ -69,9 +69,7 @@ class Touching:
 
     def rows(self, some: Indices) -> Array:
         """Some rows of A, shape (k, n_v) [m], by contact and row (k, 2)."""
-        return np.asarray(
-            np.einsum("ki,kiv->kv", self.table[some[:, 1]], self.generators[some[:, 0]])
-        )
+        return np.asarray((self.table @ self.generators)[tuple(some.T)])
 
 
 def _among(rows: Indices, some: Indices) -> Mask:
@@ -96,40 +94,42 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
     step = solution.step
     contacts = step.contacts
     table = cone_matrix(step.cone)
-    mu_v, _, mu_omega = contacts.mu.T[:, :, None]
-    J_n, J_1, J_2, J_w = frame_jacobian(contacts, contacts.J)
-    generators = np.stack([J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w], axis=1)
+    parts = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
+    generators = parts * scaled_by(contacts)[:, :, None]
     x = solution.delta_q
+    lam = solution.lam
     moved = generators @ x
     moved[:, 0] += contacts.phi
     slack = (moved @ table.T)[step.mask]
+    terms = np.abs(generators) @ np.abs(x)
+    terms[:, 0] += np.abs(contacts.phi) + places
+    touches = slack <= TOUCHING * (terms @ np.abs(table).T)[step.mask]
+    touches |= lam > 0
+
     L = np.asarray(np.linalg.cholesky(step.H), dtype=np.float64)
     inverse = np.asarray(np.linalg.inv(L), dtype=np.float64)
     every = np.argwhere(step.mask)
-    rows = np.einsum("ki,kiv->kv", table[every[:, 1]], generators[every[:, 0]])
-    reached = rows @ inverse.T
-    length = np.linalg.norm(reached, axis=1)
-    length = np.where(length > 0, length, 1.0)
+    phi = contacts.phi[every[:, 0]]
+    unit, length = unit_rows((table @ generators)[step.mask] @ inverse.T)
     load_size = np.linalg.norm(inverse @ linear_term(step))
     step_size = np.linalg.norm(L.T @ x)
     size = float(max(load_size, step_size))
     if not size and len(every):  # nothing moves: what the nearest contact is away
-        size = float((np.abs(contacts.phi[every[:, 0]]) / length).min())
-    terms = np.abs(generators) @ np.abs(x)
-    terms[:, 0] += np.abs(contacts.phi) + places
-    touches = slack <= TOUCHING * (terms @ np.abs(table).T)[step.mask]
-    touches |= solution.lam > 0
+        size = float((np.abs(phi) / length).min())
     Z = every[touches]
-    lam = solution.lam[touches]
-    unit = reached[touches] / length[touches, None]
-    bears = bearing(unit, lam * length[touches], size)
-    loads = np.zeros(step.mask.shape)
-    loads[step.mask] = np.where(touches, solution.lam, 0.0)
-    multipliers = loads @ table
-    away = ~touches & (contacts.phi[every[:, 0]] < FILLED)
+    bears = bearing(unit[touches], (lam * length)[touches], size)
+    multipliers = impulses(contacts, lam, step.cone) @ table
+    away = ~touches & (phi < FILLED)
     return Touching(
         inverse, generators, table, Z[bears], Z[~bears], multipliers, every[away], slack[away]
     )
+
+
+def unit_rows(rows: Array) -> tuple[Array, Array]:
+    """Rows (k, n) of length one, and their lengths (k,) [of rows]; of a zero row, zero and 1."""
+    length = np.linalg.norm(rows, axis=1)
+    length[length == 0] = 1.0
+    return rows / length[:, None], length
 
 
 def bearing(rows: Array, lam: Array, size: float) -> Mask:

@@ -18,8 +18,8 @@ def found(features, v, omega, turned=None):
     """Of two bodies at the origin and at PHI N that move by v and turn by omega, one coordinate."""
     R = np.eye(3) if turned is None else turned
     both = [f.turned(R) for f in features]
-    own = (np.array(v) @ R.T)[:, :, None]
-    turn = (np.array(omega) @ R.T)[:, :, None]
+    own = (np.array(v) @ R.T)[:, None, :, None]
+    turn = (np.array(omega) @ R.T)[:, None, :, None]
     phi = np.array([PHI])
     size = np.array([1.0])
     return closest_point_rates(phi, (R @ N)[None], both, own, turn, size)

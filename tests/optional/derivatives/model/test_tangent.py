@@ -5,7 +5,7 @@ import pytest
 
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.optional.derivatives.model.tangent import (
-    bracket,
+    adjoint,
     half_turns,
     right_jacobian,
 )
@@ -20,7 +20,7 @@ def test_the_jacobian_of_a_small_turn_keeps_its_second_order() -> None:
     # J = 1 - ad / 2 + ad^2 / 6 - ...: of a turn (a, b, 0) row x and column y have a b / 6 alone.
     a = 1e-7
     b = 2e-7
-    J = right_jacobian(bracket(np.array([0, 0, 0, a, b, 0])))
+    J = right_jacobian(adjoint(np.array([0, 0, 0, a, b, 0])))
     np.testing.assert_allclose(J[3, 4], a * b / 6, rtol=ROUNDING)
 
 
@@ -30,7 +30,7 @@ def test_the_series_of_a_turn_is_summed_to_its_last_digits(angle: float) -> None
     along = np.sin(angle) / angle
     across = 2 * np.sin(angle / 2) ** 2 / angle
     turn = np.array([[along, across, 0], [-across, along, 0], [0, 0, 1]])
-    found = right_jacobian(bracket(np.array([0, 0, 0, 0, 0, angle])))
+    found = right_jacobian(adjoint(np.array([0, 0, 0, 0, 0, angle])))
     np.testing.assert_allclose(found, np.kron(np.eye(2), turn), rtol=0, atol=FOUR_ULP)
 
 

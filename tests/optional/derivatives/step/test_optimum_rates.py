@@ -76,4 +76,4 @@ def test_walls_that_are_one_contradict_each_other_if_they_move_apart():
     ):
         found = equations.rates(data).contradicts
         assert len(found) == count
-        assert all(contacts == {0, 1} for contacts, _ in found)
+        assert all(contacts == (0, 1) for contacts in found)
