@@ -128,9 +128,8 @@ def line(shape: Revolved, above: float, way: Array) -> tuple[Array, Indices]:
         [m], with S 0 or 1.
     number : ndarray of int, shape (S,)
     """
-    side = np.array(
-        [2 * shape.half_length, shape.radius - above]
-    )  # its normal, radial and along the axis
+    # The normal of the side, radial and along the axis.
+    side = np.array([2 * shape.half_length, shape.radius - above])
     radial = norm(way[:2])
     if side[0] * radial + side[1] * way[2] < FACE_COSINE * norm(side):
         return np.zeros((0, 2, 3)), np.zeros(0, dtype=np.int64)

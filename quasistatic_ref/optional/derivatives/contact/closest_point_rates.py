@@ -85,11 +85,12 @@ def closest_point_rates(
     curvature = np.array([f.curvature for f in features]).reshape(2, N)
     apart = v[1] - v[0]
 
-    # Lengths are in units of s, and a way that a feature has not is held.
+    # Lengths are in units of s. Along a direction that a feature does not have, z is zero.
     s = size[:, None, None]
     bends = frames @ (bend.sum(axis=0) / s) @ across + phi[:, None, None] / s * np.eye(2)
     along = free @ across
     held = np.eye(2) * ~np.any(free, axis=3)[..., None]
+    # F'r of a rim is its curvature times z, and r has the sign of its side.
     held[:, :, 0, 0] -= np.array([[1.0], [-1.0]]) * curvature * size
     matrix = np.block([
         [bends, along[0].transpose(0, 2, 1), -along[1].transpose(0, 2, 1)],

@@ -74,6 +74,6 @@ class MassRates:
         Parameters
         ----------
         vectors : ndarray, shape (3,) or (L, 3)
-            One for all links, or one for each.
+            One for all links, or one for each [m/s^2, or m].
         """
         return np.asarray((self.moved * vectors[..., None]).sum(axis=1).T)
