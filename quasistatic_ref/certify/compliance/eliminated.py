@@ -9,17 +9,10 @@ from math import lcm
 from typing import Final
 
 import numpy as np
-from flint import fmpq
+from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
-from quasistatic_ref.certify.compliance.faces import (
-    Rows,
-    exact_multipliers,
-    exact_numbers,
-    face,
-    nearest_face,
-    rows_of,
-)
+from quasistatic_ref.certify.compliance.faces import Rows, face, nearest_face
 from quasistatic_ref.certify.farkas import farkas_vector
 from quasistatic_ref.certify.minimiser import Minimiser, form_in_balls
 from quasistatic_ref.certify.rational import (
@@ -32,7 +25,6 @@ from quasistatic_ref.certify.rational import (
     h_times_hessian,
     h_times_load,
     in_integers,
-    two_to,
 )
 from quasistatic_ref.certify.rounding import nearest_numbers
 from quasistatic_ref.errors import StepInfeasible
@@ -92,10 +84,8 @@ class EliminatedStep:
         self.z = concatenated([mu * contact_motion(contacts), dyadic(gap)], axis=2)
         self.own = concatenated([dyadic(step.extra.A), dyadic(-step.extra.b[:, None])], axis=1)
 
-    def candidate(self, faces: Sequence[Rows], held: Sequence[int]) -> Candidate:
+    def candidate(self, faces: Sequence[Rows]) -> Candidate:
         """The optimum on the face of each contact, in a polyhedral cone.
-
-        The user's rows that are `held` are where its working set is sought from.
 
         Raises
         ------
@@ -125,14 +115,14 @@ class EliminatedStep:
         working: tuple[int, ...] = ()
         if first_own < form.m:
             under = in_integers(H, g, self.own[:, :n], -self.own[:, n], fmpq(1))
-            working = tuple(first_own + i for i in self._active(under, held))
+            working = tuple(first_own + i for i in self._active(under))
         return Candidate(
             Minimiser(form, form_in_balls(form), working), first_own, form.slack_unit / scale
         )
 
-    def _active(self, under: ExactForm, held: Sequence[int]) -> tuple[int, ...]:
+    def _active(self, under: ExactForm) -> tuple[int, ...]:
         """The working set of the user's own rows, which are those of a form."""
-        end = dual_active_set(under, held)
+        end = dual_active_set(under)
         if not isinstance(end, Farkas):
             return end.minimiser.working
         own = np.arange(self.step.offsets[-1], self.step.m)
@@ -143,15 +133,6 @@ class EliminatedStep:
         signs = np.array(found.minimiser.exact_slack_signs[: self.step.offsets[-1]])
         broken = np.flatnonzero(signs < 0)
         return sorted({*(np.searchsorted(self.step.offsets, broken, side="right") - 1).tolist()})
-
-    def motion(self, found: Candidate, j: int) -> list[fmpq]:
-        """The z of a contact j [m], exact but for the 1e-90 of the balls in which it is."""
-        unit = found.minimiser.form.x_unit
-        x = [unit * v for v in _coordinates(found.minimiser)]
-        terms = [*x, fmpq(1)]
-        size = two_to(self.z.e)
-        return [sum((size * b * v for b, v in zip(row, terms, strict=True)), fmpq(0))
-                for row in self.z.m[j].tolist()]  # fmt: skip
 
     def numbers(self, found: Candidate) -> tuple[Array, Array]:
         """The p, scaled to forces, shape (n_c, 4) [N, N m], and delta_q of a candidate, rounded."""
@@ -164,7 +145,7 @@ class EliminatedStep:
 
 
 def eliminated_optimum(
-    step: StepData, compliance: float, faces: list[Rows], held: Sequence[int]
+    step: StepData, compliance: float, faces: list[Rows]
 ) -> tuple[Array, Array] | None:
     """The optimum with compliance, by Newton's method in exact numbers.
 
@@ -176,8 +157,6 @@ def eliminated_optimum(
         [m/N].
     faces : list of tuple of int, length n_c
         Where to start: nearly always the right ones.
-    held : sequence of int
-        The user's rows that seem to be active.
 
     Returns
     -------
@@ -192,20 +171,20 @@ def eliminated_optimum(
     """
     program = EliminatedStep(step, compliance)
     for _ in range(PROOFS):
-        found = program.candidate(faces, held)
+        found = program.candidate(faces)
         wrong = program.wrong_faces(found)
         if not wrong:
             return program.numbers(found)
+        z = program.z @ _with_one(found.minimiser)
         for j in wrong:
-            C = exact_numbers(rows_of(step.cone, int(step.counts[j])))
-            z = np.array(program.motion(found, j))
-            faces[j] = nearest_face(C, z, exact_multipliers)
+            faces[j] = nearest_face(step.cone, int(step.counts[j]), z[j])
     return None
 
 
-def _coordinates(minimiser: Minimiser) -> list[fmpq]:
-    """The x of a minimiser in its form's units: the midpoints of its balls, where there are any."""
-    if minimiser.balls is None:
-        return [fmpq(v) / minimiser.rational.denominator for v in minimiser.rational.x]
-    dyadics = [ball.mid().man_exp() for ball in minimiser.balls.x]
-    return [fmpq(m) * two_to(int(e)) for m, e in dyadics]
+def _with_one(minimiser: Minimiser) -> Dyadic:
+    """[delta_q; 1] of a minimiser, times a positive number, shape (n_v + 1,)."""
+    exact = minimiser.rational
+    unit = minimiser.form.x_unit
+    terms = [*(unit * v for v in exact.x), fmpq(exact.denominator)]
+    integers, _ = fmpq_mat(len(terms), 1, terms).numer_denom()
+    return Dyadic(np.array([int(v) for v in integers.entries()], dtype=object), 0)

@@ -1,196 +1,85 @@
-"""The step with compliance in delta_q alone, in float64: a guess of the faces that forces lie on.
+r"""A guess, in float64, of the faces that forces lie on: where their exact method starts.
 
-See :mod:`~quasistatic_ref.certify.compliance.forces`. Newton's method with backtracking: the energy
-is convex, and quadratic as long as the faces stay.
+Multipliers of the step with compliance c (:mod:`~quasistatic_ref.certify.compliance.forces`) solve
+its dual, a least-squares problem in numbers >= 0. With A delta_q - b = C z and H = L L^T it is
+
+.. math:: \min_{\lambda \ge 0} \; \|L^{-1} (g + A^T \lambda)\|^2
+          + \|\sqrt{c / h}\, C^T \lambda + \sqrt{h / c}\, z_0\|^2,
+
+where z_0 is z at delta_q = 0. The rows of a face are those with a multiplier. The user's own rows
+are rigid in the exact method. In the guess each of them gives way a little, by a length of its own.
 """
 
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
-from quasistatic_ref.certify.compliance.faces import (
-    Rows,
-    face,
-    float_multipliers,
-    nearest_face,
-    rows_of,
-)
-from quasistatic_ref.step.arrays import Array, Mask, finite
+from quasistatic_ref.certify.compliance.faces import Rows, cone_rows, rows_of
+from quasistatic_ref.certify.warm import warm_rows
+from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.step.data import StepData
-from quasistatic_ref.step.friction import frame_jacobian, scaled_by
+from quasistatic_ref.step.friction import friction_rows
 from quasistatic_ref.step.standard_form import linear_term
 
-GUESSES: Final = 30
-"""Newton iterations, at most; one to five do on the scenarios in models/."""
-STIFF: Final = 2.0**10
-"""How much stiffer than a contact a user's row is in the guess. In the proof it is rigid."""
-ROUNDING: Final = 2.0**-50
-"""Of a sum of a few products in float64, relative to the sum of their sizes [-]."""
-DESCENT: Final = 1e-4
-"""Share of the descent that the slope promises with which a step is content (Armijo)."""
-LEAST: Final = 2.0**-30
-"""Shortest part of a Newton step."""
-P_OF_WRENCH = [2, 0, 1, 3]
-"""Where the parts of p stand in a wrench."""
+STIFF: Final = 2.0**5
+"""By which a user's row is multiplied. Its stiffness is the square of that times a contact's."""
 
 
-class Place(NamedTuple):
-    """A displacement, and what it means for the step with compliance.
+def guessed_faces(step: StepData, compliance: float) -> list[Rows]:
+    """The face of each contact, in a polyhedral cone.
 
-    Parameters
-    ----------
-    x : ndarray, shape (n_v,)
-        [m, rad].
-    faces : list of tuple of int, length n_c
-    S : ndarray, shape (n_c, 4, 4)
-        s = S z on these faces [-].
-    held : ndarray of bool
-        Which of the user's own rows x breaks.
-    energy : float
-        The objective [N m s].
-    gradient : ndarray, shape (n_v,)
-        Of the objective [N s, N m s].
-    settled : bool
-        Whether faces and held are those from which Newton's method came to x.
-    """
-
-    x: Array
-    faces: list[Rows]
-    S: Array
-    held: Mask
-    energy: float
-    gradient: Array
-    settled: bool
-
-
-class FloatStep:
-    """The step with compliance in delta_q alone, in float64; a user's row gives way a little, too.
+    Where float64 does not suffice, the guess is that no contact bears a load.
 
     Parameters
     ----------
     step : StepData
-        In a polyhedral cone.
     compliance : float
         [m/N].
-    """
-
-    def __init__(self, step: StepData, compliance: float) -> None:
-        contacts = step.contacts
-        motion = np.stack(frame_jacobian(contacts, contacts.J), axis=1)
-        self.step = step
-        self.compliance = compliance
-        self.C = [rows_of(step.cone, count) for count in step.counts.tolist()]
-        self.B = scaled_by(contacts)[:, :, None] * motion
-        self.gap = np.zeros(self.B.shape[:2])
-        self.gap[:, 0] = contacts.phi
-        self.H = step.H
-        self.g = linear_term(step)
-        self.stiffness = step.h / compliance
-
-    def place(self, x: Array, faces: list[Rows], held: Mask, give: Array | float = 0.0) -> Place:
-        """Where x is, from faces that may be right for z - `give`, shape (n_c, 4) [m]."""
-        H = self.H
-        g = self.g
-        k = self.stiffness
-        own = self.step.extra
-        z = self.B @ x + self.gap - give
-        noise = ROUNDING * (np.abs(self.B) @ np.abs(x) + np.abs(self.gap) + np.abs(give))
-        before = faces
-        faces = list(faces)
-        wrong = [j for j, M in enumerate(self.linear(faces)) if outside(M[:-4], z[j], noise[j])]
-        for j in wrong:
-            faces[j] = nearest_face(self.C[j], z[j], float_multipliers, 4 * float(noise[j].max()))
-        S = np.array([M[-4:] for M in self.linear(faces)]).reshape(-1, 4, 4)
-        s = np.einsum("cab,cb->ca", S, z)
-        broken = np.minimum(own.A @ x - own.b, 0.0)
-        energy = x @ H @ x / 2 - g @ x + k / 2 * (s.ravel() @ s.ravel() + STIFF * broken @ broken)
-        push = np.einsum("cav,ca->v", self.B, s) - STIFF * broken @ own.A
-        now = broken < 0
-        settled = faces == before and bool((now == held).all())
-        return Place(x, faces, S, now, float(energy), H @ x - g - k * push, settled)
-
-    def linear(self, faces: list[Rows]) -> list[Array]:
-        """Of each contact the conditions of its face and s, per z, shape (R + 4, 4) each."""
-        return [
-            face(self.step.cone, len(C), rows).floats for C, rows in zip(self.C, faces, strict=True)
-        ]
-
-    def newton(self, at: Place) -> Array:
-        """The minimiser of the energy as it is on the faces of a place, shape (n_v,) [m, rad].
-
-        NaN where the sum of H and contacts this stiff is singular in float64.
-        """
-        k = self.stiffness
-        E = self.step.extra.A[at.held]
-        b = self.step.extra.b[at.held]
-        n = len(self.g)
-        lengths = self.gap.size
-        push = np.einsum("cav,cab->vcb", self.B, at.S).reshape(n, lengths)
-        H = self.H - k * (push @ self.B.reshape(lengths, n) - STIFF * E.T @ E)
-        g = self.g + k * (push @ self.gap.ravel() + STIFF * E.T @ b)
-        try:
-            return np.asarray(np.linalg.solve(H, g), dtype=np.float64)
-        except np.linalg.LinAlgError:
-            return np.full(len(g), np.nan)
-
-
-def outside(conditions: Array, z: Array, noise: Array) -> bool:
-    """Whether conditions z >= 0 are broken by more than the noise of z, shape (4,) [m]."""
-    return bool((conditions @ z < -(np.abs(conditions) @ noise)).any())
-
-
-def lengths_of(wrench: Array, step: StepData, compliance: float) -> Array:
-    """The s of wrenches, both of shape (n_c, 4) [m], [N, N m]; 0 where a coefficient is 0.
-
-    Parameters
-    ----------
-    wrench : ndarray, shape (n_c, 4)
-        [N, N m].
-    step : StepData
-    compliance : float
-        [m/N].
-    """
-    mu = scaled_by(step.contacts)
-    return np.divide(compliance * wrench[:, P_OF_WRENCH], mu, out=0.0 * mu, where=mu > 0)
-
-
-def guessed_faces(
-    step: StepData, compliance: float, near: tuple[Array, Array]
-) -> tuple[list[Rows], list[int]]:
-    """The face of each contact and the user's rows that are active: a guess, in float64.
-
-    By Newton's method with backtracking: the energy is convex, and quadratic between faces.
-
-    Parameters
-    ----------
-    step : StepData
-        In a polyhedral cone.
-    compliance : float
-        [m/N].
-    near : (ndarray, ndarray)
-        delta_q, shape (n_v,), and wrenches, shape (n_c, 4) [N, N m], of the step without
-        compliance.
 
     Returns
     -------
     list of tuple of int, length n_c
-    list of int
     """
-    program = FloatStep(step, compliance)
-    x, wrench = near
-    give = lengths_of(wrench, step, compliance)
-    here = program.place(x, [()] * len(give), step.extra.A @ x < step.extra.b, give)
-    for _ in range(GUESSES):
-        way = program.newton(here) - here.x
-        if not finite(way):
-            break
-        there = program.place(here.x + way, here.faces, here.held)
-        if there.settled:
-            return there.faces, np.flatnonzero(there.held).tolist()
-        share = 1.0
-        slope = here.gradient @ way
-        while share > LEAST and there.energy > here.energy + DESCENT * share * slope:
-            share /= 2
-            there = program.place(here.x + share * way, here.faces, here.held)
-        here = there
-    return here.faces, np.flatnonzero(here.held).tolist()
+    n_c = step.contacts.n_c
+    if not n_c:  # SciPy 1.17 crashes on a matrix without columns
+        return []
+    try:
+        lam = _multipliers(step, compliance)
+    except (ValueError, RuntimeError):
+        return [()] * n_c
+    faces = []
+    for j, count in enumerate(step.counts.tolist()):
+        lam_j = lam[step.offsets[j] : step.offsets[j + 1]]
+        rows = warm_rows(rows_of(step.cone, count), lam_j, np.zeros(count))
+        faces.append(tuple(sorted(rows)))
+    return faces
+
+
+def _multipliers(step: StepData, compliance: float) -> Array:
+    """The multipliers of the step with compliance, shape (m,) [N s].
+
+    Raises
+    ------
+    ValueError
+        If H is not positive definite in float64, or an entry of the problem is not finite.
+    RuntimeError
+        If the method of Lawson and Hanson does not end.
+    """
+    from scipy.optimize import nnls  # takes as long as a short run
+
+    own = step.extra
+    n_own = len(own.b)
+    of_contacts = cone_rows(step)
+    contact_rows, lengths = of_contacts.shape
+    C = np.zeros((step.m, lengths + n_own))
+    C[:contact_rows, :lengths] = of_contacts
+    C[contact_rows:, lengths:] = np.eye(n_own)
+    A = np.vstack([friction_rows(step.contacts, step.cone)[step.mask], STIFF * own.A])
+    gap = np.zeros((step.contacts.n_c, 4))
+    gap[:, 0] = step.contacts.phi
+    z_0 = np.concatenate([gap.ravel(), -STIFF * own.b])
+    L = np.linalg.cholesky(step.H)
+    root = np.sqrt(compliance / step.h)
+    M = np.vstack([np.linalg.solve(L, A.T), root * C.T])
+    d = np.concatenate([np.linalg.solve(L, linear_term(step)), z_0 / root])
+    return np.asarray(nnls(M, -d)[0], dtype=np.float64)

@@ -15,8 +15,9 @@ step without contact rows, in which each contact pushes with the point of F near
 .. math:: c\,p_j = \Pi_F(-z_j), \qquad H \delta q - g = h \sum_j B_j^T p_j.
 
 On a face of F the nearest point is linear in z. Once the face of each contact is known, delta_q
-solves a linear system. Newton's method guesses the faces in float64; that they are right is decided
-by exact signs; and the forces of the exact solution are rounded correctly.
+solves a linear system. The faces are guessed in float64. Exact signs decide whether they are right;
+where they are not, Newton's method in exact numbers goes on from them. The forces of the exact
+solution are rounded correctly.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from flint import fmpq
 from quasistatic_ref.certify.active_set import Optimum, dual_active_set
 from quasistatic_ref.certify.compliance.eliminated import EliminatedStep, eliminated_optimum
 from quasistatic_ref.certify.compliance.face_guess import guessed_faces
-from quasistatic_ref.certify.compliance.faces import rows_of
+from quasistatic_ref.certify.compliance.faces import cone_rows
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.gap import fractions
 from quasistatic_ref.certify.rational import (
@@ -47,7 +48,7 @@ from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.step.arrays import read_only, without_warnings
 from quasistatic_ref.step.cones import CurvedCone, cone
 from quasistatic_ref.step.data import Array, StepData
-from quasistatic_ref.step.friction import contact_wrenches, scaled_by
+from quasistatic_ref.step.friction import scaled_by
 from quasistatic_ref.step.groups import group_steps
 from quasistatic_ref.tolerances import COMPLIANCE
 
@@ -91,8 +92,8 @@ def contact_forces(
         Of each contact [m/N], > 0.
     near : (ndarray, ndarray), optional
         delta_q, shape (n_v,) [m, rad], and wrenches, shape (n_c, 4) [N, N m], of the step without
-        compliance: where the forces are sought. Without them, that step is solved first. The
-        result does not depend on them.
+        compliance: where the forces in the ellipsoid are sought. Without them, that step is solved
+        first if its cone is polyhedral, for its errors. The result does not depend on them.
 
     Returns
     -------
@@ -119,9 +120,7 @@ def contact_forces(
         problem = "must be a positive number of metres per newton"
         raise InputError(problem, field="compliance", value=compliance)
     if near is None and cone(step.cone).polyhedral:
-        rigid = step_optimum(step)
-        lam = rigid.lam[: step.offsets[-1]]
-        near = rigid.delta_q, contact_wrenches(step.contacts, lam, step.h, step.cone)
+        step_optimum(step)  # raises if there is none
     wrench = np.zeros((step.contacts.n_c, 4))
     delta_q = np.zeros(step.n_v)
     for group, part in group_steps(step):
@@ -143,9 +142,8 @@ def _of_group(step: StepData, compliance: float, near: tuple[Array, Array] | Non
     friction_cone = cone(step.cone)
     if isinstance(friction_cone, CurvedCone):
         return friction_cone.forces(step, compliance, near)
-    assert near is not None
-    faces, held = without_warnings(guessed_faces, step, compliance, near)
-    optimum = eliminated_optimum(step, compliance, faces, held)
+    faces = without_warnings(guessed_faces, step, compliance)
+    optimum = eliminated_optimum(step, compliance, faces)
     p, delta_q = defined_optimum(step, compliance) if optimum is None else optimum
     return ContactForces(p[:, WRENCH], delta_q)
 
@@ -168,15 +166,11 @@ def compliant_form(step: StepData, compliance: float) -> ExactForm:
     program = EliminatedStep(step, compliance)
     h = program.h
     n = step.n_v
-    n_c = step.contacts.n_c
-    lengths = 4 * n_c
+    lengths = 4 * step.contacts.n_c
     # Eq. (13) with the energy |s|^2 / (2c), times h c
     H = block_diagonal(program.H, h * h * dyadic(np.eye(lengths)))
     g = concatenated([program.g, dyadic(np.zeros(lengths))])
-    C = np.concatenate([np.eye(0, 4), *(rows_of(step.cone, k) for k in step.counts.tolist())])
-    blocks = np.zeros((len(C), n_c, 4))
-    blocks[np.arange(len(C)), np.repeat(np.arange(n_c), step.counts)] = C
-    gives = dyadic(blocks.reshape(len(C), lengths))
+    gives = dyadic(cone_rows(step))
     z = Dyadic(program.z.m.reshape(lengths, n + 1), program.z.e)
     rows = concatenated([gives @ z, program.own])  # times [delta_q; 1]
     of_s = concatenated([gives, dyadic(np.zeros((len(step.extra.b), lengths)))])

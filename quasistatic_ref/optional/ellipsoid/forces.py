@@ -16,7 +16,6 @@ from typing import Final
 import numpy as np
 from flint import arb, ctx
 
-from quasistatic_ref.certify.compliance.face_guess import P_OF_WRENCH
 from quasistatic_ref.certify.compliance.forces import WRENCH, ContactForces
 from quasistatic_ref.certify.minimiser import form_in_balls, square_root
 from quasistatic_ref.certify.rational import exact_form
@@ -31,6 +30,8 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from quasistatic_ref.step.data import Array, StepData
 
+P_OF_WRENCH: Final = [2, 0, 1, 3]
+"""Where the parts of p stand in a wrench."""
 WIDE: Final = arb(2) ** -180
 """Largest gap that is accepted, where the unconstrained step has length one."""
 

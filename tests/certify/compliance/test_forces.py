@@ -2,19 +2,12 @@
 
 import numpy as np
 import pytest
-from flint import fmpq
 from scipy.optimize import nnls
 
 from quasistatic_ref.certify.compliance import eliminated, forces
-from quasistatic_ref.certify.compliance.faces import (
-    exact_multipliers,
-    exact_numbers,
-    face,
-    float_multipliers,
-    nearest_face,
-    rows_of,
-)
+from quasistatic_ref.certify.compliance.faces import face, nearest_face, rows_of
 from quasistatic_ref.certify.compliance.forces import contact_forces
+from quasistatic_ref.certify.rational import dyadic
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.scenes.contacts import X, repeated
 from quasistatic_ref.lab.scenes.rigid import rigid_step
@@ -23,6 +16,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import COMPLIANCE
+from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.helpers import changed
 from tests.oracles.random_steps import mixed_step
 from tests.step.test_groups import two_bodies
@@ -115,39 +109,34 @@ def test_the_nearest_face_obeys_its_conditions_and_has_the_nearest_point(cone):
     rng = np.random.default_rng(0)
     C = rows_of(cone, len(cone_matrix(cone)))
     for z in rng.integers(-3, 4, (200, 4)):
-        own = np.array([fmpq(int(x)) for x in z], dtype=object)
-        proved = face(cone, len(C), nearest_face(exact_numbers(C), own, exact_multipliers))
-        assert min(proved.integers[:-4] @ z) >= 0
-        guessed = face(cone, len(C), nearest_face(C, z * 1.0, float_multipliers, ROUNDING))
-        nearest = C.T @ nnls(C.T, -z)[0]
-        for found in (proved, guessed):
-            np.testing.assert_allclose(found.floats[-4:] @ z, nearest, rtol=0, atol=ROUNDING)
-
-
-def test_a_row_whose_multiplier_rounding_makes_negative_is_dropped():
-    assert nearest_face(np.eye(4), -np.ones(4), lambda C_w, _: -np.ones(len(C_w))) == ()
+        found = face(cone, len(C), nearest_face(cone, len(C), dyadic(z)))
+        assert min(found.integers[:-4] @ z) >= 0
+        s = (found.integers[-4:] @ z / found.denominator).astype(float)
+        np.testing.assert_allclose(s, C.T @ nnls(C.T, -z)[0], rtol=0, atol=ROUNDING)
 
 
 def test_faces_are_guessed_in_floats(monkeypatch):
+    """Right from the start, and not only where c is so small that faces do not depend on it."""
     monkeypatch.setattr(forces, "defined_optimum", never)
     monkeypatch.setattr(eliminated, "PROOFS", 1)
     contact_forces(walled_block())
     for _, step in checks.random_steps(7):
         contact_forces(step)
+        contact_forces(step, 1e-3)
 
 
 def test_wrong_guesses_are_mended_in_exact_numbers(monkeypatch):
-    """Faces on which no contact bears a load."""
+    """Where float64 does not suffice, no contact is guessed to bear a load."""
 
-    def nothing(step, compliance, near):
-        return [()] * step.contacts.n_c, []
+    def endless(*_):
+        raise RuntimeError
 
     monkeypatch.setattr(forces, "defined_optimum", never)
     steps = dict(checks.random_steps(12))
     for name in ("random 6", "random 9", "random 13"):
         quick = contact_forces(steps[name]).wrench
         with monkeypatch.context() as patch:
-            patch.setattr(forces, "guessed_faces", nothing)
+            patch.setattr("scipy.optimize.nnls", endless)
             assert contact_forces(steps[name]).wrench.tobytes() == quick.tobytes()
 
 
@@ -168,6 +157,15 @@ def test_rows_that_contradict_each_other_are_proved_to():
     with pytest.raises(StepInfeasible, match="cannot be satisfied by any displacement") as failure:
         contact_forces(own, near=near)
     assert failure.value.step is own
+
+
+def test_walls_that_overlap_have_forces_only_where_a_solution_is_claimed():
+    """Each gives way by 1 mm, f_n = 1 mm / c."""
+    step = point_between_walls([EAST, WEST], -1e-3)
+    with pytest.raises(StepInfeasible):
+        contact_forces(step)
+    f_n = contact_forces(step, near=(np.zeros(3), np.zeros((2, 4)))).wrench[:, 2]
+    np.testing.assert_allclose(f_n, 1e-3 / COMPLIANCE, rtol=ROUNDING)
 
 
 def test_a_generic_slope_keeps_its_shares_for_40_steps():
