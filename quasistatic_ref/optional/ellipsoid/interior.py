@@ -63,6 +63,11 @@ class Blocks:
     C: arb_mat
     rows: list[range]
 
+    @property
+    def give(self) -> list[arb]:
+        """The c of each block."""
+        return [self.C[rows[0], rows[0]] for rows in self.rows]
+
     def slacks(self, x: arb_mat, y: arb_mat) -> arb_mat:
         """The s, shape (m, 1), of which y makes some give way."""
         return (self.A * x - self.b + self.C * y).mid()
@@ -97,7 +102,6 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
     """
     A = problem.A
     split = problem.split
-    give = [problem.C[rows[0], rows[0]] for rows in problem.rows]
     x = problem.H.solve(problem.g).mid()
     s = column(v for s_j in split((A * x - problem.b).mid()) for v in _inside(s_j))
     y = column(arb(i == rows[0]) for rows in problem.rows for i in rows)
@@ -107,7 +111,7 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
         work = inner(s, y).mid()
         if all(abs(v) < gap for v in (work, *r_d.entries(), *r_p.entries())):
             return Pair(x, y)
-        blocks = list(zip(split(s), split(y), give, strict=True))
+        blocks = list(zip(split(s), split(y), problem.give, strict=True))
         W = _block_diagonal([_softer(_inverse_scaling(s_j, y_j), c_j) for s_j, y_j, c_j in blocks])
         WA = (W * A).mid()
         K = (problem.H + A.transpose() * WA).mid()

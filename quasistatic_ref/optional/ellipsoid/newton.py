@@ -132,8 +132,8 @@ def _inwards(problem: Blocks, pair: Pair, states: list[int]) -> Pair | None:
     A = np.array([float(v) for v in problem.A.entries()]).reshape(m, n)
     touching = [
         A[rows.start : rows.stop]
-        for rows, state in zip(problem.rows, states, strict=True)
-        if state != OPEN and not problem.C[rows[0], rows[0]] > 0
+        for rows, c, state in zip(problem.rows, problem.give, states, strict=True)
+        if state != OPEN and not c > 0
     ]
     way = _opening(touching, n)
     if way is None:
@@ -141,9 +141,9 @@ def _inwards(problem: Blocks, pair: Pair, states: list[int]) -> Pair | None:
     moved = arb_mat(n, 1, way.tolist()) * INWARDS
     share = INWARDS * largest(pair.y.entries())
     y = pair.y
-    for rows, along in zip(problem.rows, problem.split(problem.A * moved), strict=True):
+    blocks = zip(problem.rows, problem.give, problem.split(problem.A * moved), strict=True)
+    for rows, c, along in blocks:
         lift = share
-        c = problem.C[rows[0], rows[0]]
         if c > 0:  # more than what x takes it outwards
             lift += 2 * length(along) / c
         y[rows[0], 0] += lift
