@@ -115,7 +115,7 @@ def row_sizes(step: StepData, J: Array) -> Array:
         Any columns of J.
     """
     contacts = step.contacts
-    axes = np.abs(np.stack([contacts.n, contacts.d1, contacts.d2], axis=1))
+    axes = np.abs([contacts.n, contacts.d1, contacts.d2]).swapaxes(0, 1)
     J = np.abs(J)
     motion = np.concatenate([axes @ J[:, :3], J[:, 3:]], axis=1)
     rows = np.abs(cone_matrix(step.cone)) @ (scaled_by(contacts)[:, :, None] * motion)
