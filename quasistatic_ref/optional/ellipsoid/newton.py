@@ -5,11 +5,11 @@ slide, :math:`s_0 = \|s_{1:}\|` with y along :math:`(1, -s_{1:}/\|s_{1:}\|)`, wh
 of the slip of A x - b, too. With that known y = F f, where f is y of what sticks and y_0 of what
 slides, and the optimum solves smooth equations,
 
-.. math:: H x - g - C^T f = 0, \qquad c = F^T s = 0, \qquad C = F^T A,
+.. math:: H x - g - N^T f = 0, \qquad c = F^T s = 0, \qquad N = F^T A,
 
-c being s of what sticks and :math:`s_0 - \|s_{1:}\|` of what slides, C its derivative by x. Each
+c being s of what sticks and :math:`s_0 - \|s_{1:}\|` of what slides, N its derivative by x. Each
 iteration doubles the digits. What sticks may be held by dependent rows: the method of multipliers,
-:math:`c + C\,dx + \varepsilon\,df = 0`, then finds the nearest of the many f, and loses nothing
+:math:`c + N\,dx + \varepsilon\,df = 0`, then finds the nearest of the many f, and loses nothing
 else. Nothing here is believed: a wrong guess ends in a pair that
 :mod:`~quasistatic_ref.optional.ellipsoid.enclosure` refuses.
 """
@@ -73,16 +73,16 @@ def newton_pair(problem: Blocks, near: Pair, states: list[int]) -> Pair | None:
     for _ in range(ITERATIONS):
         F, K = _linearised(problem, x, f, states)
         y = (F * f).mid()
-        C = (F.transpose() * problem.A).mid()
+        N = (F.transpose() * problem.A).mid()
         c = F.transpose() * problem.slacks(x, y)
         give = F.transpose() * (problem.C * (F * ones))  # the diagonal of F'C F
         stiff = diagonal([1 / (v if v > 0 else EPSILON) for v in give.entries()]).mid()
-        load = problem.g - problem.H * x + C.transpose() * (f - stiff * c)
+        load = problem.g - problem.H * x + N.transpose() * (f - stiff * c)
         try:
-            dx = (K + C.transpose() * stiff * C).mid().solve(load.mid()).mid()
+            dx = (K + N.transpose() * stiff * N).mid().solve(load.mid()).mid()
         except ZeroDivisionError:
             return None
-        df = (-(stiff * (c + C * dx))).mid()
+        df = (-(stiff * (c + N * dx))).mid()
         x = (x + dx).mid()
         f = (f + df).mid()
         moved = [*dx.entries(), *(v * EPSILON for v in df.entries())]
