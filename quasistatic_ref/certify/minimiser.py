@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Final, cast
 
-from flint import arb, arb_mat, ctx, fmpq_mat, fmpz, fmpz_mat
+from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpz, fmpz_mat
 
 from quasistatic_ref.certify.dependence import follow
 from quasistatic_ref.certify.rational import ExactForm
@@ -137,6 +137,11 @@ class RationalSolution:
     net: list[fmpz]
     slack: list[fmpz]
     denominator: fmpz
+
+    @property
+    def point(self) -> list[fmpq]:
+        """The minimiser x in fractions, in the form's units [-]."""
+        return [fmpq(v) / self.denominator for v in self.x]
 
 
 def rational_solution(form: ExactForm, working: tuple[int, ...]) -> RationalSolution:

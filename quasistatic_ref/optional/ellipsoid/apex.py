@@ -70,7 +70,7 @@ def apex_refutation(
         solution = rational_solution(form, tuple(working))
     except ZeroDivisionError:
         return "the rows of the working set are not independent"
-    slack = [fmpq(s) / solution.denominator for s in solution.slack]
+    slack = [fmpq(v) for v in solution.slack]  # over a denominator that no sign below needs
     net = [fmpq(v) / solution.denominator for v in solution.net]
     impulse = _balanced(form, working, fractions(lam, form.lam_unit), net)
     if impulse is None:

@@ -232,7 +232,7 @@ def _not_exact(
         or wrong_claim("active", active, contact_rows(step, working))
         or wrong_claim("error_bound", claims.error_bound, 0.0)
     )
-    return [fmpq(v) / solution.denominator for v in solution.x], reason
+    return solution.point, reason
 
 
 def _not_enclosed(

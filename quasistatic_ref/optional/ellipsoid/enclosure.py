@@ -17,21 +17,15 @@ import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
 from quasistatic_ref.certify.gap import duality_gap, fractions
-from quasistatic_ref.certify.minimiser import (
-    BallForm,
-    form_in_balls,
-    inner,
-    rational_solution,
-    square_root,
-)
+from quasistatic_ref.certify.minimiser import inner, rational_solution, square_root
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.certify.rounding import nearest_above, nearest_in, rounded_solution
 from quasistatic_ref.optional.ellipsoid.apex import apex_refutation, apex_rows
 from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
 from quasistatic_ref.optional.ellipsoid.impulses import raised
-from quasistatic_ref.optional.ellipsoid.interior import Pair, Vector, interior_point
-from quasistatic_ref.optional.ellipsoid.newton import OPEN, STICKS, contact_states, newton_pair
-from quasistatic_ref.optional.ellipsoid.scaled_blocks import ScaledBlocks, largest, scaled_blocks
+from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, interior_point
+from quasistatic_ref.optional.ellipsoid.newton import OPEN, SLIDES, contact_states, newton_pair
+from quasistatic_ref.optional.ellipsoid.scaled_blocks import ScaledBlocks, scaled_blocks
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.tolerances import ENCLOSED
 
@@ -44,17 +38,15 @@ GAP: Final = arb(2) ** -120
 length one: an error of 1e-18."""
 
 RESERVE: Final = 16 * GAP
-"""What Newton's pair, far sharper, claims beyond its own gap: `verify` has the interior point's,
-whose gap may be a few times GAP, and the two may be on opposite sides of the optimum."""
-
-IDLE: Final = arb(2) ** -40
-"""Multipliers and slacks below this share of the largest count as zero when it is guessed which
-contacts are at their apex; what follows from the guess is checked."""
+"""What is claimed beyond a pair's own gap: `verify` has the interior point's pair, whose gap may be
+a few times GAP, and Newton's, far sharper, may be on the opposite side of the optimum."""
 
 ROUNDS: Final = 10
 """Changes of the states of contacts, at most: Newton's method ends in one or two on grasps."""
 
 Start: TypeAlias = tuple[Array, Array]
+Guess: TypeAlias = tuple[Pair, list[int]]
+"""A pair of the scaled program, and what its contacts seem to do."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,27 +77,6 @@ class Enclosure:
     working_set: tuple[int, ...] | None
     error: float
     gap: float
-
-
-@dataclass(frozen=True, eq=False)
-class Guess:
-    """What the interior point, or Newton's method, came to.
-
-    Parameters
-    ----------
-    x, y : arb_mat, list of list of arb
-        In the units of the form, y by block.
-    loaded, held : list of bool
-        Which blocks seem to bear load, and which to be at their apex.
-    reserve : arb
-        Claimed beyond the pair's gap, where the unconstrained step has length one.
-    """
-
-    x: arb_mat
-    y: list[Vector]
-    loaded: list[bool]
-    held: list[bool]
-    reserve: arb
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,41 +116,48 @@ def enclosure(step: StepData, start: Start | None = None) -> Enclosure | None:
     Enclosure or None
     """
     form = exact_form(step)
-    balls = form_in_balls(form)
-    nothing = np.zeros(form.m)
-    if apex_refutation(step, form, (), nothing) is None:  # no contact bears load
-        delta_q, _, net, _ = rounded_solution(form, rational_solution(form, ()))
-        return Enclosure(delta_q, nothing, net, (), 0.0, 0.0)
+    unloaded = _at_apex(step, form, np.zeros(form.m))
+    if unloaded is not None:
+        return unloaded
     with ctx.workprec(BITS):
-        frame = scaled_blocks(step, form, balls)
-        found = (_enclosed(step, form, balls, frame, g) for g in guesses(form, frame, start))
+        frame = scaled_blocks(step, form)
+        found = (_enclosed(step, frame, *guess) for guess in guesses(frame, start))
         return next(filter(None, found), None)
 
 
+def _at_apex(step: StepData, form: ExactForm, lam: Array) -> Enclosure | None:
+    """Return the rational optimum if every contact that bears load is at its apex."""
+    working = apex_rows(step, form, lam)
+    if apex_refutation(step, form, working, lam):
+        return None
+    solution = rational_solution(form, working)
+    delta_q, _, net, _ = rounded_solution(form, solution)
+    gap = duality_gap(form, solution.point, fractions(lam, form.lam_unit))
+    if not negligible(form, solution.point, gap):
+        return None
+    return Enclosure(delta_q, lam, net, working, 0.0, in_joules(form, gap))
+
+
 def _enclosed(
-    step: StepData, form: ExactForm, balls: BallForm, frame: ScaledBlocks, guess: Guess
+    step: StepData, frame: ScaledBlocks, pair: Pair, states: list[int]
 ) -> Enclosure | None:
     """Return what a guess proves; None if that is too little."""
-    found = checked(form, balls, frame, guess.x, guess.y)
+    form = frame.form
+    found = checked(frame, pair)
     if found is None:
         return None
-    reserve = guess.reserve * frame.size * frame.size  # in the form's units of energy
-    lam = _impulses(step, form, frame, found, guess)
-    exact = _at_apex(step, form, guess, lam)
-    net = _net(form, found)
+    lam = _impulses(step, frame, found, states)
+    exact = None if SLIDES in states else _at_apex(step, form, lam)
     if exact is not None:
-        working, x, delta_q = exact
-        error = 0.0
-    else:
-        working = None
-        x = point(found)
-        delta_q = rounded_displacement(form, balls, found)
-        error = enclosed_error(form, replace(found, gap=found.gap + reserve), delta_q)
-    gap = duality_gap(form, x, fractions(lam, form.lam_unit))
-    gap += 0 if exact is not None else fraction(reserve.upper())
+        return exact
+    reserve = RESERVE * frame.size * frame.size  # in the form's units of energy
+    delta_q = rounded_displacement(frame, found)
+    error = enclosed_error(form, replace(found, gap=found.gap + reserve), delta_q)
+    x = point(found)
+    gap = fraction(reserve.upper()) + duality_gap(form, x, fractions(lam, form.lam_unit))
     if not (error < ENCLOSED and negligible(form, x, gap)):
         return None
-    return Enclosure(delta_q, lam, net, working, error, in_joules(form, gap))
+    return Enclosure(delta_q, lam, _net(form, found), None, error, in_joules(form, gap))
 
 
 def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | None:
@@ -193,12 +171,10 @@ def checked_pair(step: StepData, gap: arb = GAP, bits: int = BITS) -> Checked | 
     bits : int
         Precision, five times as many as the gap has.
     """
-    form = exact_form(step)
-    balls = form_in_balls(form)
     with ctx.workprec(bits):
-        frame = scaled_blocks(step, form, balls)
+        frame = scaled_blocks(step, exact_form(step))
         pair = interior_point(frame.problem, gap)
-        return None if pair is None else checked(form, balls, frame, *frame.pair(pair))
+        return None if pair is None else checked(frame, pair)
 
 
 def enclosed_error(form: ExactForm, found: Checked, delta_q: Array) -> float:
@@ -219,74 +195,55 @@ def fraction(v: arb) -> fmpq:
     return m * fmpq(2) ** int(e)
 
 
-def guesses(form: ExactForm, frame: ScaledBlocks, start: Start | None) -> Iterator[Guess]:
+def guesses(frame: ScaledBlocks, start: Start | None) -> Iterator[Guess]:
     """Guesses: Newton's first, which round to the same bits from any `start`."""
     if start is not None:
-        yield from _by_newton(frame, *frame.start(form, *start))
+        yield from _by_newton(frame.problem, frame.start(*start))
     pair = interior_point(frame.problem, GAP)
     if pair is not None:
-        yield from _by_newton(frame, pair.x, pair.y)
-        yield _of_interior(frame, pair)
+        yield from _by_newton(frame.problem, pair)
+        yield pair, contact_states(frame.problem, pair)
 
 
-def _by_newton(frame: ScaledBlocks, x: arb_mat, y: list[Vector]) -> Iterator[Guess]:
-    """Yield what Newton's method makes of a pair of the program, as long as its states change."""
-    states = contact_states(frame.problem, x, y)
+def _by_newton(problem: Blocks, pair: Pair) -> Iterator[Guess]:
+    """Yield what Newton's method makes of a pair, as long as its states change."""
+    before = None
     for _ in range(ROUNDS):
-        pair = newton_pair(frame.problem, x, y, states)
-        if pair is None:
-            return
-        loaded = [state != OPEN for state in states]
-        held = [state == STICKS for state in states]
-        yield Guess(*frame.pair(pair), loaded, held, RESERVE)
-        before = states
-        x = pair.x
-        y = pair.y
-        states = contact_states(frame.problem, x, y)
+        states = contact_states(problem, pair)
         if states == before:
             return
+        found = newton_pair(problem, pair, states)
+        if found is None:
+            return
+        yield found, states
+        before = states
+        pair = found
 
 
-def _of_interior(frame: ScaledBlocks, pair: Pair) -> Guess:
-    """Return what the interior point found, in the units of the form."""
-    x, y = frame.pair(pair)
-    most = largest([v for y_j in y for v in y_j])
-    loaded = [y_j[0] > IDLE * most for y_j in y]
-    held = [s_j[0] < IDLE for s_j in pair.s]
-    return Guess(x, y, loaded, held, arb(0))
-
-
-def checked(
-    form: ExactForm, balls: BallForm, frame: ScaledBlocks, x: arb_mat, y: list[Vector]
-) -> Checked | None:
-    """A pair x, y in the form's units with its gap, if s and y surely lie inside of all cones."""
-    motion = (balls.A * x - balls.b).entries()
-    mu = frame.mu
-    s = [
-        [mu[i] * motion[i] + c * y_i for i, y_i in zip(block, y_j, strict=True)]
-        for block, c, y_j in zip(frame.blocks, frame.give, y, strict=True)
-    ]
-    for one in (*s, *y):
-        if not (one[0] > 0 and one[0] * one[0] > sum((v * v for v in one[1:]), arb(0))):
+def checked(frame: ScaledBlocks, pair: Pair) -> Checked | None:
+    """A pair of the program with its gap, if its s and y surely lie inside of all cones."""
+    form = frame.form
+    balls = frame.balls
+    x, y = frame.in_form(pair)
+    mu = diagonal(frame.mu)
+    motion = balls.A * x - balls.b
+    s = mu * motion + diagonal(frame.give) * y
+    for first, *others in frame.problem.split(s) + frame.problem.split(y):
+        if not (first > 0 and first * first > sum((v * v for v in others), arb(0))):
             return None
-    lam = [mu_i * y_i for mu_i, y_i in zip(mu, [v for y_j in y for v in y_j], strict=True)]
-    push = balls.A.transpose() * arb_mat(len(lam), 1, lam)
-    off = x - balls.x_free - balls.H_inv * push
+    lam = mu * y
     H = arb_mat(form.H)
-    work = sum((u * v for a, b in zip(s, y, strict=True) for u, v in zip(a, b, strict=True)),
-               arb(0))  # fmt: skip
-    gap = inner(off, H * off) / 2 + work
-    free = inner(balls.x_free, H * balls.x_free)
-    return Checked(x, lam, gap, square_root(free))
+    off = x - balls.x_free - balls.H_inv * (balls.A.transpose() * lam)
+    gap = inner(off, H * off) / 2 + inner(s, y)
+    return Checked(x, lam.entries(), gap, frame.free)
 
 
-def _impulses(
-    step: StepData, form: ExactForm, frame: ScaledBlocks, found: Checked, guess: Guess
-) -> Array:
-    """Return lam in float64, zero where a contact hardly bears load, inside of its cones."""
-    lam = np.array([float(v * form.lam_unit) for v in found.lam])
-    for block, loaded in zip(frame.blocks, guess.loaded, strict=True):
-        lam[list(block)] *= loaded
+def _impulses(step: StepData, frame: ScaledBlocks, found: Checked, states: list[int]) -> Array:
+    """Return lam in float64, zero where a contact is open, inside of its cones."""
+    lam = np.array([float(v * frame.form.lam_unit) for v in found.lam])
+    for rows, state in zip(frame.problem.rows, states, strict=True):
+        if state == OPEN:
+            lam[rows.start : rows.stop] = 0.0
     return raised(step, lam + 0.0)
 
 
@@ -298,31 +255,13 @@ def rounded(ball: arb) -> float:
     return float(ball) if nearest is None else nearest
 
 
-def rounded_displacement(form: ExactForm, balls: BallForm, found: Checked) -> Array:
+def rounded_displacement(frame: ScaledBlocks, found: Checked) -> Array:
     """The x of a pair in float64, shape (n_v,) [m, rad]; an entry that may be zero is zero."""
     values = []
-    for v in range(form.n):
-        radius = square_root(2 * found.gap * balls.H_inv[v, v])
-        middle = found.x[v, 0]
-        values.append(rounded((middle + arb(0, radius.upper())) * form.x_unit))
+    for v, middle in enumerate(found.x.entries()):
+        radius = square_root(2 * found.gap * frame.balls.H_inv[v, v])
+        values.append(rounded((middle + arb(0, radius.upper())) * frame.form.x_unit))
     return np.array(values)
-
-
-def _at_apex(
-    step: StepData, form: ExactForm, guess: Guess, lam: Array
-) -> tuple[tuple[int, ...], list[fmpq], Array] | None:
-    """Return the rational optimum where every contact that bears load is at its apex.
-
-    Its working set, the point itself in the form's units, and that rounded.
-    """
-    if any(loaded and not held for loaded, held in zip(guess.loaded, guess.held, strict=True)):
-        return None
-    working = apex_rows(step, form, lam)
-    if apex_refutation(step, form, working, lam):
-        return None
-    solution = rational_solution(form, working)
-    x = [fmpq(v) / solution.denominator for v in solution.x]
-    return working, x, rounded_solution(form, solution)[0]
 
 
 def _net(form: ExactForm, found: Checked) -> Array:

@@ -17,7 +17,7 @@ import numpy as np
 from flint import arb, ctx
 
 from quasistatic_ref.certify.compliance.forces import WRENCH, ContactForces
-from quasistatic_ref.certify.minimiser import form_in_balls, square_root
+from quasistatic_ref.certify.minimiser import square_root
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.ellipsoid.enclosure import (
@@ -62,23 +62,22 @@ def compliant_forces(
     """
     n_c = step.contacts.n_c
     form = exact_form(step)
-    balls = form_in_balls(form)
     start = None
     if near is not None:
         delta_q, wrench = near
         own = np.zeros(len(step.extra.b))
         start = delta_q, np.concatenate([(step.h * wrench[:, P_OF_WRENCH]).ravel(), own])
     with ctx.workprec(BITS):
-        frame = scaled_blocks(step, form, balls, compliance)
-        for guess in guesses(form, frame, start):
-            found = checked(form, balls, frame, guess.x, guess.y)
+        frame = scaled_blocks(step, form, compliance)
+        for pair, _ in guesses(frame, start):
+            found = checked(frame, pair)
             if found is None or not found.gap <= WIDE * frame.size * frame.size:
                 continue
             forces = np.zeros(4 * n_c)
             for i in range(4 * n_c):
-                off = frame.mu[i] * square_root(2 * found.gap / frame.give[i // 4])
+                off = frame.mu[i] * square_root(2 * found.gap / frame.give[i])
                 impulse = (found.lam[i] + arb(0, off.upper())) * form.lam_unit
                 forces[i] = rounded(impulse / step.h)
-            x = rounded_displacement(form, balls, found)
+            x = rounded_displacement(frame, found)
             return ContactForces(forces.reshape(-1, 4)[:, WRENCH], x)
     raise StepNotSolved("none", "no enclosure of the contact forces was found", step, 0.0)

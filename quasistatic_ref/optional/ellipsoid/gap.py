@@ -12,17 +12,13 @@ from quasistatic_ref.tolerances import IMPULSES
 
 
 def in_joules(form: ExactForm, gap: fmpq) -> float:
-    """A gap in the form's units as a float64 that is not below it [N m s]."""
-    return _nearest_not_below(gap * form.net_unit * form.x_unit)
+    """A gap in the form's units as the smallest float64 that is not below it [N m s]."""
+    exact = gap * form.net_unit * form.x_unit
+    value = nearest_fraction(exact)
+    below = math.isfinite(value) and fraction(value) < exact
+    return math.nextafter(value, math.inf) if below else value
 
 
 def negligible(form: ExactForm, x: Sequence[fmpq], gap: fmpq) -> bool:
     """Whether a duality gap is mere rounding of the step's energies, with contacts and without."""
     return bool(gap <= fraction(IMPULSES) * (free_energy(form) + energy(form, x)))
-
-
-def _nearest_not_below(x: fmpq) -> float:
-    """The smallest float64 that is not below a fraction [-]."""
-    value = nearest_fraction(x)
-    below = math.isfinite(value) and fraction(value) < x
-    return math.nextafter(value, math.inf) if below else value

@@ -12,11 +12,13 @@ regularisation. Nothing here is believed: what comes out is a guess, strictly in
 that :mod:`~quasistatic_ref.optional.ellipsoid.enclosure` checks in balls.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, NamedTuple
 
 from flint import arb, arb_mat
+
+from quasistatic_ref.certify.minimiser import inner
 
 ITERATIONS: Final = 150
 """Grasps take 30 to 40; what takes more has no interior, or no solution."""
@@ -40,48 +42,57 @@ Vector = list[arb]
 
 @dataclass(frozen=True, eq=False)
 class Blocks:
-    """A conic quadratic program in numbers without radius.
+    """A conic quadratic program in numbers without radius; the blocks' rows stand in one matrix.
 
     Parameters
     ----------
     H, g : arb_mat
         Shapes (n, n) and (n, 1); H positive definite.
-    A, b : list of arb_mat
-        One (4 or 1, n) and one (4 or 1, 1) per block.
-    give : list of arb
-        The c of each block, 0 or more.
+    A, b : arb_mat
+        Shapes (m, n) and (m, 1).
+    C : arb_mat
+        Shape (m, m), diagonal: the c_j of each row's block, 0 or more.
+    rows : list of range
+        The rows of A of each block, four or one.
     """
 
     H: arb_mat
     g: arb_mat
-    A: list[arb_mat]
-    b: list[arb_mat]
-    give: list[arb]
+    A: arb_mat
+    b: arb_mat
+    C: arb_mat
+    rows: list[range]
 
-    def slacks(self, x: arb_mat, y: Sequence[Vector]) -> list[arb_mat]:
-        """The s of each block, of which y makes some give way."""
-        blocks = zip(self.A, self.b, self.give, y, strict=True)
-        return [(A_j * x - b_j + _column(y_j) * c_j).mid() for A_j, b_j, c_j, y_j in blocks]
+    @property
+    def give(self) -> list[arb]:
+        """The c of each block."""
+        return [self.C[rows[0], rows[0]] for rows in self.rows]
+
+    def slacks(self, x: arb_mat, y: arb_mat) -> arb_mat:
+        """The s, shape (m, 1), of which y makes some give way."""
+        return (self.A * x - self.b + self.C * y).mid()
+
+    def split(self, v: arb_mat) -> list[Vector]:
+        """The entries of a column, shape (m, 1), by block."""
+        entries = v.entries()
+        return [entries[rows.start : rows.stop] for rows in self.rows]
 
 
-@dataclass(frozen=True, eq=False)
-class Pair:
-    """A primal and dual answer, each strictly inside of its cones.
+class Pair(NamedTuple):
+    """A primal and dual answer.
 
     Parameters
     ----------
-    x : arb_mat
-    s, y : list of list of arb
-        By block: s is nearly A x - b + c y, and H x - g nearly A'y.
+    x, y : arb_mat
+        Shapes (n, 1) and (m, 1), without radius.
     """
 
     x: arb_mat
-    s: list[Vector]
-    y: list[Vector]
+    y: arb_mat
 
 
 def interior_point(problem: Blocks, gap: arb) -> Pair | None:
-    """An answer whose duality gap is below `gap`, or None if that is not reached.
+    """An answer strictly inside of its cones, with a duality gap below `gap`; None if not reached.
 
     Parameters
     ----------
@@ -90,49 +101,36 @@ def interior_point(problem: Blocks, gap: arb) -> Pair | None:
     gap : arb
     """
     A = problem.A
-    give = problem.give
-    count = len(problem.A)
+    split = problem.split
     x = problem.H.solve(problem.g).mid()
-    s = [_inside(A_j * x - b_j) for A_j, b_j in zip(A, problem.b, strict=True)]
-    y = [[arb(1), *([arb(0)] * (len(s_j) - 1))] for s_j in s]
-    if not count:
-        return Pair(x, s, y)
+    s = column(v for s_j in split((A * x - problem.b).mid()) for v in _inside(s_j))
+    y = column(arb(i == rows[0]) for rows in problem.rows for i in rows)
     for _ in range(ITERATIONS):
-        mu = sum((_dot(u, v) for u, v in zip(s, y, strict=True)), arb(0)) / count
-        r_d = problem.g - problem.H * x
-        for A_j, y_j in zip(A, y, strict=True):
-            r_d += A_j.transpose() * _column(y_j)
-        r_p = [_column(u) - v for u, v in zip(s, problem.slacks(x, y), strict=True)]
-        worst = max([abs(v) for v in r_d.entries()] + [abs(v) for r in r_p for v in r.entries()])
-        if mu * count < gap and worst < gap:
-            return Pair(x, s, y)
-        weights = [
-            _softer(_inverse_scaling(s_j, y_j), c_j)
-            for s_j, y_j, c_j in zip(s, y, give, strict=True)
-        ]
-        weighted = [(W_j * A_j).mid() for W_j, A_j in zip(weights, A, strict=True)]
-        K = problem.H
-        for A_j, WA_j in zip(A, weighted, strict=True):
-            K = K + A_j.transpose() * WA_j
+        r_d = problem.g - problem.H * x + A.transpose() * y
+        r_p = s - problem.slacks(x, y)
+        work = inner(s, y).mid()
+        if all(abs(v) < gap for v in (work, *r_d.entries(), *r_p.entries())):
+            return Pair(x, y)
+        blocks = list(zip(split(s), split(y), problem.give, strict=True))
+        W = _block_diagonal([_softer(_inverse_scaling(s_j, y_j), c_j) for s_j, y_j, c_j in blocks])
+        WA = (W * A).mid()
+        K = (problem.H + A.transpose() * WA).mid()
+        share = arb(0) if _centrality(split(s), split(y)) > CENTRED else arb(1)
+        mu = work / len(blocks)
+        c = column(v for s_j, y_j, _ in blocks for v in _centred(s_j, y_j, share * mu))
         try:
-            inverse = K.mid().inv().mid()
+            dx = K.solve((r_d + WA.transpose() * (c + r_p)).mid()).mid()
         except ZeroDivisionError:
             return None
-        share = arb(0) if _centrality(s, y) > CENTRED else arb(1)
-        c = [_centred(s_j, y_j, share * mu) for s_j, y_j in zip(s, y, strict=True)]
-        right = r_d
-        for WA_j, c_j, r_j in zip(weighted, c, r_p, strict=True):
-            right = right + WA_j.transpose() * (c_j + r_j)
-        dx = (inverse * right).mid()
-        along = [(A_j * dx - r_j).mid() for A_j, r_j in zip(A, r_p, strict=True)]
-        dy = [(W_j * (c_j - d_j)).mid() for W_j, c_j, d_j in zip(weights, c, along, strict=True)]
-        ds = [(d_j + dy_j * k).mid() for d_j, dy_j, k in zip(along, dy, give, strict=True)]
-        way = min([_reach(u, v.entries()) for u, v in zip(s + y, ds + dy, strict=True)])
-        way = min(SHORT * way, arb(1)).mid()
+        along = (A * dx - r_p).mid()
+        dy = (W * (c - along)).mid()
+        ds = (along + problem.C * dy).mid()
+        ways = zip(split(s) + split(y), split(ds) + split(dy), strict=True)
+        way = min(SHORT * min(_reach(v, d) for v, d in ways), arb(1)).mid()
         for _ in range(BACKTRACKS):
-            s_new = [_moved(s_j, ds_j, way) for s_j, ds_j in zip(s, ds, strict=True)]
-            y_new = [_moved(y_j, dy_j, way) for y_j, dy_j in zip(y, dy, strict=True)]
-            if _centrality(s_new, y_new) > LEAST:
+            s_new = (s + ds * way).mid()
+            y_new = (y + dy * way).mid()
+            if _centrality(split(s_new), split(y_new)) > LEAST:
                 break
             way = (way * arb(0.75)).mid()
         else:
@@ -161,15 +159,38 @@ def _centrality(s: list[Vector], y: list[Vector]) -> arb:
     return (min(least) * len(work) / sum(work, arb(0))).mid()
 
 
-def _inside(s: arb_mat) -> Vector:
-    """Return a point well inside of the cone, near s."""
-    v = s.mid().entries()
-    least = _dot(v[1:], v[1:]).sqrt().mid() + 1
-    return [max(v[0], least).mid(), *v[1:]]
+def _inside(v: Vector) -> Vector:
+    """Return a point well inside of the cone, near v."""
+    return [max(v[0], length(v[1:]) + 1).mid(), *v[1:]]
 
 
-def _column(v: Sequence[arb]) -> arb_mat:
-    return arb_mat(len(v), 1, list(v))
+def length(v: Sequence[arb]) -> arb:
+    """The length of a vector [of its unit]."""
+    return _dot(v, v).sqrt().mid()
+
+
+def column(values: Iterable[arb]) -> arb_mat:
+    """A column of numbers, shape (k, 1), without their radii [of their unit]."""
+    entries = [v.mid() for v in values]
+    return arb_mat(len(entries), 1, entries)
+
+
+def diagonal(values: Sequence[arb]) -> arb_mat:
+    """The diagonal matrix of some numbers [of their unit]."""
+    return _block_diagonal([arb_mat([[v]]) for v in values])
+
+
+def _block_diagonal(blocks: list[arb_mat]) -> arb_mat:
+    m = sum(block.nrows() for block in blocks)
+    whole = arb_mat(m, m)
+    start = 0
+    for block in blocks:
+        k = block.nrows()
+        for i in range(k):
+            for j in range(k):
+                whole[start + i, start + j] = block[i, j]
+        start += k
+    return whole
 
 
 def _dot(u: Sequence[arb], v: Sequence[arb]) -> arb:
@@ -180,15 +201,11 @@ def _det(v: Sequence[arb]) -> arb:
     return (v[0] * v[0] - _dot(v[1:], v[1:])).mid()
 
 
-def _moved(v: Vector, d: arb_mat, way: arb) -> Vector:
-    return [(a + way * b).mid() for a, b in zip(v, d.entries(), strict=True)]
-
-
-def _centred(s: Vector, y: Vector, target: arb) -> arb_mat:
+def _centred(s: Vector, y: Vector, target: arb) -> Vector:
     """Return -s + target * y^-1, with y^-1 = J y / det y."""
     factor = target / _det(y)
     inverse = [y[0], *[-v for v in y[1:]]]
-    return arb_mat(len(s), 1, [(factor * i - v).mid() for i, v in zip(inverse, s, strict=True)])
+    return [(factor * i - v).mid() for i, v in zip(inverse, s, strict=True)]
 
 
 def _inverse_scaling(s: Vector, y: Vector) -> arb_mat:

@@ -2,13 +2,14 @@ r"""Newton's method from a backend's answer, for steps whose cone is no polyhedr
 
 A backend's answer mostly shows which contacts j are open (y = 0), which stick (s = 0) and which
 slide, :math:`s_0 = \|s_{1:}\|` with y along :math:`(1, -s_{1:}/\|s_{1:}\|)`, which is the direction
-of the slip of A x - b, too. With that known the optimum solves smooth equations,
+of the slip of A x - b, too. With that known y = F f, where f is y of what sticks and y_0 of what
+slides, and the optimum solves smooth equations,
 
-.. math:: H x - g - C^T y = 0, \qquad c(x) = 0,
+.. math:: H x - g - N^T f = 0, \qquad c = F^T s = 0, \qquad N = F^T A,
 
-c being s of what sticks and :math:`s_0 - \|s_{1:}\|` of what slides, C its derivative by x. Each
+c being s of what sticks and :math:`s_0 - \|s_{1:}\|` of what slides, N its derivative by x. Each
 iteration doubles the digits. What sticks may be held by dependent rows: the method of multipliers,
-:math:`c + C\,dx + \varepsilon\,dy = 0`, then finds the nearest of the many y, and loses nothing
+:math:`c + N\,dx + \varepsilon\,df = 0`, then finds the nearest of the many f, and loses nothing
 else. Nothing here is believed: a wrong guess ends in a pair that
 :mod:`~quasistatic_ref.optional.ellipsoid.enclosure` refuses.
 """
@@ -18,7 +19,7 @@ from typing import Final
 import numpy as np
 from flint import arb, arb_mat
 
-from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, Vector
+from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, column, diagonal, length
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import largest
 from quasistatic_ref.step.data import Array
 
@@ -41,154 +42,129 @@ ROUNDS: Final = 200
 OPEN, STICKS, SLIDES = range(3)
 
 
-def contact_states(problem: Blocks, x: arb_mat, y: list[Vector]) -> list[int]:
+def contact_states(problem: Blocks, pair: Pair) -> list[int]:
     """Which blocks are open, stick and slide, as an answer shows it: the larger of two slacks."""
     states = []
-    for s_j, y_j in zip(problem.slacks(x, y), y, strict=True):
-        s = np.array([float(v) for v in s_j.entries()])
-        f = np.array(list(map(float, y_j)))
-        inside_s, inside_f = (v[0] - np.linalg.norm(v[1:]) for v in (s, f))
-        if inside_s > f[0]:
+    s = problem.split(problem.slacks(pair.x, pair.y))
+    for s_j, y_j in zip(s, problem.split(pair.y), strict=True):
+        inside_s, inside_y = (v[0] - length(v[1:]) for v in (s_j, y_j))
+        if inside_s > y_j[0]:
             states.append(OPEN)
         else:
-            states.append(STICKS if inside_f > s[0] or len(s) == 1 else SLIDES)
+            states.append(STICKS if inside_y > s_j[0] or len(s_j) == 1 else SLIDES)
     return states
 
 
-def newton_pair(problem: Blocks, x: arb_mat, y: list[Vector], states: list[int]) -> Pair | None:
+def newton_pair(problem: Blocks, near: Pair, states: list[int]) -> Pair | None:
     """A pair just inside of all cones, or None where the iterations do not settle.
 
     Parameters
     ----------
     problem : Blocks
         Scaled: rows, H and the answer of about one.
-    x : arb_mat
-    y : list of list of arb
-        A backend's answer, by block.
+    near : Pair
+        A backend's answer.
     states : list of int
         Of :func:`contact_states`.
     """
+    x = near.x
+    f = column(near.y[i, 0] for i in _bearing(problem, states))
+    ones = column(arb(1) for _ in f.entries())
     for _ in range(ITERATIONS):
-        K, C, c, f, give = _linearised(problem, x, y, states)
-        if not c.nrows():
-            dx = K.solve(problem.g - problem.H * x).mid()
-            df = f
-        else:
-            soft = _scaled(C, give)
-            load = problem.g - problem.H * x + C.transpose() * (f - _scaled(c, give))
-            try:
-                dx = (K + C.transpose() * soft).mid().solve(load.mid()).mid()
-            except ZeroDivisionError:
-                return None
-            df = (-_scaled(c + C * dx, give)).mid()
+        F, K = _linearised(problem, x, f, states)
+        y = (F * f).mid()
+        N = (F.transpose() * problem.A).mid()
+        c = F.transpose() * problem.slacks(x, y)
+        give = F.transpose() * (problem.C * (F * ones))  # the diagonal of F'C F
+        stiff = diagonal([1 / (v if v > 0 else EPSILON) for v in give.entries()]).mid()
+        load = problem.g - problem.H * x + N.transpose() * (f - stiff * c)
+        try:
+            dx = (K + N.transpose() * stiff * N).mid().solve(load.mid()).mid()
+        except ZeroDivisionError:
+            return None
+        df = (-(stiff * (c + N * dx))).mid()
         x = (x + dx).mid()
-        y = _with_multipliers(problem, x, y, states, (f + df).mid().entries())
+        f = (f + df).mid()
         moved = [*dx.entries(), *(v * EPSILON for v in df.entries())]
         if all(abs(v) < SETTLED for v in moved):
-            return _inwards(problem, x, y, states)
+            F, _ = _linearised(problem, x, f, states)
+            return _inwards(problem, Pair(x, (F * f).mid()), states)
     return None
 
 
-def _linearised(
-    problem: Blocks, x: arb_mat, y: list[Vector], states: list[int]
-) -> tuple[arb_mat, arb_mat, arb_mat, arb_mat, Vector]:
-    """Return H with the curvature of what slides, C, c, the multipliers of c, and c by these."""
-    n = problem.H.nrows()
-    K = problem.H
-    rows: list[arb] = []
-    c: list[arb] = []
-    f: list[arb] = []
-    give: list[arb] = []
-    blocks = zip(problem.A, problem.b, problem.give, y, states, strict=True)
-    for A_j, b_j, k, y_j, state in blocks:
-        s = (A_j * x - b_j).mid()  # without what gives way
-        if state == STICKS:
-            rows = rows + A_j.entries()
-            c = c + [v + k * w for v, w in zip(s.entries(), y_j, strict=True)]
-            f = f + y_j
-            give = give + [k if k > 0 else EPSILON] * len(y_j)
-        elif state == SLIDES:
-            u, slip = _direction(s.entries())
-            normal = arb_mat(1, len(u) + 1, [arb(1), *(-v for v in u)]) * A_j
-            across = arb_mat(len(u), n, A_j.entries()[n:])
-            across = (across - arb_mat(len(u), 1, u) * (arb_mat(1, len(u), u) * across)).mid()
-            K = K + across.transpose() * across * (y_j[0] / slip)
-            rows = rows + normal.entries()
-            c = [*c, s[0, 0] - slip + 2 * k * y_j[0]]  # its gap and its slip give way
-            f = [*f, y_j[0]]
-            give = [*give, 2 * k if k > 0 else EPSILON]
-    m = len(c)
-    return K.mid(), arb_mat(m, n, rows).mid(), arb_mat(m, 1, c).mid(), arb_mat(m, 1, f), give
-
-
-def _scaled(rows: arb_mat, give: Vector) -> arb_mat:
-    """Return rows over what they give way by."""
-    m = rows.ncols()
-    return arb_mat(len(give), m, [v / give[i // m] for i, v in enumerate(rows.entries())])
-
-
-def _direction(s: Vector) -> tuple[Vector, arb]:
-    """Return the direction of the slip s_1: and its length."""
-    slip = _length(s[1:])
-    return [(v / slip).mid() for v in s[1:]], slip
-
-
-def _length(v: Vector) -> arb:
-    return sum((a * a for a in v), arb(0)).sqrt().mid()
-
-
-def _with_multipliers(
-    problem: Blocks, x: arb_mat, y: list[Vector], states: list[int], f: Vector
-) -> list[Vector]:
-    """Return y by block from the multipliers of c."""
-    found = []
-    rest = iter(f)
-    for A_j, b_j, y_j, state in zip(problem.A, problem.b, y, states, strict=True):
-        if state == STICKS:
-            found.append([next(rest) for _ in y_j])
-        elif state == SLIDES:
-            u, _ = _direction((A_j * x - b_j).entries())
-            y_0 = next(rest)
-            found.append([y_0, *((-v * y_0).mid() for v in u)])
-        else:
-            found.append([arb(0)] * len(y_j))
-    return found
-
-
-def _inwards(problem: Blocks, x: arb_mat, y: list[Vector], states: list[int]) -> Pair | None:
-    """Return the pair moved inside of all cones: rigid contacts by x, others by their y."""
-    rigid = [not c_j > 0 for c_j in problem.give]
-    touching = [
-        A_j
-        for A_j, state, hard in zip(problem.A, states, rigid, strict=True)
-        if hard and state != OPEN
+def _bearing(problem: Blocks, states: list[int]) -> list[int]:
+    """Return the rows whose y are unknown: all of what sticks, the first of what slides."""
+    count = {OPEN: 0, SLIDES: 1, STICKS: 4}
+    return [
+        i for rows, state in zip(problem.rows, states, strict=True) for i in rows[: count[state]]
     ]
-    way = _opening(touching, problem.H.nrows())
+
+
+def _linearised(
+    problem: Blocks, x: arb_mat, f: arb_mat, states: list[int]
+) -> tuple[arb_mat, arb_mat]:
+    """Return F, where y = F f, and H with the curvature of what slides."""
+    n = problem.H.nrows()
+    A = problem.A.entries()
+    K = problem.H
+    bearing = _bearing(problem, states)
+    F = arb_mat(problem.A.nrows(), len(bearing))
+    for k, i in enumerate(bearing):
+        F[i, k] = 1
+    s = problem.split((problem.A * x - problem.b).mid())  # without what gives way
+    for rows, s_j, state in zip(problem.rows, s, states, strict=True):
+        if state == SLIDES:
+            k = bearing.index(rows[0])
+            slip = length(s_j[1:])
+            u = column(v / slip for v in s_j[1:])
+            for i, v in zip(rows[1:], u.entries(), strict=True):
+                F[i, k] = -v
+            across = arb_mat(len(rows) - 1, n, A[rows[1] * n : rows.stop * n])
+            across = (across - u * (u.transpose() * across)).mid()
+            K = K + across.transpose() * across * (f[k, 0] / slip)
+    return F, K.mid()
+
+
+def _inwards(problem: Blocks, pair: Pair, states: list[int]) -> Pair | None:
+    """Return the pair moved inside of all cones: rigid contacts by x, others by their y."""
+    m = problem.A.nrows()
+    n = problem.H.nrows()
+    A = np.array([float(v) for v in problem.A.entries()]).reshape(m, n)
+    touching = [
+        A[rows.start : rows.stop]
+        for rows, c, state in zip(problem.rows, problem.give, states, strict=True)
+        if state != OPEN and not c > 0
+    ]
+    way = _opening(touching, n)
     if way is None:
         return None
-    moved = arb_mat(len(way), 1, way.tolist()) * INWARDS
-    share = INWARDS * largest([v for y_j in y for v in y_j])
-    inside = []
-    for A_j, c_j, y_j in zip(problem.A, problem.give, y, strict=True):
+    moved = arb_mat(n, 1, way.tolist()) * INWARDS
+    share = INWARDS * largest(pair.y.entries())
+    y = pair.y
+    blocks = zip(problem.rows, problem.give, problem.split(problem.A * moved), strict=True)
+    for rows, c, along in blocks:
         lift = share
-        if c_j > 0:  # more than what x takes it outwards
-            lift = share + 2 * _length((A_j * moved).entries()) / c_j
-        inside.append([(y_j[0] + lift).mid(), *y_j[1:]])
-    x = (x + moved).mid()
-    return Pair(x, [s_j.entries() for s_j in problem.slacks(x, inside)], inside)
+        if c > 0:  # more than what x takes it outwards
+            lift += 2 * length(along) / c
+        y[rows[0], 0] += lift
+    return Pair((pair.x + moved).mid(), y.mid())
 
 
-def _opening(A: list[arb_mat], n: int) -> Array | None:
-    """Return a displacement that moves every contact well inside of its cone, in float64."""
-    ends = np.cumsum([A_j.nrows() for A_j in A])
-    entries = [float(v) for A_j in A for v in A_j.entries()]
-    rows = np.array(entries).reshape(ends[-1] if len(ends) else 0, n)
-    inverse = np.linalg.pinv(rows)
+def _opening(A: list[Array], n: int) -> Array | None:
+    """Return a displacement, shape (n,), that moves contacts of rows A well inside of their cones.
+
+    By alternating projections of A d: to the point (1, 0, 0, 0) and the cone, and to the range.
+    """
     d = np.zeros(n)
+    if not A:
+        return d
+    starts = np.cumsum([0, *map(len, A)])[:-1]
+    rows = np.concatenate(A)
+    inverse = np.linalg.pinv(rows)
     inner = np.zeros(len(rows))
-    inner[[0, *ends[:-1]] if len(ends) else []] = 1.0
-    for _ in range(ROUNDS):  # alternating projections of rows d to inner + cone and to the range
-        short = [_projected(v) for v in np.split(inner - rows @ d, ends[:-1])]
+    inner[starts] = 1.0
+    for _ in range(ROUNDS):
+        short = [_projected(v) for v in np.split(inner - rows @ d, starts[1:])]
         if all(np.linalg.norm(v) < 0.5 for v in short):  # inner is 0.7 inside
             return d
         d = d + inverse @ np.concatenate(short)
@@ -197,9 +173,9 @@ def _opening(A: list[arb_mat], n: int) -> Array | None:
 
 def _projected(z: Array) -> Array:
     """Return the point of the cone that is nearest to z."""
-    length = float(np.linalg.norm(z[1:]))
-    if z.size == 0 or z[0] >= length:
+    slip = float(np.linalg.norm(z[1:]))
+    if z[0] >= slip:
         return z
-    if z[0] <= -length:
+    if z[0] <= -slip:
         return np.zeros_like(z)
-    return np.asarray((z[0] + length) / 2 * np.append(1.0, z[1:] / length))
+    return np.asarray((z[0] + slip) / 2 * np.append(1.0, z[1:] / slip))

@@ -88,7 +88,7 @@ class SparseSolver(NativeSolver):
 
     def takes(self, step: StepData) -> bool:
         """Whether a step has its entries where this pattern has them, and the same H."""
-        return bool(self.kind.fits(step))
+        return bool(self.kind.pattern.fits(step))
 
     def differences(self, step: StepData) -> list[str]:
         """In what a step is not like the one that the pattern was made for."""

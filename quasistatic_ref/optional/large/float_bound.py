@@ -24,8 +24,8 @@ from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
 from quasistatic_ref.optional.large.outward import above, below, down, total, total_of_products, up
 from quasistatic_ref.optional.large.sizes import (
-    LARGEST,
     TermSizes,
+    in_range,
     rounding,
     row_sizes,
     step_sizes,
@@ -99,8 +99,7 @@ class FloatBound:
             [N s]
         """
         step = both.si_step
-        of_contacts = row_sizes(step.contacts, step.contacts.J, step.cone)[step.mask]
-        A = np.concatenate([of_contacts, np.abs(step.extra.A)])
+        A = np.concatenate([row_sizes(step, step.contacts.J), np.abs(step.extra.A)])
         A *= both.units.coordinate / both.units.length
         sizes = step_sizes(step, A, both.units)
         return self.error(both.natural_form, sizes, *in_natural(delta_q, lam, both.units))
@@ -122,8 +121,7 @@ class FloatBound:
             Its multipliers [-]; negative ones are taken as zero.
         """
         y = np.maximum(lam, 0.0)
-        small = all(float(np.abs(v).max(initial=0.0)) <= LARGEST for v in (x, y, form.b))
-        if not (small and sizes.usable and (self.least > 0).all()):  # NaN is not small
+        if not (in_range(x, y, form.b) and sizes.usable and (self.least > 0).all()):
             return math.inf
         free = self.free_length(form.g, sizes)
         if not free > 0:
@@ -181,13 +179,13 @@ class FloatBound:
         if self.direction is not None:
             yield self.direction, OPENED
         v = opening(csc_matrix(A), s)
-        if v is not None and float(np.abs(v).max()) <= LARGEST:
+        if v is not None and in_range(v):
             yield v, 0.0
 
     def free_length(self, g: Array, sizes: TermSizes) -> float:
         """A lower bound of ||H^-1 g||_H [-], g (n_v,): the largest g'z / ||z||_H of any z."""
         z = np.asarray(self.factor.solve(g))
-        if not float(np.abs(z).max(initial=0.0)) <= LARGEST:
+        if not in_range(z):
             return 0.0
         e_g = rounding(sizes.column_terms, sizes.load)
         e_H = rounding(self.entries, self.sizes @ np.abs(z))

@@ -57,7 +57,7 @@ def bound_verdict(
     if isinstance(optimum, Farkas):
         return Verdict(False, "the step has no solution")
     solution = rational_solution(form, optimum.working_set)
-    x = [fmpq(v) / solution.denominator for v in solution.x]
+    x = solution.point
     off = [a - b for a, b in zip(fractions(delta_q, form.x_unit), x, strict=True)]
     gap = duality_gap(form, x, fractions(lam, form.lam_unit))
     (bound,) = fractions(np.array([claimed]), fmpq(1))

@@ -43,19 +43,11 @@ def diagonal_blocks(H: csc_matrix) -> Iterator[tuple[Indices, Array]]:
     _, label = connected_components(H, directed=False)
     order = np.argsort(label, kind="stable")
     size = np.bincount(label)
-    place = np.empty(len(label), dtype=np.int64)  # in the own block
-    place[order] = np.arange(len(label)) - np.repeat(np.cumsum(size) - size, size)
-    entries = H.tocoo()
     for s in np.unique(size):
-        own = size == s
-        rank = np.cumsum(own) - 1
-        coordinates = order[own[label[order]]].reshape(-1, s)
-        blocks = np.zeros((len(coordinates), s, s))
-        here = own[label[entries.row]]
-        row = entries.row[here]
-        column = entries.col[here]
-        blocks[rank[label[row]], place[row], place[column]] = entries.data[here]
-        yield coordinates, blocks
+        coordinates = order[size[label[order]] == s].reshape(-1, s)
+        row = np.repeat(coordinates, s, axis=1)
+        column = np.tile(coordinates, s)
+        yield coordinates, np.asarray(H[row.ravel(), column.ravel()]).reshape(-1, s, s)
 
 
 def _least(blocks: Array) -> Array:

@@ -6,17 +6,14 @@ is off by at most :math:`\gamma_D = D u / (1 - D u)` times the sum of the sizes 
 a factor of :math:`1 - \gamma_D` at most. What underflows is off by TINY at most.
 """
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.optional.large.outward import above
 from quasistatic_ref.solve.units import Units
 from quasistatic_ref.step.cones import cone_matrix
-from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.friction import scaled_by
 
@@ -29,6 +26,9 @@ ROUNDINGS = 10
 The sizes of H x - g - A'lam have most: those of an entry of A (8: axes 3, mu 1, cone 4), the
 product with lam (1), the sum over c rows (c - 1), and two sums with H x and g (2)."""
 
+MORE = 1 + 2.0**-50
+"""Covers the five roundings of a bound of roundings itself."""
+
 LARGEST = 2.0**100
 """Numbers in natural units beyond it are given no bound."""
 
@@ -40,7 +40,13 @@ def rounding(terms: int, sizes: Array) -> Array:
     """What sums of so many terms may be off by, shape (k,), from their `sizes` (k,) [-]."""
     D = terms + ROUNDINGS
     part = D * UNIT / (1 - 2 * D * UNIT)  # gamma_D / (1 - gamma_D)
-    return above(math.nextafter(part, math.inf) * sizes + TINY)
+    return MORE * part * sizes + TINY
+
+
+def in_range(*numbers: Any) -> bool:
+    """Whether no number of some arrays, of any shapes and units, is beyond LARGEST, nor NaN."""
+    flat = np.concatenate(numbers, axis=None)
+    return float(np.abs(flat).max(initial=0.0)) <= LARGEST
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,9 +80,7 @@ class TermSizes:
         return np.asarray(self.A.T @ lam)
 
 
-def term_sizes(
-    A: Any, load: Array, load_terms: int = 0, numbers: Iterable[Array] = ()
-) -> TermSizes:
+def term_sizes(A: Any, load: Array, load_terms: int = 0, numbers: Iterable[Any] = ()) -> TermSizes:
     """The sizes of a program.
 
     Parameters
@@ -86,7 +90,7 @@ def term_sizes(
         As of :class:`TermSizes` [-].
     load_terms : int
         Most terms of a sum in g.
-    numbers : iterable of ndarray, each of shape (k,) or any
+    numbers : iterable of ndarray or float, each of any shape
         Further factors of the terms [their units], none of which may be beyond LARGEST.
     """
     if isinstance(A, np.ndarray):
@@ -96,25 +100,26 @@ def term_sizes(
         column_terms = int(np.diff(A.indptr).max(initial=0))
         row_terms = int(np.bincount(A.indices).max(initial=0))
         entries = A.data
-    usable = all(float(np.abs(v).max(initial=0.0)) <= LARGEST for v in (entries, load, *numbers))
+    usable = in_range(entries, load, *numbers)
     return TermSizes(A, load, row_terms, max(column_terms, load_terms), usable)
 
 
-def row_sizes(contacts: Contacts, J: Array, name: str) -> Array:
-    """The sizes of Eq. :eq:`eq-4`'s terms [m] per unit of delta_q, shape (n_c, R, w).
+def row_sizes(step: StepData, J: Array) -> Array:
+    """The sizes of Eq. :eq:`eq-4`'s terms [m] per unit of delta_q, shape (rows of contacts, w).
 
     Parameters
     ----------
-    contacts : Contacts
+    step : StepData
+        In a cone that has rows.
     J : ndarray, shape (n_c, 4, w)
         Any columns of J.
-    name : str
-        A cone that has rows.
     """
-    axes = np.abs(np.stack([contacts.n, contacts.d1, contacts.d2], axis=1))
+    contacts = step.contacts
+    axes = np.abs([contacts.n, contacts.d1, contacts.d2]).swapaxes(0, 1)
     J = np.abs(J)
     motion = np.concatenate([axes @ J[:, :3], J[:, 3:]], axis=1)
-    return np.asarray(np.abs(cone_matrix(name)) @ (scaled_by(contacts)[:, :, None] * motion))
+    rows = np.abs(cone_matrix(step.cone)) @ (scaled_by(contacts)[:, :, None] * motion)
+    return np.asarray(rows[step.mask])
 
 
 def step_sizes(step: StepData, A: Any, units: Units) -> TermSizes:
@@ -132,6 +137,6 @@ def step_sizes(step: StepData, A: Any, units: Units) -> TermSizes:
     of_load = S / units.size
     spring = np.abs(step.K_q) @ np.abs(step.delta_q_bar_a)  # Eq. (1)
     load = np.concatenate([spring + np.abs(step.tau_a), np.abs(step.tau_u)]) * step.h * of_load
-    scales = np.array([step.h, 1 / units.length, 1 / units.size])
+    scales = [step.h, 1 / units.length, 1 / units.size]
     numbers = [scaled_by(step.contacts), S, S / units.length, of_load, scales]
     return term_sizes(A, load, step.n_a, numbers)

@@ -9,7 +9,7 @@ import math
 from typing import Any
 
 import numpy as np
-from scipy.sparse import csc_matrix
+from scipy.sparse import csc_matrix, triu
 
 from quasistatic_ref.certify.residuals import Residuals, optimality_residuals
 from quasistatic_ref.optional.large.float_bound import FloatBound
@@ -52,17 +52,12 @@ class LargeSteps:
 
     def __init__(self, template: StepData) -> None:
         self.pattern = Pattern(template)
-        P = self.pattern.P
-        column = self.pattern.P_column
-        S = self.coordinate = coordinate_units(P.diagonal())
-        self.P = csc_matrix((P.data * S[P.indices] * S[column], P.indices, P.indptr), P.shape)
-        whole = self.P + self.P.T
-        whole.setdiag(self.P.diagonal())
-        self.bound = FloatBound(whole.tocsc())
-
-    def fits(self, step: StepData) -> bool:
-        """Whether a step is of this kind."""
-        return self.pattern.fits(step)
+        H = self.pattern.H
+        S = self.coordinate = coordinate_units(H.diagonal())
+        natural = H.copy()
+        natural.data *= S[H.indices] * np.repeat(S, np.diff(H.indptr))
+        self.P = triu(natural, format="csc")
+        self.bound = FloatBound(natural)
 
     def in_both_units(self, step: StepData) -> "SparseStep":
         """A step of this kind in both units."""
@@ -87,7 +82,7 @@ class SparseStep:
     def __init__(self, step: StepData, kind: LargeSteps) -> None:
         self.si_step = step
         self.kind = kind
-        form = sparse_form(step, kind.pattern)
+        form: Any = sparse_form(step, kind.pattern)
         S = kind.coordinate
         rows = form.A.data * S[kind.pattern.column]
         squares = np.bincount(form.A.indices, rows * rows, minlength=len(form.b))
@@ -98,7 +93,7 @@ class SparseStep:
         free_length = math.ldexp(math.sqrt(square), power)  # ||H^-1 g||_H
         self.units = units = units_from(S, np.sort(squares), free_length, form.b)
         check_units(units, step)
-        self.si_form: Any = form
+        self.si_form = form
         A = csc_matrix((rows / units.length, form.A.indices, form.A.indptr), form.A.shape)
         b = form.b / (units.size * units.length)
         self.natural_form: Any = StandardForm(kind.bound.H, y / units.size, A, b)
@@ -112,8 +107,7 @@ class SparseStep:
         step = self.si_step
         units = self.units
         pattern = self.kind.pattern
-        own = row_sizes(step.contacts, in_blocks(step).J, step.cone)[step.mask]
-        entries = own.ravel()[pattern.entry] * (units.coordinate / units.length)[pattern.column]
-        A = csc_matrix((entries, pattern.A.indices, pattern.A.indptr), pattern.A.shape)
+        A = pattern.matrix(row_sizes(step, in_blocks(step).J))
+        A.data *= (units.coordinate / units.length)[pattern.column]
         x, y = in_natural(delta_q, lam, units)
         return self.kind.bound.error(self.natural_form, step_sizes(step, A, units), x, y)

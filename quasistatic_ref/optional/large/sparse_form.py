@@ -1,6 +1,5 @@
 """Eq. :eq:`eq-13` as sparse matrices, for steps whose contacts are in blocks."""
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,11 +11,11 @@ from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.step.data import Array, StepData, hessian_blocks
 from quasistatic_ref.step.friction import row_constants, rows_along
-from quasistatic_ref.step.ordered import product
+from quasistatic_ref.step.standard_form import StandardForm, linear_term
 
 
 class Pattern:
-    """Where the entries of A and of H's upper triangle are: a constant of a run.
+    """Where the entries of A are, and H: constants of a run.
 
     Parameters
     ----------
@@ -27,8 +26,7 @@ class Pattern:
     ----------
     A : scipy.sparse.csc_matrix, shape (m, n_v)
         Its places alone, all entries zero; :func:`sparse_form` gives each step entries of its own.
-    P : scipy.sparse.csc_matrix, shape (n_v, n_v)
-        The upper triangle of H itself.
+    H : scipy.sparse.csc_matrix, shape (n_v, n_v)
     """
 
     def __init__(self, step: StepData) -> None:
@@ -36,19 +34,20 @@ class Pattern:
         m = int(step.offsets[-1])
         n_v = step.n_v
         column = np.repeat(blocks.column, step.counts, axis=0)  # of each row, (m, w)
-        row = np.broadcast_to(np.arange(m)[:, None], column.shape)
-        real = np.flatnonzero((column < n_v).ravel())
+        row, place = np.nonzero(column < n_v)
+        entry = row * column.shape[1] + place
         # Counting the entries shows where each of them ends up among the columns.
-        counted = csc_matrix(
-            (np.arange(len(real)) + 1.0, (row.ravel()[real], column.ravel()[real])), shape=(m, n_v)
-        )
-        self.entry = real[counted.data.astype(np.int64) - 1]
-        self.A = csc_matrix((np.zeros(len(real)), counted.indices, counted.indptr), shape=(m, n_v))
+        counted = csc_matrix((entry + 1.0, (row, column[row, place])), shape=(m, n_v))
+        self.entry = counted.data.astype(np.int64) - 1
+        self.A = 0.0 * counted
         self.column = np.repeat(np.arange(n_v), np.diff(counted.indptr))
-        self.P = upper_triangle(step)
-        self.P_column = np.repeat(np.arange(n_v), np.diff(self.P.indptr))
+        self.H = sparse_hessian(step)
         self.template = step
-        self.blocks = blocks
+
+    def matrix(self, rows: Array) -> csc_matrix:
+        """A from the entries of all rows in the columns of their blocks, shape (m, w)."""
+        entries = rows.ravel()[self.entry]
+        return csc_matrix((entries, self.A.indices, self.A.indptr), self.A.shape)
 
     def fits(self, step: StepData) -> bool:
         """Whether a step has its entries where this pattern has them, and the same H."""
@@ -59,7 +58,7 @@ class Pattern:
         if (step.h, step.cone) != (template.h, template.cone):
             return False
         return (
-            _same(contacts.blocks.column, self.blocks.column)
+            _same(contacts.blocks.column, in_blocks(template).column)
             and _same(step.contacts.rows, template.contacts.rows)
             and _same(step.K_q, template.K_q)
             and (_same(kept_M_u(step), kept_M_u(template)) or _same(step.M_u, template.M_u))
@@ -69,25 +68,6 @@ class Pattern:
 def _same(one: NDArray[Any], two: NDArray[Any]) -> bool:
     """Whether two arrays are equal; the steps of a run share one array, which `is` shows."""
     return one is two or np.array_equal(one, two)
-
-
-@dataclass(frozen=True, eq=False)
-class SparseForm:
-    """The quadratic program of one step, in float64.
-
-    Parameters
-    ----------
-    P : scipy.sparse.csc_matrix, shape (n_v, n_v)
-        Upper triangle of H.
-    g : ndarray, shape (n_v,)
-    A : scipy.sparse.csc_matrix, shape (m, n_v)
-    b : ndarray, shape (m,)
-    """
-
-    P: csc_matrix
-    g: Array
-    A: csc_matrix
-    b: Array
 
 
 def in_blocks(step: StepData) -> Blocks:
@@ -110,25 +90,21 @@ def kept_M_u(step: StepData) -> Array:
     return kept
 
 
-def upper_triangle(step: StepData) -> csc_matrix:
-    """Of H of Eq. :eq:`eq-13`, shape (n_v, n_v), from M_u as the step keeps it."""
+def sparse_hessian(step: StepData) -> csc_matrix:
+    """H of Eq. :eq:`eq-13`, shape (n_v, n_v), from M_u as the step keeps it."""
     M_u = kept_M_u(step)
     if M_u.ndim == 2:
-        return csc_matrix(np.triu(step.H))
+        return csc_matrix(step.H)
     of_a, of_u = hessian_blocks(step.h, step.K_q, M_u)
     at = np.arange(len(of_u) + 1)
-    diagonal = bsr_matrix((np.triu(of_u), at[:-1], at), shape=(step.n_u, step.n_u))
-    P = block_diag([np.triu(of_a), diagonal], format="csc")
-    P.eliminate_zeros()  # of the blocks
-    return P
+    diagonal = bsr_matrix((of_u, at[:-1], at), shape=(step.n_u, step.n_u))
+    H = block_diag([of_a, diagonal], format="csc")
+    H.eliminate_zeros()  # of the blocks
+    return H
 
 
-def sparse_form(step: StepData, pattern: Pattern) -> SparseForm:
-    """H, g of Eq. :eq:`eq-13` and A, b of Eq. :eq:`eq-8`; of H and A the pattern's places only."""
-    blocks = in_blocks(step)
-    tau_k = product(step.K_q, step.delta_q_bar_a)  # Eq. (1)
-    g = step.h * np.concatenate([tau_k + step.tau_a, step.tau_u])  # Eq. (13)
-    rows = rows_along(step.contacts, blocks.J, step.cone)[step.mask]  # Eqs. (4), (8), (m, w)
-    entries = rows.ravel()[pattern.entry]
-    A = csc_matrix((entries, pattern.A.indices, pattern.A.indptr), pattern.A.shape)
-    return SparseForm(pattern.P, g, A, -row_constants(step.contacts, step.cone)[step.mask])
+def sparse_form(step: StepData, pattern: Pattern) -> StandardForm:
+    """Its standard form, with sparse H and A in the places of the pattern."""
+    rows = rows_along(step.contacts, in_blocks(step).J, step.cone)[step.mask]  # Eqs. (4), (8)
+    b = -row_constants(step.contacts, step.cone)[step.mask]
+    return StandardForm(pattern.H, linear_term(step), pattern.matrix(rows), b)

@@ -81,5 +81,4 @@ class BlockGeometry:
 def _ragged(marked: Mask) -> tuple[Indices, Indices, Indices]:
     """Row, rank in the row and column of each mark."""
     row, column = np.nonzero(marked)
-    count = marked.sum(axis=1)
-    return row, np.arange(len(row)) - np.repeat(np.cumsum(count) - count, count), column
+    return row, marked.cumsum(axis=1)[row, column] - 1, column

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat
 
-from quasistatic_ref.certify.minimiser import form_in_balls
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     Checked,
@@ -15,6 +14,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
     checked,
 )
 from quasistatic_ref.optional.ellipsoid.interior import Pair
+from quasistatic_ref.optional.ellipsoid.newton import OPEN, STICKS
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
 from tests.helpers import point_on_floor
 from tests.tolerances import ROUNDING
@@ -26,12 +26,11 @@ FORCE = np.array([4.0, -1.0, -0.3 * 9.81])
 
 
 def posed(step=None):
-    """A step in the ellipsoid, its exact form, that in balls, and the scaled program."""
+    """A step in the ellipsoid, its exact form, and the scaled program."""
     step = point_on_floor(M, MU, PHI, FORCE, H_STEP) if step is None else step
     step = step.replace(cone="ellipsoid")
     form = exact_form(step)
-    balls = form_in_balls(form)
-    return step, form, balls, scaled_blocks(step, form, balls)
+    return step, form, scaled_blocks(step, form)
 
 
 def units(values, unit):
@@ -48,16 +47,16 @@ def point_at(form, delta_q, gap=0.0):
 @pytest.mark.parametrize("k", [1, 2, 3])
 def test_a_pair_outside_of_its_cone_in_any_coordinate_is_refused(k):
     """The cone is y_0 >= |(y_1, y_2, y_3)|, here with y_0 = 1."""
-    _, form, balls, frame = posed()
+    *_, frame = posed()
     for share, inside in ((0.99, True), (-0.99, True), (1.01, False), (-1.01, False)):
-        y = [arb(1), *(arb(share if i == k else 0.0) for i in (1, 2, 3))]
-        found = checked(form, balls, frame, point_at(form, np.zeros(3)).x, [y])
+        y = arb_mat([[1], *([share if i == k else 0.0] for i in (1, 2, 3))])
+        found = checked(frame, Pair(arb_mat(3, 1), y))
         assert (found is not None) == inside
 
 
 def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
     """H x - g = m x / h - h F; -2^-1200 N s is no float64, and rounded to zero."""
-    _, form, _, _ = posed(point_on_floor(M, MU, PHI, (4.0, 0.0, -1.0), H_STEP))
+    _, form, _ = posed(point_on_floor(M, MU, PHI, (4.0, 0.0, -1.0), H_STEP))
     x = np.array([3e-3, 0.0, 5e-3])
     found = point_at(form, x)
     found.x[1, 0] = -(arb(2) ** -1200)
@@ -68,31 +67,29 @@ def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
 
 
 def test_impulses_of_a_contact_without_load_are_zeros_without_a_sign():
-    step, form, _, frame = posed()
+    step, form, frame = posed()
     lam = np.array([0.02, -3e-3, 4e-3, -1e-3])
     found = SimpleNamespace(lam=units(lam, form.lam_unit))
-    none = _impulses(step, form, frame, found, SimpleNamespace(loaded=[False]))
+    none = _impulses(step, frame, found, [OPEN])
     assert none.tobytes() == np.zeros(4).tobytes()
-    some = _impulses(step, form, frame, found, SimpleNamespace(loaded=[True]))
+    some = _impulses(step, frame, found, [STICKS])
     np.testing.assert_allclose(some, lam, rtol=ROUNDING, atol=0.0)
 
 
 def test_an_answer_in_si_units_is_one_of_the_program_and_back():
     """Without torsion its row is multiplied by zero, and so is what it carries."""
-    _, form, _, frame = posed()
+    _, form, frame = posed()
     delta_q = np.array([3e-3, -2e-3, 5e-3])
     lam = np.array([0.02, -3e-3, 4e-3, 7.0])
-    x, y = frame.start(form, delta_q, lam)
-    back_x, back_y = frame.pair(Pair(x, [], y))
-    found_x = [float(v * form.x_unit) for v in back_x.entries()]
+    x, y = frame.in_form(frame.start(delta_q, lam))
+    found_x = [float(v * form.x_unit) for v in x.entries()]
     np.testing.assert_allclose(found_x, delta_q, rtol=ROUNDING)
-    (rows,) = back_y
-    found_lam = [float(m * v * form.lam_unit) for m, v in zip(frame.mu, rows, strict=True)]
+    found_lam = [float(m * v * form.lam_unit) for m, v in zip(frame.mu, y.entries(), strict=True)]
     np.testing.assert_allclose(found_lam, [*lam[:3], 0.0], rtol=ROUNDING)
 
 
 @pytest.mark.parametrize(("phi", "gap"), [(PHI, 1.0), (0.0, 0.0)])
 def test_without_a_load_the_largest_gap_is_the_unit(phi, gap):
     *_, frame = posed(point_on_floor(M, MU, phi, np.zeros(3), H_STEP))
-    found = [float(v) for v in frame.problem.b[0].entries()]
+    found = [float(v) for v in frame.problem.b.entries()]
     np.testing.assert_allclose(np.abs(found), [gap, 0, 0, 0], rtol=ROUNDING)

@@ -73,7 +73,7 @@ def within(step, exact, delta_q, bound, lam=None):
         return True
     form = exact_form(step)
     solution = rational_solution(form, exact.working_set)
-    best = [fmpq(v) / solution.denominator for v in solution.x]
+    best = solution.point
     off = [a - b for a, b in zip(fractions(delta_q, form.x_unit), best, strict=True)]
     gap = fmpq(0)
     if lam is not None:
