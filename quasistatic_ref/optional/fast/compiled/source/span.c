@@ -10,15 +10,15 @@ static void generators(const Proof *s, int64_t r, int64_t *x)
     const int64_t *entry = s->integers + 4 * s->row[r];
     for (int64_t i = 0; i < 4 * s->n_c; i++)
         x[i] = 0;
-    x[3 * c] = entry[0];
-    x[3 * c + 1] = s->mu[3 * c] != 0.0 ? entry[1] : 0;
-    x[3 * c + 2] = s->mu[3 * c] != 0.0 ? entry[2] : 0;
-    if (s->mu[3 * c + 2] == 0.0 || entry[3] == 0)
+    const double *mu = s->mu + 4 * c;
+    for (int a = 0; a < 3; a++)
+        x[3 * c + a] = mu[a] != 0.0 ? entry[a] : 0;
+    if (mu[3] == 0.0 || entry[3] == 0)
         return;
     const double *spin = s->J + n_v * (4 * c + 3);
     for (int64_t d = 0; d < c && owner == c; d++) {
         const double *other = s->J + n_v * (4 * d + 3);
-        int same = s->mu[3 * d + 2] == s->mu[3 * c + 2], opposite = same;
+        int same = s->mu[4 * d + 3] == mu[3], opposite = same;
         for (int64_t v = 0; v < n_v && (same || opposite); v++) {
             same = same && spin[v] == other[v];
             opposite = opposite && spin[v] == -other[v];
