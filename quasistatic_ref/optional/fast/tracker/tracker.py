@@ -129,7 +129,7 @@ class ContactTracker:
         self.steps += 1
         if not self.lists_made:
             for each, pose in zip(self.lists, relative, strict=True):
-                each.start(pose, self.steps)
+                each.make(pose, each.first_normal(pose), np.inf, self.steps)
             clouds.put([each.list for each in self.lists])
         for attempt in range(ATTEMPTS):
             x, phi, normal = clouds.measured(relative)
@@ -142,7 +142,7 @@ class ContactTracker:
             for i in np.flatnonzero(~proved).tolist():
                 # A new list is proved where it was made; if not, for some error, all points are.
                 n = normal[kept[clouds.first[i]]]
-                self.lists[i].renew(relative[i], n, float(phi_k[i]), self.steps, attempt > 0)
+                self.lists[i].make(relative[i], n, float(phi_k[i]), self.steps, attempt > 0)
             clouds.put([each.list for each in self.lists])
         name = clouds.pairs[int(np.argmin(proved))].name
         raise ContactError("has distances that are not numbers", field=name)
@@ -179,15 +179,15 @@ class CloudList:
         self.made = 0
         self.made_at = 0
 
-    def start(self, relative: Array, step: int) -> None:
-        """Make the first list, at `relative`, shape (3, 4) [-, m], as of :meth:`renew`."""
+    def first_normal(self, relative: Array) -> Array:
+        """About the normal at the nearest point, shape (3,) [-], from some of the points."""
         some = self.points[:: max(1, len(self.points) // SOME)]
         x = rotated(relative[:, :3], some) + relative[:, 3]
         phi, normal = self.solid.signed_distance(x)
-        self._make(relative, normal[phi.argmin()], np.inf, self.width, step)
+        return np.asarray(normal[phi.argmin()])
 
-    def renew(self, relative: Array, n: Array, phi_k: float, step: int, whole: bool) -> None:
-        """Make another list; of all points if `whole`.
+    def make(self, relative: Array, n: Array, phi_k: float, step: int, whole: bool = False) -> None:
+        """Make a list; of all points if `whole`.
 
         Parameters
         ----------
@@ -196,18 +196,14 @@ class CloudList:
         n : ndarray, shape (3,)
             The normal at the nearest point [-].
         phi_k : float
-            The k-th smallest distance [m].
+            The k-th smallest distance [m]; infinite if not known.
         step : int
             The number of this step.
         whole : bool
         """
-        if step - self.made_at < SHORT:
+        if self.made and step - self.made_at < SHORT:
             self.width = min(2 * self.width, WIDE)
         width = len(self.points) if whole else self.width
-        self._make(relative, n, phi_k, width, step)
-
-    def _make(self, relative: Array, n: Array, phi_k: float, width: int, step: int) -> None:
-        """Make a list of a width; all else as above."""
         R = relative[:, :3]
         t = relative[:, 3]
         self.list = shortlist(self.tree, self.solid, R, t, n, phi_k, self.n_c, width)

@@ -55,11 +55,10 @@ static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double
 }
 
 /* Slacks of all rows; those that may be zero are collected. */
-static int slacks(Proof *s, Room *m)
+static void slacks(Proof *s, Room *m)
 {
     double unit = s->units[0] * s->units[1];
     int64_t last = -1, next = 0;
-    int code = DECIDED;
     Number of[4];
     double e[4];
     for (int64_t r = 0; r < s->rows; r++) {
@@ -87,16 +86,14 @@ static int slacks(Proof *s, Room *m)
             s->idle[s->counts[0]++] = r;
             continue;
         }
-        if (value(&x) < 0.0)
-            code = REFUTED;
+        m->refuted |= value(&x) < 0.0;
         if (!nearest(&x, error, 1.0, unit, s->slack + r)) {
             s->slack[r] = value(&x) * unit;
-            code = code == REFUTED ? REFUTED : OPEN_NUMBER;
+            m->open = 1;
         }
         if (s->slack[r] < s->least[0])
             s->least[0] = s->slack[r];
     }
-    return code;
 }
 
 /* Which coordinates stay where they are: no load, no row of the working set, and no entry of H
@@ -128,31 +125,28 @@ static int held(const Proof *s, const char *rest, int64_t v)
 }
 
 /* The multipliers of the working set, rounded; zero where that is not surely wrong. */
-static int pressed(Proof *s, Room *m)
+static void pressed(Proof *s, Room *m)
 {
     int64_t n = s->n_v;
     double unit = s->units[1] / s->units[0];
-    int code = DECIDED;
     for (int64_t r = 0; r < s->rows; r++)
         s->lam[r] = 0.0;
     for (int64_t w = 0; w < s->working; w++) {
         const Number *y = m->z + n + w;
         double *lam = s->lam + s->guess[w], error = m->e[n + w];
-        if (!(value(y) * DOWN > error))
-            code = REFUTED;
+        m->refuted |= !(value(y) * DOWN > error);
         if (fabs(value(y)) * DOWN <= error)
             continue;
         if (!nearest(y, error, *s->h, unit, lam)) {
             *lam = value(y) / *s->h * unit;
-            code = code == REFUTED ? REFUTED : OPEN_NUMBER;
+            m->open = 1;
         }
         s->least[1] = *lam < s->least[1] ? *lam : s->least[1];
     }
-    return code;
 }
 
 /* delta_q and A'lam, rounded. Coordinates that are not surely other than zero are collected. */
-static int rounded(Proof *s, Room *m)
+static void rounded(Proof *s, Room *m)
 {
     int64_t n = s->n_v, k = s->working;
     double rho = s->units[1];
@@ -166,7 +160,7 @@ static int rounded(Proof *s, Room *m)
             s->still[s->counts[1]++] = v;
             m->rests[v] = STILL;
         } else if (!nearest(m->z + v, m->e[v], 1.0, rho * s->coordinate[v], s->delta_q + v))
-            return OPEN_NUMBER;
+            m->open = 1;
     }
     for (int64_t v = 0; v < n; v++) {
         Number net = m->net[v];
@@ -179,9 +173,8 @@ static int rounded(Proof *s, Room *m)
             for (int64_t w = 0; w < k; w++)
                 error += fabs(m->K[(n + w) * (n + k) + v]) * m->e[n + w];
         if (!nearest(&net, error * UP, *s->h, rho / s->coordinate[v], s->net + v))
-            return OPEN_NUMBER;
+            m->open = 1;
     }
-    return DECIDED;
 }
 
 /* Correct z until no residual is above 2^-bits. */
@@ -236,12 +229,13 @@ static int proved(Proof *s, Room *m)
             return LOST;
         if (!error_bounds(m->R, m->G, m->rest, N, m->e))
             return OPEN_BOUND;
-        int of_lam = pressed(s, m), of_slack = slacks(s, m);
-        if (of_lam == REFUTED || of_slack == REFUTED)
+        m->refuted = m->open = 0;
+        pressed(s, m);
+        slacks(s, m);
+        if (m->refuted)
             return lost ? LOST : REFUTED;
-        code = rounded(s, m);
-        if (of_lam == OPEN_NUMBER || of_slack == OPEN_NUMBER)
-            code = OPEN_NUMBER;
+        rounded(s, m);
+        code = m->open ? OPEN_NUMBER : DECIDED;
         if (code == DECIDED && !implied(s) && (s->counts[1] || !spanned(s, m->table, m->pivot)))
             code = TO_BE_IMPLIED;
     }

@@ -64,6 +64,7 @@ typedef struct {
     double *K, *R, *G, *rest, *e, *copy;
     int64_t *table, *pivot;
     char *rests;
+    int refuted, open; /* whether a sign is wrong, and whether a number is not rounded yet */
 } Room;
 
 /* x in other units, `by` being a power of two. */
