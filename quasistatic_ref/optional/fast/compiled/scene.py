@@ -62,9 +62,8 @@ class Scene(Structure):
         self.put(
             {
                 "clouds": 0, "n_c": n_c, "n_v": n_v, "n_a": n_a, "n_x": n_x,
-                "links": len(poses.R), "mimics": int(column_map.mimics),
-                "t": poses.t, "column": poses.columns, "owner": column_map.owner,
-                "moves_alpha": alpha, "moves_beta": beta,
+                "links": len(poses.R), "t": poses.t, "column": poses.columns,
+                "owner": column_map.owner, "moves_alpha": alpha, "moves_beta": beta,
                 "mu_v": geometry.mu[:, 0], "mu_omega": geometry.mu[:, 2], "rows": layout.counts,
                 **cone_terms(constant.cone), **{name: written[name] for name in given.names or ()},
                 "A": np.zeros((m, n_v)), "b": np.zeros(m), "work": np.zeros(14 * n_x + 4 * n_v),

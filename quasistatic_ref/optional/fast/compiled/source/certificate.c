@@ -96,6 +96,15 @@ static void slacks(Proof *s, Room *m)
     }
 }
 
+/* Whether all that H couples a coordinate to stays where it is. */
+static int held(const Proof *s, const char *rest, int64_t v)
+{
+    for (int64_t j = 0; j < s->n_v; j++)
+        if (!rest[j] && s->hessian_values[v * s->n_v + j] != 0.0)
+            return 0;
+    return 1;
+}
+
 /* Which coordinates stay where they are: no load, no row of the working set, and no entry of H
    that couples them to others. There H x = 0, and H is definite. */
 static void at_rest(const Proof *s, const Room *m, char *rest)
@@ -109,19 +118,9 @@ static void at_rest(const Proof *s, const Room *m, char *rest)
     for (int found = 1; found;) {
         found = 0;
         for (int64_t v = 0; v < n; v++)
-            for (int64_t j = 0; rest[v] && j < n; j++)
-                if (!rest[j] && s->hessian_values[v * n + j] != 0.0)
-                    rest[v] = 0, found = 1;
+            if (rest[v] && !held(s, rest, v))
+                rest[v] = 0, found = 1;
     }
-}
-
-/* Whether all that H couples a coordinate to stays where it is: A'lam is then -g there. */
-static int held(const Proof *s, const char *rest, int64_t v)
-{
-    for (int64_t j = 0; j < s->n_v; j++)
-        if (!rest[j] && s->hessian_values[v * s->n_v + j] != 0.0)
-            return 0;
-    return 1;
 }
 
 /* The multipliers of the working set, rounded; zero where that is not surely wrong. */
@@ -168,7 +167,7 @@ static void rounded(Proof *s, Room *m)
         if (m->rests[v] == AT_REST)
             continue;
         if (held(s, m->rests, v))
-            net = product(m->g + v, &minus_one);
+            net = product(m->g + v, &minus_one); /* A'lam is -g there */
         else
             for (int64_t w = 0; w < k; w++)
                 error += fabs(m->K[(n + w) * (n + k) + v]) * m->e[n + w];

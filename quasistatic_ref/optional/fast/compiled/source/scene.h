@@ -7,7 +7,7 @@
 
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
-    int64_t clouds, bounds, n_c, n_v, n_a, n_x, links, mimics;
+    int64_t clouds, bounds, n_c, n_v, n_a, n_x, links;
     /* All pairs, and of each with a cloud its number among these, the solid, and whether that is beta's. */
     SolidPairs *solids;
     const int64_t *pair, *swaps;

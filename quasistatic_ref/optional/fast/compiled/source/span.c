@@ -35,10 +35,11 @@ static void generators(const Proof *s, int64_t r, int64_t *x)
    grow. */
 int spanned(const Proof *s, int64_t *table, int64_t *pivot)
 {
-    int64_t width = 4 * s->n_c, k = s->working, count = s->counts[0], *x = table + k * width;
+    int64_t width = 4 * s->n_c, k = s->working, count = s->counts[0];
     if (!count)
         return 1;
     for (int64_t w = 0; w < k + count; w++) {
+        int64_t *x = table + (w < k ? w : k) * width, first = -1;
         generators(s, w < k ? s->guess[w] : s->idle[w - k], x);
         for (int64_t i = 0; i < (w < k ? w : k); i++) {
             const int64_t *held = table + i * width;
@@ -52,19 +53,13 @@ int spanned(const Proof *s, int64_t *table, int64_t *pivot)
                     return 0;
             }
         }
-        int64_t first = -1;
         for (int64_t j = width - 1; j >= 0; j--)
             if (x[j])
                 first = j;
-        if (w >= k && first >= 0)
+        if ((w < k) == (first < 0))
             return 0;
-        if (w < k) {
-            if (first < 0)
-                return 0;
-            for (int64_t j = 0; j < width; j++)
-                table[w * width + j] = x[j];
+        if (w < k)
             pivot[w] = first;
-        }
     }
     return 1;
 }
