@@ -140,7 +140,7 @@ class CompiledStep:
         try:
             solution = self.solution(simulator, step, form)  # Eq. (13)
         except StepNotSolved as failure:
-            solution = simulator.spare.answer(step, failure)
+            solution = simulator.by_clarabel(step, failure)
         limits = simulator.limits
         if not gap >= -limits.penetration:
             limits.check_penetration(step)

@@ -108,18 +108,15 @@ class ContactTracker:
         of_clouds = self.of_clouds(R, t) if self.lists else joined_contacts([])
         if len(self.lists) == len(self.pairs):
             return of_clouds
-        found, decided = self.of_solids(R, t)
+        if self.solids is None:
+            found = no_contacts(int(self.start[-1]))
+            decided = self.has_cloud
+        else:
+            found, decided = self.solids(R, t)
         put(of_clouds, found, self.on_cloud)
         for i in np.flatnonzero(~(decided | self.has_cloud)).tolist():
             own = joined_contacts([pair_closest_points(self.pairs[i], R, t)])
             put(own, found, slice(self.start[i], self.start[i + 1]))
-        return found
-
-    def of_solids(self, R: Array, t: Array) -> tuple[ClosestPoints, Mask]:
-        """The contacts of pairs that compiled code decides, and which these are; others are 0."""
-        if self.solids is None:
-            return no_contacts(int(self.start[-1])), np.zeros(len(self.pairs), dtype=bool)
-        found: tuple[ClosestPoints, Mask] = self.solids(R, t)
         return found
 
     def of_clouds(self, R: Array, t: Array) -> ClosestPoints:
