@@ -177,7 +177,13 @@ class CloudList:
         self.made_at = 0
 
     def first_normal(self, relative: Array) -> Array:
-        """About the normal at the nearest point, shape (3,) [-], from some of the points."""
+        """About the normal at the nearest point, shape (3,) [-], from some of the points.
+
+        Parameters
+        ----------
+        relative : ndarray, shape (3, 4)
+            [R, t] of the cloud in the solid's frame [-, m].
+        """
         some = self.points[:: max(1, len(self.points) // SOME)]
         x = rotated(relative[:, :3], some) + relative[:, 3]
         phi, normal = self.solid.signed_distance(x)
