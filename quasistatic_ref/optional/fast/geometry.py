@@ -8,7 +8,7 @@ from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.optional.fast.posed import PosedContacts, posed
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.contacts import friction_coefficients
-from quasistatic_ref.step.data import Indices
+from quasistatic_ref.step.data import Array, Indices
 
 
 class PosedGeometry(ContactGeometry):
@@ -42,9 +42,13 @@ class PosedGeometry(ContactGeometry):
         n = points.n
         d1, d2 = tangents(n)
         J = self.jacobian(kinematics.columns, points.alpha, points.beta, n)
-        measured = {"phi": points.phi, "n": n, "d1": d1, "d2": d2, "J": J}
-        for array in measured.values():
+        for array in (points.phi, n, d1, d2, J):
             read_only(array)
+        return self.posed(points, d1, d2, J)
+
+    def posed(self, points: ClosestPoints, d1: Array, d2: Array, J: Array) -> PosedContacts:
+        """The contacts at those points, from d1, d2 (n_c, 3) [-], J (n_c, 4, n_v) [m, rad]."""
+        measured = {"phi": points.phi, "n": points.n, "d1": d1, "d2": d2, "J": J}
         own = {"name": self.names(points.point), **measured}
         return posed(PosedContacts, self.of_contacts, own)
 

@@ -1,14 +1,10 @@
 """A step in both units, with what is known of them before."""
 
-import numpy as np
-
 from quasistatic_ref.solve.units import (
     DenseStepInBothUnits,
     HessianInBothUnits,
     Units,
     check_units,
-    hessian_in_both_units,
-    out_of_range,
     units_of,
 )
 from quasistatic_ref.step.data import StepData
@@ -36,13 +32,11 @@ class KeptStepInBothUnits(DenseStepInBothUnits):
         si_form: StandardForm | None = None,
         units: Units | None = None,
     ) -> None:
+        if hessian is None or hessian.H is not si_step.H:
+            super().__init__(si_step)
+            return
         self.si_step = si_step
         self.si_form = standard_form(si_step) if si_form is None else si_form
-        try:
-            if hessian is None or hessian.H is not self.si_form.H:
-                hessian = hessian_in_both_units(self.si_form.H)
-            self.hessian = hessian
-            self.units = units_of(self.si_form, hessian) if units is None else units
-        except np.linalg.LinAlgError:
-            raise out_of_range(si_step) from None
+        self.hessian = hessian
+        self.units = units_of(self.si_form, hessian) if units is None else units
         check_units(self.units, si_step, hessian.usable)

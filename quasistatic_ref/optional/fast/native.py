@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.fast.adapters.program import Adapter, Program, SparseProgram
 from quasistatic_ref.solve.backends import BACKENDS, installed
 from quasistatic_ref.solve.reply import Reply
@@ -29,21 +28,6 @@ def native_backends(cone_name: str) -> tuple[str, ...]:
     return tuple(name for name in installed("native") if rows or BACKENDS[name].cones)
 
 
-def check_native(name: str, cone_name: str) -> None:
-    """Refuse a backend that has no interface of its own here, or does not take a cone by it.
-
-    Raises
-    ------
-    BackendError
-        In one sentence that says which do.
-    """
-    if name in native_backends(cone_name):
-        return
-    there = ", ".join(native_backends(cone_name))
-    problem = f"has no interface of its own here that takes the cone {cone_name!r}; {there} have"
-    raise BackendError(problem, field="backend", value=name)
-
-
 class NativeSolver(BackendSolver):
     """The arrays of steps of one kind, and a backend that is updated from them in place.
 
@@ -52,12 +36,7 @@ class NativeSolver(BackendSolver):
     template : StepData
         A step of that kind.
     name : str
-        Of a backend with an adapter.
-
-    Raises
-    ------
-    BackendError
-        If the backend has no native interface, or does not take the cone.
+        Of one of the :func:`native_backends`.
     """
 
     interface = "native"
@@ -65,7 +44,6 @@ class NativeSolver(BackendSolver):
     fixed = ("n_a", "n_u", "cone", "contacts.rows", "extra")
 
     def __init__(self, template: StepData, name: str) -> None:
-        check_native(name, template.cone)
         super().__init__(template, name)
         # Needs its package.
         module = import_module(f"quasistatic_ref.optional.fast.adapters.{name}")

@@ -237,8 +237,7 @@ class Proofs:
 
     def norm(self) -> Norm:
         """The norm ||.||_H of the last step."""
-        norms = self.norms()
-        return norms[0][1] if len(norms) == 1 else GroupNorm(norms)
+        return GroupNorm(self.norms())
 
     def optimum(self, both: StepInBothUnits, answer: NaturalAnswer | None) -> ExactOptimum:
         """The exact optimum: proved on a guess of its working set, or found by the exact method.

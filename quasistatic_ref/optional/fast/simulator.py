@@ -15,12 +15,14 @@ from quasistatic_ref.optional.fast.backends import (
 from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import constants, posed
-from quasistatic_ref.optional.fast.spare import Spare
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.parts import part
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
 from quasistatic_ref.simulate.simulator import Simulator, by_one_thread
+from quasistatic_ref.solve.backends import DEFAULT
+from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.solver import Solver, solver_for
 from quasistatic_ref.step.arrays import read_only
 from quasistatic_ref.step.data import Array, StepData
 
@@ -39,6 +41,8 @@ class FastSimulator(Simulator):
 
     Attributes
     ----------
+    spare : Solver or None
+        A second solver, Clarabel's, once it was needed.
     compiled : CompiledStep or None
         :meth:`step` in compiled code, with the same bits; None if there is none for this simulator.
     """
@@ -58,9 +62,8 @@ class FastSimulator(Simulator):
         """Check and form what all steps have in common."""
         system = self.system
         entries = self.entries()
-        self.spare = Spare(
-            default_backend(self.cone, self.certify, entries), self.accuracy, self.certify
-        )
+        self.default_backend = default_backend(self.cone, self.certify, entries)
+        self.spare: Solver | None = None
         self.tracker = ContactTracker(self.pairs)
         least = sparse_from(self.backend, self.cone) if entries else 0
         large = part("large.sparse_jacobian")
@@ -108,8 +111,28 @@ class FastSimulator(Simulator):
         return posed(constant.kind, constant._asdict(), {**loads, "contacts": contacts})
 
     def solution(self, step: StepData) -> StepSolution:
-        """A step solved; where the default backend fails, by the spare one."""
+        """A step solved; where the default backend fails, by Clarabel."""
         try:
             return super().solution(step)
         except StepNotSolved as failure:
-            return self.spare.answer(step, failure)
+            return self.by_clarabel(step, failure)
+
+    def by_clarabel(self, step: StepData, failure: StepNotSolved) -> StepSolution:
+        """Clarabel's answer to a step on which the default backend has failed.
+
+        With ``"full"`` in a polyhedral cone the exact method needs no backend: none fails there.
+
+        Raises
+        ------
+        StepNotSolved
+            The `failure` itself, if another backend than the default failed, or both did.
+        """
+        of_default = type(failure) is StepNotSolved and failure.backend == self.default_backend
+        if not of_default or self.default_backend == DEFAULT:
+            raise failure
+        if self.spare is None or not self.spare.fits(step):
+            self.spare = solver_for(step, DEFAULT, fast=True)
+        try:
+            return solve_step(step, self.spare, accuracy=self.accuracy, certify=self.certify)
+        except StepNotSolved:
+            raise failure from None

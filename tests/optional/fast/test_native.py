@@ -70,19 +70,6 @@ def test_a_start_from_the_answer_before_that_fails_is_followed_by_a_cold_one(rng
     assert calls == [True, False]
 
 
-REFUSED = {
-    "through CVXPY alone": "highs",
-    "another interface": "qpsolvers:daqp",
-    "unknown": "dapq",
-}
-
-
-@pytest.mark.parametrize("name", REFUSED.values(), ids=REFUSED)
-def test_a_backend_without_an_interface_of_its_own_is_refused(name, rng):
-    with pytest.raises(BackendError, match=r"has no interface of its own .* clarabel, .* have"):
-        NativeSolver(random_step(rng), name)
-
-
 def test_extensions_that_are_more_than_rows_need_cvxpy(rng):
     step = random_step(rng)
     curved = Extension(lambda s: [cp.norm(s.delta_q) <= 1.0])

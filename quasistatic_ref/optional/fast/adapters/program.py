@@ -38,15 +38,14 @@ class Program:
     cones: int = 0
 
     @cached_property
-    def upper(self) -> tuple[Indices, Indices]:
-        """Rows and columns of H's upper triangle, column by column, shape (n (n + 1) / 2,) each."""
-        columns, rows = np.tril_indices(len(self.f))
-        return rows, columns
+    def triangle(self) -> tuple[Indices, Indices]:
+        """Columns and rows of H's upper triangle, column by column, shape (n (n + 1) / 2,) each."""
+        return np.tril_indices(len(self.f))
 
     @property
     def P_data(self) -> Array:
         """Entries of H's upper triangle, in the order of :meth:`columns`, shape (entries,)."""
-        return self.H[self.upper]
+        return self.H.T[self.triangle]
 
     @property
     def A_data(self) -> Array:
@@ -57,13 +56,11 @@ class Program:
         """H's upper triangle and A in compressed columns of a fixed pattern, zeros included."""
         from scipy.sparse import csc_matrix  # not all adapters need it
 
-        m, n = self.A.shape
-        rows, _ = self.upper
-        starts = np.concatenate([[0], np.cumsum(np.arange(1, n + 1))])
-        P = csc_matrix((self.P_data, rows, starts), shape=(n, n))
-        every = np.tile(np.arange(m), n)
-        full = np.arange(n + 1) * m
-        return P, csc_matrix((self.A_data, every, full), shape=(m, n))
+        P = csc_matrix(np.triu(np.ones(self.H.shape)))
+        A = csc_matrix(np.ones(self.A.shape))
+        P.data = self.P_data
+        A.data = self.A_data
+        return P, A
 
 
 @dataclass(frozen=True, eq=False)

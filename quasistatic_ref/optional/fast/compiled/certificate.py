@@ -60,6 +60,7 @@ class GroupProof:
             {
                 "n_a": step.n_a, "n_v": n, "n_c": step.contacts.n_c, "rows": m, "working": 0,
                 "coordinates": group.coordinates, "contacts": group.contacts,
+                "rows_of_J": (4 * group.contacts[:, None] + np.arange(4)).ravel(),
                 "rows_of_step": group.rows, "natural": self._natural.address,
                 "h": np.array([step.h]), "coordinate": hessian.coordinate,
                 "K_q": step.K_q, "M_u": step.M_u, "guess": np.zeros(n, np.int64),
@@ -145,9 +146,9 @@ def step_arrays(step: StepData) -> dict[str, Array]:
     m = step.m
     return {
         "delta_q_bar_a": np.zeros(step.n_a), "phi": np.zeros(n_c), "J": np.zeros((n_c, 4, n)),
+        "frame": np.tile(np.diag([0.0, 0.0, 0.0, 1.0]), (n_c, 1, 1)), "mu": np.ones((n_c, 4)),
         "A": np.zeros((m, n)), "least": np.zeros(2),
         **{name: np.zeros(n) for name in ("g", "tau", "delta_q", "net")},
-        **{name: np.zeros((n_c, 3)) for name in ("n", "d1", "d2", "mu")},
         **{name: np.zeros(m) for name in ("b", "pressure", "gap", "lam", "slack")},
     }  # fmt: skip
 
@@ -218,8 +219,11 @@ class Prover:
         s["tau"][: step.n_a] = step.tau_a
         s["tau"][step.n_a :] = step.tau_u
         s["delta_q_bar_a"][:] = step.delta_q_bar_a
-        for name in ("phi", "n", "d1", "d2", "J", "mu"):
-            s[name][:] = getattr(contacts, name)
+        s["phi"][:] = contacts.phi
+        s["J"][:] = contacts.J
+        s["mu"][:, 1:] = contacts.mu
+        for i, axes in enumerate((contacts.n, contacts.d1, contacts.d2)):
+            s["frame"][:, i, :3] = axes
         s["g"][:] = form.g
         s["A"][:] = form.A
         s["b"][:] = form.b

@@ -32,12 +32,6 @@ from quasistatic_ref.formats.quoting import clipped, one_line
 VARIABLE = "QUASISTATIC_REF_CC"
 NONE = "none"
 SOURCE = Path(__file__).parent / "source"
-SOURCES = (
-    "closest.c", "hull.c", "solids.c", "candidates.c", "polytopes.c", "crossings.c", "rows.c",
-    "screws.c", "natural.c", "groups.c", "certificate.c", "kkt.c", "contraction.c", "span.c",
-    "rounding.c", "arithmetic.c",
-)  # fmt: skip
-HEADERS = ("solid.h", "solids.h", "scene.h", "proof.h", "fixed_point.h")
 SELFTEST = "selftest.py"
 CONSTANTS = {
     **{
@@ -145,8 +139,8 @@ def compiler() -> list[str]:
 def _made(command: list[str]) -> Path:
     """The library's file, made if it is not there."""
     selftest = SOURCE.parent / SELFTEST
-    files = (*(SOURCE / name for name in (*SOURCES, *HEADERS)), selftest)
-    text = b"".join(file.read_bytes() for file in files)
+    files = sorted(SOURCE.glob("*.[ch]"))
+    text = b"".join(file.read_bytes() for file in [*files, selftest])
     key = hashlib.sha256(
         text + repr((command, FLAGS, sys.platform, platform.machine())).encode()
     ).hexdigest()
@@ -159,7 +153,7 @@ def _made(command: list[str]) -> Path:
         print("quasistatic_ref: compiling, once ...", file=sys.stderr, flush=True)
         with tempfile.TemporaryDirectory(dir=folder) as made:
             out = Path(made) / file.name
-            sources = [str(SOURCE / name) for name in SOURCES]
+            sources = [str(file) for file in files if file.suffix == ".c"]
             compiling = [*command, *FLAGS, "-o", str(out), *sources, "-lm"]
             testing = [sys.executable, "-I", str(selftest), str(out)]
             for work, failed in ((compiling, "could not compile it"), (testing, "is not used")):

@@ -75,8 +75,8 @@ class NaturalProgram:
 
 def natural_program(scene: Scene, solver: FastSolver, step: StepData) -> NaturalProgram | None:
     """What writes the steps of a scene that are like one into the arrays of a solver, or None."""
-    if not isinstance(solver.program, Program):
+    program = solver.program
+    hessian = solver.hessian
+    if not isinstance(program, Program) or hessian is None or step.n_v > MOST:
         return None
-    if solver.hessian is None or solver.hessian.H is not step.H or step.n_v > MOST:
-        return None
-    return NaturalProgram(scene, solver, solver.program, solver.hessian)
+    return NaturalProgram(scene, solver, program, hessian) if hessian.H is step.H else None

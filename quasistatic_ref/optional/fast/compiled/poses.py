@@ -4,6 +4,7 @@ import numpy as np
 
 from quasistatic_ref.model.kinematics import Kinematics
 from quasistatic_ref.model.system import System
+from quasistatic_ref.model.workspace import ORIGIN, WORLD
 from quasistatic_ref.step.data import Array
 
 
@@ -31,9 +32,8 @@ class Poses:
         self.column_map = system.column_map
         self.order = system.column_map.order
         self.q = system.q_start.copy()
-        self._world = np.eye(3), np.zeros(3)
-        R = [self._world[0]]
-        t = [self._world[1]]
+        R = [WORLD]
+        t = [ORIGIN]
         columns: list[int] = []
         gravity: list[int] = []
         for part in self.workspace.parts:

@@ -8,7 +8,6 @@ from quasistatic_ref.optional.fast.compiled.solids import SolidPairs, solid
 from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.posed import Constants
-from quasistatic_ref.optional.fast.tracker.cloud_pairs import starts
 from quasistatic_ref.optional.fast.tracker.tracker import ContactTracker
 from quasistatic_ref.step.cones import cone_function, cone_matrix
 from quasistatic_ref.step.data import Array, Indices
@@ -62,11 +61,9 @@ class Scene(Structure):
         alpha, beta = geometry.moves[:, :, 0]
         self.put(
             {
-                "pairs": 0, "n_c": n_c, "n_v": n_v, "n_a": n_a, "n_x": n_x,
-                "links": len(poses.R), "mimics": int(column_map.mimics),
-                "R": poses.R, "t": poses.t, "column": poses.columns,
-                "owner": column_map.owner,
-                "moves_alpha": alpha, "moves_beta": beta,
+                "clouds": 0, "n_c": n_c, "n_v": n_v, "n_a": n_a, "n_x": n_x,
+                "links": len(poses.R), "t": poses.t, "column": poses.columns,
+                "owner": column_map.owner, "moves_alpha": alpha, "moves_beta": beta,
                 "mu_v": geometry.mu[:, 0], "mu_omega": geometry.mu[:, 2], "rows": layout.counts,
                 **cone_terms(constant.cone), **{name: written[name] for name in given.names or ()},
                 "A": np.zeros((m, n_v)), "b": np.zeros(m), "work": np.zeros(14 * n_x + 4 * n_v),
@@ -97,31 +94,24 @@ class Scene(Structure):
             return
         self.lists_made = tracker.lists_made
         clouds = tracker.clouds
-        bounds = np.full(clouds.P, clouds.offset.shape[1])
         self.put(
             {
-                "first": clouds.start[:-1], "length": np.diff(clouds.start), "index": clouds.index,
-                "points": clouds.points,
-                "bounds": starts(bounds), "slope": clouds.slope, "offset": clouds.offset,
+                "first": clouds.start, "index": clouds.index, "points": clouds.points,
+                "bounds": clouds.offset.shape[1], "slope": clouds.slope, "offset": clouds.offset,
             },
         )  # fmt: skip
 
     def _put_clouds(self, tracker: ContactTracker) -> None:
         """What does not change of the pairs with a cloud, in their order."""
         clouds = tracker.clouds
-        P = clouds.P
-        count = clouds.last - clouds.first + 1
+        most = max(pair.n_c for pair in clouds.pairs)
         self.solids = [solid(side.shape) for side in clouds.solids]
         self.put(
             {
-                "pairs": P,
-                "link_solid": clouds.link[:P], "link_cloud": clouds.link[P:],
-                "on_solid": clouds.on_link[:P], "on_cloud": clouds.on_link[P:],
-                "solid": np.array([one.address for one in self.solids]), "sign": clouds.sign,
-                "start": tracker.start[:-1][tracker.has_cloud],
-                "count": count,
-                "world": np.zeros((P, 24)), "nearest": np.zeros(count.max()),
-                "rank": np.zeros(count.max(), np.int64),
+                "clouds": clouds.P, "pair": np.flatnonzero(tracker.has_cloud),
+                "swaps": clouds.solid_is_beta.astype(np.int64),
+                "solid": np.array([one.address for one in self.solids]),
+                "nearest": np.zeros(most), "rank": np.zeros(most, np.int64),
             },
         )  # fmt: skip
 

@@ -36,36 +36,33 @@ class Screws:
         n_a = system.n_a
         self._sums = _structure(poses.q, joints, system.n_v)
         self._differences = _structure(poses.q, [j for j in joints if j.actuated], n_a)
-        self._of_sums, self._of_differences = (
-            tuple(s[name] for name in ("q_next", "delta_q", "angle", "cosine", "sine", "x", "y"))
-            for s in (self._sums, self._differences)
-        )
-        self._target = self._of_differences[0][: system.n_q_a]
+        self._target = self._differences["q_next"][: system.n_q_a]
         self._turning = [(i, j.actuated) for i, j in enumerate(joints) if j.kind in TURNING]
 
     def integrate(self, delta_q: Array) -> Array:
         """Configuration q (+) delta_q, shape (n_q,)."""
-        there, change, angle, cosine, sine, _, _ = self._of_sums
-        change[:] = delta_q
-        if not self._half_turns(self._sums.address):
+        s = self._sums
+        s["delta_q"][:] = delta_q
+        if not self._half_turns(s.address):
             for i, _ in self._turning:
-                cosine[i], sine[i] = cos_sin(float(angle[i]) / 2)
-        self._add(self._sums.address)
-        return there.copy()
+                s["cosine"][i], s["sine"][i] = cos_sin(float(s["angle"][i]) / 2)
+        self._add(s.address)
+        return s["q_next"].copy()
 
     def actuated_difference(self, q_a: Array) -> Array:
         """Change of the actuated coordinates, shape (n_a,), to q_a; ModelError unless (n_q_a,)."""
-        _, change, angle, cosine, sine, x, y = self._of_differences
+        s = self._differences
         if np.shape(q_a) != self._target.shape:
             self.system.with_actuated(self.q, q_a)  # which says so
         self._target[:] = q_a
-        if not self._turns(self._differences.address):
+        if not self._turns(s.address):
             for i, actuated in self._turning:
                 if actuated:
-                    angle[i] = turn = angle_of(float(y[i]), float(x[i]))
-                    cosine[i], sine[i] = cos_sin(turn / 2)
-        self._subtract(self._differences.address)
-        return change.copy()
+                    turn = angle_of(float(s["y"][i]), float(s["x"][i]))
+                    s["angle"][i] = turn
+                    s["cosine"][i], s["sine"][i] = cos_sin(turn / 2)
+        self._subtract(s.address)
+        return s["delta_q"].copy()
 
 
 def _structure(q: Array, joints: Sequence[Joint], n_v: int) -> Structure:

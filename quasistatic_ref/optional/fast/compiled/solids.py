@@ -187,8 +187,5 @@ class PosedSolids:
         self.R[:] = R[: len(self.R)].transpose(0, 2, 1)
         self.t[:] = t[: len(self.t)]
         self.find(self.pairs.address)
-        phi, alpha, beta, n, point, tie = self.written
-        found = ClosestPoints(
-            phi.copy(), alpha.copy(), beta.copy(), n.copy(), point.copy(), tie.copy()
-        )
+        found = ClosestPoints._make(field.copy() for field in self.written)
         return found, self.pairs["decided"] != 0

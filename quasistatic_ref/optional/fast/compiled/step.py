@@ -21,7 +21,7 @@ from quasistatic_ref.optional.fast.compiled.solids import measured
 from quasistatic_ref.optional.fast.geometry import PosedGeometry
 from quasistatic_ref.optional.fast.kept_step import KeptStepInBothUnits
 from quasistatic_ref.optional.fast.native import native_backends
-from quasistatic_ref.optional.fast.posed import Constants, PosedContacts, PosedStep, posed
+from quasistatic_ref.optional.fast.posed import Constants, PosedStep, posed
 from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.simulate.result import StepResult
@@ -140,7 +140,7 @@ class CompiledStep:
         try:
             solution = self.solution(simulator, step, form)  # Eq. (13)
         except StepNotSolved as failure:
-            solution = simulator.spare.answer(step, failure)
+            solution = simulator.by_clarabel(step, failure)
         limits = simulator.limits
         if not gap >= -limits.penetration:
             limits.check_penetration(step)
@@ -183,9 +183,7 @@ class CompiledStep:
         gap = self.form(scene.address)
         *found, d1, d2, J, tau, g = TAKEN(scene.taken())
         points = ClosestPoints(*found)
-        phi, point, n = points.phi, points.point, points.n
-        own = {"name": self.geometry.names(point), "phi": phi, "n": n, "d1": d1, "d2": d2, "J": J}
-        contacts = posed(PosedContacts, self.geometry.of_contacts, own)
+        contacts = self.geometry.posed(points, d1, d2, J)
         if constant is not self.constant:
             self.constant, self.of_steps, self.solver = constant, constant._asdict(), None
         n_a = len(delta_q_bar_a)

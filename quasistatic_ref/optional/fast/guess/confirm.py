@@ -16,7 +16,6 @@ exact rows, or from the rational solution on W
 """
 
 from collections.abc import Sequence
-from functools import cached_property
 
 import numpy as np
 from flint import arb, arb_mat, ctx
@@ -99,18 +98,42 @@ class BallStep:
     def __init__(self, step: StepData, hessian: BallHessian) -> None:
         self.step = step
         self.hessian = hessian
+        self._J: dict[int, arb_mat] = {}
         with ctx.workprec(PRECISION):
             self.free = hessian.inverse * hessian.h_times_g(step)
 
-    @cached_property
-    def J(self) -> arb_mat:
-        """Of all contacts, shape (4 n_c, n_v)."""
-        J = self.step.contacts.J
-        return arb_mat(4 * len(J), self.step.n_v, J.ravel().tolist())
+    def J(self, j: int) -> arb_mat:
+        """Of contact j, shape (4, n_v)."""
+        if j not in self._J:
+            self._J[j] = arb_mat(self.step.contacts.J[j].tolist())
+        return self._J[j]
+
+    def rows(self, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:
+        """A_W and b_W: (n~ + d~_i)'J of Eq. (8) for each row of the working set."""
+        step = self.step
+        contacts = step.contacts
+        contact, row = places(step, working)
+        axes = np.stack([contacts.n, contacts.d1, contacts.d2], axis=2).tolist()
+        mu = contacts.mu.tolist()
+        table = cone_matrix(step.cone).tolist()
+        constants = -row_constants(contacts, step.cone)
+        entries = list[arb | float]()
+        b = list[float]()
+        for j, i in zip(contact.tolist(), row.tolist(), strict=True):
+            if j == contacts.n_c:
+                entries += step.extra.A[i].tolist()
+                b.append(step.extra.b[i])
+                continue
+            gap, *others = map(arb, table[i])
+            slip_1, slip_2, spin = (x * mu_x for x, mu_x in zip(others, mu[j], strict=True))
+            along = [gap * n + slip_1 * d1 + slip_2 * d2 for n, d1, d2 in axes[j]]
+            entries += (arb_mat(1, 4, [*along, spin]) * self.J(j)).entries()
+            b.append(constants[j, i])
+        return arb_mat(len(working), step.n_v, entries), _column(np.array(b))
 
     def minimiser(self, working: Sequence[int]) -> tuple[arb_mat, arb_mat, arb_mat] | None:
         """A_W, h lam and the minimiser x on A_W x = b_W; None if A_W is not seen to be regular."""
-        A, b = _rows(self.step, working)
+        A, b = self.rows(working)
         reached = A * self.hessian.inverse
         try:
             y = (reached * A.transpose()).solve(b - A * self.free)
@@ -140,8 +163,9 @@ class BallStep:
                 return None
             A, y, x = found
             lam = y * (1 / hessian.h)
-            motion = (self.J * x).entries()
-            slacks = contact_slacks(step, range(step.contacts.n_c), motion)
+            every = range(step.contacts.n_c)
+            motion = [moved for j in every for moved in (self.J(j) * x).entries()]
+            slacks = contact_slacks(step, every, motion)
             if step.extra.names:
                 A_own = arb_mat(len(step.extra.names), step.n_v, step.extra.A.ravel().tolist())
                 slacks += (A_own * x - _column(step.extra.b)).entries()
@@ -168,11 +192,11 @@ class BallStep:
                 impulse, shown = all_nearest(hessian.net(step, at))
             if not shown.all():
                 return None
-        every = np.zeros(len(slack))
-        every[working] = lam_w
+        lam_of_rows = np.zeros(len(slack))
+        lam_of_rows[working] = lam_w
         return ExactOptimum(
             delta_q=delta_q,
-            lam=every,
+            lam=lam_of_rows,
             net=impulse,
             slack=slack,
             working_set=tuple(working),
@@ -210,34 +234,6 @@ def all_nearest(balls: Sequence[arb]) -> tuple[Array, NDArray[np.bool_]]:
 def _nonzero(balls: Sequence[arb]) -> Array:
     """The numbers in some balls, shape (balls,) [of their unit]; 0 where a ball holds zero."""
     return np.array([0.0 if ball.contains(0) else float(ball) for ball in balls])
-
-
-def _rows(step: StepData, working: Sequence[int]) -> tuple[arb_mat, arb_mat]:
-    """A_W and b_W: (n~ + d~_i)'J of Eq. (8) for each row of the working set, the user's last."""
-    contacts = step.contacts
-    m = int(step.offsets[-1])
-    contact, row = places(step, [i for i in working if i < m])
-    own = [i - m for i in working if i >= m]
-    used = list(dict.fromkeys(contact.tolist()))
-    directions = arb_mat(len(contact), 4 * len(used))
-    at = {j: 4 * i for i, j in enumerate(used)}
-    frames = zip(contact.tolist(), contacts.n[contact].tolist(), contacts.d1[contact].tolist(),
-                 contacts.d2[contact].tolist(), strict=True)  # fmt: skip
-    table = cone_matrix(step.cone)[row].tolist()
-    mu = contacts.mu[contact].tolist()
-    for k, (j, n, d1, d2) in enumerate(frames):
-        gap, slip_1, slip_2, spin = table[k]
-        along_1 = arb(slip_1) * mu[k][0]
-        along_2 = arb(slip_2) * mu[k][1]
-        first = at[j]
-        for i in range(3):
-            directions[k, first + i] = gap * arb(n[i]) + along_1 * d1[i] + along_2 * d2[i]
-        directions[k, first + 3] = arb(spin) * mu[k][2]
-    J = arb_mat(4 * len(used), step.n_v, contacts.J[used].ravel().tolist())
-    entries = (directions * J).entries() + step.extra.A[own].ravel().tolist()
-    constants = (-row_constants(contacts, step.cone)[contact, row]).tolist()
-    b = constants + step.extra.b[own].tolist()
-    return arb_mat(len(working), step.n_v, entries), arb_mat(len(working), 1, b)
 
 
 def contact_slacks(step: StepData, which: Sequence[int] | Indices, motion: list[arb]) -> list[arb]:

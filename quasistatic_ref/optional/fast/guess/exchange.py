@@ -166,9 +166,8 @@ class Walk:
 
     def violated(self) -> int | None:
         """The row that is violated most, if there is one."""
-        surely = np.where(self.slack < -self.noise, self.slack, 0.0)
-        p = int(np.argmin(surely)) if len(surely) else 0
-        return p if len(surely) and surely[p] < 0 else None
+        surely = np.flatnonzero(self.slack < -self.noise)
+        return int(surely[self.slack[surely].argmin()]) if surely.size else None
 
     def add(self, p: int) -> bool:
         """Walk until row p is satisfied; whether that is possible."""

@@ -41,8 +41,8 @@ class CloudPairs:
         Links of all solids, then of all clouds.
     on_link : ndarray, shape (2 P, 3, 4)
         Where these are on their links: [R, t] [-, m].
-    sign : ndarray, shape (P,)
-        Of the solid's normal in the contact's.
+    solid_is_beta : ndarray of bool, shape (P,)
+        Whether the solid's normal is the contact's the other way round.
     first, last : ndarray of int, shape (P,)
         Each pair's nearest and its farthest contact.
     index : ndarray of int, shape (N,)
@@ -63,11 +63,8 @@ class CloudPairs:
         every = [*self.solids, *self.clouds]
         self.link = np.array([side.link for side in every], dtype=np.int64)
         self.on_link = np.array([np.column_stack([side.R, side.t]) for side in every])
-        self.sign = np.array(
-            [
-                1.0 if pair.alpha is solid else -1.0
-                for pair, solid in zip(pairs, self.solids, strict=True)
-            ]
+        self.solid_is_beta = np.array(
+            [isinstance(pair.alpha.shape, PointCloud) for pair in pairs], dtype=bool
         )
         count = np.array([pair.n_c for pair in pairs], dtype=np.int64)
         ends = starts(count)
@@ -76,7 +73,7 @@ class CloudPairs:
         pair_of = np.repeat(np.arange(len(pairs)), count)
         self.pair_of = pair_of
         self.sides = np.concatenate([pair_of, len(pairs) + pair_of])
-        self.swapped = self.sign[pair_of, None] < 0
+        self.swapped = self.solid_is_beta[pair_of, None]
         self.swaps = bool(self.swapped.any())
         extents = np.array([solid.shape.extent for solid in self.solids])
         self.extent = float(extents[np.isfinite(extents)].max(initial=0.0))

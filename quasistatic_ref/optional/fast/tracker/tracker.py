@@ -108,18 +108,15 @@ class ContactTracker:
         of_clouds = self.of_clouds(R, t) if self.lists else joined_contacts([])
         if len(self.lists) == len(self.pairs):
             return of_clouds
-        found, decided = self.of_solids(R, t)
+        if self.solids is None:
+            found = no_contacts(int(self.start[-1]))
+            decided = self.has_cloud
+        else:
+            found, decided = self.solids(R, t)
         put(of_clouds, found, self.on_cloud)
         for i in np.flatnonzero(~(decided | self.has_cloud)).tolist():
             own = joined_contacts([pair_closest_points(self.pairs[i], R, t)])
             put(own, found, slice(self.start[i], self.start[i + 1]))
-        return found
-
-    def of_solids(self, R: Array, t: Array) -> tuple[ClosestPoints, Mask]:
-        """The contacts of pairs that compiled code decides, and which these are; others are 0."""
-        if self.solids is None:
-            return no_contacts(int(self.start[-1])), np.zeros(len(self.pairs), dtype=bool)
-        found: tuple[ClosestPoints, Mask] = self.solids(R, t)
         return found
 
     def of_clouds(self, R: Array, t: Array) -> ClosestPoints:
@@ -129,7 +126,7 @@ class ContactTracker:
         self.steps += 1
         if not self.lists_made:
             for each, pose in zip(self.lists, relative, strict=True):
-                each.start(pose, self.steps)
+                each.make(pose, each.first_normal(pose), np.inf, self.steps)
             clouds.put([each.list for each in self.lists])
         for attempt in range(ATTEMPTS):
             x, phi, normal = clouds.measured(relative)
@@ -142,7 +139,7 @@ class ContactTracker:
             for i in np.flatnonzero(~proved).tolist():
                 # A new list is proved where it was made; if not, for some error, all points are.
                 n = normal[kept[clouds.first[i]]]
-                self.lists[i].renew(relative[i], n, float(phi_k[i]), self.steps, attempt > 0)
+                self.lists[i].make(relative[i], n, float(phi_k[i]), self.steps, attempt > 0)
             clouds.put([each.list for each in self.lists])
         name = clouds.pairs[int(np.argmin(proved))].name
         raise ContactError("has distances that are not numbers", field=name)
@@ -179,15 +176,21 @@ class CloudList:
         self.made = 0
         self.made_at = 0
 
-    def start(self, relative: Array, step: int) -> None:
-        """Make the first list, at `relative`, shape (3, 4) [-, m], as of :meth:`renew`."""
+    def first_normal(self, relative: Array) -> Array:
+        """About the normal at the nearest point, shape (3,) [-], from some of the points.
+
+        Parameters
+        ----------
+        relative : ndarray, shape (3, 4)
+            [R, t] of the cloud in the solid's frame [-, m].
+        """
         some = self.points[:: max(1, len(self.points) // SOME)]
         x = rotated(relative[:, :3], some) + relative[:, 3]
         phi, normal = self.solid.signed_distance(x)
-        self._make(relative, normal[phi.argmin()], np.inf, self.width, step)
+        return np.asarray(normal[phi.argmin()])
 
-    def renew(self, relative: Array, n: Array, phi_k: float, step: int, whole: bool) -> None:
-        """Make another list; of all points if `whole`.
+    def make(self, relative: Array, n: Array, phi_k: float, step: int, whole: bool = False) -> None:
+        """Make a list; of all points if `whole`.
 
         Parameters
         ----------
@@ -196,18 +199,14 @@ class CloudList:
         n : ndarray, shape (3,)
             The normal at the nearest point [-].
         phi_k : float
-            The k-th smallest distance [m].
+            The k-th smallest distance [m]; infinite if not known.
         step : int
             The number of this step.
         whole : bool
         """
-        if step - self.made_at < SHORT:
+        if self.made and step - self.made_at < SHORT:
             self.width = min(2 * self.width, WIDE)
         width = len(self.points) if whole else self.width
-        self._make(relative, n, phi_k, width, step)
-
-    def _make(self, relative: Array, n: Array, phi_k: float, width: int, step: int) -> None:
-        """Make a list of a width; all else as above."""
         R = relative[:, :3]
         t = relative[:, 3]
         self.list = shortlist(self.tree, self.solid, R, t, n, phi_k, self.n_c, width)

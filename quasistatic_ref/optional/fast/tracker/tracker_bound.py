@@ -82,17 +82,6 @@ class Shortlist:
             offsets.append(bound - (directions @ self.corners.T).ravel())
         return np.concatenate(slopes), np.concatenate(offsets)
 
-    def limit(self, pose: Array) -> float:
-        """Below which signed distance [m] no point outside the list can have come.
-
-        Parameters
-        ----------
-        pose : ndarray, shape (3, 4)
-            [R, t] from the cloud's frame to the solid's.
-        """
-        slope, offset = self.bounds
-        return float((slope @ pose.ravel() + offset).min())
-
 
 def support_height(shape: Shape, n: Array) -> float:
     """How far a solid reaches along a unit vector: the height of the plane that touches it [m].

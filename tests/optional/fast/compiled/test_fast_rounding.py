@@ -15,6 +15,7 @@ pytestmark = needs_compiler
 CASES = 4000
 EXPOSED = """
 #include "rounding.c"
+_Thread_local int lost;
 int shown(int64_t first, int64_t second, int64_t third, int place, double e, double *c)
 {
     Number x = {third ? place - 2 : second ? place - 1 : place, place + 1, {0}};

@@ -8,14 +8,17 @@
 
 #include "proof.h"
 
+_Thread_local int lost;
+
 int64_t number_size(void) { return sizeof(Number); }
 
-/* gap, slip_1, slip_2 and spin of a contact, without friction's coefficients' rows, and bounds. */
-static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double *e, int *lost)
+/* gap, slip_1, slip_2 and spin of a contact, the last three times their coefficients of friction, and
+   bounds of their errors. */
+static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double *e)
 {
     int64_t n = s->n_v;
     double ell = s->units[0], rho = s->units[1], of_nu[4];
-    const double *axes[3] = {s->n + 3 * c, s->d1 + 3 * c, s->d2 + 3 * c};
+    const double *mu = s->mu + 4 * c;
     Number nu[4];
     for (int i = 0; i < 4; i++) {
         Sum sum;
@@ -25,39 +28,37 @@ static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double
             double unit = s->coordinate[v] / ell, entry = s->J[n * (4 * c + i) + v];
             if (entry == 0.0)
                 continue;
-            Float J = scaled(entry, unit, lost);
-            add_product(&sum, m->z + v, &J, 1, lost);
+            Number J = scaled(entry, unit);
+            add_product(&sum, m->z + v, &J, 1);
             of_nu[i] += fabs(entry * unit) * m->e[v];
         }
-        nu[i] = carried(&sum, lost);
+        nu[i] = carried(&sum);
     }
-    const double *of_c = s->mu + 3 * c, mu[4] = {1.0, of_c[0], of_c[1], of_c[2]};
     for (int a = 0; a < 4; a++) {
+        const double *axis = s->frame + 16 * c + 4 * a;
         Sum sum;
         clear(&sum);
         e[a] = 0.0;
-        for (int i = 0; i < 3 && a < 3; i++) {
-            Float axis = exact(axes[a][i], lost);
-            add_product(&sum, nu + i, &axis, 1, lost);
-            e[a] += fabs(axes[a][i]) * of_nu[i];
+        for (int i = 0; i < 4; i++) {
+            Number along = exact(axis[i]);
+            add_product(&sum, nu + i, &along, 1);
+            e[a] += fabs(axis[i]) * of_nu[i];
         }
         if (a == 0) {
-            Float phi = scaled(s->phi[c], 1 / (rho * ell), lost);
-            add_float(&sum, &phi, 1);
+            Number phi = scaled(s->phi[c], 1 / (rho * ell));
+            add(&sum, &phi);
         }
-        Number x = a == 3 ? nu[3] : carried(&sum, lost);
-        Float by = exact(mu[a], lost);
-        out[a] = a == 0 ? x : product(&x, &by, lost);
-        e[a] = (a == 3 ? of_nu[3] : e[a]) * mu[a];
+        Number x = carried(&sum), by = exact(mu[a]);
+        out[a] = product(&x, &by);
+        e[a] *= mu[a];
     }
 }
 
 /* Slacks of all rows; those that may be zero are collected. */
-static int slacks(Proof *s, Room *m, int *lost)
+static void slacks(Proof *s, Room *m)
 {
     double unit = s->units[0] * s->units[1];
     int64_t last = -1, next = 0;
-    int code = DECIDED;
     Number of[4];
     double e[4];
     for (int64_t r = 0; r < s->rows; r++) {
@@ -68,33 +69,40 @@ static int slacks(Proof *s, Room *m, int *lost)
             continue;
         }
         if (c != last)
-            motion(s, m, c, of, e, lost);
+            motion(s, m, c, of, e);
         last = c;
         Sum sum;
         double error = 0.0;
         clear(&sum);
         for (int a = 0; a < 4; a++) {
             double coefficient = s->cone[4 * s->row[r] + a];
-            Float by = exact(coefficient, lost);
-            add_product(&sum, of + a, &by, 1, lost);
+            Number by = exact(coefficient);
+            add_product(&sum, of + a, &by, 1);
             error += fabs(coefficient) * e[a];
         }
-        Number x = carried(&sum, lost);
+        Number x = carried(&sum);
         error *= UP;
         if (fabs(value(&x)) * DOWN <= error) {
             s->idle[s->counts[0]++] = r;
             continue;
         }
-        if (value(&x) < 0.0)
-            code = REFUTED;
-        if (!nearest(&x, error, 1.0, unit, s->slack + r, lost)) {
+        m->refuted |= value(&x) < 0.0;
+        if (!nearest(&x, error, 1.0, unit, s->slack + r)) {
             s->slack[r] = value(&x) * unit;
-            code = code == REFUTED ? REFUTED : OPEN_NUMBER;
+            m->open = 1;
         }
         if (s->slack[r] < s->least[0])
             s->least[0] = s->slack[r];
     }
-    return code;
+}
+
+/* Whether all that H couples a coordinate to stays where it is. */
+static int held(const Proof *s, const char *rest, int64_t v)
+{
+    for (int64_t j = 0; j < s->n_v; j++)
+        if (!rest[j] && s->hessian_values[v * s->n_v + j] != 0.0)
+            return 0;
+    return 1;
 }
 
 /* Which coordinates stay where they are: no load, no row of the working set, and no entry of H
@@ -110,50 +118,38 @@ static void at_rest(const Proof *s, const Room *m, char *rest)
     for (int found = 1; found;) {
         found = 0;
         for (int64_t v = 0; v < n; v++)
-            for (int64_t j = 0; rest[v] && j < n; j++)
-                if (!rest[j] && s->hessian_values[v * n + j] != 0.0)
-                    rest[v] = 0, found = 1;
+            if (rest[v] && !held(s, rest, v))
+                rest[v] = 0, found = 1;
     }
 }
 
-/* Whether all that H couples a coordinate to stays where it is: A'lam is then -g there. */
-static int held(const Proof *s, const char *rest, int64_t v)
-{
-    for (int64_t j = 0; j < s->n_v; j++)
-        if (!rest[j] && s->hessian_values[v * s->n_v + j] != 0.0)
-            return 0;
-    return 1;
-}
-
 /* The multipliers of the working set, rounded; zero where that is not surely wrong. */
-static int pressed(Proof *s, Room *m, int *lost)
+static void pressed(Proof *s, Room *m)
 {
     int64_t n = s->n_v;
     double unit = s->units[1] / s->units[0];
-    int code = DECIDED;
     for (int64_t r = 0; r < s->rows; r++)
         s->lam[r] = 0.0;
     for (int64_t w = 0; w < s->working; w++) {
         const Number *y = m->z + n + w;
         double *lam = s->lam + s->guess[w], error = m->e[n + w];
-        if (!(value(y) * DOWN > error))
-            code = REFUTED;
+        m->refuted |= !(value(y) * DOWN > error);
         if (fabs(value(y)) * DOWN <= error)
             continue;
-        if (!nearest(y, error, *s->h, unit, lam, lost)) {
+        if (!nearest(y, error, *s->h, unit, lam)) {
             *lam = value(y) / *s->h * unit;
-            code = code == REFUTED ? REFUTED : OPEN_NUMBER;
+            m->open = 1;
         }
         s->least[1] = *lam < s->least[1] ? *lam : s->least[1];
     }
-    return code;
 }
 
 /* delta_q and A'lam, rounded. Coordinates that are not surely other than zero are collected. */
-static int rounded(Proof *s, Room *m, int *lost)
+static void rounded(Proof *s, Room *m)
 {
     int64_t n = s->n_v, k = s->working;
     double rho = s->units[1];
+    Number minus_one = exact(-1.0);
     at_rest(s, m, m->rests);
     for (int64_t v = 0; v < n; v++) {
         s->delta_q[v] = s->net[v] = 0.0;
@@ -162,30 +158,26 @@ static int rounded(Proof *s, Room *m, int *lost)
         if (fabs(value(m->z + v)) * DOWN <= m->e[v]) {
             s->still[s->counts[1]++] = v;
             m->rests[v] = STILL;
-        } else if (!nearest(m->z + v, m->e[v], 1.0, rho * s->coordinate[v], s->delta_q + v, lost))
-            return OPEN_NUMBER;
+        } else if (!nearest(m->z + v, m->e[v], 1.0, rho * s->coordinate[v], s->delta_q + v))
+            m->open = 1;
     }
     for (int64_t v = 0; v < n; v++) {
         Number net = m->net[v];
         double error = 0.0;
         if (m->rests[v] == AT_REST)
             continue;
-        if (held(s, m->rests, v)) {
-            Sum sum;
-            clear(&sum);
-            add_number(&sum, m->g + v, -1);
-            net = carried(&sum, lost);
-        } else
+        if (held(s, m->rests, v))
+            net = product(m->g + v, &minus_one); /* A'lam is -g there */
+        else
             for (int64_t w = 0; w < k; w++)
                 error += fabs(m->K[(n + w) * (n + k) + v]) * m->e[n + w];
-        if (!nearest(&net, error * UP, *s->h, rho / s->coordinate[v], s->net + v, lost))
-            return OPEN_NUMBER;
+        if (!nearest(&net, error * UP, *s->h, rho / s->coordinate[v], s->net + v))
+            m->open = 1;
     }
-    return DECIDED;
 }
 
 /* Correct z until no residual is above 2^-bits. */
-static void refined(const Proof *s, Room *m, int bits, int *lost)
+static void refined(const Proof *s, Room *m, int bits)
 {
     int64_t N = s->n_v + s->working;
     for (int round = 0; round < ROUNDS; round++) {
@@ -196,7 +188,7 @@ static void refined(const Proof *s, Room *m, int bits, int *lost)
         }
         if (most < ldexp(1.0, -bits))
             break;
-        corrected(s, m, lost);
+        corrected(s, m);
     }
     for (int64_t i = 0; i < N; i++)
         m->rest[i] = value(m->r + i) * UP;
@@ -215,12 +207,13 @@ static int implied(const Proof *s)
 
 static int proved(Proof *s, Room *m)
 {
-    int lost = 0, code = OPEN_NUMBER;
+    int code = OPEN_NUMBER;
     int64_t n = s->n_v, N = n + s->working;
-    load(s, m->g, &lost);
+    lost = 0;
+    load(s, m->g);
     for (int64_t i = 0; i < n; i++)
         m->r[i] = m->g[i];
-    system_of(s, m, &lost);
+    system_of(s, m);
     memcpy(m->copy, m->K, (size_t)(N * N) * sizeof(double));
     if (lost)
         return LOST;
@@ -230,17 +223,18 @@ static int proved(Proof *s, Room *m)
     for (int bits = REFINED; code != DECIDED && bits <= FINEST; bits += FINEST - REFINED) {
         s->counts[0] = s->counts[1] = 0;
         s->least[0] = s->least[1] = INFINITY;
-        refined(s, m, bits, &lost);
+        refined(s, m, bits);
         if (lost)
             return LOST;
         if (!error_bounds(m->R, m->G, m->rest, N, m->e))
             return OPEN_BOUND;
-        int of_lam = pressed(s, m, &lost), of_slack = slacks(s, m, &lost);
-        if (of_lam == REFUTED || of_slack == REFUTED)
+        m->refuted = m->open = 0;
+        pressed(s, m);
+        slacks(s, m);
+        if (m->refuted)
             return lost ? LOST : REFUTED;
-        code = rounded(s, m, &lost);
-        if (of_lam == OPEN_NUMBER || of_slack == OPEN_NUMBER)
-            code = OPEN_NUMBER;
+        rounded(s, m);
+        code = m->open ? OPEN_NUMBER : DECIDED;
         if (code == DECIDED && !implied(s) && (s->counts[1] || !spanned(s, m->table, m->pivot)))
             code = TO_BE_IMPLIED;
     }
@@ -251,9 +245,9 @@ static int proved(Proof *s, Room *m)
 int proof(Proof *s)
 {
     size_t n = (size_t)s->n_v, k = (size_t)s->working, N = n + k, width = 4 * (size_t)s->n_c;
-    size_t numbers = 2 * n + k * n + 2 * N, doubles = 4 * N * N + 2 * N;
+    size_t numbers = 2 * n + k * n + 3 * N, doubles = 4 * N * N + 2 * N;
     size_t integers = (k + 1) * width + k;
-    size_t bytes = numbers * sizeof(Number) + doubles * sizeof(double) + N * sizeof(Float)
+    size_t bytes = numbers * sizeof(Number) + doubles * sizeof(double)
                  + integers * sizeof(int64_t) + n;
     char *at = calloc(bytes, 1);
     if (!at)
@@ -264,14 +258,14 @@ int proof(Proof *s)
     m.A = m.net + n;
     m.z = m.A + k * n;
     m.r = m.z + N;
-    m.K = (double *)(m.r + N);
+    m.change = m.r + N;
+    m.K = (double *)(m.change + N);
     m.R = m.K + N * N;
     m.G = m.R + N * N;
     m.copy = m.G + N * N;
     m.rest = m.copy + N * N;
     m.e = m.rest + N;
-    m.change = (Float *)(m.e + N);
-    m.table = (int64_t *)(m.change + N);
+    m.table = (int64_t *)(m.e + N);
     m.pivot = m.table + (k + 1) * width;
     m.rests = (char *)(m.pivot + k);
     int code = proved(s, &m);

@@ -18,13 +18,13 @@ static int faces_tie(const Solid *solid, const double *x, double phi, double pla
 
 /* tracker/tracker_bound: below which signed distances no point outside the list can have come. Its rounding
    is in the bounds' room, so that any order of its sum will do. */
-static double limit(const Scene *s, int64_t pair, const double *pose)
+static double limit(const Scene *s, int64_t i, const double *pose)
 {
     double least = INFINITY;
-    for (int64_t i = s->bounds[pair]; i < s->bounds[pair + 1]; i++) {
-        double sum = s->offset[i];
+    for (int64_t j = i * s->bounds; j < (i + 1) * s->bounds; j++) {
+        double sum = s->offset[j];
         for (int k = 0; k < 12; k++)
-            sum += s->slope[12 * i + k] * pose[k];
+            sum += s->slope[12 * j + k] * pose[k];
         if (!(sum >= least))
             least = sum;
     }
@@ -32,14 +32,13 @@ static double limit(const Scene *s, int64_t pair, const double *pose)
 }
 
 /* contact/distance: the `count` least distances in ascending order, ties by index; 0 if one is NaN. */
-static int selected(const Scene *s, int64_t pair, const double *pose)
+static int selected(const Scene *s, int64_t i, int64_t count, const double *pose)
 {
-    int64_t kept = 0, count = s->count[pair];
-    for (int64_t w = 0; w < s->length[pair]; w++) {
+    int64_t kept = 0;
+    for (int64_t p = s->first[i]; p < s->first[i + 1]; p++) {
         double at[3];
-        int64_t p = s->first[pair] + w;
         carried(pose, s->points + 3 * p, at);
-        double phi = signed_distance(s->solid[pair], at, 0);
+        double phi = signed_distance(s->solid[i], at, 0);
         if (phi != phi)
             return 0;
         if (kept == count && !(phi < s->nearest[kept - 1]))
@@ -56,43 +55,43 @@ static int selected(const Scene *s, int64_t pair, const double *pose)
 }
 
 /* contact/distance: the points and normal of one contact in the world; 0 if faces tie. */
-static int witness(const Scene *s, int64_t pair, const double *pose, int64_t c, int64_t p)
+static int witness(const Scene *s, int64_t i, const double *solid, const double *cloud, const double *pose, int64_t c, int64_t p)
 {
-    const double *solid = s->world + 24 * pair, *cloud = solid + 12, *point = s->points + 3 * p;
+    const double *point = s->points + 3 * p;
     double at[3], normal[3], n[3], centre[3], foot[3];
+    int64_t swaps = s->swaps[i];
     carried(pose, point, at);
-    s->phi[c] = signed_distance(s->solid[pair], at, normal) + 0.0;
+    s->phi[c] = signed_distance(s->solid[i], at, normal) + 0.0;
     s->point[c] = s->index[p];
     s->tie[c] = OWN;
     double places = 0.0;
-    for (int i = 0; i < 3; i++)
-        places += fabs(solid[4 * i + 3]) + fabs(cloud[4 * i + 3]);
-    if (faces_tie(s->solid[pair], at, s->phi[c], places))
+    for (int k = 0; k < 3; k++)
+        places += fabs(solid[4 * k + 3]) + fabs(cloud[4 * k + 3]);
+    if (faces_tie(s->solid[i], at, s->phi[c], places))
         return 0;
     turned(solid, normal, n);
     carried(cloud, point, centre);
     moved_by(centre, -s->phi[c], n, foot);
-    int swaps = s->sign[pair] < 0.0;
     copied(swaps ? centre : foot, s->alpha + 3 * c);
     copied(swaps ? foot : centre, s->beta + 3 * c);
-    for (int i = 0; i < 3; i++)
-        s->n[3 * c + i] = s->sign[pair] * n[i] + 0.0; /* zero is 0.0, never -0.0 */
+    for (int k = 0; k < 3; k++)
+        s->n[3 * c + k] = (swaps ? -n[k] : n[k]) + 0.0; /* zero is 0.0, never -0.0 */
     return 1;
 }
 
 /* The closest points of all pairs; 0 where the lists do not prove them, or Python measures a pair. */
 int closest_points(Scene *s)
 {
-    for (int64_t pair = 0; pair < s->pairs; pair++) {
-        double *solid = s->world + 24 * pair, *cloud = solid + 12, pose[12];
-        int64_t a = s->link_solid[pair], b = s->link_cloud[pair];
-        placed(s->R[a], s->t[a], s->on_solid + 12 * pair, solid);
-        placed(s->R[b], s->t[b], s->on_cloud + 12 * pair, cloud);
+    const SolidPairs *pairs = s->solids;
+    for (int64_t i = 0; i < s->clouds; i++) {
+        double solid[12], cloud[12], pose[12];
+        int64_t p = s->pair[i], swaps = s->swaps[i], count = pairs->count[p];
+        poses_of(pairs, p, swaps ? cloud : solid, swaps ? solid : cloud);
         relative(solid, cloud, pose);
-        if (!selected(s, pair, pose) || !(s->nearest[s->count[pair] - 1] < limit(s, pair, pose)))
+        if (!selected(s, i, count, pose) || !(s->nearest[count - 1] < limit(s, i, pose)))
             return 0;
-        for (int64_t j = 0; j < s->count[pair]; j++)
-            if (!witness(s, pair, pose, s->start[pair] + j, s->rank[j]))
+        for (int64_t j = 0; j < count; j++)
+            if (!witness(s, i, solid, cloud, pose, pairs->start[p] + j, s->rank[j]))
                 return 0;
     }
     return solid_pairs(s->solids);

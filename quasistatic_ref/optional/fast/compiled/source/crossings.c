@@ -21,15 +21,14 @@ static void add(Edges *edges, int64_t number, const double *pose, const double *
 /* `line`: on the side of a capsule that faces a way. */
 static void line(const Solid *capsule, const double *pose, const double *way, Edges *edges)
 {
-    double half = capsule->size[2], radius = capsule->size[3], tail[3], head[3];
-    double side[3] = {2 * half, 0.0, 0.0}, radial = planar_norm(way);
+    double half = capsule->size[2], radius = capsule->size[3], radial = planar_norm(way);
+    double tail[3] = {0.0, 0.0, -half}, head[3] = {0.0, 0.0, half};
     edges->total = CURVES_OF_ROUND;
-    if (side[0] * radial + 0.0 * way[2] < TURNED * norm(side))
+    if (2 * half * radial < TURNED * (2 * half))
         return;
-    for (int i = 0; i < 3; i++) {
-        double outward = way[i] * (i < 2 ? 1.0 : 0.0) / radial, tip = half * (i < 2 ? 0.0 : 1.0);
-        tail[i] = radius * outward - tip;
-        head[i] = radius * outward + tip;
+    for (int i = 0; i < 2; i++) {
+        tail[i] = radius * (way[i] / radial);
+        head[i] = tail[i] + 0.0; /* zero is 0.0, never -0.0 */
     }
     add(edges, 0, pose, tail, head);
 }

@@ -1,9 +1,8 @@
 /* Numbers of fixed point that are never rounded: whole multiples of 2^-896.
 
    A Number is the sum of d[j] 2^(56 (j - 16)) over its digits from `low` to below `high`; digits
-   are from -2^55 to 2^55. A float64 has two digits. Products are collected in a Sum, whose digits
-   have room for 2^15 of them. Whatever would not fit, below the grid or beyond the last digit, is
-   noted in `lost`, and what was computed is then worth nothing. */
+   are from -2^55 to 2^55, those of a float64, of which there are two at most, inside of +-2^56.
+   Products are collected in a Sum, whose digits have room for 2^14 of them. */
 
 #ifndef FIXED_POINT_H
 #define FIXED_POINT_H
@@ -15,13 +14,17 @@
 enum { BITS = 56, FRACTION = 16, DIGITS = 19 };
 
 typedef struct { int low, high; int64_t d[DIGITS]; } Number;
-typedef struct { int start; int64_t d[2]; } Float;
 typedef struct { int low, high; __int128 d[DIGITS]; } Sum;
 
-/* The digits of a float64. What lies below 2^-grid is cut off where `cut` is set, else lost. */
-static inline Float digits_of(double x, int grid, int cut, int *lost)
+/* Set by whatever would not fit, below the grid or beyond the last digit, and cleared by hand, as the
+   flags of a processor are: what this thread has computed since is worth nothing. */
+extern _Thread_local int lost;
+
+/* A float64. What lies below 2^-grid is cut off where `cut` is set, else lost. */
+static inline Number digits_of(double x, int grid, int cut)
 {
-    Float f = {0, {0, 0}};
+    Number f;
+    f.low = f.high = 0;
     if (x == 0.0)
         return f;
     uint64_t bits;
@@ -31,13 +34,13 @@ static inline Float digits_of(double x, int grid, int cut, int *lost)
     int place = exponent - 1075 + BITS * FRACTION; /* of m's last bit, above the grid of all */
     int below = BITS * FRACTION - grid - place;
     if (exponent == 0 || place >= BITS * (DIGITS - 2)) { /* subnormal, or too large, or no number */
-        *lost = 1;
+        lost = 1;
         return f;
     }
     if (below > 0) {
         int64_t kept = below > 53 ? 0 : (m >> below) << below;
         if (kept != m && !cut)
-            *lost = 1;
+            lost = 1;
         m = kept;
         if (m == 0)
             return f;
@@ -46,16 +49,17 @@ static inline Float digits_of(double x, int grid, int cut, int *lost)
             place = 0;
         }
     }
-    int shift = place % BITS;
+    int shift = place % BITS, j = place / BITS;
     int64_t low = (int64_t)(((uint64_t)m << shift) & (((uint64_t)1 << BITS) - 1));
     int64_t high = shift ? m >> (BITS - shift) : 0;
-    f.start = place / BITS;
-    f.d[0] = x < 0.0 ? -low : low;
-    f.d[1] = x < 0.0 ? -high : high;
+    f.low = low ? j : j + 1;
+    f.high = high ? j + 2 : j + 1;
+    f.d[j] = x < 0.0 ? -low : low;
+    f.d[j + 1] = x < 0.0 ? -high : high;
     return f;
 }
 
-static inline Float exact(double x, int *lost) { return digits_of(x, BITS * FRACTION, 0, lost); }
+static inline Number exact(double x) { return digits_of(x, BITS * FRACTION, 0); }
 
 static inline void clear(Sum *sum) { sum->low = sum->high = 0; }
 
@@ -70,78 +74,67 @@ static inline void reach(Sum *sum, int low, int high)
         sum->d[sum->high++] = 0;
 }
 
-static inline void add_float(Sum *sum, const Float *f, int sign)
-{
-    if (!f->d[0] && !f->d[1])
-        return;
-    reach(sum, f->start, f->start + 2);
-    sum->d[f->start] += sign * f->d[0];
-    sum->d[f->start + 1] += sign * f->d[1];
-}
-
-static inline void add_number(Sum *sum, const Number *x, int sign)
+static inline void add(Sum *sum, const Number *x)
 {
     if (x->low == x->high)
         return;
     reach(sum, x->low, x->high);
     for (int j = x->low; j < x->high; j++)
-        sum->d[j] += sign * x->d[j];
+        sum->d[j] += x->d[j];
 }
 
-static inline void add_product(Sum *sum, const Number *x, const Float *f, int sign, int *lost)
+/* Add x y, or subtract it where the sign is -1. */
+static inline void add_product(Sum *sum, const Number *x, const Number *y, int sign)
 {
-    if (x->low == x->high || (!f->d[0] && !f->d[1]))
+    int first = x->low + y->low - FRACTION, last = x->high + y->high - 1 - FRACTION;
+    if (x->low == x->high || y->low == y->high)
         return;
-    int64_t low = sign * f->d[0], high = sign * f->d[1];
-    int by = f->start - FRACTION, first = x->low + by + (low == 0), last = x->high + by + (high != 0);
     if (first < 0 || last > DIGITS) {
-        *lost = 1;
+        lost = 1;
         return;
     }
     reach(sum, first, last);
-    for (int j = x->low; low && j < x->high; j++)
-        sum->d[j + by] += (__int128)x->d[j] * low;
-    for (int j = x->low; high && j < x->high; j++)
-        sum->d[j + by + 1] += (__int128)x->d[j] * high;
+    for (int k = y->low; k < y->high; k++) {
+        int64_t digit = sign * y->d[k];
+        for (int j = x->low; j < x->high; j++)
+            sum->d[j + k - FRACTION] += (__int128)x->d[j] * digit;
+    }
 }
 
-static inline Number carried(const Sum *sum, int *lost)
+static inline Number carried(const Sum *sum)
 {
     Number x;
     __int128 carry = 0;
-    int any = 0;
     x.low = x.high = 0;
     for (int j = sum->low; j < DIGITS && (j < sum->high || carry); j++) {
         __int128 digit = (j < sum->high ? sum->d[j] : 0) + carry;
         carry = (digit + ((__int128)1 << (BITS - 1))) >> BITS;
         x.d[j] = (int64_t)(digit - carry * ((__int128)1 << BITS));
         if (x.d[j]) {
-            if (!any)
-                x.low = j;
-            any = 1;
+            x.low = x.high ? x.low : j;
             x.high = j + 1;
         }
     }
     if (carry)
-        *lost = 1;
+        lost = 1;
     return x;
 }
 
-static inline Number number_of(const Float *f)
+static inline Number total(const Number *x, const Number *y)
 {
     Sum sum;
-    int none = 0;
     clear(&sum);
-    add_float(&sum, f, 1);
-    return carried(&sum, &none);
+    add(&sum, x);
+    add(&sum, y);
+    return carried(&sum);
 }
 
-static inline Number product(const Number *x, const Float *f, int *lost)
+static inline Number product(const Number *x, const Number *y)
 {
     Sum sum;
     clear(&sum);
-    add_product(&sum, x, f, 1, lost);
-    return carried(&sum, lost);
+    add_product(&sum, x, y, 1);
+    return carried(&sum);
 }
 
 /* The value, to a relative 2^-50: the first digit is at least twice what follows. */

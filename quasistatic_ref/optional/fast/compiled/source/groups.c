@@ -8,7 +8,7 @@ typedef struct {
     int64_t n_v, groups;
     Proof *const *group; /* 0: of one that is not proved here */
     /* The step, and its standard form; lam and slacks of an answer in natural units. */
-    const double *delta_q_bar_a, *tau, *phi, *n, *d1, *d2, *J, *mu, *g, *A, *b, *pressure, *gap;
+    const double *delta_q_bar_a, *tau, *phi, *frame, *J, *mu, *g, *A, *b, *pressure, *gap;
     /* What the proof of each group comes to; the optimum of those that are DECIDED; least as in
        Proof. */
     int64_t *code;
@@ -49,15 +49,9 @@ static int posed(const Step *s, Proof *p)
     taken(p->pressure, s->pressure, r, m, NULL, 1, 1);
     taken(p->gap, s->gap, r, m, NULL, 1, 1);
     changed |= taken(p->phi, s->phi, c, n_c, NULL, 1, 1);
-    changed |= taken(p->n, s->n, c, n_c, NULL, 3, 3);
-    changed |= taken(p->d1, s->d1, c, n_c, NULL, 3, 3);
-    changed |= taken(p->d2, s->d2, c, n_c, NULL, 3, 3);
-    changed |= taken(p->mu, s->mu, c, n_c, NULL, 3, 3);
-    for (int64_t j = 0; j < n_c; j++)
-        for (int64_t i = 0; i < 4; i++) {
-            int64_t row = 4 * c[j] + i;
-            changed |= taken(p->J + (4 * j + i) * n, s->J, &row, 1, v, n, N);
-        }
+    changed |= taken(p->frame, s->frame, c, n_c, NULL, 16, 16);
+    changed |= taken(p->mu, s->mu, c, n_c, NULL, 4, 4);
+    changed |= taken(p->J, s->J, p->rows_of_J, 4 * n_c, v, n, N);
     return changed;
 }
 

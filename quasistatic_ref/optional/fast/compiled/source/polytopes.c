@@ -86,27 +86,23 @@ static void common_normal(const Solid *a, const Solid *b, int64_t i, int64_t j, 
     copied(n, gaps->normal + 3 * gaps->count++);
 }
 
+/* Whether the normals on both sides of an edge lie on different sides of a plane with the normal `way`. */
+static int crosses(const Solid *solid, int64_t e, const double *way)
+{
+    const int64_t *sides = solid->sides + 2 * e;
+    return dot(way, solid->normals + 3 * sides[0]) * dot(way, solid->normals + 3 * sides[1]) < 0;
+}
+
 /* 0 where they are too many. */
 static int crossing_edges(const Solid *a, const Solid *b, Gaps *gaps)
 {
-    double b_on_a[EDGES][TRIANGLES], a_on_b[EDGES][TRIANGLES], way[3], back[3];
     int most = gaps->count + LARGEST;
-    for (int64_t i = 0; i < a->edges; i++) {
-        edge(a, i, way);
-        negated(way, back);
-        for (int64_t f = 0; f < b->faces; f++)
-            b_on_a[i][f] = dot(back, b->normals + 3 * f);
-    }
-    for (int64_t j = 0; j < b->edges; j++) {
-        edge(b, j, way);
-        for (int64_t f = 0; f < a->faces; f++)
-            a_on_b[j][f] = dot(way, a->normals + 3 * f);
-    }
     for (int64_t i = 0; i < a->edges; i++)
         for (int64_t j = 0; j < b->edges; j++) {
-            double c = b_on_a[i][b->sides[2 * j]], d = b_on_a[i][b->sides[2 * j + 1]];
-            double e = a_on_b[j][a->sides[2 * i]], f = a_on_b[j][a->sides[2 * i + 1]];
-            if (!(c * d < 0 && e * f < 0))
+            double u[3], v[3];
+            edge(a, i, u);
+            edge(b, j, v);
+            if (!(crosses(b, j, u) && crosses(a, i, v)))
                 continue;
             if (gaps->count == most)
                 return 0;

@@ -27,7 +27,7 @@ struct Natural;
 typedef struct {
     int64_t n_a, n_v, n_c, rows, working;
     /* Where the group's coordinates, contacts and rows stand in the step. */
-    const int64_t *coordinates, *contacts, *rows_of_step;
+    const int64_t *coordinates, *contacts, *rows_of_J, *rows_of_step;
     /* h; the units S, and {length, size}: powers of two. What finds these, and the g, A and b that it
        reads; lam and slacks of an answer. */
     const double *h, *coordinate;
@@ -35,7 +35,9 @@ typedef struct {
     struct Natural *natural;
     double *g, *A, *b, *pressure, *gap;
     const double *K_q, *M_u;
-    double *delta_q_bar_a, *tau, *phi, *n, *d1, *d2, *J, *mu;
+    double *delta_q_bar_a, *tau;
+    /* Of each contact: n, d1, d2 and spin, as four rows of four; 1, mu_v, mu_v and mu_omega. */
+    double *phi, *frame, *J, *mu;
     /* The cone: four coefficients of each row; the same times one factor, as integers. */
     const double *cone;
     const int64_t *integers;
@@ -58,29 +60,29 @@ typedef struct {
 
 /* What one proof computes. */
 typedef struct {
-    Number *g, *A, *z, *r, *net;
+    Number *g, *A, *z, *r, *net, *change;
     double *K, *R, *G, *rest, *e, *copy;
-    Float *change;
     int64_t *table, *pivot;
     char *rests;
+    int refuted, open; /* whether a sign is wrong, and whether a number is not rounded yet */
 } Room;
 
 /* x in other units, `by` being a power of two. */
-static inline Float scaled(double x, double by, int *lost)
+static inline Number scaled(double x, double by)
 {
     double y = x * by;
     if (x != 0.0 && !(fabs(y) > NORMAL && fabs(y) < 1 / NORMAL))
-        *lost = 1;
-    return exact(y, lost);
+        lost = 1;
+    return exact(y);
 }
 
-void load(const Proof *s, Number *g, int *lost);
-void system_of(const Proof *s, Room *m, int *lost);
-void corrected(const Proof *s, Room *m, int *lost);
+void load(const Proof *s, Number *g);
+void system_of(const Proof *s, Room *m);
+void corrected(const Proof *s, Room *m);
 int inverse(double *a, double *R, int64_t n);
 void defect(const double *R, const double *K, int64_t n, double *G, double *sizes);
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
-int nearest(const Number *x, double e, double h, double unit, double *out, int *lost);
+int nearest(const Number *x, double e, double h, double unit, double *out);
 int spanned(const Proof *s, int64_t *table, int64_t *pivot);
 int proof(Proof *s);
 int natural_units(struct Natural *s);

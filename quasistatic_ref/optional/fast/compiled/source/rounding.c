@@ -28,18 +28,17 @@ static int nearest_of_two(const Number *x, double e, double *c)
 }
 
 /* The float64 nearest to x / h, x being known to within e; 0 if that is not shown. */
-static int nearest_quotient(const Number *x, double e, double h, double *out, int *lost)
+static int nearest_quotient(const Number *x, double e, double h, double *out)
 {
     double c = value(x) / h, rest = 0.0;
-    Float by = exact(h, lost);
-    Number divisor = number_of(&by);
+    Number divisor = exact(h);
     for (int round = 0; round < 3; round++) {
         Sum sum;
         clear(&sum);
-        add_number(&sum, x, 1);
-        Float quotient = exact(c, lost);
-        add_product(&sum, &divisor, &quotient, -1, lost);
-        Number left = carried(&sum, lost);
+        add(&sum, x);
+        Number quotient = exact(c);
+        add_product(&sum, &divisor, &quotient, -1);
+        Number left = carried(&sum);
         rest = value(&left);
         double better = c + rest / h;
         if (better == c)
@@ -51,13 +50,13 @@ static int nearest_quotient(const Number *x, double e, double h, double *out, in
 }
 
 /* The same, times a unit; zero is shown if it is known exactly. */
-int nearest(const Number *x, double e, double h, double unit, double *out, int *lost)
+int nearest(const Number *x, double e, double h, double unit, double *out)
 {
     *out = 0.0;
     if (x->low == x->high)
         return e == 0.0;
     int shown = h == 1.0 && nearest_of_two(x, e, out);
-    shown = shown || nearest_quotient(x, e, h, out, lost);
+    shown = shown || nearest_quotient(x, e, h, out);
     *out *= unit;
     return shown && fabs(*out) > NORMAL && fabs(*out) < 1 / NORMAL;
 }

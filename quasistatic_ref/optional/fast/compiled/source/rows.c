@@ -39,14 +39,13 @@ static void jacobian(const Scene *s, const double *col, int64_t c, double *own, 
     double *of_alpha = own, *of_beta = own + 4 * n_x;
     columns_at(col, n_x, s->alpha + 3 * c, s->n + 3 * c, of_alpha);
     columns_at(col, n_x, s->beta + 3 * c, s->n + 3 * c, of_beta);
-    for (int64_t i = 0; s->mimics && i < 4 * n_v; i++)
+    for (int64_t i = 0; i < 4 * n_v; i++)
         J[i] = 0.0;
     for (int i = 0; i < 4; i++) /* Eqs. (2)-(3) */
         for (int64_t x = 0; x < n_x; x++) {
             double f = s->moves_beta[c * n_x + x] * of_beta[i * n_x + x]
                      - s->moves_alpha[c * n_x + x] * of_alpha[i * n_x + x];
-            double *entry = J + i * n_v + s->owner[x];
-            *entry = s->mimics ? *entry + f : f + 0.0; /* zero is 0.0, never -0.0 */
+            J[i * n_v + s->owner[x]] += f; /* to 0.0, so that zero is never -0.0 */
         }
 }
 

@@ -7,22 +7,17 @@
 
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
-    int64_t pairs, n_c, n_v, n_a, n_x, links, mimics;
-    /* Poses of the links: R by columns, as pinocchio keeps it; columns of the Jacobian. */
-    const double *const *R, *const *t, *const *column;
-    /* Of each pair with a cloud: the shapes' links and places on them (3 x 4), solid first. */
-    const int64_t *link_solid, *link_cloud;
-    const double *on_solid, *on_cloud;
+    int64_t clouds, bounds, n_c, n_v, n_a, n_x, links;
+    /* All pairs, and of each with a cloud its number among these, the solid, and whether that is beta's. */
+    SolidPairs *solids;
+    const int64_t *pair, *swaps;
     const Solid *const *solid;
-    const double *sign; /* of the solid's normal in the contact's */
-    /* The short list: points, their numbers, and the bounds of all others. */
-    const int64_t *first, *length, *index;
-    const double *points;
-    const int64_t *bounds;
-    const double *slope, *offset;
-    /* Where the contacts of the pair go, and how many. */
-    const int64_t *start, *count;
-    /* Of each column: the coordinate that it belongs to. */
+    /* The short lists: where each starts, and the last ends; the points, and their numbers in the cloud;
+       and of each pair as many bounds of all others. */
+    const int64_t *first, *index;
+    const double *points, *slope, *offset;
+    /* Origins of the links; columns of the Jacobian, and the coordinate that each belongs to. */
+    const double *const *t, *const *column;
     const int64_t *owner;
     /* Of each contact: which columns move its bodies, friction, number of rows. */
     const double *moves_alpha, *moves_beta, *mu_v, *mu_omega;
@@ -31,7 +26,7 @@ typedef struct {
     const double *coefficient;
     const int64_t *has;
     /* Written at each step. */
-    double *world, *nearest; /* 24 for each pair; as many as the largest count */
+    double *nearest; /* as many as the largest count of a pair, as the next */
     int64_t *rank, *point, *tie;
     double *phi, *n, *alpha, *beta, *d1, *d2, *J, *A, *b;
     double *work; /* 14 n_x + 4 n_v */
@@ -39,7 +34,6 @@ typedef struct {
        keeps it; other forces; K_q and delta_q_bar_a. Then tau and g, which are written. */
     const double *h, *weighs, *const *gravity, *force, *K_q, *delta_q_bar_a;
     double *tau, *g;
-    SolidPairs *solids; /* all pairs without a cloud */
 } Scene;
 
 #endif

@@ -126,12 +126,8 @@ static inline void from_origin(const double *pose, const double *v, double *out)
 static inline void placed(const double *R, const double *t, const double *on_link, double *world)
 {
     for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 4; j++) {
-            double sum = R[i] * on_link[j];
-            for (int k = 1; k < 3; k++)
-                sum += R[i + 3 * k] * on_link[4 * k + j];
-            world[4 * i + j] = sum;
-        }
+        for (int j = 0; j < 4; j++)
+            world[4 * i + j] = (R[i] * on_link[j] + R[i + 3] * on_link[4 + j]) + R[i + 6] * on_link[8 + j];
         world[4 * i + 3] += t[i];
     }
 }
@@ -139,15 +135,14 @@ static inline void placed(const double *R, const double *t, const double *on_lin
 /* contact/distance: R_solid' times [R_other, t_other - t_solid]. */
 static inline void relative(const double *solid, const double *other, double *pose)
 {
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 4; j++) {
-            double terms[3];
-            for (int k = 0; k < 3; k++) {
-                double at = j < 3 ? other[4 * k + j] : other[4 * k + 3] - solid[4 * k + 3];
-                terms[k] = solid[4 * k + i] * at;
-            }
-            pose[4 * i + j] = (terms[0] + terms[1]) + terms[2];
-        }
+    for (int j = 0; j < 4; j++) {
+        double column[3], own[3];
+        for (int i = 0; i < 3; i++)
+            column[i] = other[4 * i + j] - (j == 3 ? solid[4 * i + 3] : 0.0);
+        turned_back(solid, column, own);
+        for (int i = 0; i < 3; i++)
+            pose[4 * i + j] = own[i];
+    }
 }
 
 /* shapes: signed_distance, and its normal where one is asked for. */

@@ -177,14 +177,20 @@ static void write(SolidPairs *s, int64_t c, const Contact *contact)
     }
 }
 
+void poses_of(const SolidPairs *s, int64_t p, double *at_a, double *at_b)
+{
+    int64_t a = s->link_a[p], b = s->link_b[p];
+    placed(s->R[a], s->t[a], s->on_a + 12 * p, at_a);
+    placed(s->R[b], s->t[b], s->on_b + 12 * p, at_b);
+}
+
 /* contact/distance: pair_closest_points. */
 static int closest_of_pair(SolidPairs *s, int64_t p)
 {
     Pair pair = {.a = s->a[p], .b = s->b[p]};
-    int64_t link_a = s->link_a[p], link_b = s->link_b[p], count = s->count[p];
+    int64_t count = s->count[p];
     double place = 0.0;
-    placed(s->R[link_a], s->t[link_a], s->on_a + 12 * p, pair.at_a);
-    placed(s->R[link_b], s->t[link_b], s->on_b + 12 * p, pair.at_b);
+    poses_of(s, p, pair.at_a, pair.at_b);
     if (!(usual(pair.at_a, &place) & usual(pair.at_b, &place)))
         return 0;
     pair.within = TIED_FACES * larger(place, larger(*pair.a->extent, *pair.b->extent));

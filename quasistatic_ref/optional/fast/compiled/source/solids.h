@@ -18,9 +18,9 @@ typedef struct {
 /* structure.py reads this: 64-bit integers, then pointers. */
 typedef struct {
     int64_t pairs;
-    const double *const *R, *const *t; /* of the links, as in Scene */
-    /* Of each pair: both solids, or two zeros where Python measures it; links and places on them
-       (3 x 4); k, where its contacts go and how many they are, and the corners of both. */
+    const double *const *R, *const *t; /* of the links: R by columns, as pinocchio keeps it */
+    /* Of each pair: both solids, or two zeros where it has a cloud or Python measures it; the shapes'
+       links and places on them (3 x 4); k, where its contacts go and how many they are, and the corners of both. */
     const Solid *const *a, *const *b;
     const int64_t *link_a, *link_b;
     const double *on_a, *on_b;
@@ -47,6 +47,9 @@ int one_normal(const Pair *pair, const Contact *nearest, const double *gap, cons
 int64_t every_candidate(const Pair *pair, const Contact *nearest, int64_t n_c, Contact *found);
 int64_t crossings(const Pair *pair, const Contact *nearest, int64_t first, Contact *found);
 Contact swapped(const Contact *contact);
+
+/* The world's poses of the two shapes of pair p. */
+void poses_of(const SolidPairs *s, int64_t p, double *at_a, double *at_b);
 
 int solid_pairs(SolidPairs *s);
 

@@ -10,15 +10,15 @@ static void generators(const Proof *s, int64_t r, int64_t *x)
     const int64_t *entry = s->integers + 4 * s->row[r];
     for (int64_t i = 0; i < 4 * s->n_c; i++)
         x[i] = 0;
-    x[3 * c] = entry[0];
-    x[3 * c + 1] = s->mu[3 * c] != 0.0 ? entry[1] : 0;
-    x[3 * c + 2] = s->mu[3 * c] != 0.0 ? entry[2] : 0;
-    if (s->mu[3 * c + 2] == 0.0 || entry[3] == 0)
+    const double *mu = s->mu + 4 * c;
+    for (int a = 0; a < 3; a++)
+        x[3 * c + a] = mu[a] != 0.0 ? entry[a] : 0;
+    if (mu[3] == 0.0 || entry[3] == 0)
         return;
     const double *spin = s->J + n_v * (4 * c + 3);
     for (int64_t d = 0; d < c && owner == c; d++) {
         const double *other = s->J + n_v * (4 * d + 3);
-        int same = s->mu[3 * d + 2] == s->mu[3 * c + 2], opposite = same;
+        int same = s->mu[4 * d + 3] == mu[3], opposite = same;
         for (int64_t v = 0; v < n_v && (same || opposite); v++) {
             same = same && spin[v] == other[v];
             opposite = opposite && spin[v] == -other[v];
@@ -35,10 +35,11 @@ static void generators(const Proof *s, int64_t r, int64_t *x)
    grow. */
 int spanned(const Proof *s, int64_t *table, int64_t *pivot)
 {
-    int64_t width = 4 * s->n_c, k = s->working, count = s->counts[0], *x = table + k * width;
+    int64_t width = 4 * s->n_c, k = s->working, count = s->counts[0];
     if (!count)
         return 1;
     for (int64_t w = 0; w < k + count; w++) {
+        int64_t *x = table + (w < k ? w : k) * width, first = -1;
         generators(s, w < k ? s->guess[w] : s->idle[w - k], x);
         for (int64_t i = 0; i < (w < k ? w : k); i++) {
             const int64_t *held = table + i * width;
@@ -52,19 +53,13 @@ int spanned(const Proof *s, int64_t *table, int64_t *pivot)
                     return 0;
             }
         }
-        int64_t first = -1;
         for (int64_t j = width - 1; j >= 0; j--)
             if (x[j])
                 first = j;
-        if (w >= k && first >= 0)
+        if ((w < k) == (first < 0))
             return 0;
-        if (w < k) {
-            if (first < 0)
-                return 0;
-            for (int64_t j = 0; j < width; j++)
-                table[w * width + j] = x[j];
+        if (w < k)
             pivot[w] = first;
-        }
     }
     return 1;
 }
