@@ -95,7 +95,6 @@ RESULTS = (
     to_file("environments"),
     to_file("forces_by_hand"),
     to_file("forces"),
-    to_file("outputs"),
     Result("mutations", "validation.tools.mutations --stale", ("validation/results/mutations.md",)),
     to_file("reality_identified", "json"),
     Result(
