@@ -20,7 +20,6 @@ from pathlib import Path
 
 from validation.tools.browser import Browser
 
-ROOT = Path(__file__).parents[2]
 WIDTHS = (400, 1280)
 """Of a phone and of a small laptop [px]."""
 HEIGHT = 900

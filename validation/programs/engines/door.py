@@ -21,7 +21,7 @@ class Unsupported(Exception):
     """A case that an engine does not take."""
 
 
-def answer(name: str, phenomena: Callable[[Any], Any]) -> None:
+def answer(name: str, phenomena: Callable[..., Any]) -> None:
     """Answer every line of standard input.
 
     Parameters
@@ -29,7 +29,7 @@ def answer(name: str, phenomena: Callable[[Any], Any]) -> None:
     name : str
         Engine and version.
     phenomena : callable
-        Scene and setting -> what `run` returns; or it raises `Unsupported`.
+        Of ``scene`` and ``setting``: what `run` returns; or it raises `Unsupported`.
     """
     out = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # what an engine prints is no answer
@@ -38,7 +38,7 @@ def answer(name: str, phenomena: Callable[[Any], Any]) -> None:
     for line in sys.stdin:
         case = json.loads(line)
         try:
-            record = {"output": phenomena(case["input"])}
+            record = {"output": phenomena(**case["input"])}
         except Unsupported as reason:
             record = {"error": f"left out: {reason}"}
         except Exception as error:

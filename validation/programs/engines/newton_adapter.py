@@ -53,10 +53,8 @@ def model_of(scene: Any, setting: Any) -> tuple[Any, dict[str, int]]:
     return builder.finalize(device="cpu"), numbers
 
 
-def phenomena(case: Any) -> Any:
+def phenomena(scene: Any, setting: Any) -> Any:
     """A scene by a solver, one step between detections of contacts."""
-    scene = case["scene"]
-    setting = case["setting"]
     name = f"Solver{setting['solver']}"
     if not hasattr(newton.solvers, name):
         raise Unsupported(f"there is no {name}")

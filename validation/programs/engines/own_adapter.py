@@ -54,10 +54,8 @@ def solid(shape: Any) -> Any:
     return Sphere(shape["radius"]) if shape["kind"] == "sphere" else Box(size=shape["size"])
 
 
-def phenomena(case: Any) -> Any:
+def phenomena(scene: Any, setting: Any) -> Any:
     """A scene, step by step."""
-    scene = case["scene"]
-    setting = case["setting"]
     bodies = {body["name"]: body for body in scene["bodies"]}
     made = {name: robot(body) for name, body in bodies.items()}
 

@@ -14,10 +14,8 @@ import pinocchio as pin
 from door import Unsupported, answer, run
 
 
-def phenomena(case: Any) -> Any:
+def phenomena(scene: Any, setting: Any) -> Any:
     """A scene of one free body."""
-    scene = case["scene"]
-    setting = case["setting"]
     if len(scene["bodies"]) > 1 or not scene["floor"]:
         raise Unsupported("the loop knows one body on a floor")
     (body,) = scene["bodies"]
