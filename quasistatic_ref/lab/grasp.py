@@ -1,7 +1,7 @@
 """The grasp of the bunny, the paper's section III-B: its two cases and what a run came to."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory, certified
 
-CASES: Final[dict[str, list[str]]] = {
+CASES: dict[str, list[str]] = {
     "with torsion": [],
     "without torsion": ["contacts.grip.mu_omega=0"],
 }

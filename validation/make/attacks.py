@@ -15,8 +15,6 @@ status 1 if anything is wrong. ``--count`` is that of exact answers of each fami
 said, with the others in proportion. All counts take some 15 minutes of one core.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections import Counter

@@ -4,8 +4,6 @@ Part of :mod:`validation.make.environments`. Each is tried in a process and a ca
 process is this module, with the name of what is tried.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

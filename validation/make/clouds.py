@@ -6,8 +6,6 @@ Adds the rows that are missing to validation/results/clouds.jsonl, one grasp a l
 on. ``--count N`` takes the first seeds only and prints the rows; nothing is written.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from tqdm import tqdm

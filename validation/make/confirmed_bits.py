@@ -12,8 +12,6 @@ bits. "Nearby" are wrong sets from which walks in float64 lead to one that is pr
 Prints a table, and exits with status 1 if a bit differs.
 """
 
-from __future__ import annotations
-
 import sys
 from collections import Counter
 from collections.abc import Iterator

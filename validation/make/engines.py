@@ -13,8 +13,6 @@ gigabytes. Exit status 1 if a red cell has no reproduction, or one that does not
 number, or if a reproduction ended with an error.
 """
 
-from __future__ import annotations
-
 import json
 import tempfile
 from pathlib import Path

@@ -6,8 +6,6 @@ compilers; ``--count`` is that of steps, or trials, of each. The compilers and c
 stand in ``validation/make/broken_compilers.py``.
 """
 
-from __future__ import annotations
-
 import ctypes
 import platform
 import sys

@@ -7,8 +7,6 @@ them for through each of the interfaces. The options are those of the setting ``
 matrices are shared with the study: neither its adapters nor its table of exit codes.
 """
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path

@@ -13,8 +13,6 @@ polyhedral cone after the other), on the steps of the vectors and on those of al
 Exit status 1 if anything of this fails.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from pathlib import Path

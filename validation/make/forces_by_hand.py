@@ -14,8 +14,6 @@ a quarter turn of the world, moved by half a metre or by 1e-16 m, either body of
 bodies in any order. Exit status 1 if anything is wrong.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial

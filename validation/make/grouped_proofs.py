@@ -7,8 +7,6 @@ proved whole or by group (``--random`` of the first, ``--every`` so manyth of th
 some minutes. Exit status 1 if a promise does not hold.
 """
 
-from __future__ import annotations
-
 import math
 import multiprocessing
 import os

@@ -5,8 +5,6 @@ entries from which steps are sparse (``SPARSE_FROM`` and others in tolerances.py
 takes the large steps of a run that names none. Exit status 1 if a promise does not hold.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Iterable

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -28,17 +28,17 @@ from validation.tools.scripts import asked, record_written
 
 LEG, MASS = 0.15, 1.518
 """Of the right triangle, the corner at the origin of its frame [m], [kg]."""
-TRIANGLE: Final = Outline(LEG * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
+TRIANGLE = Outline(LEG * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
 
-FINGER: Final = 0.25
+FINGER = 0.25
 """Friction of the finger on the object [-]: not measured; that of the other pushes is taken."""
 
-PLACES: Final = 40
+PLACES = 40
 """Places of the finger along its path."""
-SUPPORTS: Final = ("support_x1", "support_y1", "support_x2", "support_y2", "support_x3",
+SUPPORTS = ("support_x1", "support_y1", "support_x2", "support_y2", "support_x3",
                    "support_y3")  # fmt: skip
-PATH: Final = tuple(f"finger_{axis}{k}" for k in range(PLACES) for axis in "xy")
-COLUMNS: Final[Mapping[str, str]] = {
+PATH = tuple(f"finger_{axis}{k}" for k in range(PLACES) for axis in "xy")
+COLUMNS: Mapping[str, str] = {
     **dict.fromkeys(SUPPORTS, "[m] place of a support, object frame"),
     "push": "[-] number of the push in its set",
     "x0": "[m] origin of the object's frame before, world frame",

@@ -11,8 +11,6 @@ is kept as it ends, and the same command goes on from there. Takes some five min
 if a hash differs.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import platform

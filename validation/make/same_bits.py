@@ -10,8 +10,6 @@ Takes twenty seconds. Exit status 1 if a run differs; its name is printed. ``--o
 hashes, and compares nothing.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import sys

@@ -6,8 +6,6 @@ validation/results/second_order.jsonl, one a line, each engine in an environment
 ``--count N`` takes the first N runs of each engine and prints them; nothing is written.
 """
 
-from __future__ import annotations
-
 import tempfile
 from contextlib import ExitStack
 from pathlib import Path

@@ -10,8 +10,6 @@ triangles. What compiled code leaves to Python is counted; of what it says every
 compared. Exit status 1 if a bit differs.
 """
 
-from __future__ import annotations
-
 import itertools
 import sys
 import time

@@ -5,8 +5,6 @@ that the numbers of the committed report are those of the committed rows. ``--re
 and reports the rows that are there.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 import time

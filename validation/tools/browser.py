@@ -1,7 +1,5 @@
 """A headless Chromium without network, spoken to through a pipe: no package, no port."""
 
-from __future__ import annotations
-
 import base64
 import fcntl
 import json
@@ -80,7 +78,7 @@ class Browser:
             downloadThroughput=-1, uploadThroughput=-1,
         )  # fmt: skip
 
-    def __enter__(self) -> Browser:
+    def __enter__(self) -> "Browser":
         return self
 
     def __exit__(self, *exception: object) -> None:

@@ -15,8 +15,6 @@ can take the lowest. An environment takes one or two gigabytes and is removed. E
 command fails.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

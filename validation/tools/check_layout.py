@@ -11,8 +11,6 @@ not read. Listings of source, which are most of the pages, have one frame: it is
 Prints one line for each fault, page and element, and exits with status 1 if there is any.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Iterator

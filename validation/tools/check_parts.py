@@ -8,8 +8,6 @@ word that needs the part must be refused in a sentence that names it.
 Exit status 1 if one of them does not hold.
 """
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

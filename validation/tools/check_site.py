@@ -11,8 +11,6 @@ relative link leads to a file.
 Prints one line for each fault, and exits with status 1 if there is any.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from collections import Counter

@@ -1,7 +1,5 @@
 """What scripts share that make a committed result: their options, and their page."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import subprocess

@@ -47,7 +47,7 @@ def python_tokens(text: str) -> int:
 
 def tokens(path: Path) -> int:
     """Tokens of one file."""
-    text = path.read_text(encoding="utf-8")
+    text = path.read_text("utf-8")
     if path.suffix == ".py":
         return python_tokens(text)
     pattern = TOML if path.suffix == ".toml" else C_LIKE

@@ -4,7 +4,7 @@ import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -16,12 +16,12 @@ from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
-LOADED: Final = 1e-6
+LOADED = 1e-6
 """A point bears load above this force [N]: the weight is 2 N."""
-STEPS: Final = 290
+STEPS = 290
 """To the end of the lift."""
-FINGERS: Final = ("left", "right")
-LIFTING: Final = 0.04 / (TOP - CLOSED)
+FINGERS = ("left", "right")
+LIFTING = 0.04 / (TOP - CLOSED)
 """Speed of the lift [m/s]; see bunny_grasp.toml."""
 
 

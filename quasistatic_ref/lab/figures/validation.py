@@ -1,7 +1,7 @@
 """The figures of claims, each drawn from what was measured for it."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -11,7 +11,7 @@ from quasistatic_ref.lab.figures.line_styles import MARKS
 from quasistatic_ref.optional.show.figures.style import panels, scaled
 
 Picture = Mapping[str, Any]
-THIN: Final[dict[str, Any]] = {"color": "black", "linewidth": 1, "linestyle": "-"}
+THIN: dict[str, Any] = {"color": "black", "linewidth": 1, "linestyle": "-"}
 """Lines of closed forms."""
 GREYS = ("0.2", "0.42", "0.64", "0.82", "1.0")
 
@@ -248,7 +248,7 @@ def locked_guide(picture: Picture) -> Figure:
     return figure
 
 
-PICTURES: Final[dict[str, Callable[..., Figure]]] = {
+PICTURES: dict[str, Callable[..., Figure]] = {
     draw.__name__: draw
     for draw in (
         grasp, contact_geometry, boundary_layer, step_time, sliding_threshold, pushed_block,

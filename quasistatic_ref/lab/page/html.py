@@ -11,7 +11,7 @@ from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Table
 
 def sorting() -> str:
     """The script that sorts a table by the heading that is clicked; it loads nothing."""
-    return (Path(__file__).parent / "sort.js").read_text(encoding="utf-8")
+    return (Path(__file__).parent / "sort.js").read_text("utf-8")
 
 
 def html_page(report: Report, images: Mapping[str, bytes], script: str = "") -> str:
@@ -26,7 +26,7 @@ def html_page(report: Report, images: Mapping[str, bytes], script: str = "") -> 
         What the page runs, such as :func:`sorting`; else nothing.
     """
     links = [f'<li><a href="#{_id(s.title)}">{escape(s.title)}</a></li>' for s in report.sections]
-    style = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
+    style = (Path(__file__).parent / "page.css").read_text("utf-8")
     lines = [
         "<!DOCTYPE html>",
         '<html lang="en"><head><meta charset="utf-8">',

@@ -2,14 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.lab.reality.pushes import Pushes
 from quasistatic_ref.step.data import Array
 
-DRAWS: Final = 2000
+DRAWS = 2000
 """Of a bootstrap."""
 
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import IO, Any, Final
+from typing import IO, Any
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from quasistatic_ref.lab.vectors.layers.qp import matrices
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.data import Array
 
-COLUMNS: Final = ("P", "q", "G", "h", "A", "b", "lb", "ub", "name")
+COLUMNS = ("P", "q", "G", "h", "A", "b", "lb", "ub", "name")
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,8 +5,6 @@ An adapter runs in its engine's own environment, where this package is not. It e
 is where the bodies are at the scene's times.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import sys

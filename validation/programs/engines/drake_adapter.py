@@ -1,7 +1,5 @@
 """Drake: phenomena by its discrete MultibodyPlant."""
 
-from __future__ import annotations
-
 from importlib.metadata import version
 from typing import Any
 

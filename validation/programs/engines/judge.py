@@ -1,7 +1,5 @@
 """One engine judged: its environment made, its adapter called for phenomena."""
 
-from __future__ import annotations
-
 import json
 import shlex
 import sys

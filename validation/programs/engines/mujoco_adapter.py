@@ -1,7 +1,5 @@
 """MuJoCo: phenomena by mj_step."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco

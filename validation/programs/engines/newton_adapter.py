@@ -1,7 +1,5 @@
 """Newton on the CPU: phenomena by any of its solvers, in float32."""
 
-from __future__ import annotations
-
 from importlib.metadata import version
 from typing import Any
 

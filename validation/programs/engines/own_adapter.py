@@ -1,7 +1,5 @@
 """quasistatic_ref itself, by the same door: phenomena by its simulator, each step certified."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -11,8 +11,6 @@ answers ``{"id", "output": {"poses": {body: [[x, y, z, qx, qy, qz, qw], ...]}}}`
 the scene's ``times``; docs/engines.md says the rest.
 """
 
-from __future__ import annotations
-
 import argparse
 import tomllib
 from collections.abc import Callable, Collection, Iterator

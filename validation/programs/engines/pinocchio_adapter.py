@@ -5,8 +5,6 @@ impulses lam in Coulomb's cone, without torsion, so that J v+ + gap / h is in th
 ``ncp`` after De Saxce's correction, which is Coulomb's law, without it of the convex problem.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which short program shows which red cell, and whether it prints the number of that cell."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import tomllib

@@ -5,8 +5,6 @@ engine at a setting with steps of h; its answer has the poses of the bodies at t
 What is measured is computed from these poses alone, and the same for every engine.
 """
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 from typing import Any, NamedTuple

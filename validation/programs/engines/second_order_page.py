@@ -1,7 +1,5 @@
 """The page of the study of second-order simulators: its tables and its figure."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The page of results, phenomena.md."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from quasistatic_ref.lab.page.markdown import markdown_table

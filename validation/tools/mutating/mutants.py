@@ -6,8 +6,6 @@ axis is another; two indices, or two neighbours in a list, change places. Annota
 ``__all__`` and messages are left alone.
 """
 
-from __future__ import annotations
-
 import ast
 from collections import Counter
 from collections.abc import Iterator

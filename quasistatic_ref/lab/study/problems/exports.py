@@ -72,12 +72,12 @@ def has_place(one: Problem, to: str) -> bool:
 def _carried(name: str, count: int, to: str, folder: Path) -> list[Path]:
     """The README, the licences and the citation."""
     here = Path(__file__).parent
-    layouts = (here / "layouts.txt").read_text(encoding="utf-8")
+    layouts = (here / "layouts.txt").read_text("utf-8")
     layout = layouts.partition(f"# {to}\n")[2].partition("\n# ")[0]
     words = layout.format(name=name, stem=name.replace("-", "_")).strip()
     text = (
         (here / "export.txt")
-        .read_text(encoding="utf-8")
+        .read_text("utf-8")
         .format(name=name, to=to, count=count, version=__version__, layout=words)
     )
     edition = next((one for one in EDITIONS if name.startswith(one)), CONTACT_QP_2)
@@ -167,7 +167,7 @@ def _parquet(name: str, problems: Sequence[Problem], folder: Path) -> list[Path]
     stem = name.replace("-", "_")
     programs = [Program(one.id, *one.form, one.answer.x) for one in problems]
     title = "".join(part.title() for part in stem.split("_"))
-    template = (Path(__file__).parent / "test_set.txt").read_text(encoding="utf-8")
+    template = (Path(__file__).parent / "test_set.txt").read_text("utf-8")
     module = template.format(name=stem, title=title, words=name)
     return [
         parquet_written(folder / f"{stem}.parquet", programs),

@@ -5,7 +5,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
@@ -15,7 +15,7 @@ from quasistatic_ref.lab.study.problems.making import harvested
 from quasistatic_ref.lab.study.problems.problem import INFEASIBLE, Problem
 from quasistatic_ref.lab.study.problems.selection import problems_taken, set_identity
 
-FOLDER: Final = "problems"
+FOLDER = "problems"
 """Within that of a study."""
 
 

@@ -3,7 +3,7 @@
 import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -12,12 +12,12 @@ from quasistatic_ref.lab.study.store.rows import Row, label_of
 
 Where = Mapping[str, str | bool | int]
 """Field -> value: a filter, as the line below each table states it."""
-EVERY: Final[Where] = MappingProxyType({})
-FLAGS: Final = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong", "wrong_multipliers",
+EVERY: Where = MappingProxyType({})
+FLAGS = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong", "wrong_multipliers",
                 "solved", "called")  # fmt: skip
 
 
-MADE: Final = 0.9
+MADE = 0.9
 """Share of the calls of the solver with the most that others need to be compared on the same."""
 
 
