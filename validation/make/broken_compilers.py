@@ -17,8 +17,8 @@ from pathlib import Path
 from quasistatic_ref.optional.fast.compiled import library, why_not
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.step.standard_form import standard_form
+from validation.tools.scripts import ROOT
 
-ROOT = Path(__file__).parents[2]
 STEPS = 10
 PATIENCE = 600.0
 """What a compiler is given [s]; one that hangs, 1 s."""

@@ -36,9 +36,8 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import COMPLIANCE
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import ROOT, asked, shown
 
-ROOT = Path(__file__).parents[2]
 VECTORS = ROOT / "validation" / "vectors"
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", "scs", "none")
 CONES = (PYRAMID, "product", "facets-6", "frictionless")

@@ -24,9 +24,8 @@ from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.check.patched import patched_texts
 from quasistatic_ref.lab.vectors.expected import Json
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import ROOT, asked, shown
 
-ROOT = Path(__file__).parents[2]
 RUNNERS = ROOT / "validation" / "programs" / "runners"
 BUGS = ROOT / "validation" / "make" / "planted_bugs.toml"
 SECONDS = 60.0

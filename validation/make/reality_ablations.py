@@ -23,9 +23,9 @@ from quasistatic_ref.lab.reality.pairs import pairs_read
 from quasistatic_ref.lab.reality.predictions import poses, predicted_pushes
 from quasistatic_ref.lab.reality.pushes import pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
-from validation.tools.scripts import asked, record_written
+from validation.tools.scripts import RESULTS, asked, record_written
 
-OUT = Path(__file__).parents[1] / "results" / "reality_ablations.json"
+OUT = RESULTS / "reality_ablations.json"
 PYRAMID = {"cone": "pyramid"}
 QUICK = {"certify": "residual"}
 TIES = {

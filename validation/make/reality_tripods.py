@@ -24,7 +24,7 @@ from quasistatic_ref.lab.reality.settings import ADVANCE, Settings
 from quasistatic_ref.lab.reality.tables import table_read
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array
-from validation.tools.scripts import asked, record_written
+from validation.tools.scripts import RESULTS, asked, record_written
 
 LEG, MASS = 0.15, 1.518
 """Of the right triangle, the corner at the origin of its frame [m], [kg]."""
@@ -200,7 +200,7 @@ def tripod_prediction(
     return frozen.measured_pose(found.pose), found
 
 
-OUT = Path(__file__).parents[1] / "results" / "reality_tripods.json"
+OUT = RESULTS / "reality_tripods.json"
 VARIANTS: dict[str, dict[str, Any]] = {
     "ellipsoid": {},
     "pyramid, axes at 0 degrees": {"cone": "pyramid"},

@@ -30,9 +30,8 @@ from tqdm import tqdm
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.scenario.scenario import load_scenario
-from validation.tools.scripts import asked, environment, shown
+from validation.tools.scripts import ROOT, asked, environment, shown
 
-ROOT = Path(__file__).parents[2]
 KERNELS = ("SkylakeX", "Haswell", "Nehalem")
 """Processors with AVX-512, with FMA, and with neither."""
 OLD_C_LIBRARY = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX2_Usable,-FMA_Usable"}

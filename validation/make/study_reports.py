@@ -8,12 +8,11 @@ and reports the rows that are there.
 import sys
 import tempfile
 import time
-from pathlib import Path
 
 from quasistatic_ref.cli.main import main as command
-from validation.tools.scripts import asked
+from validation.tools.scripts import ROOT, asked
 
-FOLDER = Path(__file__).parents[1] / "studies"
+FOLDER = ROOT / "validation" / "studies"
 NAMES = ("default", "sequences", "bunny_torsion")
 
 

@@ -31,9 +31,8 @@ from pathlib import Path
 from textwrap import dedent
 
 from validation.tools.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
-from validation.tools.scripts import asked, environment
+from validation.tools.scripts import ROOT, asked, environment
 
-ROOT = Path(__file__).parents[2]
 HEAD = (
     "| extra | Python | versions | MB | largest parts [MB] | install [s] | commands [s] | commands "
     "| verdict |"

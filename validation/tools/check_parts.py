@@ -16,9 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from validation.tools.scripts import asked
+from validation.tools.scripts import ROOT, asked
 
-ROOT = Path(__file__).parents[2]
 SCENARIO = "bunny_grasp"
 PARTS: dict[str, tuple[list[str], str]] = {
     "coulomb": (["--law", "coulomb"], 'law = "coulomb"'),

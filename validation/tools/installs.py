@@ -1,12 +1,12 @@
 """What each extra is for, as commands that need it; ``check_installs.py`` runs them."""
 
 import re
-from pathlib import Path
+
+from validation.tools.scripts import ROOT
 
 CHECKOUT = "checkout:"
 """In front of commands whose programs or pages are in the checkout and not in the wheel."""
 
-ROOT = Path(__file__).parents[2]
 MODELS = ROOT / "models"
 OWN = tuple(
     sorted(

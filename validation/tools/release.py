@@ -16,9 +16,8 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from validation.tools.scripts import asked
+from validation.tools.scripts import ROOT, asked
 
-ROOT = Path(__file__).parents[2]
 CLI = "quasistatic_ref.cli.main"
 FIGURES = (
     "grasp cone_surfaces pinch_threshold gradient_of_a_push where_no_gradient_is "

@@ -10,6 +10,10 @@ from typing import Any
 
 from quasistatic_ref.formats.files import json_text, text_written
 
+ROOT = Path(__file__).parents[2]
+"""Of the checkout."""
+RESULTS = ROOT / "validation" / "results"
+
 
 def asked(doc: str | None, names: Collection[str] = (), **options: Any) -> argparse.Namespace:
     """The options that a script was called with; its docstring is its help.
