@@ -2,7 +2,7 @@
 
 import base64
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 
@@ -76,17 +76,17 @@ def _rows(where: str) -> str:
 
 
 def _table(table: Table) -> str:
-    head = "".join(_cell("th", c, k < table.left) for k, c in enumerate(table.columns))
-    body = [
-        "<tr>" + "".join(_cell("td", c, k < table.left) for k, c in enumerate(row)) + "</tr>"
-        for row in table.rows
-    ]
+    head = _table_row("th", table.columns, table.left)
+    body = [_table_row("td", row, table.left) for row in table.rows]
     return (
         f'<div class="wide"><table><caption><b>{_text(table.title)}</b>{_rows(table.where)}'
-        f"</caption><thead><tr>{head}</tr></thead>"
+        f"</caption><thead>{head}</thead>"
         f"<tbody>{''.join(body)}</tbody></table></div>"
     )
 
 
-def _cell(tag: str, words: str, left: bool) -> str:
-    return f"<{tag}{' class=left' if left else ''}>{_text(words)}</{tag}>"
+def _table_row(tag: str, cells: Sequence[str], left: int) -> str:
+    """A row, of whose cells the first `left` are text."""
+    kinds = [" class=left"] * left + [""] * (len(cells) - left)
+    words = zip(kinds, cells, strict=True)
+    return f"<tr>{''.join(f'<{tag}{kind}>{_text(cell)}</{tag}>' for kind, cell in words)}</tr>"

@@ -105,11 +105,6 @@ def summary(errors: Mapping[str, Errors]) -> dict[str, dict[str, object]]:
             parts["published"] = others
             parts["more"] = [e.model - o for e, o in zip(own, others, strict=True)]
         for key, values in parts.items():
-            found = bootstrapped(values)
-            entry[key] = {
-                "mean": found.mean.tolist(),
-                "low": found.low.tolist(),
-                "high": found.high.tolist(),
-            }
+            entry[key] = {of: x.tolist() for of, x in vars(bootstrapped(values)).items()}
         table[name] = entry
     return table

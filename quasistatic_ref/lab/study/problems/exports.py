@@ -4,8 +4,9 @@ Each export carries a README with the layout of its files, the licences, and how
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 from scipy.io import savemat
@@ -138,11 +139,8 @@ def _mat(path: Path, problems: Sequence[Problem]) -> Path:
             table[k][key] = csc_matrix(value) if isinstance(value, csr_matrix) else value
             if column:
                 table[k][key] = value[:, None]
-
-    def write(file: IO[bytes]) -> None:
-        savemat(file, {"problems": table}, do_compression=True)
-
-    return written_whole(path, write)
+    found = {"problems": table}
+    return written_whole(path, lambda file: savemat(file, found, do_compression=True))
 
 
 def _json(path: Path, problems: Sequence[Problem]) -> Path:
@@ -189,8 +187,7 @@ def _parts(one: Problem) -> dict[str, Any]:
         return found | {key: getattr(one.answer, key) for key in ANSWERS}
     y = np.zeros(len(one.b))
     for i, text in one.answer.farkas.items():
-        above, _, below = text.partition("/")
-        y[i] = int(above) / int(below or 1)
+        y[i] = Fraction(text)
     return found | {"farkas": y}
 
 

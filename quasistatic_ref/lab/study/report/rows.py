@@ -79,10 +79,9 @@ class Rows:
         made = self.at(called=True).groups(*by).values()
         units = [{row["unit"] for row in part} for part in made]
         most = max(map(len, units), default=0) if "label" in by else 0
-        parts = [part for part, own in zip(made, units, strict=True) if len(own) >= MADE * most]
-        kept = [own for own in units if len(own) >= MADE * most]
-        shared = set.intersection(*kept) if kept else set()
-        return Rows([row for part in parts for row in part if row["unit"] in shared])
+        kept = [(p, own) for p, own in zip(made, units, strict=True) if len(own) >= MADE * most]
+        shared = set.intersection(*(own for _, own in kept)) if kept else set()
+        return Rows([row for part, _ in kept for row in part if row["unit"] in shared])
 
     def sorted_by_unit(self, name: str) -> np.ndarray:
         """One field in the order of the problems, shape (rows,), so that rows compare."""

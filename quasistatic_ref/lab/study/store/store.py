@@ -206,13 +206,9 @@ def about_written(
     facts = {name: value for name, value in study.items() if name not in APART}
     head = {"kind": study["kind"], "time_limit": study.get("time_limit"), "facts": facts}
     put(tables, "study", head)
-    if "machines" in study:
-        for name in study["machines"]:
-            own = {"facts": study["machine"][name], "versions": study["versions"][name]}
-            put(tables, "machines", {"name": name, **own})
-    else:
-        own = {"facts": study["machine"], "versions": study["versions"]}
-        put(tables, "machines", {"name": "", **own})
+    for name in study.get("machines", [""]):
+        facts, versions = (study[of][name] if name else study[of] for of in ("machine", "versions"))
+        put(tables, "machines", {"name": name, "facts": facts, "versions": versions})
     for solver in study.get("solvers", ()):
         names = {"interface": solver["interface"], "name": solver["name"]}
         present = solver.get("present", True)
