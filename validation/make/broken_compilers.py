@@ -11,7 +11,6 @@ import pwd
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
 from pathlib import Path
 
 from quasistatic_ref.optional.fast.compiled import library, why_not
@@ -108,7 +107,7 @@ def kept_without_symbols() -> None:
     kept(Path(named.strip()).read_bytes())
 
 
-CACHES: dict[str, Callable[[], None]] = {
+CACHES = {
     "no home and no passwd entry": no_passwd_entry,
     "a cache that cannot be written": read_only,
     "a file for the cache": file_for_folder,
@@ -167,8 +166,7 @@ def steps_in(name: str, command: str) -> dict[str, str | None]:
             return {"broke": "it hangs"}
     if done.returncode:
         return {"broke": f"status {done.returncode}: {done.stderr[-300:]}"}
-    found: dict[str, str | None] = json.loads(done.stdout.replace(folder, "CACHE"))
-    return found
+    return json.loads(done.stdout.replace(folder, "CACHE"))
 
 
 def compiler_lines() -> list[str]:

@@ -270,7 +270,7 @@ def unlike(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
 
 def compared(random: int, every: int) -> tuple[list[str], list[str]]:
     """The table of how many steps were compared, whole and by group; what differs, in words."""
-    found = Counter[str]()
+    found = Counter()
     wrong = []
     for seed in range(random):
         step = random_case(seed)

@@ -128,8 +128,7 @@ def trial(bug: dict[str, Json], jobs: int = 1) -> Trial:
 
 def bugs() -> list[dict[str, Json]]:
     """The table of bugs."""
-    found: list[dict[str, Json]] = tomllib.loads(BUGS.read_text("utf-8"))["bug"]
-    return found
+    return tomllib.loads(BUGS.read_text("utf-8"))["bug"]
 
 
 HEAD = """# Mistakes planted in the JavaScript runner

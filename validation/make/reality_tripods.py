@@ -5,7 +5,6 @@ these all five sets are predicted. The other cones and frictions of the finger a
 """
 
 from collections import Counter
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -38,7 +37,7 @@ PLACES = 40
 SUPPORTS = ("support_x1", "support_y1", "support_x2", "support_y2", "support_x3",
                    "support_y3")  # fmt: skip
 PATH = tuple(f"finger_{axis}{k}" for k in range(PLACES) for axis in "xy")
-COLUMNS: Mapping[str, str] = {
+COLUMNS = {
     **dict.fromkeys(SUPPORTS, "[m] place of a support, object frame"),
     "push": "[-] number of the push in its set",
     "x0": "[m] origin of the object's frame before, world frame",
@@ -201,7 +200,7 @@ def tripod_prediction(
 
 
 OUT = RESULTS / "reality_tripods.json"
-VARIANTS: dict[str, dict[str, Any]] = {
+VARIANTS = {
     "ellipsoid": {},
     "pyramid, axes at 0 degrees": {"cone": "pyramid"},
     "pyramid, axes at 22.5 degrees": {"cone": "pyramid", "axes": 22.5},
@@ -225,7 +224,7 @@ def main() -> None:
     options = asked(__doc__, out=OUT)
     sets = tripods_read(reality_folder())
     frozen = calibration(sets[0])
-    record: dict[str, Any] = {
+    record = {
         "calibrated on": sets[0].name,
         "offset [mm]": (1e3 * frozen.offset).tolist(),
         "angle [deg]": float(np.degrees(frozen.angle)),
@@ -238,7 +237,7 @@ def main() -> None:
         entry: dict[str, Any] = {}
         for own in sets:
             scene = tripod(own, frozen, **changes)
-            kinds = Counter[str]()
+            kinds = Counter()
             ends = []
             certify = "off" if changes else "full"
             for before, path in zip(own.pushes.before, own.pushes.path, strict=True):

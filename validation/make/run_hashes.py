@@ -122,7 +122,7 @@ def report(steps: int | None, python: str | None, path: Path | None) -> tuple[st
     """The committed result, and whether all hashes are equal; a log at `path`."""
     names = scenario_names()
     lines = []
-    first = list[str]()
+    first = []
     equal = True
     log = Log(path, itemgetter("number"), {"steps": steps, "python": python})
     with tempfile.TemporaryDirectory() as folder:

@@ -29,7 +29,7 @@ from validation.programs.engines.second_order import (
     runs,
     scene_of,
 )
-from validation.programs.engines.second_order_page import RESULTS, rows, tables
+from validation.programs.engines.second_order_page import ROWS, rows, tables
 from validation.tools.scripts import asked
 
 TIMEOUT = 1200.0
@@ -92,7 +92,7 @@ def main() -> None:
             for run in [one for one in wanted if one.engine == name][: given.count]
         ]  # fmt: skip
     log = Log(
-        None if given.count else RESULTS,
+        None if given.count else ROWS,
         key=lambda one: Run(*(one[name] for name in Run._fields)),
         head=STUDY,
     )
@@ -104,7 +104,7 @@ def main() -> None:
                 if given.count:
                     print(log.found[run])
     if not given.count:
-        text_written(RESULTS.with_suffix(".md"), tables(rows()))
+        text_written(ROWS.with_suffix(".md"), tables(rows()))
 
 
 if __name__ == "__main__":

@@ -197,7 +197,7 @@ def written(path: Path, rows: list[list[str]]) -> None:
 def main() -> int:
     """Try what was named; 1 if something is wrong."""
     options = asked(__doc__, COMMANDS, python=sys.executable, lowest=False, out=Path)
-    wrong: list[str] = []
+    wrong = []
     with tempfile.TemporaryDirectory() as temporary:
         wheel = built(Path(temporary))
         for extra in options.names or COMMANDS:

@@ -19,7 +19,7 @@ import numpy as np
 from validation.tools.scripts import ROOT, asked
 
 SCENARIO = "bunny_grasp"
-PARTS: dict[str, tuple[list[str], str]] = {
+PARTS = {
     "coulomb": (["--law", "coulomb"], 'law = "coulomb"'),
     "curved": ([], ""),
     "derivatives": ([], ""),

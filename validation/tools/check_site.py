@@ -46,11 +46,11 @@ class Page(HTMLParser):
 
     def __init__(self, text: str) -> None:
         super().__init__()
-        self.links: list[str] = []
-        self.loads: list[str] = []
-        self.pictures: list[str] = []
+        self.links = []
+        self.loads = []
+        self.pictures = []
         self.names: set[str] = set()
-        self.text: list[str] = []
+        self.text = []
         self._inside = ""
         self.feed(text)
 

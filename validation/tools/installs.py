@@ -60,7 +60,7 @@ STUDY = (
     "quasistatic-ref study run sequences --quick --out sequences",
 )
 
-COMMANDS: dict[str, tuple[str, ...]] = {
+COMMANDS = {
     "base": (
         "quasistatic-ref --help",
         "quasistatic-ref demo --out demo --json",

@@ -29,7 +29,7 @@ COLUMN = ROOT / "docs" / "styles" / "two_columns.mplstyle"
 GRID = (PAGE, 6.3)
 """Size of the grid [in]."""
 
-FIGURES: dict[str, Callable[..., Figure]] = {
+FIGURES = {
     "corner_loads": corner_loads.figure,
     "the_program": the_program.figure,
 }

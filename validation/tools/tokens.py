@@ -81,7 +81,7 @@ def main() -> None:
     listed = subprocess.run(
         ["git", "-C", str(root), "ls-files"], capture_output=True, text=True, check=True
     )
-    parts: Counter[str] = Counter()
+    parts = Counter()
     for name in filter(is_code, listed.stdout.splitlines()):
         parts[part(name)] += tokens(root / name)
     for name, count in [*sorted(parts.items()), ("sum", parts.total())]:

@@ -30,7 +30,7 @@ from validation.tools.scripts import ROOT
 
 VECTORS = ROOT / "validation" / "vectors"
 CONES = ("pyramid", "product", "facets-6", "facets-32", "frictionless", "ellipsoid")
-CASES: dict[str, list[str]] = {"torsion": [], "no torsion": ["contacts.grip.mu_omega=0"]}
+CASES = {"torsion": [], "no torsion": ["contacts.grip.mu_omega=0"]}
 
 
 class Case(NamedTuple):

@@ -77,7 +77,7 @@ def run(
     aim : callable, optional
         Sets the targets of servos for the step that begins at a time [s].
     """
-    found: dict[str, list[Any]] = {body["name"]: [] for body in scene["bodies"]}
+    found = {body["name"]: [] for body in scene["bodies"]}
     done = 0
     seconds = 0.0
     for instant in scene["times"]:

@@ -29,7 +29,7 @@ def model_of(scene: Any, setting: Any) -> tuple[Any, dict[str, int]]:
         at = wp.transform(wp.vec3(*body["xyz"]), wp.quat_identity())
         inertia = wp.mat33(*np.diag(body["inertia"]).ravel().tolist())
         has = {"xform": at, "mass": body["mass"], "inertia": inertia, "lock_inertia": True}
-        placed: dict[str, Any] = {"body": -1, "xform": at}
+        placed = {"body": -1, "xform": at}
         if body["joint"] == "free":
             numbers[body["name"]] = builder.add_body(**has)
         elif body["joint"] == "rail_x":

@@ -10,9 +10,7 @@ from typing import Any
 from validation.programs.engines.phenomena import PHENOMENA
 
 FOLDER = Path(__file__).parents[1] / "reproductions"
-LIST: list[dict[str, Any]] = tomllib.loads((FOLDER / "list.toml").read_text("utf-8"))[
-    "reproduction"
-]
+LIST = tomllib.loads((FOLDER / "list.toml").read_text("utf-8"))["reproduction"]
 CHATTER = ("Module ", "Warp ", "   ")
 """Beginnings of lines by which Warp reports itself."""
 SECONDS = 600.0
