@@ -1,16 +1,16 @@
 """The grasp of the bunny, the paper's section III-B: its two cases and what a run came to."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.cli.measures import link_motion, worst_residual
+from quasistatic_ref.cli.measures import LinkMotion, link_motion, worst_residual
 from quasistatic_ref.errors import ScenarioError
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory, certified
 
-CASES: Final[dict[str, list[str]]] = {
+CASES: dict[str, list[str]] = {
     "with torsion": [],
     "without torsion": ["contacts.grip.mu_omega=0"],
 }
@@ -48,6 +48,12 @@ def grasp_scenarios(settings: Sequence[str] = ()) -> dict[str, Scenario]:
     return scenarios
 
 
+def lifted(scenario: Scenario, run: Trajectory) -> tuple[LinkMotion, slice]:
+    """The bunny's motion in a run, and its steps from the closed grip to the top."""
+    motion = link_motion(scenario.system, run, "bunny")
+    return motion, slice(motion.index(CLOSED), motion.index(TOP) + 1)
+
+
 def rotations(scenario: Scenario, runs: Mapping[str, Trajectory]) -> dict[str, Any]:
     """The bunny's rotation during the lift, since the grip closed.
 
@@ -63,12 +69,11 @@ def rotations(scenario: Scenario, runs: Mapping[str, Trajectory]) -> dict[str, A
     dict
         times [s], angles [deg] by case, and h [s].
     """
-    motions = {case: link_motion(scenario.system, run, "bunny") for case, run in runs.items()}
-    first = next(iter(motions.values()))
-    steps = slice(first.index(CLOSED), first.index(TOP) + 1)
+    found = {case: lifted(scenario, run) for case, run in runs.items()}
+    first, steps = next(iter(found.values()))
     return {
         "times": first.times[steps],
-        "angles": {c: np.degrees(m.rotation_since(CLOSED)[steps]) for c, m in motions.items()},
+        "angles": {c: np.degrees(m.rotation_since(CLOSED)[steps]) for c, (m, _) in found.items()},
         "h": scenario.h,
     }
 
@@ -83,18 +88,16 @@ def grasp_report(scenario: Scenario, trajectory: Trajectory) -> dict[str, object
         drag over the friction that contacts can bear), variables, rows, worst_residual (natural
         units), findings, and the milliseconds of each part of a step.
     """
-    motion = link_motion(scenario.system, trajectory, "bunny")
-    a = motion.index(CLOSED)
-    b = motion.index(TOP)
-    rotation = np.degrees(motion.rotation_since(CLOSED)[a : b + 1].max())
+    motion, steps = lifted(scenario, trajectory)
+    z = motion.t[steps, 2]
     parts = {f"{part}_ms": 1e3 * float(np.mean(s)) for part, s in trajectory.seconds.items()}
     return {
         "steps": trajectory.steps,
         "certified": certified(trajectory),
         "variables": trajectory["A"].shape[2],
         "rows": trajectory["A"].shape[1],
-        "rotation_deg": float(rotation),
-        "lift_mm": 1e3 * float(motion.t[b, 2] - motion.t[a, 2]),
+        "rotation_deg": float(np.degrees(motion.rotation_since(CLOSED)[steps].max())),
+        "lift_mm": 1e3 * float(z[-1] - z[0]),
         "drag_share": trajectory.header["largest_drag_share"],
         "worst_residual": worst_residual(trajectory),
         "findings": [str(finding) for finding in trajectory.findings],

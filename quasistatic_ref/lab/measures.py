@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +11,7 @@ from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Array, StepData
 
-PRECISION: Final = 1e-13
+PRECISION = 1e-13
 """Where the bisection of a threshold ends, relative; below CLOSED_FORM."""
 
 

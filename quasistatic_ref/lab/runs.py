@@ -2,8 +2,8 @@
 
 from functools import cache
 
-from quasistatic_ref.cli.measures import LinkMotion, link_motion
-from quasistatic_ref.lab.grasp import CASES, CLOSED, TOP
+from quasistatic_ref.cli.measures import LinkMotion
+from quasistatic_ref.lab.grasp import CASES, lifted
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 
@@ -29,6 +29,4 @@ def grasp(case: str) -> tuple[Scenario, Trajectory]:
 
 def lift(case: str) -> tuple[LinkMotion, slice]:
     """The bunny's motion in a case of the grasp, and its steps from the closed grip to the top."""
-    scenario, run = grasp(case)
-    motion = link_motion(scenario.system, run, "bunny")
-    return motion, slice(motion.index(CLOSED), motion.index(TOP) + 1)
+    return lifted(*grasp(case))

@@ -15,8 +15,6 @@ status 1 if anything is wrong. ``--count`` is that of exact answers of each fami
 said, with the others in proportion. All counts take some 15 minutes of one core.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections import Counter
@@ -72,8 +70,8 @@ class Attack:
     def __init__(self, name: str, folder: str) -> None:
         self.name = name
         self.folder = Path(folder)
-        self.counts = Counter[str]()
-        self.wrong: list[str] = []
+        self.counts = Counter()
+        self.wrong = []
         self.cases: list[Case] = []
 
     def add(self, outcome: str, holds: bool = True, note: str = "") -> None:
@@ -234,8 +232,8 @@ ATTACKS = {
 
 def attacked(kind: str, family: str, number: int) -> tuple[Counter[str], list[str]]:
     """What came of so many cases of a family, and those that went wrong."""
-    counts = Counter[str]()
-    wrong: list[str] = []
+    counts = Counter()
+    wrong = []
     for k, start in enumerate(range(0, number, BATCH)):
         with TemporaryDirectory() as folder:
             attack = Attack(f"{kind}, {family}", folder)
@@ -255,7 +253,7 @@ def main() -> int:
     families += [("exact answers", family, count) for family in FAMILIES]
     families += [("nearly singular", key, 5 * count // 2) for key in ("K_q", "M_u")]
     rows = []
-    wrong = list[str]()
+    wrong = []
     for kind, family, number in tqdm(sorted(families), "families"):
         counts, own = attacked(kind, family, number)
         rows += [(f"{kind}, {family}", what, f"{n:,}") for what, n in sorted(counts.items())]

@@ -4,8 +4,6 @@ Part of :mod:`validation.make.environments`. Each is tried in a process and a ca
 process is this module, with the name of what is tried.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os
@@ -13,14 +11,13 @@ import pwd
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
 from pathlib import Path
 
 from quasistatic_ref.optional.fast.compiled import library, why_not
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.step.standard_form import standard_form
+from validation.tools.scripts import ROOT
 
-ROOT = Path(__file__).parents[2]
 STEPS = 10
 PATIENCE = 600.0
 """What a compiler is given [s]; one that hangs, 1 s."""
@@ -110,7 +107,7 @@ def kept_without_symbols() -> None:
     kept(Path(named.strip()).read_bytes())
 
 
-CACHES: dict[str, Callable[[], None]] = {
+CACHES = {
     "no home and no passwd entry": no_passwd_entry,
     "a cache that cannot be written": read_only,
     "a file for the cache": file_for_folder,
@@ -169,8 +166,7 @@ def steps_in(name: str, command: str) -> dict[str, str | None]:
             return {"broke": "it hangs"}
     if done.returncode:
         return {"broke": f"status {done.returncode}: {done.stderr[-300:]}"}
-    found: dict[str, str | None] = json.loads(done.stdout.replace(folder, "CACHE"))
-    return found
+    return json.loads(done.stdout.replace(folder, "CACHE"))
 
 
 def compiler_lines() -> list[str]:

@@ -6,24 +6,20 @@ Adds the rows that are missing to validation/results/clouds.jsonl, one grasp a l
 on. ``--count N`` takes the first seeds only and prints the rows; nothing is written.
 """
 
-from __future__ import annotations
-
-from pathlib import Path
-
 from tqdm import tqdm
 
 from quasistatic_ref.lab.clouds.study import Cell, cells, grid, row
 from quasistatic_ref.lab.parallel import Log
-from validation.tools.scripts import asked
+from validation.tools.scripts import RESULTS, asked
 
-RESULTS = Path(__file__).parents[1] / "results" / "clouds.jsonl"
+ROWS = RESULTS / "clouds.jsonl"
 
 
 def main() -> None:
     """Grasp what was not yet grasped."""
     options = asked(__doc__, count=int)
     names = list(Cell.__dataclass_fields__)
-    path = None if options.count else RESULTS
+    path = None if options.count else ROWS
     log = Log(path, key=lambda one: Cell(*(one[name] for name in names)), head=grid())
     wanted = [one for one in cells() if not options.count or one.seed < options.count]
     drawn: tuple[object, ...] = ()

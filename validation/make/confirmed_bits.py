@@ -12,8 +12,6 @@ bits. "Nearby" are wrong sets from which walks in float64 lead to one that is pr
 Prints a table, and exits with status 1 if a bit differs.
 """
 
-from __future__ import annotations
-
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -98,20 +96,7 @@ def proof(step: StepData, rows: Indices) -> Proof:
     prover = fast.undivided(both)
     prover.optimum(both, *np.zeros((2, step.m)))
     (own,) = prover.proofs
-    found: Proof = None if own is None else own.optimum(step, rows, both.units)
-    return found
-
-
-def compiled_answer(step: StepData, guess: list[int]) -> ExactOptimum | None:
-    """What compiled code proves of a guess."""
-    found = proof(step, np.array(sorted(set(guess)), dtype=np.int64))
-    return found if isinstance(found, ExactOptimum) else None
-
-
-def confirmed_answer(step: StepData, guess: list[int], hessian: BallHessian) -> ExactOptimum | None:
-    """What is confirmed of a guess."""
-    found = BallStep(step, hessian).confirmed(guess)
-    return found if isinstance(found, ExactOptimum) else None
+    return None if own is None else own.optimum(step, rows, both.units)
 
 
 def nearby_answer(
@@ -126,16 +111,18 @@ def nearby_answer(
 def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
     """The kind of a random step, what was found on it, and faults in words."""
     kind, step = random_case(seed)
-    found = Counter[str]()
+    found = Counter()
     faults = []
     rng = np.random.default_rng([seed, 2])
     form = exact_form(step)
     hessian = BallHessian(step)
     truth = form_optimum(form)
 
-    def answers(guess: list[int]) -> tuple[ExactOptimum | None, ExactOptimum | None]:
+    def answers(guess: list[int]) -> tuple[ExactOptimum | None, ...]:
         """What is confirmed and what compiled code proves, each compared with the exact method."""
-        found = confirmed_answer(step, guess, hessian), compiled_answer(step, guess)
+        rows = np.array(sorted(set(guess)), dtype=np.int64)
+        tried = BallStep(step, hessian).confirmed(guess), proof(step, rows)
+        found = tuple(one if isinstance(one, ExactOptimum) else None for one in tried)
         for one in found:
             if one is not None and (wrong := differing(one, form_optimum(form, guess))):
                 faults.append(f"{kind}, step {seed}, from {guess}: {', '.join(wrong)}")
@@ -143,7 +130,7 @@ def checked(seed: int) -> tuple[str, Counter[str], list[str]]:
 
     if isinstance(truth, Farkas):
         found["infeasible"] += 1
-        right: list[int] = []
+        right = []
     else:
         found["optima"] += 1
         right = list(truth.working_set)
@@ -170,7 +157,7 @@ def main() -> int:
     """Check, print and write the table; exit status 1 if a bit differs."""
     options = asked(__doc__, random=5000, out=Path)
     found: dict[str, Counter[str]] = {}
-    faults: list[str] = []
+    faults = []
     with ProcessPoolExecutor() as pool:
         outcomes = pool.map(checked, range(options.random), chunksize=16)
         for kind, counts, wrong in tqdm(outcomes, total=options.random):

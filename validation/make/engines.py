@@ -13,8 +13,6 @@ gigabytes. Exit status 1 if a red cell has no reproduction, or one that does not
 number, or if a reproduction ended with an error.
 """
 
-from __future__ import annotations
-
 import json
 import tempfile
 from pathlib import Path
@@ -29,7 +27,7 @@ from validation.tools.scripts import asked, record_written
 def main() -> int:
     """Judge, and write the tables."""
     given = asked(__doc__, ENGINES, out=RESULTS, environments=Path, tables=False, resume=False)
-    results: Path = given.out
+    results = given.out
     results.mkdir(parents=True, exist_ok=True)
     wrong = 0
     with tempfile.TemporaryDirectory() as temporary:

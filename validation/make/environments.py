@@ -6,8 +6,6 @@ compilers; ``--count`` is that of steps, or trials, of each. The compilers and c
 stand in ``validation/make/broken_compilers.py``.
 """
 
-from __future__ import annotations
-
 import ctypes
 import platform
 import sys
@@ -140,7 +138,7 @@ def word(found: Any, right: Any) -> str:
 
 def proofs(step: StepData) -> dict[str, Call]:
     """What claims something of a step."""
-    calls: dict[str, Call] = {"cold": partial(solve_step, step, NONE)}
+    calls = {"cold": partial(solve_step, step, NONE)}
     kept = solver_for(step, "daqp", fast=True)
     for certify in ("full", "residual"):
         calls[certify] = partial(solve_step, step, kept, certify=certify)
@@ -157,7 +155,7 @@ def proofs(step: StepData) -> dict[str, Call]:
 
 def in_mode(name: str, count: int) -> Counter[str]:
     """What claims something, and what does not, in a mode of the thread."""
-    words: Counter[str] = Counter()
+    words = Counter()
     for seed in range(1, count + 1):
         step = mixed_step(seed)
         calls = proofs(step) | {"off": partial(solve_step, step, "daqp", certify="off")}
@@ -168,7 +166,7 @@ def in_mode(name: str, count: int) -> Counter[str]:
 
 def left_by_backend(name: str, count: int) -> Counter[str]:
     """A mode that the backend leaves behind."""
-    words: Counter[str] = Counter()
+    words = Counter()
     for seed in range(1, count + 1):
         solver = solver_for(step := mixed_step(seed), "daqp", fast=True)
         solver.reply = partial(reply_and_leave, solver.reply, name)  # type: ignore[method-assign]  # a planted fault
@@ -190,7 +188,7 @@ def reply_and_leave(reply: Callable[..., Any], name: str, *given: Any) -> Any:
 
 def after_all_modes(count: int) -> Counter[str]:
     """Every mode set and reset: what solvers keep is as before."""
-    words: Counter[str] = Counter()
+    words = Counter()
     for seed in range(1, count + 1):
         calls = proofs(mixed_step(seed))
         right = {key: outcome(call) for key, call in calls.items()}
@@ -213,7 +211,7 @@ def next_to_a_mode(count: int) -> Counter[str]:
 
     other = threading.Thread(target=at_work)
     other.start()
-    words: Counter[str] = Counter()
+    words = Counter()
     for seed in range(1, count + 1):
         calls = proofs(mixed_step(seed)).values()
         words.update(word(outcome(call), outcome(call)) for call in calls)
@@ -232,7 +230,7 @@ def by_two_threads(kind: str, count: int) -> Counter[str]:
     for k in range(LONG):
         q.append(one.step(q[k], goals[k]).q)
     right = [bits(end) for end in q[1:]]
-    words: list[str] = []
+    words = []
 
     def steps(simulator: Simulator, order: range, ready: threading.Barrier) -> None:
         ready.wait()
@@ -249,7 +247,7 @@ def by_two_threads(kind: str, count: int) -> Counter[str]:
     return Counter(words)
 
 
-TRIED: dict[str, Callable[[int], Counter[str]]] = {
+TRIED = {
     **{name: partial(in_mode, name) for name in MODES},
     **{f"{name}, left by the backend": partial(left_by_backend, name) for name in MODES},
     "every mode, set and reset": after_all_modes,

@@ -7,10 +7,8 @@ them for through each of the interfaces. The options are those of the setting ``
 matrices are shared with the study: neither its adapters nor its table of exit codes.
 """
 
-from __future__ import annotations
-
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -37,8 +35,6 @@ SECONDS = 5.0
 """Of a call through an interface [s]."""
 INNER = {"max_iter_in": 50}
 """Of ProxQP in its own interface, which may otherwise take minutes to say that there is none."""
-Raw = Callable[[StandardForm, dict], object]
-"""(program, options) -> the solver's own exit code."""
 
 
 def given(settings: Any, options: dict) -> Any:
@@ -164,10 +160,10 @@ def qpalm(form: StandardForm, options: dict) -> object:
     return solver.info.status_val
 
 
-RAW: dict[str, Raw] = {
+RAW = {
     one.__name__: one for one in (clarabel, osqp, piqp, daqp, proxqp, scs, highs, quadprog, qpalm)
 }
-MEANING: dict[str, dict[str, tuple[str, ...]]] = {
+MEANING = {
     "clarabel": {OPTIMAL: ("Solved",), INFEASIBLE: ("PrimalInfeasible", "DualInfeasible")},
     "osqp": {OPTIMAL: ("OSQP_SOLVED",),
              INFEASIBLE: ("OSQP_PRIMAL_INFEASIBLE", "OSQP_DUAL_INFEASIBLE")},

@@ -13,8 +13,6 @@ polyhedral cone after the other), on the steps of the vectors and on those of al
 Exit status 1 if anything of this fails.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -38,9 +36,8 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.tolerances import COMPLIANCE
 from tests.oracles.compliant_forces import forces as independent_forces
 from tests.oracles.random_steps import mixed_step
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import ROOT, asked, shown
 
-ROOT = Path(__file__).parents[2]
 VECTORS = ROOT / "validation" / "vectors"
 BACKENDS = ("clarabel", "osqp", "piqp", "daqp", "scs", "none")
 CONES = (PYRAMID, "product", "facets-6", "frictionless")

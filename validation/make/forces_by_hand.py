@@ -14,10 +14,8 @@ a quarter turn of the world, moved by half a metre or by 1e-16 m, either body of
 bodies in any order. Exit status 1 if anything is wrong.
 """
 
-from __future__ import annotations
-
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from itertools import combinations, product
 from pathlib import Path
@@ -100,7 +98,7 @@ def cloud(half: float) -> Shape:
 
 
 SQUARE = ("box", "hull", "cloud")
-FLAT: dict[str, Callable[[float], Shape]] = {
+FLAT = {
     "box": lambda half: Box(np.array([half, half, HALF])),
     "hull": hull,
     "cylinder": lambda half: Cylinder(half, HALF),
@@ -108,7 +106,7 @@ FLAT: dict[str, Callable[[float], Shape]] = {
     "cloud": cloud,
 }
 SOLIDS = tuple(kind for kind in FLAT if kind != "cloud")
-ROUND: dict[str, Shape] = {
+ROUND = {
     "sphere": Sphere(HALF),
     "capsule": Capsule(HALF / 2, HALF / 2),
     "ellipsoid": Ellipsoid(np.array([0.04, 0.03, HALF])),
@@ -326,7 +324,7 @@ def corner(mu_v: float, inset: float, depth: float) -> Scene:
 
 BOND = [(0, 1, 2), (0.5, 1.5), (1,)]
 FLUSH = [(0, 1), (0, 1)]
-FAMILIES: dict[str, Callable[[float, float], Scene]] = {
+FAMILIES = {
     "two cubes": partial(column, "cube", 2, EDGE),
     "ten cubes": partial(column, "cube", 10, EDGE),
     "two coins": partial(column, "coin", 2, EDGE / 10),
@@ -369,7 +367,7 @@ def main() -> int:
     options = asked(__doc__, places=4, out=Path)
     rng = np.random.default_rng(0)
     rows = []
-    found = list[str]()
+    found = []
     for name in tqdm(FAMILIES):
         said = [wrong(elsewhere(scene, rng), *contacts)
                 for scene, *contacts in attempts(name) for _ in range(options.places)]  # fmt: skip

@@ -7,8 +7,6 @@ proved whole or by group (``--random`` of the first, ``--every`` so manyth of th
 some minutes. Exit status 1 if a promise does not hold.
 """
 
-from __future__ import annotations
-
 import math
 import multiprocessing
 import os
@@ -272,7 +270,7 @@ def unlike(one: ExactOptimum, whole: ExactOptimum | Farkas) -> list[str]:
 
 def compared(random: int, every: int) -> tuple[list[str], list[str]]:
     """The table of how many steps were compared, whole and by group; what differs, in words."""
-    found = Counter[str]()
+    found = Counter()
     wrong = []
     for seed in range(random):
         step = random_case(seed)

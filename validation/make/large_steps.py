@@ -5,8 +5,6 @@ entries from which steps are sparse (``SPARSE_FROM`` and others in tolerances.py
 takes the large steps of a run that names none. Exit status 1 if a promise does not hold.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Iterable
@@ -26,9 +24,9 @@ from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from validation.tools.scripts import asked, shown
 
 Shape = tuple[int, int, int]
-ROWS: tuple[Shape, ...] = tuple((n, 1, 1) for n in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48))
-HEAPS: tuple[Shape, ...] = ((2, 2, 2), (3, 3, 3), (4, 4, 3))
-LARGEST: Shape = (5, 5, 4)
+ROWS = tuple((n, 1, 1) for n in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48))
+HEAPS = ((2, 2, 2), (3, 3, 3), (4, 4, 3))
+LARGEST = (5, 5, 4)
 WAYS = {
     "daqp dense": 48, "piqp dense": 24, "piqp sparse": 1000, "clarabel dense": 8,
     "clarabel sparse": 1000, "osqp dense": 8, "osqp sparse": 8,
@@ -148,7 +146,7 @@ def large() -> tuple[list[str], dict[str, float], float]:
     head = "boxes, backend, contacts, coordinates, rows, first [ms], off [ms], off p99 [ms], "
     head += "residual [ms], residual p99 [ms], largest error bound, without bound, unsolved"
     rows = []
-    times = dict[str, list[float]]()
+    times = {}
     heap = 0.0
     for shape in (*((n, 1, 1) for n in CHAINS), LARGEST):
         for backend in ("piqp", "clarabel"):

@@ -33,7 +33,7 @@ MODELS = (
     f"{GYMNASIUM}/humanoid.xml", f"{GYMNASIUM}/pusher.xml", f"{SUITE}/cartpole.xml",
     f"{SUITE}/finger.xml", f"{SUITE}/humanoid.xml", f"{SUITE}/reacher.xml", f"{SUITE}/walker.xml",
 )  # fmt: skip
-mujoco: Any = import_module("mujoco")
+mujoco = import_module("mujoco")
 SAME, CURVED = 1e-12, 1e-6
 """Tolerances: relative to the largest entry; of distances to cylinders and boxes, which MuJoCo and
 coal find by iteration [m]."""

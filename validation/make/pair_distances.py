@@ -12,8 +12,6 @@ For each pair, the largest of:
 - moved: |phi' - (phi + d)| [m] after moving beta's body by d = 1 mm along n.
 """
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 

@@ -24,9 +24,8 @@ from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.challenge.rounds import challenge
 from quasistatic_ref.lab.vectors.check.patched import patched_texts
 from quasistatic_ref.lab.vectors.expected import Json
-from validation.tools.scripts import asked, shown
+from validation.tools.scripts import ROOT, asked, shown
 
-ROOT = Path(__file__).parents[2]
 RUNNERS = ROOT / "validation" / "programs" / "runners"
 BUGS = ROOT / "validation" / "make" / "planted_bugs.toml"
 SECONDS = 60.0
@@ -129,8 +128,7 @@ def trial(bug: dict[str, Json], jobs: int = 1) -> Trial:
 
 def bugs() -> list[dict[str, Json]]:
     """The table of bugs."""
-    found: list[dict[str, Json]] = tomllib.loads(BUGS.read_text(encoding="utf-8"))["bug"]
-    return found
+    return tomllib.loads(BUGS.read_text("utf-8"))["bug"]
 
 
 HEAD = """# Mistakes planted in the JavaScript runner

@@ -7,8 +7,6 @@ solution of the optimality conditions is proved in integers.
 Exit status 1 if an answer is refuted.
 """
 
-from __future__ import annotations
-
 import re
 import time
 from collections.abc import Callable, Iterator, Sequence

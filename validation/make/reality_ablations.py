@@ -23,9 +23,9 @@ from quasistatic_ref.lab.reality.pairs import pairs_read
 from quasistatic_ref.lab.reality.predictions import poses, predicted_pushes
 from quasistatic_ref.lab.reality.pushes import pushes_read
 from quasistatic_ref.lab.reality.settings import Settings
-from validation.tools.scripts import asked, record_written
+from validation.tools.scripts import RESULTS, asked, record_written
 
-OUT = Path(__file__).parents[1] / "results" / "reality_ablations.json"
+OUT = RESULTS / "reality_ablations.json"
 PYRAMID = {"cone": "pyramid"}
 QUICK = {"certify": "residual"}
 TIES = {
@@ -36,7 +36,7 @@ TIES = {
 }
 """What breaks ties: a hundredth of friction."""
 
-VARIANTS: dict[str, dict[str, Any]] = {
+VARIANTS = {
     "ellipsoid": {},
     "pyramid, axes at 0 degrees": PYRAMID,
     "pyramid, axes at 22.5 degrees": PYRAMID | {"axes": 22.5},
@@ -97,7 +97,7 @@ def predictions(every: int, work: Path, jobs: int) -> Iterator[tuple[str, dict[s
         errors = [errors_of(poses(rows[pair.name]), pushes[pair.name]) for pair in pairs]
         if not base:
             base = {pair.name: e.model for pair, e in zip(pairs, errors, strict=True)}
-        kinds = Counter[str]()
+        kinds = Counter()
         for row in chain(*rows.values()):
             kinds.update(row["steps"])
         more = [e.model - base[pair.name] for pair, e in zip(pairs, errors, strict=True)]
@@ -135,7 +135,7 @@ def summary(found: dict[str, dict[str, Any]], every: int) -> dict[str, Any]:
     """What the variants so far came to, as plain data."""
     ties = [name for name in found if name.startswith("pyramid, tie")]
     shown = {n: {k: v for k, v in e.items() if k != "poses"} for n, e in found.items()}
-    record: dict[str, Any] = {"every": every, "variants": shown}
+    record = {"every": every, "variants": shown}
     if ties:
         among = ["pyramid, axes at 0 degrees", *ties]
         record["spread over the pyramid's ties"] = spread(found, among) | {"among": len(among)}

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from quasistatic_ref.lab.examples.gallery import figure_of
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
 from quasistatic_ref.optional.show.figures.style import figure_style, figure_written, panels, scaled
-from validation.tools.scripts import asked
+from validation.tools.scripts import RESULTS, asked
 
 Record = Mapping[str, Any]
 
@@ -123,8 +123,6 @@ def tripods(record: Record) -> Figure:
     return figure
 
 
-ROOT = Path(__file__).parents[2]
-RESULTS = ROOT / "validation" / "results"
 SHOWN = (
     "ellipsoid", "facets-16", "facets-8", "pyramid, axes at 0 degrees",
     "pyramid, axes at 22.5 degrees", "pyramid, axes at 45 degrees", "product",

@@ -3,8 +3,6 @@
 Loads are read, and no pushes.
 """
 
-from pathlib import Path
-
 import numpy as np
 
 from quasistatic_ref.lab.folders import reality_folder
@@ -12,9 +10,9 @@ from quasistatic_ref.lab.reality.identify import identified
 from quasistatic_ref.lab.reality.loads import Loads, loads_read
 from quasistatic_ref.lab.reality.pairs import pairs_read
 from quasistatic_ref.lab.reality.report import identified_record
-from validation.tools.scripts import asked, record_written
+from validation.tools.scripts import RESULTS, asked, record_written
 
-OUT = Path(__file__).parents[1] / "results" / "reality_identified.json"
+OUT = RESULTS / "reality_identified.json"
 CONES = ("ellipsoid", "pyramid", "product", "facets-8", "facets-16")
 
 

@@ -5,10 +5,9 @@ these all five sets are predicted. The other cones and frictions of the finger a
 """
 
 from collections import Counter
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -24,21 +23,21 @@ from quasistatic_ref.lab.reality.settings import ADVANCE, Settings
 from quasistatic_ref.lab.reality.tables import table_read
 from quasistatic_ref.step.cones import ELLIPSOID
 from quasistatic_ref.step.data import Array
-from validation.tools.scripts import asked, record_written
+from validation.tools.scripts import RESULTS, asked, record_written
 
 LEG, MASS = 0.15, 1.518
 """Of the right triangle, the corner at the origin of its frame [m], [kg]."""
-TRIANGLE: Final = Outline(LEG * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
+TRIANGLE = Outline(LEG * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
 
-FINGER: Final = 0.25
+FINGER = 0.25
 """Friction of the finger on the object [-]: not measured; that of the other pushes is taken."""
 
-PLACES: Final = 40
+PLACES = 40
 """Places of the finger along its path."""
-SUPPORTS: Final = ("support_x1", "support_y1", "support_x2", "support_y2", "support_x3",
+SUPPORTS = ("support_x1", "support_y1", "support_x2", "support_y2", "support_x3",
                    "support_y3")  # fmt: skip
-PATH: Final = tuple(f"finger_{axis}{k}" for k in range(PLACES) for axis in "xy")
-COLUMNS: Final[Mapping[str, str]] = {
+PATH = tuple(f"finger_{axis}{k}" for k in range(PLACES) for axis in "xy")
+COLUMNS = {
     **dict.fromkeys(SUPPORTS, "[m] place of a support, object frame"),
     "push": "[-] number of the push in its set",
     "x0": "[m] origin of the object's frame before, world frame",
@@ -200,8 +199,8 @@ def tripod_prediction(
     return frozen.measured_pose(found.pose), found
 
 
-OUT = Path(__file__).parents[1] / "results" / "reality_tripods.json"
-VARIANTS: dict[str, dict[str, Any]] = {
+OUT = RESULTS / "reality_tripods.json"
+VARIANTS = {
     "ellipsoid": {},
     "pyramid, axes at 0 degrees": {"cone": "pyramid"},
     "pyramid, axes at 22.5 degrees": {"cone": "pyramid", "axes": 22.5},
@@ -225,7 +224,7 @@ def main() -> None:
     options = asked(__doc__, out=OUT)
     sets = tripods_read(reality_folder())
     frozen = calibration(sets[0])
-    record: dict[str, Any] = {
+    record = {
         "calibrated on": sets[0].name,
         "offset [mm]": (1e3 * frozen.offset).tolist(),
         "angle [deg]": float(np.degrees(frozen.angle)),
@@ -238,7 +237,7 @@ def main() -> None:
         entry: dict[str, Any] = {}
         for own in sets:
             scene = tripod(own, frozen, **changes)
-            kinds = Counter[str]()
+            kinds = Counter()
             ends = []
             certify = "off" if changes else "full"
             for before, path in zip(own.pushes.before, own.pushes.path, strict=True):

@@ -11,8 +11,6 @@ is kept as it ends, and the same command goes on from there. Takes some five min
 if a hash differs.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import platform
@@ -32,9 +30,8 @@ from tqdm import tqdm
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.parallel import Log, Record
 from quasistatic_ref.scenario.scenario import load_scenario
-from validation.tools.scripts import asked, environment, shown
+from validation.tools.scripts import ROOT, asked, environment, shown
 
-ROOT = Path(__file__).parents[2]
 KERNELS = ("SkylakeX", "Haswell", "Nehalem")
 """Processors with AVX-512, with FMA, and with neither."""
 OLD_C_LIBRARY = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX2_Usable,-FMA_Usable"}
@@ -125,7 +122,7 @@ def report(steps: int | None, python: str | None, path: Path | None) -> tuple[st
     """The committed result, and whether all hashes are equal; a log at `path`."""
     names = scenario_names()
     lines = []
-    first = list[str]()
+    first = []
     equal = True
     log = Log(path, itemgetter("number"), {"steps": steps, "python": python})
     with tempfile.TemporaryDirectory() as folder:

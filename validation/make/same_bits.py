@@ -10,8 +10,6 @@ Takes twenty seconds. Exit status 1 if a run differs; its name is printed. ``--o
 hashes, and compares nothing.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import sys
@@ -23,9 +21,9 @@ import numpy as np
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.scenario.scenario import load_scenario
-from validation.tools.scripts import asked, record_written
+from validation.tools.scripts import RESULTS, asked, record_written
 
-RESULT = Path(__file__).parents[1] / "results" / "same_bits.json"
+RESULT = RESULTS / "same_bits.json"
 WITHOUT_TORSION = "contacts.grip.mu_omega=0"
 
 

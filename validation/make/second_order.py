@@ -6,8 +6,6 @@ validation/results/second_order.jsonl, one a line, each engine in an environment
 ``--count N`` takes the first N runs of each engine and prints them; nothing is written.
 """
 
-from __future__ import annotations
-
 import tempfile
 from contextlib import ExitStack
 from pathlib import Path
@@ -31,7 +29,7 @@ from validation.programs.engines.second_order import (
     runs,
     scene_of,
 )
-from validation.programs.engines.second_order_page import RESULTS, rows, tables
+from validation.programs.engines.second_order_page import ROWS, rows, tables
 from validation.tools.scripts import asked
 
 TIMEOUT = 1200.0
@@ -94,7 +92,7 @@ def main() -> None:
             for run in [one for one in wanted if one.engine == name][: given.count]
         ]  # fmt: skip
     log = Log(
-        None if given.count else RESULTS,
+        None if given.count else ROWS,
         key=lambda one: Run(*(one[name] for name in Run._fields)),
         head=STUDY,
     )
@@ -106,7 +104,7 @@ def main() -> None:
                 if given.count:
                     print(log.found[run])
     if not given.count:
-        text_written(RESULTS.with_suffix(".md"), tables(rows()))
+        text_written(ROWS.with_suffix(".md"), tables(rows()))
 
 
 if __name__ == "__main__":

@@ -10,8 +10,6 @@ triangles. What compiled code leaves to Python is counted; of what it says every
 compared. Exit status 1 if a bit differs.
 """
 
-from __future__ import annotations
-
 import itertools
 import sys
 import time
@@ -97,7 +95,7 @@ def tried(a: Shape, b: Shape, count: int, seed: int) -> Counter[str]:
     """How many poses were tried, decided in C and refused, how many differ, and times [s]."""
     pairs = [pair_of(*sides, k) for sides in ((a, b), (b, a)) for k in KEPT]
     by_c = [PosedSolids([pair]) for pair in pairs]
-    tally: Counter[str] = Counter(poses=0, decided=0, refused=0, different=0)
+    tally = Counter(poses=0, decided=0, refused=0, different=0)
     for number, (R, t) in enumerate(poses(a, b, count, seed)):
         i = number // 2 % len(pairs)  # aligned poses are every other one
         start = time.perf_counter()

@@ -4,8 +4,6 @@ Run ``python -m validation.make.step_profile --out FILE`` (ten seconds; the extr
 DAQP). docs/speed.md compares it with the paper's Fig. 4.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from quasistatic_ref.lab.page.markdown import markdown_table

@@ -5,17 +5,14 @@ that the numbers of the committed report are those of the committed rows. ``--re
 and reports the rows that are there.
 """
 
-from __future__ import annotations
-
 import sys
 import tempfile
 import time
-from pathlib import Path
 
 from quasistatic_ref.cli.main import main as command
-from validation.tools.scripts import asked
+from validation.tools.scripts import ROOT, asked
 
-FOLDER = Path(__file__).parents[1] / "studies"
+FOLDER = ROOT / "validation" / "studies"
 NAMES = ("default", "sequences", "bunny_torsion")
 
 

@@ -1,7 +1,5 @@
 """A headless Chromium without network, spoken to through a pipe: no package, no port."""
 
-from __future__ import annotations
-
 import base64
 import fcntl
 import json
@@ -13,7 +11,6 @@ import sys
 import tempfile
 import time
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
@@ -81,15 +78,10 @@ class Browser:
             downloadThroughput=-1, uploadThroughput=-1,
         )  # fmt: skip
 
-    def __enter__(self) -> Browser:
+    def __enter__(self) -> "Browser":
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *exception: object) -> None:
         self._process.terminate()
         self._process.wait(PATIENCE)
         os.close(self._write)

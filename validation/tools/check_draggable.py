@@ -13,8 +13,9 @@ import numpy as np
 from quasistatic_ref.lab.scenes.rigid import point_step, sphere_step
 from quasistatic_ref.solve.solve import solve_step
 from validation.tools.browser import Browser, check
+from validation.tools.scripts import ROOT
 
-PAGE = Path(__file__).parents[2] / "docs" / "draggable" / "draggable.html"
+PAGE = ROOT / "docs" / "draggable" / "draggable.html"
 GRAVITY = 9.81
 H = 0.01
 SAME = 1e-9

@@ -15,8 +15,6 @@ can take the lowest. An environment takes one or two gigabytes and is removed. E
 command fails.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -33,9 +31,8 @@ from pathlib import Path
 from textwrap import dedent
 
 from validation.tools.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
-from validation.tools.scripts import asked, environment
+from validation.tools.scripts import ROOT, asked, environment
 
-ROOT = Path(__file__).parents[2]
 HEAD = (
     "| extra | Python | versions | MB | largest parts [MB] | install [s] | commands [s] | commands "
     "| verdict |"
@@ -200,7 +197,7 @@ def written(path: Path, rows: list[list[str]]) -> None:
 def main() -> int:
     """Try what was named; 1 if something is wrong."""
     options = asked(__doc__, COMMANDS, python=sys.executable, lowest=False, out=Path)
-    wrong: list[str] = []
+    wrong = []
     with tempfile.TemporaryDirectory() as temporary:
         wheel = built(Path(temporary))
         for extra in options.names or COMMANDS:

@@ -11,8 +11,6 @@ not read. Listings of source, which are most of the pages, have one frame: it is
 Prints one line for each fault, page and element, and exits with status 1 if there is any.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Iterator
@@ -20,7 +18,6 @@ from pathlib import Path
 
 from validation.tools.browser import Browser
 
-ROOT = Path(__file__).parents[2]
 WIDTHS = (400, 1280)
 """Of a phone and of a small laptop [px]."""
 HEIGHT = 900

@@ -8,8 +8,6 @@ word that needs the part must be refused in a sentence that names it.
 Exit status 1 if one of them does not hold.
 """
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys
@@ -18,11 +16,10 @@ from pathlib import Path
 
 import numpy as np
 
-from validation.tools.scripts import asked
+from validation.tools.scripts import ROOT, asked
 
-ROOT = Path(__file__).parents[2]
 SCENARIO = "bunny_grasp"
-PARTS: dict[str, tuple[list[str], str]] = {
+PARTS = {
     "coulomb": (["--law", "coulomb"], 'law = "coulomb"'),
     "curved": ([], ""),
     "derivatives": ([], ""),

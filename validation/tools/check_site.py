@@ -11,8 +11,6 @@ relative link leads to a file.
 Prints one line for each fault, and exits with status 1 if there is any.
 """
 
-from __future__ import annotations
-
 import re
 import sys
 from collections import Counter
@@ -21,7 +19,8 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-ROOT = Path(__file__).parents[2]
+from validation.tools.scripts import ROOT
+
 LOADED = {
     "script": "src", "img": "src", "iframe": "src", "source": "src", "video": "src",
     "audio": "src", "embed": "src", "object": "data",
@@ -47,11 +46,11 @@ class Page(HTMLParser):
 
     def __init__(self, text: str) -> None:
         super().__init__()
-        self.links: list[str] = []
-        self.loads: list[str] = []
-        self.pictures: list[str] = []
+        self.links = []
+        self.loads = []
+        self.pictures = []
         self.names: set[str] = set()
-        self.text: list[str] = []
+        self.text = []
         self._inside = ""
         self.feed(text)
 

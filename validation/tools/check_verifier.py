@@ -27,11 +27,10 @@ from quasistatic_ref.step.files import step_text
 from tests.oracles.forged_scenes import scenes
 from tests.oracles.forgeries import good_file
 from validation.tools.browser import Browser, check
-from validation.tools.scripts import asked
+from validation.tools.scripts import ROOT, asked
 from validation.tools.verifier_files import Case, Cases, all_cases
 
-HERE = Path(__file__).parents[1]
-VERIFIER = HERE / "programs" / "verifier" / "verify.js"
+VERIFIER = ROOT / "validation" / "programs" / "verifier" / "verify.js"
 NODE = """
 const { verify } = require(process.argv[1]);
 const cases = JSON.parse(require("fs").readFileSync(0, "utf8"));

@@ -5,8 +5,6 @@ Debian's package chromium); screenshots stay in FOLDER, if it is given. Exit sta
 thing that is wrong, a missing browser included: nothing is skipped.
 """
 
-from __future__ import annotations
-
 import io
 import sys
 from pathlib import Path

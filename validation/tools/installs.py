@@ -1,27 +1,22 @@
 """What each extra is for, as commands that need it; ``check_installs.py`` runs them."""
 
-from __future__ import annotations
-
 import re
-from pathlib import Path
-from typing import Final
 
-CHECKOUT: Final = "checkout:"
+from validation.tools.scripts import ROOT
+
+CHECKOUT = "checkout:"
 """In front of commands whose programs or pages are in the checkout and not in the wheel."""
 
-ROOT: Final = Path(__file__).parents[2]
-MODELS: Final = ROOT / "models"
-OWN: Final = tuple(
+MODELS = ROOT / "models"
+OWN = tuple(
     sorted(
         path.stem for path in MODELS.glob("*/*.toml") if "package://" not in path.read_text("utf-8")
     )
 )
 """Scenarios whose robots come along."""
 
-SHELL: Final = re.compile(r"^```(?:sh|bash|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
-FILE: Final = re.compile(
-    r"^```\{code-block\} \w+\n:caption: (\S+)\n\n(.*?)^```", re.MULTILINE | re.DOTALL
-)
+SHELL = re.compile(r"^```(?:sh|bash|console)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+FILE = re.compile(r"^```\{code-block\} \w+\n:caption: (\S+)\n\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
 def shell_lines(markdown: str) -> tuple[str, ...]:
@@ -31,31 +26,31 @@ def shell_lines(markdown: str) -> tuple[str, ...]:
     return tuple(line for line in stripped if line and not line.startswith("#"))
 
 
-WALK: Final = (ROOT / "docs" / "guides" / "first_scene.md").read_text("utf-8")
+WALK = (ROOT / "docs" / "guides" / "first_scene.md").read_text("utf-8")
 """From a URDF to a picture: the page of which a newcomer types every command."""
-WALK_FILES: Final = dict(FILE.findall(WALK))
+WALK_FILES = dict(FILE.findall(WALK))
 """Its files, by the captions that name them."""
 
-ROBOTS: Final = (
+ROBOTS = (
     "quasistatic-ref run panda_push --set steps=20 --json",
     "quasistatic-ref run allegro_turn --set steps=5 --json",
 )
-VIEW: Final = ("quasistatic-ref run two_finger_pinch --set steps=20 --view",)
-ENGINES: Final = ("quasistatic-ref validate mujoco_rows",)
-FAST: Final = (
+VIEW = ("quasistatic-ref run two_finger_pinch --set steps=20 --view",)
+ENGINES = ("quasistatic-ref validate mujoco_rows",)
+FAST = (
     'python -c "import os, sys; '
     "os.environ['QUASISTATIC_REF_CC'] = sys.executable + ' -m ziglang cc'; "
     'from quasistatic_ref.optional.fast.compiled import why_not; sys.exit(why_not())"',
     "quasistatic-ref run sphere_spin --set steps=20 --json",
 )
 """With the compiler that comes along, also where the system has one."""
-PARQUET: Final = ("quasistatic-ref vectors export --out bundle",)
-PANDAS: Final = (
+PARQUET = ("quasistatic-ref vectors export --out bundle",)
+PANDAS = (
     'python -c "from quasistatic_ref import load_scenario as load; '
     "print(load('sphere_spin', steps=5).run(progress=False).to_pandas())\"",
 )
-JAX: Final = ("quasistatic-ref figures plan_a_push --numbers",)
-STUDY: Final = (
+JAX = ("quasistatic-ref figures plan_a_push --numbers",)
+STUDY = (
     "quasistatic-ref study run default --quick --out study",
     "quasistatic-ref study report study --out report",
     "quasistatic-ref study pack study",
@@ -65,7 +60,7 @@ STUDY: Final = (
     "quasistatic-ref study run sequences --quick --out sequences",
 )
 
-COMMANDS: Final[dict[str, tuple[str, ...]]] = {
+COMMANDS = {
     "base": (
         "quasistatic-ref --help",
         "quasistatic-ref demo --out demo --json",
@@ -118,13 +113,13 @@ COMMANDS: Final[dict[str, tuple[str, ...]]] = {
 }
 """Extra -> command lines; ``{out}`` is the empty folder."""
 
-SCRIPTS: Final = {
+SCRIPTS = {
     "readme.py": ("README.md", "solve_step"),
     "diff.py": ("docs/sensitivity.md", "DIFFCP"),
 }
 """Script in the empty folder -> the page that it stands on, and a word of its blocks there."""
 
-REFUSED: Final = {
+REFUSED = {
     "base": {
         "quasistatic-ref run panda_push": "quasistatic-ref[robots]",
         "quasistatic-ref run sphere_spin --set steps=5 --out short --view": "quasistatic-ref[view]",

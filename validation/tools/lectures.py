@@ -13,9 +13,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from validation.tools.scripts import asked
+from validation.tools.scripts import ROOT, asked
 
-FOLDER = Path(__file__).parents[2] / "docs" / "lectures"
+FOLDER = ROOT / "docs" / "lectures"
 LECTURES = (
     "one_contact", "springs_and_steps", "clouds_and_jacobians", "the_program_in_cvxpy",
     "grasps_and_certificates",

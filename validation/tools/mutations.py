@@ -9,8 +9,6 @@ What came of each file stands in validation/results/mutations.md, with a hash of
 sample of the mutants, all of which they must kill.
 """
 
-from __future__ import annotations
-
 import ast
 import hashlib
 import os

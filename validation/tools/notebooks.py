@@ -4,8 +4,6 @@ Run ``python -m validation.tools.notebooks [NAME ...] [--out FOLDER]``, with the
 ``notebooks``. Exit status 1 if a notebook fails, or ends without its numbers or its figure.
 """
 
-from __future__ import annotations
-
 import ast
 import sys
 import time
@@ -35,7 +33,7 @@ PATIENCE = 600
 def notebook(name: str) -> nbformat.NotebookNode:
     """An example as a notebook: its text, its code, its numbers, its figure."""
     path = Path(example(name).__file__)
-    text, code = parts(path.read_text(encoding="utf-8"))
+    text, code = parts(path.read_text("utf-8"))
     title, _, body = text.partition("\n")
     return book([
         ("text", f"# {title}\n{body}".rstrip()),

@@ -16,9 +16,8 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from validation.tools.scripts import asked
+from validation.tools.scripts import ROOT, asked
 
-ROOT = Path(__file__).parents[2]
 CLI = "quasistatic_ref.cli.main"
 FIGURES = (
     "grasp cone_surfaces pinch_threshold gradient_of_a_push where_no_gradient_is "
@@ -73,13 +72,18 @@ RESULTS = (
         ("docs/figures",),
         (("*.png", "docs/figures"),),
     ),
-    to_file("large_steps"),
-    to_file("grouped_proofs"),
-    to_file("proved_problems"),
-    to_file("pair_distances"),
-    to_file("solid_pairs"),
-    to_file("step_profile"),
-    to_file("run_hashes"),
+    *map(
+        to_file,
+        (
+            "large_steps",
+            "grouped_proofs",
+            "proved_problems",
+            "pair_distances",
+            "solid_pairs",
+            "step_profile",
+            "run_hashes",
+        ),
+    ),
     to_file("attacks"),
     to_file("verifier", command="validation.tools.check_verifier --all"),
     to_file("confirmed_bits", "txt"),
@@ -95,7 +99,6 @@ RESULTS = (
     to_file("environments"),
     to_file("forces_by_hand"),
     to_file("forces"),
-    to_file("outputs"),
     Result("mutations", "validation.tools.mutations --stale", ("validation/results/mutations.md",)),
     to_file("reality_identified", "json"),
     Result(

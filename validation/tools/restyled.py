@@ -23,14 +23,13 @@ from quasistatic_ref.lab.figures.validation import PICTURES
 from quasistatic_ref.optional.show.figures import figure_style
 from quasistatic_ref.optional.show.figures.style import PAGE
 from tests.legible import faults
-from validation.tools.scripts import asked
+from validation.tools.scripts import ROOT, asked
 
-ROOT = Path(__file__).parents[2]
 COLUMN = ROOT / "docs" / "styles" / "two_columns.mplstyle"
 GRID = (PAGE, 6.3)
 """Size of the grid [in]."""
 
-FIGURES: dict[str, Callable[..., Figure]] = {
+FIGURES = {
     "corner_loads": corner_loads.figure,
     "the_program": the_program.figure,
 }

@@ -1,7 +1,5 @@
 """What scripts share that make a committed result: their options, and their page."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import subprocess
@@ -11,6 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.formats.files import json_text, text_written
+
+ROOT = Path(__file__).parents[2]
+"""Of the checkout."""
+RESULTS = ROOT / "validation" / "results"
 
 
 def asked(doc: str | None, names: Collection[str] = (), **options: Any) -> argparse.Namespace:

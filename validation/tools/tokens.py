@@ -47,7 +47,7 @@ def python_tokens(text: str) -> int:
 
 def tokens(path: Path) -> int:
     """Tokens of one file."""
-    text = path.read_text(encoding="utf-8")
+    text = path.read_text("utf-8")
     if path.suffix == ".py":
         return python_tokens(text)
     pattern = TOML if path.suffix == ".toml" else C_LIKE
@@ -81,7 +81,7 @@ def main() -> None:
     listed = subprocess.run(
         ["git", "-C", str(root), "ls-files"], capture_output=True, text=True, check=True
     )
-    parts: Counter[str] = Counter()
+    parts = Counter()
     for name in filter(is_code, listed.stdout.splitlines()):
         parts[part(name)] += tokens(root / name)
     for name, count in [*sorted(parts.items()), ("sum", parts.total())]:

@@ -26,10 +26,11 @@ from tests.oracles.forgeries import at_random, forgeries, good_file, refutation
 from tests.oracles.random_steps import mixed_step
 from tests.oracles.single_faults import single_faults
 from tests.oracles.solution_truth import truth_of
+from validation.tools.scripts import ROOT
 
-VECTORS = Path(__file__).parents[1] / "vectors"
+VECTORS = ROOT / "validation" / "vectors"
 CONES = ("pyramid", "product", "facets-6", "facets-32", "frictionless", "ellipsoid")
-CASES: dict[str, list[str]] = {"torsion": [], "no torsion": ["contacts.grip.mu_omega=0"]}
+CASES = {"torsion": [], "no torsion": ["contacts.grip.mu_omega=0"]}
 
 
 class Case(NamedTuple):

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import metadata
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,9 +12,9 @@ from numpy.typing import ArrayLike
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.step.data import Array
 
-HOLDS: Final = "holds"
-FAILS: Final = "FAILS"
-NOT_RUN: Final = "not run (engine not installed)"
+HOLDS = "holds"
+FAILS = "FAILS"
+NOT_RUN = "not run (engine not installed)"
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,11 +1,10 @@
 """Every claim by name."""
 
 from importlib import import_module
-from typing import Final
 
 from quasistatic_ref.lab.claims.claim import Claim
 
-MODULES: Final = {
+MODULES = {
     "The paper's claims": (
         "paper.grasp",
         "paper.contact_geometry",
@@ -50,7 +49,7 @@ def _claims(modules: tuple[str, ...]) -> dict[str, Claim]:
     return {claim.name: claim for claim in found}
 
 
-CLAIMS: Final = {section: _claims(modules) for section, modules in MODULES.items()}
+CLAIMS = {section: _claims(modules) for section, modules in MODULES.items()}
 """Section -> name -> claim."""
 
-BY_NAME: Final = {name: claim for claims in CLAIMS.values() for name, claim in claims.items()}
+BY_NAME = {name: claim for claims in CLAIMS.values() for name, claim in claims.items()}

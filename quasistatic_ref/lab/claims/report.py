@@ -108,7 +108,7 @@ def _chapter(finding: Finding) -> list[str]:
         lines += [f"It could not be measured: {record['trouble']}.", ""]
     if record["comparisons"]:
         names = ("quantity", "points", "measured", "expected", "error", "tolerance", "verdict")
-        lines += [*markdown_table(names, list(map(_compared, record["comparisons"]))), ""]
+        lines += [*markdown_table(names, map(_compared, record["comparisons"])), ""]
     return lines
 
 

@@ -4,24 +4,23 @@ import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.errors import RunFailed
-from quasistatic_ref.lab.grasp import CLOSED, TOP
+from quasistatic_ref.lab.grasp import CLOSED, TOP, lifted
 from quasistatic_ref.lab.parallel import Record
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
-LOADED: Final = 1e-6
+LOADED = 1e-6
 """A point bears load above this force [N]: the weight is 2 N."""
-STEPS: Final = 290
+STEPS = 290
 """To the end of the lift."""
-FINGERS: Final = ("left", "right")
-LIFTING: Final = 0.04 / (TOP - CLOSED)
+FINGERS = ("left", "right")
+LIFTING = 0.04 / (TOP - CLOSED)
 """Speed of the lift [m/s]; see bunny_grasp.toml."""
 
 
@@ -82,15 +81,13 @@ def grasped(cloud: Array, settings: Mapping[str, Any]) -> Record:
     except RunFailed as failure:
         failed = True
         run = failure.trajectory
-    motion = link_motion(scenario.system, run, "bunny")
-    first = motion.index(CLOSED)
-    last = motion.index(TOP)
-    turned = motion.rotation_since(CLOSED)[first : last + 1]
-    grip = _grip(scenario, run, first)
+    motion, steps = lifted(scenario, run)
+    z = motion.t[steps, 2]
+    grip = _grip(scenario, run, steps.start)
     return {
         "failed": failed,
-        "rotation": float(np.degrees(turned.max())),
-        "lift": 1e3 * float(motion.t[last, 2] - motion.t[first, 2]),
+        "rotation": float(np.degrees(motion.rotation_since(CLOSED)[steps].max())),
+        "lift": 1e3 * float(z[-1] - z[0]),
         "certified": float(np.mean(run["certificate"] == "exact")),
         **(vars(grip) if grip else {}),
     }

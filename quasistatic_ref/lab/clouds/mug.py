@@ -6,7 +6,6 @@ hook then touches the handle's inner circle.
 """
 
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
@@ -17,20 +16,20 @@ from quasistatic_ref.shapes.placed_shape import Capsule, PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.data import Array
 
-MASS: Final = 0.3
+MASS = 0.3
 """[kg]."""
-INERTIA: Final = (5e-4, 5e-4, 4e-4)
+INERTIA = (5e-4, 5e-4, 4e-4)
 """[kg m^2]."""
-OFF: Final = 0.04
+OFF = 0.04
 """From the centre of mass to the middle of the torus, along x [m]: the radius of the mug."""
 ARC, TUBE, HOOK = 0.028, 0.005, 0.006
 """Radii of the torus, of its tube and of the hook [m]."""
-INNER: Final = ARC - TUBE
+INNER = ARC - TUBE
 """Radius of the handle's inner circle [m]."""
-NEAREST: Final = 12
+NEAREST = 12
 """Candidates of the cloud."""
-STEPS: Final = 60
-FRICTION: Final = 0.3
+STEPS = 60
+FRICTION = 0.3
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 import heapq
 from collections.abc import Callable
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,16 +9,16 @@ from scipy.spatial import cKDTree
 
 from quasistatic_ref.step.data import Array
 
-CANDIDATES: Final = 4
+CANDIDATES = 4
 """Random points for each point of a farthest-point cloud."""
-VIEWS: Final = 4
+VIEWS = 4
 """Directions from which a scanner looks at the body."""
-GRAZING: Final = 0.3
+GRAZING = 0.3
 """A scanner sees no surface whose normal has a smaller cosine with its direction."""
-HOLES: Final = 5
-HOLE: Final = 0.008
+HOLES = 5
+HOLE = 0.008
 """Radius of a hole of a scan [m]."""
-NOISE: Final = 2e-4
+NOISE = 2e-4
 """Standard deviation of a scanned point along the normal [m]."""
 
 
@@ -121,7 +120,7 @@ def scan(mesh: Mesh, count: int, rng: np.random.Generator) -> Array:
     return found[:count]
 
 
-SAMPLINGS: Final[dict[str, Callable[[Mesh, int, np.random.Generator], Array]]] = {
+SAMPLINGS: dict[str, Callable[[Mesh, int, np.random.Generator], Array]] = {
     "random": random_points,
     "farthest": farthest_points,
     "vertices": some_vertices,

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -16,15 +16,15 @@ from quasistatic_ref.lab.clouds.samplings import SAMPLINGS, Mesh
 from quasistatic_ref.lab.parallel import Record
 from quasistatic_ref.step.data import Array
 
-NONE: Final = "none"
+NONE = "none"
 """The change of a cell in which the scene is what it is."""
-TORSION: Final = 0.003
+TORSION = 0.003
 """mu_omega of the scene [m]."""
-STIFFNESS: Final = 1000.0
+STIFFNESS = 1000.0
 """K_q of the scene's width [N/m]."""
-ARM: Final = (2000.0, 2000.0, 2000.0, 50.0, 50.0, 50.0)
+ARM = (2000.0, 2000.0, 2000.0, 50.0, 50.0, 50.0)
 """K_q of the scene's base [N/m, N m/rad]."""
-TARGETS: Final = (
+TARGETS = (
     {"t": 0.0, "base": {"xyz": [0.02, -0.011, 0.175]}, "width": 0.11},
     {"t": 0.7, "base": {"xyz": [0.02, -0.011, 0.175]}},
     {"t": 2.9, "base": {"xyz": [0.02, -0.011, 0.215]}},
@@ -35,7 +35,7 @@ TARGETS: Final = (
 @cache
 def grid() -> Mapping[str, Any]:
     """What ``clouds.toml`` holds."""
-    return tomllib.loads((files(clouds) / "clouds.toml").read_text(encoding="utf-8"))
+    return tomllib.loads((files(clouds) / "clouds.toml").read_text("utf-8"))
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def _closed(width: float) -> dict[str, Any]:
 @cache
 def bunny_mesh() -> Mesh:
     """The mesh of the bunny, of which the scene's cloud are vertices."""
-    text = (models_folder() / "bunny_grasp" / "bunny.obj").read_text(encoding="utf-8")
+    text = (models_folder() / "bunny_grasp" / "bunny.obj").read_text("utf-8")
     lines = [line.split() for line in text.splitlines()]
     vertices = [[float(x) for x in words[1:4]] for words in lines if words[:1] == ["v"]]
     triangles = [[int(i) - 1 for i in words[1:4]] for words in lines if words[:1] == ["f"]]

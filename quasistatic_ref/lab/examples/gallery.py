@@ -1,11 +1,11 @@
 """Every example by name, in the order in which they are best read."""
 
 from importlib import import_module
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.optional.show.figures import Figure, figure_style
 
-EXAMPLES: Final = (
+EXAMPLES = (
     "block_on_a_table",
     "six_rows_of_a_contact",
     "cone_surfaces",

@@ -35,6 +35,13 @@ def cloud() -> Array:
     return np.column_stack([HALF_AXES[0] * np.cos(angle), 0 * angle, HALF_AXES[1] * np.sin(angle)])
 
 
+def points_at(system: System, q: Array) -> Array:
+    """The points of the cloud in the world at q, shape (POINTS, 3) [m]."""
+    at = system.kinematics(q)
+    link = system.link("body")
+    return np.asarray(cloud() @ at.R[link].T + at.t[link])
+
+
 def lying(tilt: float = TILT, k: int = K) -> tuple[System, ContactPair, Array]:
     """The body with its cloud, its pair with the floor, and q when it is tilted.
 
@@ -69,13 +76,10 @@ def errors(turns: Array = TURNS, tilt: float = TILT) -> Array:
     system, pair, q = lying(tilt, POINTS)  # every point, always in the same order
     _, found = geometry(system, pair, q)
     order = [int(name.rsplit("/", 1)[1]) for name in found.name]
-    points = cloud()[order]
     worst = []
     for turn in turns:
         delta_q = turn * np.eye(6)[4]
-        after = system.kinematics(system.integrate(q, delta_q))
-        link = system.link("body")
-        height = (points @ after.R[link].T + after.t[link])[:, 2]
+        height = points_at(system, system.integrate(q, delta_q))[order, 2]
         predicted = found.phi + np.einsum("ci,civ,v->c", found.n, found.J[:, :3], delta_q)
         worst.append(np.abs(height - predicted).max())
     return np.array(worst)
@@ -85,9 +89,7 @@ def main() -> Numbers:
     """The least phi with its formula, and the exponent of the error of its prediction."""
     system, pair, q = lying()
     _, found = geometry(system, pair, q)
-    link = system.link("body")
-    k = system.kinematics(q)
-    lowest = (cloud() @ k.R[link].T + k.t[link])[:, 2].min()
+    lowest = points_at(system, q)[:, 2].min()
     return {
         "least phi [mm]": 1e3 * found.phi.min(),
         "least height of a point [mm]": 1e3 * lowest,
@@ -111,9 +113,7 @@ def figure(ax: Any = None, *, tilt: float = TILT, k: int = K) -> Figure:
     page, (left, right) = panels(6.3, 3.0, columns=2, within=ax)
     system, pair, q = lying(tilt, k)
     points, found = geometry(system, pair, q)
-    link = system.link("body")
-    at = system.kinematics(q)
-    x, _, z = 1e3 * (cloud() @ at.R[link].T + at.t[link]).T
+    x, _, z = 1e3 * points_at(system, q).T
     left.vlines(x, 0, z, color="0.8", linewidth=scaled(0.6), linestyle="-", label=r"$\phi$")
     marks: dict[str, Any] = {"linestyle": "", "markersize": scaled(3)}
     left.plot(x, z, "o", color="#0072B2", label="points", **marks)

@@ -1,7 +1,7 @@
 """The friction cones: their limit surfaces."""
 
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -15,7 +15,7 @@ from quasistatic_ref.step.cones import ELLIPSOID, PYRAMID, cone_matrix
 from quasistatic_ref.step.data import Array
 
 SHOWN = (PYRAMID, ELLIPSOID, "product")
-SURFACE: Final[dict[str, Any]] = {"alpha": 0.5, "edgecolor": "k"}
+SURFACE: dict[str, Any] = {"alpha": 0.5, "edgecolor": "k"}
 SAME_PLANE = 9
 """Decimals to which the planes of two triangles agree that are parts of one face."""
 

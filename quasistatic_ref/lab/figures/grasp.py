@@ -1,7 +1,7 @@
 """Figure 1 of the paper: the bunny grasped and lifted, with and without torsional friction."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -15,11 +15,11 @@ from quasistatic_ref.scenario.scenario import Scenario
 from quasistatic_ref.simulate.trajectory import Trajectory
 from quasistatic_ref.step.data import Array
 
-LEAST: Final = 0.03
+LEAST = 0.03
 """Smaller rotations are drawn there [deg]."""
-HALF: Final = 0.084
+HALF = 0.084
 """Half the width of what is shown [m]."""
-SHOWN: Final[dict[str, Any]] = {
+SHOWN: dict[str, Any] = {
     "view": CAMERA,
     "parts": ("contacts", "forces"),
     "around": (np.array([0.0, 0.0, 0.116]), HALF),

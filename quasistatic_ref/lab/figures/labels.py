@@ -2,14 +2,14 @@
 
 import re
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.optional.show.figures.draw import legend_above
 from quasistatic_ref.optional.show.figures.style import room
 
-LETTER: Final = 0.62
+LETTER = 0.62
 """Width of a letter over the size of its font [-]: most letters are slimmer."""
-LABEL: Final = 0.8
+LABEL = 0.8
 """Share of a cell that a label along an axis may take [-]."""
 WORD = re.compile(r"(?:\$[^$]*\$|\[[^\]]*\]|[^\s$\[])+")
 """What a line may not break: a formula, a unit, a word."""

@@ -1,9 +1,9 @@
 """Lines for many solvers, distinguished by dashes and marks, in colour and without."""
 
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Any
 
-COLOURS: Final = (
+COLOURS = (
     "#0072B2",
     "#D55E00",
     "#009E73",
@@ -14,8 +14,8 @@ COLOURS: Final = (
     "0.45",
     "#882255",
 )
-DASHES: Final = ("-", "--", "-.", ":")
-MARKS: Final = ("o", "s", "^", "D", "v", "P", "X", "*", "<", ">", "h")
+DASHES = ("-", "--", "-.", ":")
+MARKS = ("o", "s", "^", "D", "v", "P", "X", "*", "<", ">", "h")
 
 
 def pens(names: Sequence[str]) -> dict[str, dict[str, Any]]:

@@ -1,7 +1,7 @@
 """The figures of reports: performance profiles, digits against time, and sweeps."""
 
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -11,10 +11,10 @@ from matplotlib.lines import Line2D
 from quasistatic_ref.lab.figures.line_styles import pens, short
 from quasistatic_ref.optional.show.figures.style import PAGE
 
-FURTHEST: Final = 1e4
+FURTHEST = 1e4
 """Largest ratio of times that a profile shows."""
-POINT: Final = {"linestyle": "", "label": "_"}
-PANELS: Final = ("largest rotation [deg]", r"boundary layer [$\mu$m]")
+POINT = {"linestyle": "", "label": "_"}
+PANELS = ("largest rotation [deg]", r"boundary layer [$\mu$m]")
 """Of a sweep."""
 
 

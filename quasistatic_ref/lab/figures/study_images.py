@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from io import BytesIO
-from typing import Any, Final
+from typing import Any
 
 from matplotlib import pyplot as plt
 from matplotlib.figure import Figure
@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from quasistatic_ref.lab.figures.study import digits_time, profiles, sweep
 from quasistatic_ref.optional.show.figures.style import figure_style
 
-KINDS: Final[dict[str, Callable[[Mapping[str, Any]], Figure]]] = {
+KINDS: dict[str, Callable[[Mapping[str, Any]], Figure]] = {
     draw.__name__: draw for draw in (profiles, digits_time, sweep)
 }
 

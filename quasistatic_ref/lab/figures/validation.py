@@ -1,7 +1,7 @@
 """The figures of claims, each drawn from what was measured for it."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -11,15 +11,17 @@ from quasistatic_ref.lab.figures.line_styles import MARKS
 from quasistatic_ref.optional.show.figures.style import panels, scaled
 
 Picture = Mapping[str, Any]
-THIN: Final[dict[str, Any]] = {"color": "black", "linewidth": 1, "linestyle": "-"}
+THIN: dict[str, Any] = {"color": "black", "linewidth": 1, "linestyle": "-"}
 """Lines of closed forms."""
+DOTTED: dict[str, Any] = {**THIN, "linestyle": ":"}
+"""Lines of limits."""
 GREYS = ("0.2", "0.42", "0.64", "0.82", "1.0")
 
 
 def _open(mark: str) -> dict[str, Any]:
     """Hollow marks, each kind of another size: equal values stay visible."""
     size = scaled(9 - 2.75 * MARKS.index(mark))
-    return {"marker": mark, "markersize": size, "fillstyle": "none"}
+    return {"linestyle": "", "marker": mark, "markersize": size, "fillstyle": "none"}
 
 
 def grasp(picture: Picture) -> Figure:
@@ -39,7 +41,7 @@ def contact_geometry(picture: Picture) -> Figure:
         axes.fill(1e3 * data[body][:, 0], 1e3 * data[body][:, 2], facecolor="0.88", edgecolor="0.3")
     alpha = 1e3 * data["alpha"][[0, 2]]
     beta = 1e3 * data["beta"][[0, 2]]
-    axes.plot(*np.stack([alpha, beta]).T, color="black", linestyle=":", linewidth=1)
+    axes.plot(*np.stack([alpha, beta]).T, **DOTTED)
     for name, point, mark, aside in ((r"$\alpha$", alpha, "o", -14), (r"$\beta$", beta, "s", 4)):
         axes.plot(*point, marker=mark, color="black", linestyle="", markersize=scaled(4))
         offset = scaled(aside), scaled(-12)
@@ -61,7 +63,7 @@ def boundary_layer(picture: Picture, within: Any = None) -> Figure:
     """Spin and lift-off against torque; size of the layer against the time step."""
     figure, (left, right) = panels(6.3, 2.8, columns=2, within=within)
     left.plot(1e3 * picture["torque"], 1e3 * picture["lift"])
-    left.axvline(1e3 * picture["limit"], color="black", linestyle=":", linewidth=1)
+    left.axvline(1e3 * picture["limit"], **DOTTED)
     left.annotate(
         r"$\mu_\omega\,m\,g$", (1e3 * picture["limit"], 0.6), xycoords=("data", "axes fraction"),
         xytext=(-4, 0), textcoords="offset points", ha="right",
@@ -123,7 +125,7 @@ def sliding_threshold(picture: Picture) -> Figure:
     exact = 1 / (np.cos(picture["angles"]) + np.sin(picture["angles"]))
     axes.plot(degrees, exact, label="(R7)", **THIN)
     for mu, found, mark in zip(picture["mus"], picture["found"], MARKS, strict=False):
-        axes.plot(degrees, found, linestyle="", **_open(mark), label=rf"$\mu_v$ = {mu:g}")
+        axes.plot(degrees, found, **_open(mark), label=rf"$\mu_v$ = {mu:g}")
     axes.set_xlabel("direction of the force from $d_1$ [deg]")
     axes.set_ylabel(r"least force / ($\mu_v m g$) [-]")
     axes.set_title(caption(picture["h"]), loc="right")
@@ -141,7 +143,7 @@ def pushed_block(picture: Picture) -> Figure:
     for h, mark in zip(np.unique(picture["h"]), MARKS, strict=False):
         at = picture["h"] == h
         force = picture["force"][at] / friction[at]
-        axes.plot(pi[at], force, linestyle="", **_open(mark), label=f"h = {1e3 * h:g} ms")
+        axes.plot(pi[at], force, **_open(mark), label=f"h = {1e3 * h:g} ms")
     axes.axhline(1, color="0.5", linestyle=":", linewidth=1)
     axes.set(xscale="log", yscale="log", ylabel=r"push / ($\mu_v m g$) [-]")
     axes.set_xlabel(r"quasi-dynamic number $\Pi = v / (\mu_v g h)$ [-]")
@@ -158,7 +160,7 @@ def planar_push(picture: Picture, within: Any = None) -> Figure:
     for (c, ratio), mark in zip(picture["turns"].items(), MARKS, strict=False):
         axes.plot(line, (1 + line) / (1 + line * (rho / c) ** 2), **THIN)
         label = rf"c = {1e3 * c:g} mm, $\rho$ = {1e3 * rho:g} mm"
-        axes.plot(picture["Pi"], ratio, linestyle="", **_open(mark), label=label)
+        axes.plot(picture["Pi"], ratio, **_open(mark), label=label)
     axes.set_xscale("log")
     title = f"{caption(picture['h'], 'ellipsoid')}; lines: (R28)"
     labelled(axes, r"quasi-dynamic number $\Pi$ [-]", "turn / Lynch's turn [-]", title)
@@ -170,7 +172,7 @@ def patch_torsion(picture: Picture) -> Figure:
     figure, (axes,) = panels(4.6, 2.8)
     for (name, found), mark in zip(picture["found"].items(), MARKS, strict=False):
         axes.plot(picture["rings"], found, marker=mark, label=name)
-        axes.axhline(picture["limits"][name], color="black", linestyle=":", linewidth=1)
+        axes.axhline(picture["limits"][name], **DOTTED)
     axes.set_xscale("log", base=2)
     axes.set_xticks(picture["rings"], [str(n) for n in picture["rings"]])
     axes.set(xlabel="rings of point contacts [-]", ylabel=r"$\mu_\omega$ / ($\mu$ a) [-]")
@@ -203,7 +205,7 @@ def peg_wedging(picture: Picture) -> Figure:
         at = picture["width"] == width
         ratio = picture["found"][at] / width
         label = f"d = {1e3 * width:g} mm"
-        axes.plot(picture["mu"][at], ratio, linestyle="", **_open(mark), label=label)
+        axes.plot(picture["mu"][at], ratio, **_open(mark), label=label)
     axes.annotate("slides in", (0.3, 0.5))
     axes.annotate("wedged", (0.6, 0.15))
     axes.set(xlabel=r"$\mu$ [-]", ylabel="depth / width, l / d [-]")
@@ -224,7 +226,7 @@ def mujoco_friction(picture: Picture) -> Figure:
         ours = picture["ours"][kind]
         axes.plot(picture["shares"], ours, marker="D", label="ours, pyramid, one step")
         axes.set_yscale("symlog", linthresh=1e-5)
-        axes.axvline(1, color="black", linestyle=":", linewidth=1)
+        axes.axvline(1, **DOTTED)
         axes.set(xlabel="load / what friction can hold [-]", ylabel=unit)
         axes.set_title(f"{kind}, h = {1e3 * picture['h']:g} ms", loc="right")
     legend_below(both, both[0].get_legend_handles_labels()[0])
@@ -236,19 +238,19 @@ def locked_guide(picture: Picture) -> Figure:
     figure, (left, right) = panels(6.3, 3.0, columns=2)
     forces = picture["forces"]
     left.plot(forces, np.minimum(forces, 1.0), label=r"slip / (c / $\mu_v$), (R38)")
-    left.plot(forces, picture["slips"], linestyle="", **_open("o"), label="of steps")
+    left.plot(forces, picture["slips"], **_open("o"), label="of steps")
     left.plot(forces, picture["friction"], linestyle=":", label="friction of the walls")
     of_force = r"force / ($m\,c\,/\,\mu_v h^2$) [-]"
     labelled(left, of_force, "slip and friction [-]", caption(picture["h"]))
     corners = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1], [1, 1]])
     right.plot(*corners.T, label=r"$c / \mu_v$ along $d_1$ and $d_2$")
-    right.plot(*picture["reached"].T, linestyle="", **_open("s"), label="1 MN in 24 directions")
+    right.plot(*picture["reached"].T, **_open("s"), label="1 MN in 24 directions")
     right.set(xlim=(-1.6, 1.6), ylim=(-1.6, 1.9), aspect="equal")
     labelled(right, r"slip along $d_1$ / ($c / \mu_v$) [-]", r"along $d_2$ [-]", "one step")
     return figure
 
 
-PICTURES: Final[dict[str, Callable[..., Figure]]] = {
+PICTURES: dict[str, Callable[..., Figure]] = {
     draw.__name__: draw
     for draw in (
         grasp, contact_geometry, boundary_layer, step_time, sliding_threshold, pushed_block,

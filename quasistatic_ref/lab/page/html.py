@@ -2,7 +2,7 @@
 
 import base64
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from quasistatic_ref.lab.page.parts import Block, Code, Picture, Report, Table
 
 def sorting() -> str:
     """The script that sorts a table by the heading that is clicked; it loads nothing."""
-    return (Path(__file__).parent / "sort.js").read_text(encoding="utf-8")
+    return (Path(__file__).parent / "sort.js").read_text("utf-8")
 
 
 def html_page(report: Report, images: Mapping[str, bytes], script: str = "") -> str:
@@ -26,7 +26,7 @@ def html_page(report: Report, images: Mapping[str, bytes], script: str = "") -> 
         What the page runs, such as :func:`sorting`; else nothing.
     """
     links = [f'<li><a href="#{_id(s.title)}">{escape(s.title)}</a></li>' for s in report.sections]
-    style = (Path(__file__).parent / "page.css").read_text(encoding="utf-8")
+    style = (Path(__file__).parent / "page.css").read_text("utf-8")
     lines = [
         "<!DOCTYPE html>",
         '<html lang="en"><head><meta charset="utf-8">',
@@ -76,17 +76,17 @@ def _rows(where: str) -> str:
 
 
 def _table(table: Table) -> str:
-    head = "".join(_cell("th", c, k < table.left) for k, c in enumerate(table.columns))
-    body = [
-        "<tr>" + "".join(_cell("td", c, k < table.left) for k, c in enumerate(row)) + "</tr>"
-        for row in table.rows
-    ]
+    head = _table_row("th", table.columns, table.left)
+    body = [_table_row("td", row, table.left) for row in table.rows]
     return (
         f'<div class="wide"><table><caption><b>{_text(table.title)}</b>{_rows(table.where)}'
-        f"</caption><thead><tr>{head}</tr></thead>"
+        f"</caption><thead>{head}</thead>"
         f"<tbody>{''.join(body)}</tbody></table></div>"
     )
 
 
-def _cell(tag: str, words: str, left: bool) -> str:
-    return f"<{tag}{' class=left' if left else ''}>{_text(words)}</{tag}>"
+def _table_row(tag: str, cells: Sequence[str], left: int) -> str:
+    """A row, of whose cells the first `left` are text."""
+    kinds = [" class=left"] * left + [""] * (len(cells) - left)
+    words = zip(kinds, cells, strict=True)
+    return f"<tr>{''.join(f'<{tag}{kind}>{_text(cell)}</{tag}>' for kind, cell in words)}</tr>"

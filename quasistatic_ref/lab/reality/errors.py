@@ -2,14 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.lab.reality.pushes import Pushes
 from quasistatic_ref.step.data import Array
 
-DRAWS: Final = 2000
+DRAWS = 2000
 """Of a bootstrap."""
 
 
@@ -106,11 +105,6 @@ def summary(errors: Mapping[str, Errors]) -> dict[str, dict[str, object]]:
             parts["published"] = others
             parts["more"] = [e.model - o for e, o in zip(own, others, strict=True)]
         for key, values in parts.items():
-            found = bootstrapped(values)
-            entry[key] = {
-                "mean": found.mean.tolist(),
-                "low": found.low.tolist(),
-                "high": found.high.tolist(),
-            }
+            entry[key] = {of: x.tolist() for of, x in vars(bootstrapped(values)).items()}
         table[name] = entry
     return table

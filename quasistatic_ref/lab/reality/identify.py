@@ -12,7 +12,6 @@ No pushes are read here, nor by anything that this module imports: a test holds 
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -24,20 +23,20 @@ from quasistatic_ref.step.data import Array
 SMALLEST, LARGEST = 1e-3, 1.0
 """Between which a ratio is looked for [m]."""
 
-NORMAL: Final = 1.959963984540054
+NORMAL = 1.959963984540054
 """Standard deviations of a normal distribution on either side of 95 % of it [-]."""
 
-WIDEST: Final = 1.25
+WIDEST = 1.25
 """Largest upper over lower end of an interval at which a ratio counts as identified [-]: the
 ratio, and with it a turn per advance, is then known to about a tenth."""
 
 NONE, UNDECIDED = 1e-12, 20.0
 """Information that is none [-], and the logarithm of the widest interval that is stated [-]."""
 
-FEWEST: Final = 10
+FEWEST = 10
 """Loads below which nothing is identified."""
 
-DRAWS: Final = 200
+DRAWS = 200
 """Of a bootstrap."""
 
 
@@ -215,7 +214,7 @@ def units(x: Array) -> Array:
     return unit
 
 
-GRID: Final = np.geomspace(SMALLEST, LARGEST, 241)
+GRID = np.geomspace(SMALLEST, LARGEST, 241)
 """Ratios between which minima are looked for [m]: 3 % apart."""
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.tables import PAIR, table_read
 from quasistatic_ref.step.data import Array
 
-COLUMNS: Final[Mapping[str, str]] = {
+COLUMNS: Mapping[str, str] = {
     "f_x": "[N] force of the pusher on the object, object frame",
     "f_y": "[N]",
     "tau": "[N m] its torque about the origin of the frame",

@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 
@@ -14,12 +13,12 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.reality.outline import Outline
 from quasistatic_ref.lab.reality.tables import PAIR, table_read
 
-FINGER: Final = 0.00475
+FINGER = 0.00475
 """Radius of the finger of the MIT pushes [m]; of other data, a column of patches.csv."""
 
-COLUMNS: Final[Mapping[str, str]] = {"mu_pusher_used": "[-] friction of the finger"}
-MATRIX: Final = tuple(f"A{i}{j}" for i in "123" for j in "123")
-OPTIONAL: Final[Mapping[str, str]] = {
+COLUMNS: Mapping[str, str] = {"mu_pusher_used": "[-] friction of the finger"}
+MATRIX = tuple(f"A{i}{j}" for i in "123" for j in "123")
+OPTIONAL: Mapping[str, str] = {
     "rho": "[m] length by which the published fit scales torques",
     "mu_pusher_fitted": "[-] friction of the finger that was fitted to pushes",
     "samples": "[-] number of loads",

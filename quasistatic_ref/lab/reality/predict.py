@@ -1,5 +1,6 @@
 """Where a push ends: its finger led along its path, each step solved and certified."""
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
@@ -60,7 +61,7 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
     R = rotation(pose[2])
     body = np.zeros(of.n_u)
     body[:2], body[3] = pose[:2] + R @ of.outline.centre, pose[2]
-    kinds: dict[str, int] = {}
+    kinds = Counter[str]()
     error = 0.0
     sticks = 0
     slides = 0
@@ -76,8 +77,7 @@ def predicted(of: Pushed, pose: Array, path: Array, certify: str = "full") -> Pr
             found = solve_step(step, solver, certify=certify)
         finger = finger + found.delta_q[:2]
         body = body + found.delta_q[2:]
-        kind = found.certificate.kind
-        kinds[kind] = kinds.get(kind, 0) + 1
+        kinds[found.certificate.kind] += 1
         bound = found.certificate.error_bound
         error = max(error, np.inf if bound is None else bound)
         loaded, slips = grip(step, found)

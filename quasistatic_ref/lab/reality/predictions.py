@@ -7,7 +7,7 @@ on from there; a last line that was cut off is dropped.
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from os import cpu_count
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -20,8 +20,8 @@ from quasistatic_ref.lab.reality.settings import Settings
 from quasistatic_ref.simulate.progress import progress_bar
 from quasistatic_ref.step.data import Array
 
-FORMAT: Final = {"format": "quasistatic-ref/reality", "version": 1}
-CHUNK: Final = 5
+FORMAT = {"format": "quasistatic-ref/reality", "version": 1}
+CHUNK = 5
 """Pushes handed to a process at once: some seconds of work."""
 
 Row = dict[str, Any]

@@ -7,7 +7,6 @@ do not load one side of the body more than the other.
 """
 
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
@@ -21,13 +20,13 @@ from quasistatic_ref.lab.scenes.slider import turned
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 
-PATCH: Final = ((0.0, 0.0),)
+PATCH = ((0.0, 0.0),)
 """One contact, below the centre of mass [m]."""
 
-SLOWEST: Final = 0.05
+SLOWEST = 0.05
 """Largest quasi-dynamic number [-]: the model's own drag is then 5 % of friction at most."""
 
-NO_TORSION: Final = 1e-3
+NO_TORSION = 1e-3
 """Ratio that stands for a support without torsional friction [m]: one of zero would leave how far
 a body turns on a push through its centre to its inertia."""
 

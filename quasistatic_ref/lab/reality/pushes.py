@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from quasistatic_ref.lab.reality.pairs import Pair
 from quasistatic_ref.lab.reality.tables import PAIR, table_read
 from quasistatic_ref.step.data import Array, Indices
 
-COLUMNS: Final[Mapping[str, str]] = {
+COLUMNS: Mapping[str, str] = {
     "push": "[-] number of the push in its pair",
     "x0": "[m] origin of the object's frame before, world frame",
     "y0": "[m]",
@@ -25,7 +24,7 @@ COLUMNS: Final[Mapping[str, str]] = {
     "tip_x1": "[m] at its end",
     "tip_y1": "[m]",
 }
-OTHERS: Final[Mapping[str, str]] = {
+OTHERS: Mapping[str, str] = {
     "lcp_x1": "[m] the pose after that a published simulator predicts",
     "lcp_y1": "[m]",
     "lcp_theta1": "[rad]",

@@ -11,9 +11,6 @@ from quasistatic_ref.lab.reality.predictions import Row, poses
 from quasistatic_ref.lab.reality.pushes import Pushes
 from quasistatic_ref.lab.reality.settings import Settings
 
-ALL = "all"
-"""The name of the mean over pairs."""
-
 HEAD = ("pair", "pushes", "moved [mm]", "[deg]", "error [mm]", "95 %", "[deg]", "95 %",
         "published [mm]", "[deg]")  # fmt: skip
 

@@ -1,7 +1,7 @@
 """What pushes are predicted with."""
 
 from dataclasses import asdict, dataclass
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.reality.pairs import Pair
@@ -9,7 +9,7 @@ from quasistatic_ref.lab.scenes.contacts import GRAVITY
 from quasistatic_ref.simulate.law import CONVEX
 from quasistatic_ref.step.cones import ELLIPSOID
 
-ADVANCE: Final = 1e-3
+ADVANCE = 1e-3
 """Of the finger in a step [m]: about 40 steps a push."""
 
 

@@ -1,6 +1,6 @@
 """Contacts from plain arrays: frames, J of points of a rigid body, some of them picked."""
 
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -9,10 +9,10 @@ from quasistatic_ref.step.data import Array, Contacts
 
 X, Y, Z = np.eye(3)
 
-GRAVITY: Final = 9.81
+GRAVITY = 9.81
 """Acceleration of free fall in every scene of this folder [m/s^2]."""
 
-NUMBERS: Final = ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
+NUMBERS = ("phi", "n", "d1", "d2", "J", "mu_v", "mu_omega", "rows")
 """The fields of contacts that have one entry for each."""
 
 

@@ -1,13 +1,14 @@
-"""Steps of one kind of coordinates, and of one free body against fixed surfaces.
+"""Steps of one kind of coordinates, of given programs, and of one free body against the world.
 
-The coordinates of a body are its twist at the centre of mass, axes along the world's.
+The coordinates of that body are its twist at the centre of mass, axes along the world's.
 """
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from quasistatic_ref.lab.scenes.contacts import contacts_of, point_jacobian
-from quasistatic_ref.step.data import Contacts, StepData
+from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts, point_jacobian
+from quasistatic_ref.step.cones import ELLIPSOID
+from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
 
 
 def free_step(M: ArrayLike, force: ArrayLike, contacts: Contacts, h: float) -> StepData:
@@ -22,6 +23,36 @@ def actuated_step(
     """A step with nothing but actuated coordinates."""
     K_q, tau_a, target = (np.asarray(x, dtype=np.float64) for x in (K_q, tau_a, delta_q_bar_a))
     return StepData(h, K_q, np.zeros((0, 0)), tau_a, np.zeros(0), target, contacts)
+
+
+def program_step(H: Array, g: Array, A: Array, b: Array) -> StepData:
+    """The step whose standard form is a given program: h = 1, K_q = H, tau_a = g, rows as extra.
+
+    Parameters
+    ----------
+    H : ndarray, shape (n, n)
+    g : ndarray, shape (n,)
+    A : ndarray, shape (m, n)
+    b : ndarray, shape (m,)
+    """
+    rows = Extra(tuple(f"row {i}" for i in range(len(b))), A, b)
+    return actuated_step(H, g, np.zeros(len(g)), no_contacts(len(g)), h=1.0).replace(extra=rows)
+
+
+def conic_step(H: Array, g: Array, F: Array, phi: Array) -> StepData:
+    """The same of second-order cones: contacts in the ellipsoid with mu_v = mu_omega = 1.
+
+    Parameters
+    ----------
+    H : ndarray, shape (n, n)
+    g : ndarray, shape (n,)
+    F : ndarray, shape (blocks, 4, n)
+        (F x)_0 + phi >= |(F x)_1:3| for each block.
+    phi : ndarray, shape (blocks,)
+    """
+    frames = np.tile(np.eye(3), (len(F), 1, 1))  # along J's rows, of which the third is along n
+    contacts = contacts_of(phi, frames, F[:, [1, 2, 0, 3]], 1.0, 1.0, rows=6)
+    return actuated_step(H, g, np.zeros(len(g)), contacts, h=1.0).replace(cone=ELLIPSOID)
 
 
 def rigid_step(

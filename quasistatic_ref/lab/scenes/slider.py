@@ -1,7 +1,6 @@
 """A slider on one soft contact, pushed along the plane: (R28), in the ellipsoid, and its step."""
 
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
@@ -13,10 +12,10 @@ from quasistatic_ref.step.data import Array, StepData
 M, GYRATION, STIFFNESS, H = 0.3, 0.03, 1e6, 0.01
 """Mass [kg], radius of gyration [m], of the pusher [N/m], time step [s]."""
 
-TILT: Final = 0.2
+TILT = 0.2
 """Angle of a sticking pusher's normal with its force [rad]."""
 
-MU_PUSHER: Final = 1.0
+MU_PUSHER = 1.0
 """Friction of a sticking pusher [-]; it holds up to an angle of pi / 4."""
 
 

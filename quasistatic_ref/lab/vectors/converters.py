@@ -1,7 +1,6 @@
 """Tangent spaces and quaternion orders that an answer may declare, and the way back to ours."""
 
 from collections.abc import Callable, Iterator
-from typing import Final
 
 import numpy as np
 
@@ -9,7 +8,7 @@ from quasistatic_ref.lab.program.mechanism import kinematics, slices
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.step.data import Array
 
-UNITS: Final = {"floating": 3, "planar": 2, "continuous": 0}
+UNITS = {"floating": 3, "planar": 2, "continuous": 0}
 """Where in a joint's entries of q its quaternion, or (cos, sin), begins."""
 
 

@@ -8,7 +8,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_read, plain, text_written
@@ -17,11 +17,11 @@ from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
 
-VERSION: Final = 1
-INPUTS: Final = "quasistatic-ref/vectors-inputs"
-EXPECTED: Final = "quasistatic-ref/vectors-expected"
-ANSWERS: Final = "quasistatic-ref/vectors-answers"
-SHARED: Final = "shared"
+VERSION = 1
+INPUTS = "quasistatic-ref/vectors-inputs"
+EXPECTED = "quasistatic-ref/vectors-expected"
+ANSWERS = "quasistatic-ref/vectors-answers"
+SHARED = "shared"
 
 
 @dataclass(frozen=True)

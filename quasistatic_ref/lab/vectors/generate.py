@@ -4,7 +4,6 @@ import hashlib
 import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read, bytes_written, text_written, writable_folder
@@ -20,7 +19,7 @@ from quasistatic_ref.lab.vectors.layers import LAYERS, layer
 from quasistatic_ref.lab.vectors.versions import FORMAT, FORMAT_VERSION, MANIFEST, RELEASE
 from quasistatic_ref.simulate.progress import progress_bar
 
-COPIED: Final = ("README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.json")
+COPIED = ("README.md", "CITATION.cff", "LICENSE*", "inputs/*.json", "schemas/*.json")
 """What is taken over as it is."""
 
 

@@ -8,15 +8,14 @@ import hashlib
 import io
 import zipfile
 from pathlib import Path
-from typing import Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read, bytes_written, text_written, writable_folder
 from quasistatic_ref.lab.vectors.versions import MANIFEST, edition, manifest
 
-EPOCH: Final = (1980, 1, 1, 0, 0, 0)
+EPOCH = (1980, 1, 1, 0, 0, 0)
 """The time of every member: the earliest that a zip file knows."""
-SUMS: Final = "SHA256SUMS"
+SUMS = "SHA256SUMS"
 
 
 def packed(vectors: Path, out: Path) -> tuple[Path, str]:

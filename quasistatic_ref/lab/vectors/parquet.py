@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import IO, Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from quasistatic_ref.lab.vectors.layers.qp import matrices
 from quasistatic_ref.parts import needed_package
 from quasistatic_ref.step.data import Array
 
-COLUMNS: Final = ("P", "q", "G", "h", "A", "b", "lb", "ub", "name")
+COLUMNS = ("P", "q", "G", "h", "A", "b", "lb", "ub", "name")
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,11 +75,7 @@ def parquet_written(path: str | Path, programs: Sequence[Program]) -> Path:
     columns["h"] = [0.0 - program.b if program.b.size else None for program in programs]
     kinds = {name: arrow.list_(arrow.float64()) for name in COLUMNS} | {"name": arrow.string()}
     table = arrow.table(columns, schema=arrow.schema(list(kinds.items())))
-
-    def write(file: IO[bytes]) -> None:
-        parquet.write_table(table, file)
-
-    return written_whole(path, write)
+    return written_whole(path, lambda file: parquet.write_table(table, file))
 
 
 def npz_written(path: str | Path, programs: Sequence[Program]) -> Path:
@@ -92,8 +88,4 @@ def npz_written(path: str | Path, programs: Sequence[Program]) -> Path:
         arrays |= {f"{k}/{key}": getattr(program, key) for key in ("H", "g", "A", "b")}
         if program.delta_q is not None:
             arrays[f"{k}/delta_q"] = program.delta_q
-
-    def write(file: IO[bytes]) -> None:
-        np.savez_compressed(file, **arrays)
-
-    return written_whole(path, write)
+    return written_whole(path, lambda file: np.savez_compressed(file, **arrays))

@@ -9,21 +9,20 @@ import re
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read, json_read
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.vectors.layers import LAYERS
 
-NAME: Final = "quasi-dynamic vectors"
+NAME = "quasi-dynamic vectors"
 """What the vectors are called, before their version."""
-MANIFEST: Final = "manifest.json"
-FORMAT: Final = "quasistatic-ref/vectors-manifest"
-FORMAT_VERSION: Final = 1
-PLAIN: Final = re.compile(r"(\w[\w.-]*/)*\w[\w.-]*")
+MANIFEST = "manifest.json"
+FORMAT = "quasistatic-ref/vectors-manifest"
+FORMAT_VERSION = 1
+PLAIN = re.compile(r"(\w[\w.-]*/)*\w[\w.-]*")
 """Paths in a manifest: none leads out of its folder."""
-RELEASE: Final = 6
+RELEASE = 6
 """The version: counted up whenever an input or an expected output changes."""
 
 
@@ -53,7 +52,7 @@ class Edition:
 
 def frozen(release: int | None) -> dict[str, str]:
     """SHA-256 of each layer of a version; none of one that is not known."""
-    text = (Path(__file__).parent / "versions.toml").read_text(encoding="utf-8")
+    text = (Path(__file__).parent / "versions.toml").read_text("utf-8")
     found: dict[str, str] = tomllib.loads(text).get(str(release), {})
     return found
 

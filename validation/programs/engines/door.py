@@ -5,8 +5,6 @@ An adapter runs in its engine's own environment, where this package is not. It e
 is where the bodies are at the scene's times.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import sys
@@ -21,7 +19,7 @@ class Unsupported(Exception):
     """A case that an engine does not take."""
 
 
-def answer(name: str, phenomena: Callable[[Any], Any]) -> None:
+def answer(name: str, phenomena: Callable[..., Any]) -> None:
     """Answer every line of standard input.
 
     Parameters
@@ -29,7 +27,7 @@ def answer(name: str, phenomena: Callable[[Any], Any]) -> None:
     name : str
         Engine and version.
     phenomena : callable
-        Scene and setting -> what `run` returns; or it raises `Unsupported`.
+        Of ``scene`` and ``setting``: what `run` returns; or it raises `Unsupported`.
     """
     out = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)  # what an engine prints is no answer
@@ -38,7 +36,7 @@ def answer(name: str, phenomena: Callable[[Any], Any]) -> None:
     for line in sys.stdin:
         case = json.loads(line)
         try:
-            record = {"output": phenomena(case["input"])}
+            record = {"output": phenomena(**case["input"])}
         except Unsupported as reason:
             record = {"error": f"left out: {reason}"}
         except Exception as error:
@@ -79,7 +77,7 @@ def run(
     aim : callable, optional
         Sets the targets of servos for the step that begins at a time [s].
     """
-    found: dict[str, list[Any]] = {body["name"]: [] for body in scene["bodies"]}
+    found = {body["name"]: [] for body in scene["bodies"]}
     done = 0
     seconds = 0.0
     for instant in scene["times"]:

@@ -1,7 +1,5 @@
 """Drake: phenomena by its discrete MultibodyPlant."""
 
-from __future__ import annotations
-
 from importlib.metadata import version
 from typing import Any
 
@@ -85,10 +83,8 @@ def add_servo(plant: Any, body: Any, added: Any) -> None:
     plant.set_gravity_enabled(instance, False)
 
 
-def phenomena(case: Any) -> Any:
+def phenomena(scene: Any, setting: Any) -> Any:
     """A scene, by the simulator."""
-    scene = case["scene"]
-    setting = case["setting"]
     plant, diagram = plant_of(scene, setting)
     simulator = drake.Simulator(diagram)
     context = simulator.get_mutable_context()

@@ -1,7 +1,5 @@
 """One engine judged: its environment made, its adapter called for phenomena."""
 
-from __future__ import annotations
-
 import json
 import shlex
 import sys
@@ -16,7 +14,7 @@ from validation.tools.scripts import environment, record_written
 
 HERE = Path(__file__).parent
 RESULTS = HERE.parents[1] / "results" / "engines"
-ENGINES: dict[str, dict[str, Any]] = tomllib.loads((HERE / "engines.toml").read_text("utf-8"))
+ENGINES = tomllib.loads((HERE / "engines.toml").read_text("utf-8"))
 TIMEOUT = 600.0
 """For one scene or case [s]: Newton compiles its kernels at the first."""
 
@@ -38,7 +36,7 @@ def judged(name: str, folder: Path, results: Path, resume: bool) -> None:
     engine = ENGINES[name]
     path = results / f"{name}.json"
     before = json.loads(path.read_text("utf-8")) if resume and path.exists() else {}
-    record: dict[str, Any] = {"requires": engine["requires"], "settings": {}}
+    record = {"requires": engine["requires"], "settings": {}}
     with program_of(name, folder, TIMEOUT) as program:
         for setting, values in engine["settings"].items():
             print(f"{name}: {setting}", file=sys.stderr, flush=True)

@@ -1,7 +1,5 @@
 """MuJoCo: phenomena by mj_step."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import mujoco
@@ -86,10 +84,8 @@ def mjcf(scene: Any, setting: Any) -> str:
 mujoco.set_mju_user_warning(lambda _: None)  # else a file MUJOCO_LOG.TXT is written
 
 
-def phenomena(case: Any) -> Any:
+def phenomena(scene: Any, setting: Any) -> Any:
     """A scene by mj_step."""
-    scene = case["scene"]
-    setting = case["setting"]
     model = mujoco.MjModel.from_xml_string(mjcf(scene, setting))
     data = mujoco.MjData(model)
 

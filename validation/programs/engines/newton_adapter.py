@@ -1,7 +1,5 @@
 """Newton on the CPU: phenomena by any of its solvers, in float32."""
 
-from __future__ import annotations
-
 from importlib.metadata import version
 from typing import Any
 
@@ -31,7 +29,7 @@ def model_of(scene: Any, setting: Any) -> tuple[Any, dict[str, int]]:
         at = wp.transform(wp.vec3(*body["xyz"]), wp.quat_identity())
         inertia = wp.mat33(*np.diag(body["inertia"]).ravel().tolist())
         has = {"xform": at, "mass": body["mass"], "inertia": inertia, "lock_inertia": True}
-        placed: dict[str, Any] = {"body": -1, "xform": at}
+        placed = {"body": -1, "xform": at}
         if body["joint"] == "free":
             numbers[body["name"]] = builder.add_body(**has)
         elif body["joint"] == "rail_x":
@@ -53,10 +51,8 @@ def model_of(scene: Any, setting: Any) -> tuple[Any, dict[str, int]]:
     return builder.finalize(device="cpu"), numbers
 
 
-def phenomena(case: Any) -> Any:
+def phenomena(scene: Any, setting: Any) -> Any:
     """A scene by a solver, one step between detections of contacts."""
-    scene = case["scene"]
-    setting = case["setting"]
     name = f"Solver{setting['solver']}"
     if not hasattr(newton.solvers, name):
         raise Unsupported(f"there is no {name}")

@@ -1,7 +1,5 @@
 """quasistatic_ref itself, by the same door: phenomena by its simulator, each step certified."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -54,10 +52,8 @@ def solid(shape: Any) -> Any:
     return Sphere(shape["radius"]) if shape["kind"] == "sphere" else Box(size=shape["size"])
 
 
-def phenomena(case: Any) -> Any:
+def phenomena(scene: Any, setting: Any) -> Any:
     """A scene, step by step."""
-    scene = case["scene"]
-    setting = case["setting"]
     bodies = {body["name"]: body for body in scene["bodies"]}
     made = {name: robot(body) for name, body in bodies.items()}
 

@@ -11,8 +11,6 @@ answers ``{"id", "output": {"poses": {body: [[x, y, z, qx, qy, qz, qw], ...]}}}`
 the scene's ``times``; docs/engines.md says the rest.
 """
 
-from __future__ import annotations
-
 import argparse
 import tomllib
 from collections.abc import Callable, Collection, Iterator
@@ -24,7 +22,7 @@ import numpy as np
 
 Simulate = Callable[[dict[str, Any]], dict[str, Any]]
 DATA = tomllib.loads((Path(__file__).parent / "phenomena.toml").read_text("utf-8"))
-PHENOMENA: dict[str, dict[str, Any]] = {p["name"]: p for p in DATA["phenomenon"]}
+PHENOMENA = {p["name"]: p for p in DATA["phenomenon"]}
 
 
 @dataclass(frozen=True)
@@ -173,7 +171,7 @@ def grip(xs: np.ndarray, runs: list[Motion], phenomenon: Any) -> float:
     return float((xs[last] + xs[last + 1]) / 2) if last >= 0 else float(xs[0])
 
 
-MEASURES: dict[str, Callable[[np.ndarray, list[Motion], Any], float]] = {
+MEASURES = {
     "drift": drift, "spin": spin, "limit": limit, "angle": angle,
     "rise": rise, "rebound": rebound, "grip": grip,
 }  # fmt: skip

@@ -5,8 +5,6 @@ impulses lam in Coulomb's cone, without torsion, so that J v+ + gap / h is in th
 ``ncp`` after De Saxce's correction, which is Coulomb's law, without it of the convex problem.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -14,10 +12,8 @@ import pinocchio as pin
 from door import Unsupported, answer, run
 
 
-def phenomena(case: Any) -> Any:
+def phenomena(scene: Any, setting: Any) -> Any:
     """A scene of one free body."""
-    scene = case["scene"]
-    setting = case["setting"]
     if len(scene["bodies"]) > 1 or not scene["floor"]:
         raise Unsupported("the loop knows one body on a floor")
     (body,) = scene["bodies"]

@@ -1,19 +1,16 @@
 """Which short program shows which red cell, and whether it prints the number of that cell."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from validation.programs.engines.phenomena import PHENOMENA
 
 FOLDER = Path(__file__).parents[1] / "reproductions"
-LIST: list[dict[str, Any]] = tomllib.loads((FOLDER / "list.toml").read_text("utf-8"))[
-    "reproduction"
-]
+LIST = tomllib.loads((FOLDER / "list.toml").read_text("utf-8"))["reproduction"]
 CHATTER = ("Module ", "Warp ", "   ")
 """Beginnings of lines by which Warp reports itself."""
 SECONDS = 600.0
@@ -32,15 +29,19 @@ def of_cell(engine: str, setting: str, phenomenon: str) -> str:
     return ""
 
 
+def red_cells(records: dict[str, Any]) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    """Each cell that differs from the answer, with its engine and setting."""
+    for engine, record in records.items():
+        for setting, cells in record["settings"].items():
+            for cell in cells:
+                if cell["verdict"] == "differs":
+                    yield engine, setting, cell
+
+
 def missing(records: dict[str, Any]) -> list[tuple[str, str, str]]:
     """Red cells without a program."""
-    return [
-        (engine, setting, cell["phenomenon"])
-        for engine, record in records.items()
-        for setting, cells in record["settings"].items()
-        for cell in cells
-        if cell["verdict"] == "differs" and not of_cell(engine, setting, cell["phenomenon"])
-    ]
+    every = ((engine, setting, cell["phenomenon"]) for engine, setting, cell in red_cells(records))
+    return [of for of in every if not of_cell(*of)]
 
 
 def names(setting: str) -> list[str]:
@@ -62,15 +63,11 @@ def printed_for(printed: str, setting: str) -> list[float]:
 def unlike(records: dict[str, Any]) -> list[tuple[str, str, str]]:
     """Red cells whose program does not show them: it prints another number, or none."""
     found = []
-    for engine, record in records.items():
-        for setting, cells in record["settings"].items():
-            for cell in cells:
-                if cell["verdict"] != "differs":
-                    continue
-                file = of_cell(engine, setting, cell["phenomenon"])
-                numbers = printed_for(record["printed"].get(file, ""), setting)
-                if not any(shows(cell, number) for number in numbers):
-                    found.append((engine, setting, cell["phenomenon"]))
+    for engine, setting, cell in red_cells(records):
+        file = of_cell(engine, setting, cell["phenomenon"])
+        numbers = printed_for(records[engine]["printed"].get(file, ""), setting)
+        if not any(shows(cell, number) for number in numbers):
+            found.append((engine, setting, cell["phenomenon"]))
     return found
 
 

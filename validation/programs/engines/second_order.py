@@ -5,8 +5,6 @@ engine at a setting with steps of h; its answer has the poses of the bodies at t
 What is measured is computed from these poses alone, and the same for every engine.
 """
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -14,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-STUDY: dict[str, Any] = tomllib.loads((Path(__file__).parent / "second_order.toml").read_text())
+STUDY = tomllib.loads((Path(__file__).parent / "second_order.toml").read_text())
 GRAVITY = 9.81
 EVERY = 0.1
 """Times are multiples of it, as they are of every h [s]."""

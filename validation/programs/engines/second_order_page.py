@@ -1,9 +1,6 @@
 """The page of the study of second-order simulators: its tables and its figure."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from quasistatic_ref.lab.figures.labels import labelled, legend_below
@@ -12,8 +9,9 @@ from quasistatic_ref.lab.parallel import Record, records_read
 from quasistatic_ref.optional.show.figures import Figure, panels
 from quasistatic_ref.optional.show.figures.style import scaled
 from validation.programs.engines.second_order import STUDY
+from validation.tools.scripts import RESULTS
 
-RESULTS = Path(__file__).parents[2] / "results" / "second_order.jsonl"
+ROWS = RESULTS / "second_order.jsonl"
 SCENES = {
     "lift": "lift",
     "push": "centric push",
@@ -36,7 +34,7 @@ LARGEST = 0.1
 
 def rows() -> list[Record]:
     """The committed rows."""
-    return list(records_read(RESULTS)[1:])
+    return list(records_read(ROWS)[1:])
 
 
 def chosen(**fields: Any) -> list[Record]:

@@ -1,12 +1,10 @@
 """The page of results, phenomena.md."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from quasistatic_ref.lab.page.markdown import markdown_table
 from validation.programs.engines.phenomena import PHENOMENA
-from validation.programs.engines.reproduce import of_cell
+from validation.programs.engines.reproduce import of_cell, red_cells
 
 MARK = {"holds": "{}", "differs": "**{}** ✗", "-": "({})"}
 
@@ -16,7 +14,7 @@ def phenomena_page(records: dict[str, Any]) -> str:
     head = [f"{p['title']} [{p['unit']}]" for p in PHENOMENA.values()]
     table = [("*the answer*", "", *map(answer, PHENOMENA.values()))]
     shown: dict[tuple[str, str, str], list[str]] = {}
-    for name, record in records.items():
+    for record in records.values():
         for setting, cells in record["settings"].items():
             words = [
                 "(not asked)"
@@ -25,11 +23,10 @@ def phenomena_page(records: dict[str, Any]) -> str:
                 for cell in cells
             ]
             table.append((record["version"], setting, *words))
-            for cell in cells:
-                if cell["verdict"] == "differs":
-                    file = of_cell(name, setting, cell["phenomenon"])
-                    what = file, record["version"], PHENOMENA[cell["phenomenon"]]["title"]
-                    shown.setdefault(what, []).append(setting)
+    for name, setting, cell in red_cells(records):
+        file = of_cell(name, setting, cell["phenomenon"])
+        what = file, records[name]["version"], PHENOMENA[cell["phenomenon"]]["title"]
+        shown.setdefault(what, []).append(setting)
     asked = [
         (p["title"], p["answer"].strip(), f"{p['tolerance']:g}", p["reason"].strip())
         for p in PHENOMENA.values()

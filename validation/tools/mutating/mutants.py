@@ -6,15 +6,13 @@ axis is another; two indices, or two neighbours in a list, change places. Annota
 ``__all__`` and messages are left alone.
 """
 
-from __future__ import annotations
-
 import ast
 from collections import Counter
 from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass
 
-OPERATORS: dict[type[ast.operator], type[ast.operator]] = {
+OPERATORS = {
     ast.Add: ast.Sub,
     ast.Sub: ast.Add,
     ast.Mult: ast.Div,
@@ -24,7 +22,7 @@ OPERATORS: dict[type[ast.operator], type[ast.operator]] = {
     ast.RShift: ast.LShift,
     ast.Pow: ast.Mult,
 }
-COMPARISONS: dict[type[ast.cmpop], tuple[type[ast.cmpop], ...]] = {
+COMPARISONS = {
     ast.Lt: (ast.LtE, ast.Gt),
     ast.LtE: (ast.Lt, ast.GtE),
     ast.Gt: (ast.GtE, ast.Lt),
@@ -61,7 +59,7 @@ class Mutant:
 
 def mutants(file: str, source: str) -> Iterator[Mutant]:
     """All mutants of a file, in the order of its text."""
-    seen = Counter[str]()
+    seen = Counter()
     tree = ast.parse(source)
     for node, where in list(_expressions(tree)):
         before = ast.unparse(node)

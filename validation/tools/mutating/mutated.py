@@ -256,8 +256,8 @@ def tests_of(file: str, words: list[str]) -> tuple[str, ...]:
 
 def rows() -> Iterator[tuple[list[str], list[str]]]:
     """Files and tests of each entry of the table."""
-    files: list[str] = []
-    tests: list[str] = []
+    files = []
+    tests = []
     for line in TABLE.strip().splitlines():
         if not line.startswith(" ") and tests:
             yield files, tests

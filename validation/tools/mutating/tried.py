@@ -4,8 +4,6 @@ This process has imported what the package needs, so that a fork takes half a se
 tests.
 """
 
-from __future__ import annotations
-
 import os
 import resource
 import signal

@@ -1,7 +1,5 @@
 """Figure 2: alpha, beta, phi, n, d1, d2 of contacts, from data."""
 
-from typing import Final
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,7 +11,7 @@ from quasistatic_ref.model.system import System
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
 from quasistatic_ref.step.data import Array
 
-SHAPES: Final[dict[str, Shape]] = {
+SHAPES: dict[str, Shape] = {
     "sphere": Sphere(0.05),
     "box": Box(np.array([0.03, 0.05, 0.04])),
     "capsule": Capsule(0.03, 0.04),

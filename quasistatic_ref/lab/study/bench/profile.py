@@ -5,7 +5,7 @@ The steps are those of NumPy also where a compiler is at hand.
 
 from collections.abc import Mapping
 from functools import cache, partial
-from typing import Any, Final, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,16 +21,16 @@ from quasistatic_ref.solve.backends import DEFAULT, installed
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.data import Array
 
-BACKENDS: Final = ("clarabel", "piqp", "osqp", "daqp")
+BACKENDS = ("clarabel", "piqp", "osqp", "daqp")
 """Two interior-point methods, operator splitting, and a dual active-set method."""
 
-SOLVE: Final = ("solver's call", "rest of the solve")
+SOLVE = ("solver's call", "rest of the solve")
 """The lap ``solve`` of the simulator's stopwatch, in two. The call is that of the solver's own
 interface: new data handed over, solution, its arrays copied. The rest makes the program (A and b of
 Eq. (8), H and g of Eq. (13), natural units) and the answer (SI units, checks, and the certificate
 where one is given)."""
 
-PARTS: Final = (*SOLVE, "distances", "rows", "integrate")
+PARTS = (*SOLVE, "distances", "rows", "integrate")
 """Parts of a step. ``distances`` are the closest points, their selection and normals; ``rows`` are
 J, M_u, tau and delta_q_bar_a; ``integrate`` is the new configuration and its kinematics."""
 

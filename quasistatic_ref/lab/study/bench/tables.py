@@ -67,5 +67,5 @@ def machine() -> dict[str, Any]:
 
 
 def _load() -> str:
-    """How many processes wanted to run in the last minute, where the system says so."""
-    return f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
+    """How many processes wanted to run in the last minute."""
+    return f"{os.getloadavg()[0]:.1f}"

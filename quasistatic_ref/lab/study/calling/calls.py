@@ -261,13 +261,10 @@ def _written(output: bytes, seconds: float) -> Reply:
         status = str(said.get("status", "optimal"))
         x = None if said.get("delta_q") is None else _numbers(said["delta_q"])
         lam = None if said.get("lam") is None else _numbers(said["lam"])
-        own = said.get("seconds")
-        iterations = said.get("iterations")
-        return Reply(
-            x, lam, status == "optimal" and x is not None, status,
-            None if iterations is None else int(iterations),
-            None if own is None else float(own), seconds, None if own is None else float(own),
-        )  # fmt: skip
+        own = None if said.get("seconds") is None else float(said["seconds"])
+        iterations = None if said.get("iterations") is None else int(said["iterations"])
+        solved = status == "optimal" and x is not None
+        return Reply(x, lam, solved, status, iterations, own, seconds, own)
     except (ValueError, TypeError, AttributeError, RecursionError) as error:
         return _failed(f"no usable JSON: {words_of(error)}", seconds)
 

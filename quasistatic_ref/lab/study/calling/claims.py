@@ -3,19 +3,18 @@
 import tomllib
 from functools import cache
 from pathlib import Path
-from typing import Final
 
-OPTIMAL: Final = "optimal"
-INFEASIBLE: Final = "infeasible"
-HIDDEN: Final = "hidden"
-NEITHER: Final = "neither"
+OPTIMAL = "optimal"
+INFEASIBLE = "infeasible"
+HIDDEN = "hidden"
+NEITHER = "neither"
 Codes = dict[str, list[str]]
 """Claim -> the words in which an interface hands on the codes that make it."""
 
 
 @cache
 def _table() -> dict[str, dict[str, Codes]]:
-    text = (Path(__file__).parent / "exit_codes.toml").read_text(encoding="utf-8")
+    text = (Path(__file__).parent / "exit_codes.toml").read_text("utf-8")
     return tomllib.loads(text)
 
 

@@ -2,7 +2,6 @@
 
 import importlib
 from time import perf_counter
-from typing import Final
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from quasistatic_ref.solve.backends import BACKENDS, Options
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.step.standard_form import StandardForm
 
-QUIET: Final[dict[str, Options]] = {"osqp": {"verbose": False}}
+QUIET: dict[str, Options] = {"osqp": {"verbose": False}}
 """What keeps a backend from printing, which it does by default."""
 
 

@@ -11,11 +11,11 @@ import math
 import tomllib
 from functools import cache
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 Options = dict[str, Any]
-FOLDER: Final = Path(__file__).parents[1] / "options"
-NO_TOLERANCE: Final = 3.0
+FOLDER = Path(__file__).parents[1] / "options"
+NO_TOLERANCE = 3.0
 """Digits that "optimal" promises [-] where nothing is known of a tolerance."""
 
 
@@ -23,7 +23,7 @@ NO_TOLERANCE: Final = 3.0
 def option_file(name: str) -> dict[str, Any]:
     """What the file of a solver holds; empty for a solver that has none."""
     path = FOLDER / f"{name}.toml"
-    return tomllib.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    return tomllib.loads(path.read_text("utf-8")) if path.exists() else {}
 
 
 def has_accuracy(name: str) -> bool:

@@ -10,12 +10,12 @@ and a study names it ``package:mine``.
 
 from collections.abc import Callable
 from importlib.metadata import EntryPoint, entry_points
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
 
-GROUP: Final = "quasistatic_ref.solvers"
+GROUP = "quasistatic_ref.solvers"
 
 
 def announced() -> dict[str, list[EntryPoint]]:

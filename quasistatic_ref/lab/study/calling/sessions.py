@@ -6,21 +6,20 @@ only. Which of these a solver takes is a fact of its interface.
 """
 
 from dataclasses import replace
-from typing import Final
 
 from quasistatic_ref.lab.study.calling.calls import function_of, takes_start
 from quasistatic_ref.lab.study.calling.guests import NATIVELY
 from quasistatic_ref.lab.study.calling.solvers import Solver
 from quasistatic_ref.solve.reply import Reply
 
-COLD: Final = "cold"
-UPDATES: Final = "updates"
-MODES: Final = (COLD, UPDATES, "primal", "primal-dual", "active set")
+COLD = "cold"
+UPDATES = "updates"
+MODES = (COLD, UPDATES, "primal", "primal-dual", "active set")
 """Set up again each time; or from what was left: memory and factors alone, the point, the point
 with its multipliers, the active set."""
-NATIVE: Final = {"daqp": "active set", "osqp": "primal-dual"}
+NATIVE = {"daqp": "active set", "osqp": "primal-dual"}
 """What the native adapters keep besides, where they start warm."""
-KEEPS_NOTHING: Final = ("quadprog", *NATIVELY)
+KEEPS_NOTHING = ("quadprog", *NATIVELY)
 
 
 def modes_of(solver: Solver) -> tuple[str, ...]:

@@ -205,8 +205,7 @@ def _worst(repeated: Sequence[Row]) -> Row:
     spent = sum(row["seconds"]["spent"] for row in repeated)
     clocks: Row = {"spent": spent}
     if times:
-        low, call, high = np.percentile(times, [25, 50, 75]).tolist()
-        clocks |= {"first": times[0], "low": low, "call": call, "high": high}
+        clocks |= {"first": times[0], **_quartiles(times)}
     row = min(repeated, key=_goodness)
     calls = sum(one["calls"] for one in repeated)
     return row | {"calls": calls, "seconds": row["seconds"] | clocks}
@@ -224,10 +223,14 @@ def _graded(keeper: Keeper, ready: Prepared, request: Request, units: str, limit
     again, times, agrees = _timed(keeper, form, request, outside, limits)
     other = grades(ready, units, again.reply, solver, request.setting)
     row = min(row, other, key=_goodness) | {"calls": len(times), "clock_agrees": agrees}
-    low, call, high = np.percentile(times, [25, 50, 75]).tolist()
-    clocks = {"first": response.times[0], "low": low, "call": call, "high": high}
+    clocks = {"first": response.times[0], **_quartiles(times)}
     clocks |= {name: other["seconds"][name] for name in ("setup", "solver")}  # as warm as these
     return row | {"seconds": row["seconds"] | clocks}
+
+
+def _quartiles(times: Sequence[float]) -> dict[str, float]:
+    low, call, high = np.percentile(times, [25, 50, 75]).tolist()
+    return {"low": low, "call": call, "high": high}
 
 
 def borne_out(times: Sequence[float], beyond: float) -> bool:

@@ -6,15 +6,12 @@ from scipy.sparse import csc_matrix
 from quasistatic_ref.certify.exact import ExactOptimum, form_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.certify.norm import energy_norm
-from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
-from quasistatic_ref.lab.scenes.rigid import actuated_step
+from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
 from quasistatic_ref.lab.study.problems.problem import BOUNDED, SOCP, Problem
 from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
 from quasistatic_ref.optional.large.float_bound import FloatBound
 from quasistatic_ref.optional.large.sizes import term_sizes
-from quasistatic_ref.step.cones import ELLIPSOID
-from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.step.standard_form import StandardForm
 
 
@@ -27,7 +24,7 @@ def refutation(one: Problem) -> str | None:
     """
     if one.answer.farkas:
         y = [one.answer.farkas.get(i, "0") for i in range(len(one.b))]
-        return farkas_refutation(row_step(one.form), y)
+        return farkas_refutation(program_step(*one.form), y)
     if one.facts["kind"] == SOCP:
         return _not_enclosed(one)
     if one.answer.kind == BOUNDED:
@@ -43,29 +40,13 @@ def refutation(one: Problem) -> str | None:
     return f"{' and '.join(wrong)} have other bits" if wrong else None
 
 
-def row_step(form: StandardForm) -> StepData:
-    """The step whose standard form is a given quadratic program: h = 1, K_q = H, rows as extra."""
-    n = len(form.g)
-    rows = Extra(tuple(f"row {i}" for i in range(len(form.b))), form.A, form.b)
-    return actuated_step(form.H, form.g, np.zeros(n), no_contacts(n), 1.0).replace(extra=rows)
-
-
-def cone_step(one: Problem) -> StepData:
-    """The step in the ellipsoid, friction being 1, whose blocks of rows a problem has."""
-    A = one.A.toarray().reshape(-1, 4, len(one.g))
-    phi = -one.b.reshape(-1, 4)[:, 0]
-    own_frames = np.tile(np.eye(3), (len(A), 1, 1))
-    contacts = contacts_of(phi, own_frames, A[:, [1, 2, 0, 3]], 1.0, 1.0, 6)
-    H = one.H.toarray()
-    return actuated_step(H, one.g, np.zeros(len(one.g)), contacts, 1.0).replace(cone=ELLIPSOID)
-
-
 def _not_enclosed(one: Problem) -> str | None:
-    again = enclosure(cone_step(one))
+    H, g, A, b = one.form
+    again = enclosure(conic_step(H, g, A.reshape(-1, 4, len(g)), -b.reshape(-1, 4)[:, 0]))
     if again is None:
         return "its answer cannot be enclosed"
-    norm = energy_norm(one.H.toarray())
-    far = norm.of_displacement(again.delta_q - one.answer.x) / norm.of_impulse(one.g)
+    norm = energy_norm(H)
+    far = norm.of_displacement(again.delta_q - one.answer.x) / norm.of_impulse(g)
     close = far <= 2 * (again.error + one.answer.error) + 1e-16
     return None if close else f"x is off by {far:.1g}"
 

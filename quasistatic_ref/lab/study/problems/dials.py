@@ -1,6 +1,6 @@
 """The families of the sets, each with its dial: the number that makes its problems harder."""
 
-from typing import Final, TypedDict
+from typing import TypedDict
 
 
 class Dial(TypedDict):
@@ -26,9 +26,9 @@ def _dial(name: str, unit: str, first: float, most: float) -> Dial:
     return Dial(name=name, unit=unit, first=first, most=most)
 
 
-SCENARIOS: Final = "scenarios"
+SCENARIOS = "scenarios"
 """Steps of runs, which have no dial: the family that studies make problems of, too."""
-DIALS: Final = {
+DIALS = {
     "sequences": _dial("steps between one problem and the next", "-", 1.0, 16.0),
     "moving": _dial("steps between one problem and the next", "-", 1.0, 16.0),
     "time_step": _dial("h", "s", 0.1, 1e-4),

@@ -1,11 +1,10 @@
 """Versions of sets: a name is one content, and a folder that has another is not that set."""
 
 from pathlib import Path
-from typing import Final
 
 from quasistatic_ref.lab.study.problems.selection import set_identity
 
-FROZEN: Final = {
+FROZEN = {
     "contact-qp-1": "8e1afbb65c99bf8960de581918bd3fa00846080b4f505cff78b99db0af83e9cb",
     "contact-qp-2": "a02844967f852b3318bf1e9cc331c2759c872bb165266ff7c672504b27d5e5a4",
 }

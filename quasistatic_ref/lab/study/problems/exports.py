@@ -4,8 +4,9 @@ Each export carries a README with the layout of its files, the licences, and how
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 from scipy.io import savemat
@@ -72,12 +73,12 @@ def has_place(one: Problem, to: str) -> bool:
 def _carried(name: str, count: int, to: str, folder: Path) -> list[Path]:
     """The README, the licences and the citation."""
     here = Path(__file__).parent
-    layouts = (here / "layouts.txt").read_text(encoding="utf-8")
+    layouts = (here / "layouts.txt").read_text("utf-8")
     layout = layouts.partition(f"# {to}\n")[2].partition("\n# ")[0]
     words = layout.format(name=name, stem=name.replace("-", "_")).strip()
     text = (
         (here / "export.txt")
-        .read_text(encoding="utf-8")
+        .read_text("utf-8")
         .format(name=name, to=to, count=count, version=__version__, layout=words)
     )
     edition = next((one for one in EDITIONS if name.startswith(one)), CONTACT_QP_2)
@@ -138,11 +139,8 @@ def _mat(path: Path, problems: Sequence[Problem]) -> Path:
             table[k][key] = csc_matrix(value) if isinstance(value, csr_matrix) else value
             if column:
                 table[k][key] = value[:, None]
-
-    def write(file: IO[bytes]) -> None:
-        savemat(file, {"problems": table}, do_compression=True)
-
-    return written_whole(path, write)
+    found = {"problems": table}
+    return written_whole(path, lambda file: savemat(file, found, do_compression=True))
 
 
 def _json(path: Path, problems: Sequence[Problem]) -> Path:
@@ -167,7 +165,7 @@ def _parquet(name: str, problems: Sequence[Problem], folder: Path) -> list[Path]
     stem = name.replace("-", "_")
     programs = [Program(one.id, *one.form, one.answer.x) for one in problems]
     title = "".join(part.title() for part in stem.split("_"))
-    template = (Path(__file__).parent / "test_set.txt").read_text(encoding="utf-8")
+    template = (Path(__file__).parent / "test_set.txt").read_text("utf-8")
     module = template.format(name=stem, title=title, words=name)
     return [
         parquet_written(folder / f"{stem}.parquet", programs),
@@ -189,8 +187,7 @@ def _parts(one: Problem) -> dict[str, Any]:
         return found | {key: getattr(one.answer, key) for key in ANSWERS}
     y = np.zeros(len(one.b))
     for i, text in one.answer.farkas.items():
-        above, _, below = text.partition("/")
-        y[i] = int(above) / int(below or 1)
+        y[i] = Fraction(text)
     return found | {"farkas": y}
 
 

@@ -9,7 +9,7 @@ import json
 import lzma
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,9 +34,9 @@ VERSION = 1
 MANIFEST = "manifest.json"
 FACTS = "problems.jsonl"
 NUMBERS = "numbers"
-MATRICES: Final = ("H", "A")
-ANSWERS: Final = ("x", "net", "slack", "lam")
-UNREADABLE: Final = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
+MATRICES = ("H", "A")
+ANSWERS = ("x", "net", "slack", "lam")
+UNREADABLE = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
                      RecursionError, lzma.LZMAError)  # fmt: skip
 """What reading raises of files that agree with their manifest, and are something else."""
 

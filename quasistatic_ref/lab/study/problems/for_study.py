@@ -2,10 +2,11 @@
 
 import hashlib
 import json
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import json_text
@@ -15,7 +16,7 @@ from quasistatic_ref.lab.study.problems.making import harvested
 from quasistatic_ref.lab.study.problems.problem import INFEASIBLE, Problem
 from quasistatic_ref.lab.study.problems.selection import problems_taken, set_identity
 
-FOLDER: Final = "problems"
+FOLDER = "problems"
 """Within that of a study."""
 
 
@@ -92,17 +93,15 @@ def _made_of(test_set: TestSet) -> dict[str, Any]:
 
 def problems_record(problems: Sequence[Problem]) -> dict[str, Any]:
     """How many problems of which family there are, and their fingerprint."""
-    families: dict[str, int] = {}
     digest = hashlib.sha256()
     for one in problems:
-        families[one.facts["family"]] = families.get(one.facts["family"], 0) + 1
         for numbers in (one.H.toarray(), one.g, one.A.toarray(), one.b, one.answer.x):
             digest.update((numbers + 0.0).tobytes())
         digest.update(json_text({str(k): v for k, v in one.answer.farkas.items()}).encode())
     return {
         "count": len(problems),
         "exact": sum(fact_of(one)["kind"] == "exact" for one in problems),
-        "families": families,
+        "families": dict(Counter(one.facts["family"] for one in problems)),
         "sha256": digest.hexdigest(),
     }
 

@@ -3,7 +3,7 @@
 import zlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -12,12 +12,12 @@ from quasistatic_ref.lab.study.store.rows import Row, label_of
 
 Where = Mapping[str, str | bool | int]
 """Field -> value: a filter, as the line below each table states it."""
-EVERY: Final[Where] = MappingProxyType({})
-FLAGS: Final = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong", "wrong_multipliers",
+EVERY: Where = MappingProxyType({})
+FLAGS = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong", "wrong_multipliers",
                 "solved", "called")  # fmt: skip
 
 
-MADE: Final = 0.9
+MADE = 0.9
 """Share of the calls of the solver with the most that others need to be compared on the same."""
 
 
@@ -79,10 +79,9 @@ class Rows:
         made = self.at(called=True).groups(*by).values()
         units = [{row["unit"] for row in part} for part in made]
         most = max(map(len, units), default=0) if "label" in by else 0
-        parts = [part for part, own in zip(made, units, strict=True) if len(own) >= MADE * most]
-        kept = [own for own in units if len(own) >= MADE * most]
-        shared = set.intersection(*kept) if kept else set()
-        return Rows([row for part in parts for row in part if row["unit"] in shared])
+        kept = [(p, own) for p, own in zip(made, units, strict=True) if len(own) >= MADE * most]
+        shared = set.intersection(*(own for _, own in kept)) if kept else set()
+        return Rows([row for part, _ in kept for row in part if row["unit"] in shared])
 
     def sorted_by_unit(self, name: str) -> np.ndarray:
         """One field in the order of the problems, shape (rows,), so that rows compare."""

@@ -2,7 +2,7 @@
 
 import shlex
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -58,7 +58,7 @@ def _wrong(claim: str) -> Cell:
     return lambda rows: str(int((rows["wrong"] & rows[f"said_{claim}"]).sum()))
 
 
-CELLS: Final[dict[str, Cell]] = {
+CELLS: dict[str, Cell] = {
     "calls": lambda rows: str(len(rows)),
     "solved [%]": lambda rows: tenths(100 * float(rows["solved"].mean())),
     **{f">= {d:g} digits [%]": _share(d) for d in LEVELS},
@@ -71,7 +71,7 @@ CELLS: Final[dict[str, Cell]] = {
     ),
 }
 """The columns of a table of one setting: heading -> what stands there, of one solver's rows."""
-CLAIMS: Final = {f"said {c}, was wrong": _wrong(c) for c in ("optimal", "infeasible")}
+CLAIMS = {f"said {c}, was wrong": _wrong(c) for c in ("optimal", "infeasible")}
 
 
 def solver_table(comparison: Comparison, setting: str) -> Table:

@@ -8,7 +8,7 @@ from pathlib import Path
 @cache
 def _every_sentence() -> dict[str, list[str]]:
     """The sentences, by what they are about: the headings of ``words.md``."""
-    text = (Path(__file__).parent / "words.md").read_text(encoding="utf-8")
+    text = (Path(__file__).parent / "words.md").read_text("utf-8")
     parts = [part.strip().split("\n\n") for part in text.split("# ")[1:]]
     return {about: [" ".join(one.split()) for one in own] for about, *own in parts}
 

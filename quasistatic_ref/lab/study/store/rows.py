@@ -2,25 +2,25 @@
 
 import json
 from collections.abc import Iterable, Mapping
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.formats.files import json_text
 
 Row = dict[str, Any]
-CLOCKS: Final = ("solver", "setup", "call", "low", "high", "first", "warm_up", "start", "spent")
+CLOCKS = ("solver", "setup", "call", "low", "high", "first", "warm_up", "start", "spent")
 """Times of a row [s]."""
-TABLES: Final = {
+TABLES = {
     "digits": ("delta_q", "net_wrench", "multipliers"),
     "residuals": ("primal", "dual", "gap"),
     "seconds": CLOCKS,
 }
 """Fields that are tables."""
-FLAGS: Final = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong",
+FLAGS = ("warm", "feasible", "said_optimal", "said_infeasible", "wrong",
                 "wrong_multipliers", "clock_agrees", "repeats", "tuned", "present")  # fmt: skip
-JSON: Final = ("facts", "versions", "target", "options", "axes", "fixed", "point", "measures")
-KEY: Final = ("problem", "solver", "interface", "setting", "mode", "warm", "units", "repetition")
+JSON = ("facts", "versions", "target", "options", "axes", "fixed", "point", "measures")
+KEY = ("problem", "solver", "interface", "setting", "mode", "warm", "units", "repetition")
 """What makes a measurement the same one."""
-MACHINE_DEPENDENT: Final = ("seconds", "calls", "clock_agrees", "memory")
+MACHINE_DEPENDENT = ("seconds", "calls", "clock_agrees", "memory")
 """Fields that differ from run to run."""
 
 

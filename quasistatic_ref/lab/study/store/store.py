@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import bytes_read, json_text
@@ -24,20 +24,20 @@ STORE = "study.sqlite"
 PACKED = "study.json.xz"
 FORMAT, VERSION = "quasistatic-ref/study-store", 4
 """Versions 1 and 2 were lines of JSON; version 3 had one promise for all solvers at a setting."""
-SCHEMA: Final = (Path(__file__).parent / "schema.sql").read_text("utf-8")
-TABLES: Final = ("study", "machines", "settings", "solvers", "options", "problems", "unreached",
+SCHEMA = (Path(__file__).parent / "schema.sql").read_text("utf-8")
+TABLES = ("study", "machines", "settings", "solvers", "options", "problems", "unreached",
                  "sweeps", "rows", "runs")  # fmt: skip
-ABOUT: Final = ("study", "machines", "settings", "solvers", "options", "problems", "sweeps")
+ABOUT = ("study", "machines", "settings", "solvers", "options", "problems", "sweeps")
 """Tables that say what is studied."""
-APART: Final = ("kind", "time_limit", "settings", "solvers", "sweeps", "machine", "versions",
+APART = ("kind", "time_limit", "settings", "solvers", "sweeps", "machine", "versions",
                 "machines")  # fmt: skip
 """What has a table or a column of its own; the rest of a study is JSON."""
 Line = tuple[Any, ...]
-LARGEST_UNPACKED: Final = 256 * 2**20
+LARGEST_UNPACKED = 256 * 2**20
 """Largest size of packed tables [bytes]: those of the study 'default' have 12 MiB."""
-MEMORY: Final = 128 * 2**20
+MEMORY = 128 * 2**20
 """What the unpacking itself may take [bytes]: 65 MiB at the strongest setting."""
-UNREADABLE: Final = (sqlite3.Error, ValueError, TypeError, KeyError, AttributeError, IndexError,
+UNREADABLE = (sqlite3.Error, ValueError, TypeError, KeyError, AttributeError, IndexError,
                      OverflowError, RecursionError)  # fmt: skip
 """What reading raises of files that no study has written."""
 
@@ -206,13 +206,9 @@ def about_written(
     facts = {name: value for name, value in study.items() if name not in APART}
     head = {"kind": study["kind"], "time_limit": study.get("time_limit"), "facts": facts}
     put(tables, "study", head)
-    if "machines" in study:
-        for name in study["machines"]:
-            own = {"facts": study["machine"][name], "versions": study["versions"][name]}
-            put(tables, "machines", {"name": name, **own})
-    else:
-        own = {"facts": study["machine"], "versions": study["versions"]}
-        put(tables, "machines", {"name": "", **own})
+    for name in study.get("machines", [""]):
+        facts, versions = (study[of][name] if name else study[of] for of in ("machine", "versions"))
+        put(tables, "machines", {"name": name, "facts": facts, "versions": versions})
     for solver in study.get("solvers", ()):
         names = {"interface": solver["interface"], "name": solver["name"]}
         present = solver.get("present", True)

@@ -8,7 +8,6 @@ import math
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Final
 
 import numpy as np
 
@@ -27,11 +26,11 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import Case
 from quasistatic_ref.lab.vectors.layers import LAYERS
 
-MORE: Final = 12
+MORE = 12
 """Further cases of a layer in which something fails, by which it is named."""
-MOST: Final = 10
+MOST = 10
 """Findings that are written at most."""
-GIVEN_UP: Final = 3
+GIVEN_UP = 3
 """Crashes, hangs, late answers or lines of garbage after which a layer gets no further cases."""
 
 Task = tuple[str, tuple[int, ...], int]

@@ -5,7 +5,6 @@ then those that are degenerate, badly scaled, or without solution.
 """
 
 from collections.abc import Callable
-from typing import Final
 
 import numpy as np
 
@@ -39,7 +38,7 @@ from quasistatic_ref.step.cones import cone as cone_of
 from quasistatic_ref.step.data import Contacts, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
-CONES: Final = (
+CONES = (
     "pyramid",
     "product",
     "facets-4",
@@ -48,14 +47,18 @@ CONES: Final = (
     "facets-16",
     "frictionless",
 )
-SHAPES: Final[dict[str, Json]] = {
+SHAPES: dict[str, Json] = {
     "sphere": {"radius": 0.2},
     "box": {"size": [0.3, 0.5, 0.4]},
     "capsule": {"radius": 0.1, "length": 0.5},
     "convex": {
         "vertices": [
-            *([0.3, 0.1, 0.0], [-0.2, 0.3, 0.1], [-0.1, -0.3, 0.0]),
-            *([0.05, 0.0, 0.4], [0.0, 0.1, -0.2], [0.2, -0.2, 0.15]),
+            [0.3, 0.1, 0.0],
+            [-0.2, 0.3, 0.1],
+            [-0.1, -0.3, 0.0],
+            [0.05, 0.0, 0.4],
+            [0.0, 0.1, -0.2],
+            [0.2, -0.2, 0.15],
         ]
     },
     "cylinder": {"radius": 0.15, "length": 0.4},
@@ -66,7 +69,7 @@ SHAPES: Final[dict[str, Json]] = {
 """One shape of each kind, of the size of things that a robot holds [m]."""
 EASY, PLAIN, HARD = 0, 1, 2
 """How hard cases are: one contact and round numbers; as the vectors have them; corners."""
-TRIES: Final = 20
+TRIES = 20
 """Inputs that are drawn until one is valid; most are at once."""
 
 
@@ -120,9 +123,9 @@ def record_of(name: str, case: Json) -> Json | None:
     return None if beyond else record
 
 
-MARGIN: Final = 4.0
+MARGIN = 4.0
 """Tolerances are so many times those of the vectors [-], each of which some programs have met."""
-FARTHEST: Final = 1e3
+FARTHEST = 1e3
 """A step of more [m, rad] is one of contacts that all but contradict each other: in float64 they
 do."""
 
@@ -293,7 +296,7 @@ def _distance(rng: Rng, level: int) -> Json:
     return {k: v for s, shape, at in named for k, v in ((s, shape), (f"pose_{s}", at))}
 
 
-MAKERS: Final[dict[str, Callable[[Rng, int], Json]]] = {
+MAKERS: dict[str, Callable[[Rng, int], Json]] = {
     "distance": _distance,
     "selection": _selection,
     "jacobian": _jacobian,

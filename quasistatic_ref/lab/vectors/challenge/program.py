@@ -15,7 +15,7 @@ import subprocess
 import threading
 import time
 from dataclasses import dataclass
-from typing import IO, Final
+from typing import IO
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.table_reader import TableReader
@@ -24,17 +24,17 @@ from quasistatic_ref.lab.vectors.check.answers import QUATERNIONS, TANGENTS, Ans
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import LAYERS
 
-START: Final = 6.0
+START = 6.0
 """The first answer may take so many times longer [-]: a program starts, perhaps compiles itself."""
-LINE: Final = 64 * 2**20
+LINE = 64 * 2**20
 """Longest line of an answer [bytes]; the answer to 1,000 contacts has a hundredth."""
-GRACE: Final = 1.0
+GRACE = 1.0
 """So many times the time for an answer [-] is a late one still waited for: then it is a hang."""
-STRAY: Final = 20
+STRAY = 20
 """Lines that are no answer to the case, after which the program is started again."""
-FLOOD: Final = 2**20
+FLOOD = 2**20
 """Standard error beyond that [bytes] is said to be a flood."""
-TAIL: Final = 2000
+TAIL = 2000
 """The size of the part that is kept [bytes]."""
 
 

@@ -4,8 +4,6 @@ A ball on a body and a plane, or another ball, are put where the gap between the
 of mass are not at origins, wrenches act on any body, and gravity is along any direction.
 """
 
-from typing import Final
-
 import numpy as np
 
 from quasistatic_ref.lab.program.mechanism import slices
@@ -21,8 +19,8 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.step import shape_pose
 from quasistatic_ref.lab.vectors.tables import GRAVITY, follower, free_body, link, on, scene
 
-CONES: Final = ("pyramid", "pyramid", "pyramid", "product", "facets-6", "frictionless")
-GAPS: Final = (0.0005, 0.0, -0.0005, 0.01)
+CONES = ("pyramid", "pyramid", "pyramid", "product", "facets-6", "frictionless")
+GAPS = (0.0005, 0.0, -0.0005, 0.01)
 """[m]"""
 
 

@@ -2,13 +2,12 @@
 
 import copy
 from collections.abc import Iterator, Sequence
-from typing import Final
 
 from quasistatic_ref.lab.vectors.converters import places
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.trees import Path, nodes
 
-LISTS: Final = {"contacts": 1, "pairs": 0, "wrenches": 0, "second_order": 1, "phi": 1,
+LISTS = {"contacts": 1, "pairs": 0, "wrenches": 0, "second_order": 1, "phi": 1,
                 "points": 1, "vertices": 1}  # fmt: skip
 """Lists of which parts are left out, and how many are left at least."""
 

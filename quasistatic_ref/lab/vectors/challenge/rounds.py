@@ -11,7 +11,6 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from functools import partial
 from multiprocessing import get_context
-from typing import Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.vectors.challenge.diagnosis import Diagnosis, Task
@@ -24,7 +23,7 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import check_layer
 from quasistatic_ref.lab.vectors.layers import LAYERS
 
-ROUND: Final = {
+ROUND = {
     "distance": 4, "selection": 4, "jacobian": 6, "rows": 6, "qp": 6, "wrench": 6,
     "integrate": 6, "step": 8, "derivative": 2,
 }  # fmt: skip

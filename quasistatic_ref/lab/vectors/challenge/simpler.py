@@ -5,7 +5,6 @@ digits. They need not be valid; an invalid one is not sent.
 """
 
 from collections.abc import Callable, Iterator
-from typing import Final
 
 import numpy as np
 
@@ -19,11 +18,11 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.tables import ORIGIN, UPRIGHT
 from quasistatic_ref.lab.vectors.trees import mapped, nodes
 
-KEPT: Final = ("rows", "k", "n", "d1", "d2", "actuated", "joint")
+KEPT = ("rows", "k", "n", "d1", "d2", "actuated", "joint")
 """Fields whose numbers are no lengths, or that change together."""
-FRAME: Final = ("n", "d1", "d2")
-ONES: Final = ("mu_v", "mu_omega", "mass", "h", "radius", "multiplier")
-BUDGET: Final = 250
+FRAME = ("n", "d1", "d2")
+ONES = ("mu_v", "mu_omega", "mass", "h", "radius", "multiplier")
+BUDGET = 250
 """At most so many inputs are tried."""
 
 
@@ -93,7 +92,7 @@ def simpler_numbers(case: Json) -> Iterator[Json]:
                     yield replaced(case, path, other)
 
 
-MOVES: Final[tuple[Callable[[Json], Iterator[Json]], ...]] = (
+MOVES: tuple[Callable[[Json], Iterator[Json]], ...] = (
     fewer_parts,
     fewer_bodies,
     fewer_coordinates,

@@ -2,15 +2,14 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.table_reader import TableReader
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.files import ANSWERS, opened
 
-TANGENTS: Final = ("body", "world", "mujoco")
-QUATERNIONS: Final = ("xyzw", "wxyz")
+TANGENTS = ("body", "world", "mujoco")
+QUATERNIONS = ("xyzw", "wxyz")
 
 
 @dataclass(frozen=True)

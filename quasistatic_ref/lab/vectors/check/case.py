@@ -1,7 +1,6 @@
 """The verdict on one answer."""
 
 from dataclasses import replace
-from typing import Final
 
 import numpy as np
 
@@ -26,9 +25,9 @@ from quasistatic_ref.lab.vectors.check.verdict import FAILED, PASSED, Verdict, a
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.derivative import FIELDS
 
-IN_PART: Final = ("step", "derivative")
+IN_PART = ("step", "derivative")
 """Layers whose answers may leave fields out; nothing is said of these."""
-CONTRADICTION: Final = 1e-14
+CONTRADICTION = 1e-14
 """Slack below zero, relative to the terms of its row, that float64 takes for none."""
 
 

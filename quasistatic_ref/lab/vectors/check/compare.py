@@ -2,23 +2,23 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.lab.vectors.check.verdict import Difference, correct_digits
 from quasistatic_ref.lab.vectors.expected import Json
 
-OPTIONAL: Final = {
+OPTIONAL = {
     "qp": ("A_lam", "slack", "certificate"),
     "step": ("A_lam", "forces"),
 }
 """Fields that follow from others, and need not be answered."""
-NO_NUMBERS: Final = ("certificate", "differentiable", "reasons")
+NO_NUMBERS = ("certificate", "differentiable", "reasons")
 """Fields that have a verdict of their own."""
-WRENCH: Final = ("f_d1", "f_d2", "f_n", "tau_n")
+WRENCH = ("f_d1", "f_d2", "f_n", "tau_n")
 """Components of a contact's wrench."""
 
-CONTACT: Final = ("pair", "index", "phi", "n", "alpha", "beta", "d1", "d2", "J")
-ORDER: Final = (
+CONTACT = ("pair", "index", "phi", "n", "alpha", "beta", "d1", "d2", "J")
+ORDER = (
     *CONTACT,
     "indices",
     *("H", "g", "A", "b", "delta_q", "lam", "A_lam", "slack", "wrench", "forces", "net"),

@@ -5,7 +5,6 @@ beyond tolerance, and says why that is a documented freedom, or what is wrong.
 """
 
 from collections.abc import Callable, Mapping
-from typing import Final
 
 import numpy as np
 
@@ -22,9 +21,9 @@ from quasistatic_ref.lab.vectors.converters import quaternion_places
 from quasistatic_ref.lab.vectors.expected import Json
 
 Failing = Mapping[str, Difference]
-WITNESS: Final = ("alpha", "beta", "n")
-CHOSEN: Final = tuple(f"contacts.{name}" for name in ("index", *WITNESS, "d1", "d2"))
-ANOTHER: Final = 1e3
+WITNESS = ("alpha", "beta", "n")
+CHOSEN = tuple(f"contacts.{name}" for name in ("index", *WITNESS, "d1", "d2"))
+ANOTHER = 1e3
 """An error of more tolerances than that is another answer, and may be right."""
 
 
@@ -141,7 +140,7 @@ def _other_contacts(case: Json, record: Json, answer: Json, failing: Failing) ->
     return acceptable("other contacts where rounding decides, and what follows from them")
 
 
-FREEDOMS: Final[dict[str, Callable[[Json, Json, Json, Failing], Verdict]]] = {
+FREEDOMS: dict[str, Callable[[Json, Json, Json, Failing], Verdict]] = {
     "distance": another_witness,
     "selection": another_tie,
     "qp": other_multipliers,

@@ -7,7 +7,6 @@ them than right answers that it would have made wrong.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
@@ -19,12 +18,12 @@ from quasistatic_ref.lab.vectors.check.table import MISTAKES, Mistake
 from quasistatic_ref.lab.vectors.check.verdict import Verdict
 from quasistatic_ref.lab.vectors.expected import Json
 
-SAMPLE: Final = 12
+SAMPLE = 12
 """Failing cases that are tried, and right ones: mistakes are systematic, some predictions slow."""
-SAME: Final = 1e-9
+SAME = 1e-9
 """Difference from a prediction, relative to the field's largest number, that still matches: a
 mistake leaves the other digits right, but not to the last bit."""
-ROUGH: Final = 1e-5
+ROUGH = 1e-5
 """The same of derivatives, which are predicted by differences in float64."""
 
 

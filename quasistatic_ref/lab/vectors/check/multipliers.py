@@ -5,7 +5,6 @@ the same A'lam, and vanish on rows with a slack.
 """
 
 from fractions import Fraction
-from typing import Final
 
 import numpy as np
 
@@ -16,12 +15,12 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
 from quasistatic_ref.step.data import Array
 
-EPS: Final = float(np.finfo(np.float64).eps)
-NEGLIGIBLE: Final = 1e-9
+EPS = float(np.finfo(np.float64).eps)
+NEGLIGIBLE = 1e-9
 """Largest multiplier, relative to the largest, on a row that has a slack, or below zero: a method
 that reaches delta_q to rounding leaves 1e-14."""
 
-NOISE: Final = 1e-12
+NOISE = 1e-12
 """An entry of a Farkas vector, relative to the largest, that may be rounding."""
 
 

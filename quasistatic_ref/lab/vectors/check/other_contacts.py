@@ -7,7 +7,6 @@ computed from them without rounding.
 """
 
 from itertools import pairwise
-from typing import Final
 
 import numpy as np
 
@@ -21,7 +20,7 @@ from quasistatic_ref.lab.vectors.layers.qp import matrices
 from quasistatic_ref.lab.vectors.layers.step import answered, of_pair, shape_pose, with_rows
 from quasistatic_ref.step.data import Array
 
-TIED: Final = 1e-9
+TIED = 1e-9
 """Components of n that are that near to each other are the same to one who computes n."""
 
 

@@ -5,12 +5,11 @@ from collections.abc import Callable
 from functools import cache
 from importlib.resources import files
 from types import CodeType, ModuleType
-from typing import Final
 
 from quasistatic_ref.lab import program as plain_program
 from quasistatic_ref.lab.vectors.expected import Json
 
-MODULES: Final = (
+MODULES = (
     *("number", "rotation", "mechanism", "integration", "curved", "distance", "candidates"),
     *("rows", "wrench", "optimum", "forces", "step", "derivative", "layers"),
 )
@@ -22,7 +21,7 @@ Program = Callable[[str, Json], Json]
 
 @cache
 def _text(file: str) -> str:
-    return (files(plain_program) / file).read_text(encoding="utf-8")
+    return (files(plain_program) / file).read_text("utf-8")
 
 
 @cache

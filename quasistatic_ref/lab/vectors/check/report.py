@@ -1,12 +1,11 @@
 """The outcome of a check: by layer, as a table for people and as JSON for programs."""
 
 from dataclasses import asdict, dataclass, replace
-from typing import Final
 
 from quasistatic_ref.lab.vectors.check.verdict import ACCEPTABLE, FAILED, MISSING, PASSED, Verdict
 from quasistatic_ref.lab.vectors.expected import Json
 
-HEADER: Final = ("layer", PASSED, ACCEPTABLE, FAILED, MISSING, "worst digits", "first failure")
+HEADER = ("layer", PASSED, ACCEPTABLE, FAILED, MISSING, "worst digits", "first failure")
 
 
 @dataclass(frozen=True)

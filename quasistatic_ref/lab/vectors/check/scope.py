@@ -6,7 +6,6 @@ outside is not asked of it, and is not missing.
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.files import toml_read
@@ -19,8 +18,8 @@ from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.trees import nodes
 from quasistatic_ref.step.cones import cone
 
-FORMAT: Final = "quasistatic-ref/scope"
-ROUND: Final = "ellipsoid"
+FORMAT = "quasistatic-ref/scope"
+ROUND = "ellipsoid"
 """The cone of cases with second-order cones in the place of a name."""
 
 
@@ -70,7 +69,7 @@ class Scope:
         )
 
 
-WHOLE: Final = Scope("")
+WHOLE = Scope("")
 """Everything."""
 
 

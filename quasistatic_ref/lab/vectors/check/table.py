@@ -6,17 +6,16 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
-from typing import Final
 
 from quasistatic_ref.lab.vectors import check
 from quasistatic_ref.lab.vectors.check.compare import parts
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.expected import Json
 
-TABLE: Final = "mistakes.toml"
-FACTOR: Final = "FACTOR"
+TABLE = "mistakes.toml"
+FACTOR = "FACTOR"
 """In a patch, where a layer does not know h [s]: each of the values below, and its inverse."""
-TIME_STEPS: Final = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
+TIME_STEPS = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 
 Prediction = Callable[[Json, Json], Iterable[Json]]
 """(input, expected output) -> parts of outputs; several where the mistake comes in variants."""
@@ -100,8 +99,8 @@ def _mistake(entry: Json) -> Mistake:
     return Mistake(name, entry["sentence"], by_layer)
 
 
-_ENTRIES = tomllib.loads((files(check) / TABLE).read_text(encoding="utf-8"))["mistake"]
-PATCHES: Final = {entry["name"]: _patches(entry) for entry in _ENTRIES if "patches" in entry}
+_ENTRIES = tomllib.loads((files(check) / TABLE).read_text("utf-8"))["mistake"]
+PATCHES = {entry["name"]: _patches(entry) for entry in _ENTRIES if "patches" in entry}
 """By mistake and layer: lines as ``patched_texts`` takes them, one or several ways."""
-MISTAKES: Final = tuple(map(_mistake, _ENTRIES))
+MISTAKES = tuple(map(_mistake, _ENTRIES))
 """Tried in this order; of equally good explanations all are named."""

@@ -1,19 +1,18 @@
 """What the checker says of one answer."""
 
 from dataclasses import asdict, dataclass, replace
-from typing import Final
 
 import numpy as np
 
 from quasistatic_ref.lab.vectors.expected import Json
 
-PASSED: Final = "passed"
-ACCEPTABLE: Final = "acceptable"
-FAILED: Final = "failed"
-MISSING: Final = "missing"
-DIGITS: Final = 16.0
+PASSED = "passed"
+ACCEPTABLE = "acceptable"
+FAILED = "failed"
+MISSING = "missing"
+DIGITS = 16.0
 """More correct digits than that float64 does not hold."""
-CANCELLED: Final = 1e3
+CANCELLED = 1e3
 """Largest size of a field, in units of its tolerance, at which it is a difference of equals."""
 
 

@@ -5,7 +5,6 @@ them overlap.
 """
 
 from html import escape
-from typing import Final
 
 from quasistatic_ref.lab.vectors.conformance.conformance import Conformance
 
@@ -13,9 +12,9 @@ LABEL, GREEN, AMBER, RED, GREY = "#444444", "#1a7f37", "#8f5a00", "#b42318", "#5
 """White on each has a contrast of more than 4.5."""
 NARROW = "iIjltf.,:;/ ()|'"
 WIDE = "mwMW%@"
-WIDTHS: Final = {"narrow": 3.9, "wide": 9.6, "digit": 7.0, "other": 6.7}
+WIDTHS = {"narrow": 3.9, "wide": 9.6, "digit": 7.0, "other": 6.7}
 """Of letters at 11 px [px]."""
-MARGIN: Final = 7.0
+MARGIN = 7.0
 """On each side of a text [px]."""
 
 

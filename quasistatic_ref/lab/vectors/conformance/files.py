@@ -5,7 +5,6 @@ import json
 import platform
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 
@@ -24,8 +23,8 @@ from quasistatic_ref.lab.vectors.conformance.page import page
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.versions import edition
 
-FORMAT: Final = "quasistatic-ref/vectors-conformance"
-LONGEST: Final = 80
+FORMAT = "quasistatic-ref/vectors-conformance"
+LONGEST = 80
 """Characters of the name of an implementation."""
 
 

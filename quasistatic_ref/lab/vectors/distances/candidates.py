@@ -9,7 +9,6 @@ Everything is decided on distances, points and normals that are rounded to float
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
@@ -29,8 +28,8 @@ from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.layers import layer
 from quasistatic_ref.tolerances import REPEATED
 
-FIELDS: Final = ("phi", "alpha", "beta", "n")
-TIED: Final = 1e-12
+FIELDS = ("phi", "alpha", "beta", "n")
+TIED = 1e-12
 """Difference of distances [m] below which it is rounding that decides what is kept."""
 
 

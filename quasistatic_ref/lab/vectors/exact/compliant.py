@@ -11,7 +11,7 @@ Forces, ds / c, are therefore off by at most
 
 from dataclasses import astuple
 from math import sqrt
-from typing import Final, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 from flint import fmpq
@@ -30,7 +30,7 @@ from quasistatic_ref.step.data import Array
 
 Program: TypeAlias = "tuple[Array, Array, Array, Array]"
 """H, g, A and b."""
-FRICTION: Final = ("mu_v", "mu_omega", "rows")
+FRICTION = ("mu_v", "mu_omega", "rows")
 
 
 def compliant_forces(program: Program, case: Json, contacts: Json, lam: Json) -> tuple[Json, Json]:

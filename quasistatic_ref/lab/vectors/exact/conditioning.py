@@ -23,7 +23,7 @@ from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 from fractions import Fraction
 from math import isqrt
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from flint import fmpq
@@ -32,9 +32,9 @@ from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.lab.vectors.exact.rational import UNIT, inverse, largest, rationals
 
-ROUNDINGS: Final = 8
+ROUNDINGS = 8
 """c is that many times the size of K; of the unconstrained step: an answer of 15 digits."""
-BITS: Final = 64
+BITS = 64
 """Of a square root, which is rounded up."""
 
 
@@ -70,7 +70,7 @@ class Errors:
     b: Fraction = Fraction(0)
 
 
-NO_ERRORS: Final = Errors()
+NO_ERRORS = Errors()
 
 
 def bounds(form: ExactForm, working: Sequence[int], errors: Errors = NO_ERRORS) -> Bounds:

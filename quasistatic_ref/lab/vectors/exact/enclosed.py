@@ -2,7 +2,6 @@
 
 from fractions import Fraction
 from math import inf
-from typing import Final
 
 import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
@@ -20,12 +19,12 @@ from quasistatic_ref.optional.ellipsoid.enclosure import BITS as PROVED
 from quasistatic_ref.optional.ellipsoid.enclosure import checked_pair, enclosed_error
 from quasistatic_ref.step.data import StepData
 
-GAP: Final = arb(2) ** -280
+GAP = arb(2) ** -280
 """Duality gap at which to stop: an error of 2^-140, 1e-42 of the unconstrained step."""
-BITS: Final = 1536
-LAM: Final = Fraction(1, 2**20)
+BITS = 1536
+LAM = Fraction(1, 2**20)
 """Relative tolerance of the multipliers, which are one choice of many: that of the interior."""
-LOOSER: Final = Fraction(1, 2**26) / (ROUNDINGS * UNIT)
+LOOSER = Fraction(1, 2**26) / (ROUNDINGS * UNIT)
 """||x - x*||_H^2 is at most twice the duality gap, of which float64 leaves 2^-53: x is off by 2^-26
 of the unconstrained step, in place of some roundings."""
 

@@ -1,6 +1,6 @@
 """Inputs of the layers in exact numbers, after a look at whether their mechanism can be."""
 
-from typing import Any, Final
+from typing import Any
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.formats.quoting import suggestion
@@ -9,8 +9,8 @@ from quasistatic_ref.lab.vectors.exact.precision import number
 from quasistatic_ref.lab.vectors.expected import Json
 from quasistatic_ref.lab.vectors.trees import mapped
 
-SIDES: Final = ("alpha_body", "beta_body")
-COUNTS: Final = ("k", "rows")
+SIDES = ("alpha_body", "beta_body")
+COUNTS = ("k", "rows")
 """Fields that say how many there are of something."""
 
 

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable
 from fractions import Fraction
 from functools import lru_cache
 from math import inf, isqrt, nextafter
-from typing import Any, Final, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from flint import arb, ctx, fmpq
@@ -28,15 +28,15 @@ Vector: TypeAlias = Any
 """An array of such numbers, shape (n,): NumPy's operators work entry by entry."""
 Matrix: TypeAlias = Any
 
-PRECISION: Final = 320
+PRECISION = 320
 """Bits of a ball's midpoint at first."""
 
-HIGHEST: Final = 16 * PRECISION
+HIGHEST = 16 * PRECISION
 """Bits at which raising ends; no case of the families needs it."""
 
-DIGITS: Final = 30
+DIGITS = 30
 """Significant decimal digits of the strings that stand with the float64 numbers."""
-LONGEST: Final = 200
+LONGEST = 200
 """Most numbers of a field that is also written in them: more would fill the files."""
 
 
@@ -98,8 +98,8 @@ def length(x: Vector) -> Real:
     return root(x @ x)
 
 
-ZERO: Final[Vector] = vector([0, 0, 0])
-IDENTITY: Final[Matrix] = np.array([vector(row) for row in np.eye(3)])
+ZERO: Vector = vector([0, 0, 0])
+IDENTITY: Matrix = np.array([vector(row) for row in np.eye(3)])
 
 
 def cos_sin(angle: Real) -> tuple[Real, Real]:

@@ -2,16 +2,16 @@
 
 from decimal import ROUND_UP, Context, Decimal
 from fractions import Fraction
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from flint import fmpq, fmpq_mat, fmpz_mat
 
 from quasistatic_ref.lab.vectors.expected import Tolerance
 
-UNIT: Final = Fraction(1, 2**53)
+UNIT = Fraction(1, 2**53)
 """Relative error of one rounding in float64."""
-UNITY: Final = fmpq(1)
+UNITY = fmpq(1)
 
 
 def fraction(value: fmpq) -> Fraction:

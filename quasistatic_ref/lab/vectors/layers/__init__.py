@@ -1,11 +1,11 @@
 """The layers of the model, each one module with `expected` and `own`, loaded when it is used."""
 
 from importlib import import_module
-from typing import Final, Protocol, cast
+from typing import Protocol, cast
 
 from quasistatic_ref.lab.vectors.expected import Expected, Json
 
-LAYERS: Final = (
+LAYERS = (
     "distance",
     "selection",
     "jacobian",

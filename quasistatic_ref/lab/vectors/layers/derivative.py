@@ -4,8 +4,6 @@ Nothing is rounded from the mechanism to q+, as ``lab/vectors/unrounded`` has it
 differences of such steps, each proved to 15 digits by a second difference.
 """
 
-from typing import Final
-
 from flint import fmpq, fmpq_mat
 
 from quasistatic_ref.certify.rounding import nearest_fraction
@@ -17,7 +15,7 @@ from quasistatic_ref.lab.vectors.unrounded.moved_inputs import with_held_wrenche
 from quasistatic_ref.lab.vectors.unrounded.nearby import Touching
 from quasistatic_ref.lab.vectors.unrounded.touching import touching_pairs
 
-FIELDS: Final = {
+FIELDS = {
     "q": "dq_dq",
     "q_bar_a": "dq_dq_bar_a",
     "tau": "dq_dtau",
@@ -28,13 +26,13 @@ FIELDS: Final = {
     "m": "dq_dm",
 }
 """Name of each derivative in the output, a matrix of n_v rows; of h a list."""
-SHARE: Final = 1e-9
+SHARE = 1e-9
 """Of the largest entry, or of what the free step would show: the tolerance."""
-QUIET: Final = 1e-3
+QUIET = 1e-3
 """Share of the free step's derivative: smaller ones are compared with that share."""
-STILL: Final = 1e-6
+STILL = 1e-6
 """Size of what is 0 because nothing pulls: neither contacts nor the free step move."""
-NOTHING: Final = fmpq(1, 1 << 60)
+NOTHING = fmpq(1, 1 << 60)
 """Share of a derivative's size, of which SHARE is the tolerance, below which an entry is 0."""
 
 

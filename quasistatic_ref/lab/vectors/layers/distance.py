@@ -1,7 +1,7 @@
 """Layer `distance`: shapes and poses -> phi, alpha, beta, n."""
 
 from collections.abc import Iterator
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -11,28 +11,28 @@ from quasistatic_ref.lab.vectors.exact.precision import Real, number, rounded
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.trees import mapped
 
-CURVED: Final = ("cylinder", "cone", "ellipsoid")
-SIMPLE: Final = ("sphere", "halfspace", "cloud")
+CURVED = ("cylinder", "cone", "ellipsoid")
+SIMPLE = ("sphere", "halfspace", "cloud")
 """Whatever meets these has its normal from one closed form."""
 
-FIELDS: Final = ("phi", "alpha", "beta", "n")
-KEPT: Final = ("kind", "vertices", "points")
+FIELDS = ("phi", "alpha", "beta", "n")
+KEPT = ("kind", "vertices", "points")
 """Fields of a shape that stay: a hull's corners would become others, and a pose moves them."""
-EPS: Final = 2.0**-52
+EPS = 2.0**-52
 
-ROUNDINGS: Final = 16.0
+ROUNDINGS = 16.0
 """Units of rounding that are allowed whatever the condition: two products with rotations, a
 normal, and the sum of the coordinates with margins."""
 
-SHIFT: Final = 4.0
+SHIFT = 4.0
 """Units of rounding by which lengths and poses are changed to see what becomes of the answer: a
 rotation made from a quaternion is off by that much."""
 
-CHANGES: Final = 16
+CHANGES = 16
 """How many such changes are tried: of parallel faces, each leaves the nearest corner where it was
 with a chance of 9/16 (two tilts, each the sum of two signs), and all of them with 1e-4."""
 
-JUMP: Final = 1e-4
+JUMP = 1e-4
 """A change of the points, relative to the size of the case, or of n, above which they have become
 others: corners of faces that are parallel but for rounding. A point of capsules that cross at
 1e-6 rad jumps too; an n that is the difference of points 1e-9 m apart moves by 1e-6."""

@@ -1,14 +1,12 @@
 """Layer `integrate`: q+ = q (+) delta_q of a mechanism."""
 
-from typing import Final
-
 from quasistatic_ref.lab.program import integration as program
 from quasistatic_ref.lab.vectors.exact.entered import entered
 from quasistatic_ref.lab.vectors.exact.precision import rounded
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 
-EPS: Final = 2.0**-52
-ROUNDINGS: Final = 8.0
+EPS = 2.0**-52
+ROUNDINGS = 8.0
 """Units of rounding in a translation R V v + t, 3 products deep, or in a product of two
 quaternions; the package's own answers stay below 4."""
 

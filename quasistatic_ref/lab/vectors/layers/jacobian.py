@@ -1,7 +1,5 @@
 """Layer `jacobian`: J of Eqs. (2)-(3) at given contact points of a mechanism."""
 
-from typing import Final
-
 import numpy as np
 
 from quasistatic_ref.lab.program import mechanism as program
@@ -9,8 +7,8 @@ from quasistatic_ref.lab.vectors.exact.entered import entered
 from quasistatic_ref.lab.vectors.exact.precision import rounded
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 
-EPS: Final = 2.0**-52
-PER_BODY: Final = 8.0
+EPS = 2.0**-52
+PER_BODY = 8.0
 """Roundings that one joint of a chain adds: its rotation has 3 products an entry, its origin too,
 and an axis may be turned by 2 units; the package's own answers stay below 2."""
 

@@ -7,7 +7,6 @@ balls.
 """
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from flint import fmpq
@@ -19,8 +18,7 @@ from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import ExactForm
 from quasistatic_ref.errors import InputError, StepInfeasible
 from quasistatic_ref.lab.program.optimum import is_optimum
-from quasistatic_ref.lab.scenes.contacts import contacts_of
-from quasistatic_ref.lab.scenes.rigid import actuated_step
+from quasistatic_ref.lab.scenes.rigid import conic_step, program_step
 from quasistatic_ref.lab.vectors.exact.conditioning import NO_ERRORS, Bounds, Errors, bounds
 from quasistatic_ref.lab.vectors.exact.enclosed import enclosed
 from quasistatic_ref.lab.vectors.exact.entered import entered
@@ -28,7 +26,7 @@ from quasistatic_ref.lab.vectors.exact.forms import exact_form_of
 from quasistatic_ref.lab.vectors.exact.precision import rounded, short
 from quasistatic_ref.lab.vectors.exact.rational import tolerance
 from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
-from quasistatic_ref.step.data import Array, Contacts, Extra, StepData
+from quasistatic_ref.step.data import Array, StepData
 
 UNIQUE = 1e-6
 """Largest tolerance of lam, relative to its largest entry, at which its entries are compared."""
@@ -107,25 +105,20 @@ def form_of(case_input: Json) -> ExactForm:
 
 
 def step_of(case_input: Json) -> StepData:
-    """The same program as a step: h = 1, all coordinates actuated, K_q = H, tau_a = g.
-
-    That is the form in which :func:`quasistatic_ref.certify.certificate.verify` re-verifies it.
-    """
-    _, g, A, b = matrices(case_input)
-    rows = Extra(tuple(f"row {i}" for i in range(len(b))), A, b)
-    return _step(case_input, _contacts(np.zeros((0, 4, len(g))), np.zeros(0)), extra=rows)
+    """The same program as a step, in which form `verify` of the package re-verifies it."""
+    return program_step(*matrices(case_input))
 
 
 def cone_step(case_input: Json) -> StepData:
     """The same for second-order cones, each a contact with mu_v = mu_omega = 1; or InputError."""
     blocks = case_input["second_order"]
-    F = np.array([block["F"] for block in blocks]).reshape(len(blocks), 4, len(case_input["g"]))
+    H, g = (np.array(case_input[key], dtype=np.float64) for key in ("H", "g"))
+    F = np.array([block["F"] for block in blocks]).reshape(len(blocks), 4, len(g))
     f = np.array([block["f"] for block in blocks]).reshape(len(blocks), 4)
     if f[:, 1:].any():
         problem = "only its first entry may differ from 0: phi of a contact"
         raise InputError(problem, field="second_order.f", value=f.tolist())
-    contacts = _contacts(F[:, [1, 2, 0, 3]], f[:, 0])
-    return _step(case_input, contacts, cone="ellipsoid")
+    return conic_step(H, g, F, f[:, 0])
 
 
 def claimed(case_input: Json, output: Json, step: StepData) -> Certificate:
@@ -208,13 +201,3 @@ def _infeasible(form: ExactForm, proof: Farkas) -> Expected:
         flags={"infeasible": True, **dict.fromkeys(FLAGS, False)},
         tolerance={"farkas": Tolerance(FARKAS, why)},
     )
-
-
-def _step(case_input: Json, contacts: Contacts, **more: Any) -> StepData:
-    g = np.array(case_input["g"], dtype=np.float64)
-    return actuated_step(case_input["H"], g, np.zeros(len(g)), contacts, h=1.0).replace(**more)
-
-
-def _contacts(J: Array, phi: Array) -> Contacts:
-    """Contacts whose frame is the world's, so that J's rows 0-2 are along d1, d2 and n."""
-    return contacts_of(phi, np.tile(np.eye(3), (len(phi), 1, 1)), J, 1.0, 1.0, rows=6)

@@ -8,7 +8,7 @@ that of the others is compensated.
 
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
@@ -28,11 +28,11 @@ from quasistatic_ref.lab.vectors.expected import Expected, Json, Tolerance
 from quasistatic_ref.lab.vectors.layers import layer, qp
 from quasistatic_ref.lab.vectors.layers.rows import by_contact
 
-EPS: Final = 2.0**-52
-SHOWN: Final = ("pair", "index", *FIELDS, "d1", "d2", "J")
+EPS = 2.0**-52
+SHOWN = ("pair", "index", *FIELDS, "d1", "d2", "J")
 """What the answer says of a contact."""
-ANSWERED: Final = ("delta_q", "lam", "A_lam")
-ROUNDINGS: Final = 16
+ANSWERED = ("delta_q", "lam", "A_lam")
+ROUNDINGS = 16
 """Units of rounding of a mass, a force or a pose: some products of rotations, deep chains."""
 
 

@@ -8,7 +8,6 @@ not, a row opens for one sign of z: a derivative along each coordinate may exist
 """
 
 from collections.abc import Iterable, Sequence
-from typing import Final
 
 import numpy as np
 from flint import fmpq, fmpz_mat
@@ -20,7 +19,7 @@ from quasistatic_ref.lab.vectors.unrounded.grid import STEP
 from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, blocks, nearest
 from quasistatic_ref.lab.vectors.unrounded.step import Contact, Solved, rows
 
-CLOSE: Final = fmpq(1, 1 << 50)
+CLOSE = fmpq(1, 1 << 50)
 """A row that moves by more along a change of 8e-31 has jumped with the tangents [m per unit]."""
 
 

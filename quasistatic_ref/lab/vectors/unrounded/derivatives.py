@@ -9,7 +9,6 @@ that.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Final
 
 import numpy as np
 from flint import fmpq
@@ -29,11 +28,11 @@ from quasistatic_ref.lab.vectors.unrounded.moved_inputs import (
 )
 from quasistatic_ref.lab.vectors.unrounded.reasons import BEND, reasons, switches
 
-PROVED: Final = fmpq(1, 10**16)
+PROVED = fmpq(1, 10**16)
 """Difference, relative to the largest number of the sum, at which 15 digits are proved."""
-WEIGHTS: Final = (7, 3, 1, 19)
+WEIGHTS = (7, 3, 1, 19)
 """Of coordinate i the direction has ((7 i i + 3 i + 1) mod 19 - 9) / 10."""
-MOVE_ROWS: Final = ("q", "mu_v", "mu_omega")
+MOVE_ROWS = ("q", "mu_v", "mu_omega")
 """Of what the rows A are functions."""
 
 Move = Callable[[Json, fmpq], Json]

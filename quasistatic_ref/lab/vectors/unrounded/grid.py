@@ -8,22 +8,22 @@ quotient over 2 * 2^-100 thus keeps more than 60 decimal places.
 
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from flint import ctx, fmpq
 
 from quasistatic_ref.lab.vectors.exact.precision import Real, number, rational_near
 
-BITS: Final = 320
+BITS = 320
 """Places behind the binary point."""
-PRECISION: Final = BITS + 96
+PRECISION = BITS + 96
 """Bits of a ball on the way to the grid."""
-SMALL: Final = fmpq(1, 1 << 200)
+SMALL = fmpq(1, 1 << 200)
 """What is smaller counts as 0: it comes from numbers that were moved to the grid."""
-STEP: Final = fmpq(1, 1 << 100)
+STEP = fmpq(1, 1 << 100)
 """Of a central difference: 8e-31; its square is what the quotient is off by."""
-OTHER_STEP: Final = fmpq(3, 1 << 98)
+OTHER_STEP = fmpq(3, 1 << 98)
 """A second one, to prove the digits."""
 
 
@@ -34,7 +34,7 @@ def _on_grid(x: Real) -> fmpq:
     return fmpq(((p << (BITS + 1)) + q) // (2 * q), 1 << BITS)
 
 
-on_grid: Final[Callable[[Any], Any]] = np.frompyfunc(_on_grid, 1, 1)
+on_grid: Callable[[Any], Any] = np.frompyfunc(_on_grid, 1, 1)
 """The nearest multiple of 2^-320 of a number, or of each of an array; of a ball, of its middle."""
 
 

@@ -7,7 +7,6 @@ ones: distances change by no more than bodies move.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 from flint import fmpq
@@ -24,9 +23,9 @@ from quasistatic_ref.lab.vectors.unrounded.grid import is_small, on_grid, workin
 from quasistatic_ref.lab.vectors.unrounded.world import World
 from quasistatic_ref.tolerances import REPEATED
 
-POOL: Final = fmpq(1, 10**6)
+POOL = fmpq(1, 10**6)
 """Candidates that are farther than the kept ones by more [m] stay out."""
-REPEATS: Final = number(REPEATED)
+REPEATS = number(REPEATED)
 
 
 class Touching(InputError):

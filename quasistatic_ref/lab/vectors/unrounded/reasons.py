@@ -9,7 +9,6 @@ Only contacts that touch, with a row without slack, can be the reason.
 
 from collections.abc import Callable, Iterable, Sequence
 from itertools import accumulate
-from typing import Final
 
 from flint import fmpq
 
@@ -22,7 +21,7 @@ from quasistatic_ref.lab.vectors.unrounded.nearby import Near, candidates, tied
 from quasistatic_ref.lab.vectors.unrounded.step import Contact, rows
 from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
 
-BEND: Final = fmpq(1, 10**12)
+BEND = fmpq(1, 10**12)
 """A second difference over eps that is larger is a jump of the derivative: that of a smooth q+ is
 its second derivative times 8e-31."""
 

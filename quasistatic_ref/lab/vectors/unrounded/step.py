@@ -7,7 +7,6 @@ program is solved by the exact method in integers, from the working set of a ste
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import lcm
-from typing import Final
 
 import numpy as np
 from flint import arb, fmpq, fmpz_mat
@@ -28,9 +27,9 @@ from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.nearby import Near
 from quasistatic_ref.lab.vectors.unrounded.world import World
 
-WIDE: Final = 1024
+WIDE = 1024
 """Bits of a ball on the way to delta_q: data of the grid have 400 and more."""
-NARROW: Final = arb(2) ** -340
+NARROW = arb(2) ** -340
 """Radius of a ball whose middle is on the grid what the number itself is [m, rad]."""
 
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
-from typing import Final
 
 from flint import fmpq
 
@@ -16,9 +15,9 @@ from quasistatic_ref.lab.vectors.unrounded.grid import on_grid, working
 from quasistatic_ref.lab.vectors.unrounded.nearby import Touching, candidates
 from quasistatic_ref.lab.vectors.unrounded.world import world
 
-APART: Final = fmpq(1, 1 << 60)
+APART = fmpq(1, 1 << 60)
 """Solids that are parted by a translation of 9e-19 m touch; deeper ones are in penetration."""
-OTHER: Final = fmpq(1, 1 << 20)
+OTHER = fmpq(1, 1 << 20)
 """Normals of smooth surfaces turn by much less than that over 9e-19 m."""
 
 
