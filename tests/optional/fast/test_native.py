@@ -10,6 +10,7 @@ import pytest
 from quasistatic_ref.errors import BackendError
 from quasistatic_ref.optional.fast.adapters.daqp import Daqp
 from quasistatic_ref.optional.fast.native import NativeSolver
+from quasistatic_ref.optional.fast.solver import FastSolver
 from quasistatic_ref.solve.backends import installed
 from quasistatic_ref.solve.reply import Reply
 from quasistatic_ref.solve.solve import solve_step
@@ -45,6 +46,24 @@ def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backen
     for found, value in ((program.H, expected.H), (program.f, -expected.g),
                          (program.A, expected.A), (program.b, expected.b)):  # fmt: skip
         np.testing.assert_allclose(found, value, rtol=EXACT, atol=EXACT)
+
+
+@every_backend
+@pytest.mark.parametrize("far", [False, True])
+def test_the_natural_form_stays_that_of_the_step_when_it_is_written(backend, far, rng):
+    """In rows of C, as residuals read it; a program of that order is not copied."""
+    step = random_step(rng)
+    if far:
+        step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0, 2e-4]))
+    both = DenseStepInBothUnits(step)
+    solver = FastSolver(step, backend)
+    out_of_reach = solver.write(both)
+    expected = DenseStepInBothUnits(step).natural_form
+    for found, value in zip(both.natural_form, expected, strict=True):
+        np.testing.assert_array_equal(found, value)
+    assert both.natural_form.A.flags.c_contiguous
+    shared = both.natural_form.A is solver.program.A
+    assert shared == (solver.adapter.ORDER == "C" and out_of_reach is None)
 
 
 def test_a_step_without_rows_needs_no_backend(rng):

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.errors import StepDataError
-from quasistatic_ref.optional.fast.posed import PosedStep, constants
+from quasistatic_ref.optional.fast.posed import BlockStep, PosedStep, constants, posed
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.contacts import Contacts
 from quasistatic_ref.step.data import StepData
-from tests.helpers import changed_blocks
+from tests.helpers import changed_blocks, random_stiffness
 from tests.scenes import chain_scene
 
 NAN = np.nan
@@ -74,6 +74,21 @@ def test_sparse_contacts_refuse(things, changes):
     assert isinstance(sparse, SparseContacts)
     with pytest.raises(StepDataError):
         changed_blocks(sparse, **{key: f(getattr(sparse, key)) for key, f in changes.items()})
+
+
+def test_blocks_of_M_u_have_the_entries_and_couplings_of_the_whole():
+    """Three bodies and an arm of two joints: K_q, and three blocks of which one couples less."""
+    rng = np.random.default_rng(3)
+    blocks = np.array([random_stiffness(rng, 6, 2.0) for _ in range(3)])
+    blocks[1] = np.diag(np.arange(1.0, 7.0))
+    K_q = np.array([[2.0, 1.0], [1.0, 3.0]])
+    step = posed(BlockStep, {"h": 0.1, "K_q": K_q, "M_u": blocks, "tau_a": np.zeros(2)}, {})
+    u = np.array([1, 4, 9, 13, 17])
+    np.testing.assert_array_equal(step.inertia(u), step.M_u[np.ix_(u, u)])
+    below_the_diagonal = np.argwhere(np.tril(step.H, -1))
+    assert sorted(zip(*map(np.ndarray.tolist, step.coupled()), strict=True)) == sorted(
+        map(tuple, below_the_diagonal.tolist())
+    )
 
 
 def test_the_mass_matrix_of_another_configuration_is_checked():

@@ -12,6 +12,7 @@ from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.optional.large.bound import error_bound, opening_direction
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
+from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.certify.test_farkas import EAST, point_between_walls
 from tests.oracles.random_steps import any_step
 
@@ -31,6 +32,10 @@ def test_step_without_contacts_is_bounded_to_rounding():
     step = point_between_walls(np.zeros((0, 3)), [], force=(1.0, 2.0, 3.0))
     exact = step_optimum(step)
     assert error_bound(step, exact.delta_q, exact.lam) < 1e-15
+    # (1 + s) delta_q is off by s times the length that errors are relative to.
+    s = 2.0**-10
+    found = error_bound(step, (1 + s) * exact.delta_q, exact.lam)
+    np.testing.assert_allclose(found, s, rtol=CLOSED_FORM)
 
 
 def test_wedged_or_broken_answers_are_not_bounded():

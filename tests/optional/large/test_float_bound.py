@@ -18,6 +18,7 @@ from quasistatic_ref.optional.large.float_bound import FloatBound, least_way
 from quasistatic_ref.optional.large.judged import bound_verdict
 from quasistatic_ref.optional.large.least_eigenvalues import least_eigenvalues
 from quasistatic_ref.optional.large.opening import opening
+from quasistatic_ref.optional.large.outward import above, below, down, up
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
@@ -139,6 +140,12 @@ def test_what_is_wedged_broken_or_too_large_has_no_bound(bound_of):
     for bad in (np.nan, np.inf, 2.0**120):
         assert bound_of(step, exact.delta_q + bad, exact.lam) == np.inf
         assert bound_of(step, exact.delta_q, exact.lam + bad) == np.inf
+
+
+def test_bounds_are_the_next_numbers():
+    """Of 1 they are 1 + 2^-52 and 1 - 2^-53."""
+    assert above(1.0) == up(1.0) == 1 + 2.0**-52
+    assert below(1.0) == down(1.0) == 1 - 2.0**-53
 
 
 def test_the_way_is_long_enough_for_its_own_rounding():

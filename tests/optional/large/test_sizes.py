@@ -172,7 +172,11 @@ def test_numbers_beyond_the_largest_are_not_usable():
     assert step_sizes(step, A, one).usable
     assert not step_sizes(step, 2.0 * of.LARGEST * A, one).usable
     far = 2.0 * of.LARGEST
-    for S, length, size in ((far, 1.0, 1.0), (1.0, 1 / far, 1.0), (1.0, 1.0, 1 / far)):
+    for S, length, size in (
+        (far, 1.0, 1.0), (1.0, 1 / far, 1.0), (1.0, 1.0, 1 / far),
+        # One alone of 1 / length, 1 / size and S / length is too large.
+        (1 / far, 1 / far, 1.0), (1 / far, 1.0, 1 / far), (2.0**60, 2.0**-60, 1.0),
+    ):  # fmt: skip
         units = Units(S * one.coordinate, length, size)
         assert not step_sizes(step, A, units).usable
 

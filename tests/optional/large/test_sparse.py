@@ -17,8 +17,9 @@ from quasistatic_ref.optional.large.sparse_jacobian import BlockGeometry
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.backends import BACKENDS
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.solve.units import FAR
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import always_in_blocks
+from tests.helpers import always_in_blocks, changed, in_blocks, random_step
 from tests.tolerances import EXACT, OPTIMUM, ROUNDING
 
 BOXES = (2, 1, 2)
@@ -117,6 +118,22 @@ def test_a_backend_without_a_sparse_interface_is_refused_for_a_large_step(always
     step = step_after(pile(BOXES), 1).step
     with pytest.raises(BackendError, match=r"takes no sparse matrices; .* clarabel, osqp, piqp"):
         SparseSolver(step, "daqp")
+
+
+def test_rows_out_of_reach_are_moved_to_their_reach():
+    """Then b is -FAR max(1, |a_i|); of these rows some are longer than one."""
+    step = random_step(np.random.default_rng(3))
+    step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0, 2e-4]))
+    step = in_blocks(step)
+    solver = SparseSolver(step, "clarabel")
+    both = solver.in_both_units(step)
+    _, _, A, b = both.natural_form
+    out_of_reach = solver.write(both)
+    reach = -FAR * np.maximum(1.0, np.linalg.norm(A.toarray(), axis=1))
+    assert reach.min() < -FAR
+    np.testing.assert_array_equal(out_of_reach, b < reach)
+    assert 0 < out_of_reach.sum() < len(b)
+    np.testing.assert_allclose(solver.program.b, np.maximum(b, reach), rtol=ROUNDING)
 
 
 @pytest.mark.parametrize("column", [[1, 0], [1, 1], [-1, 0], [2, 4], [3, 2]])

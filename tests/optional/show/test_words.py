@@ -14,6 +14,8 @@ from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.step.sensitivity import sensitivity
 from quasistatic_ref.optional.show.model_words import system_page
 from quasistatic_ref.optional.show.show import (
+    MOST,
+    MOST_IN_HTML,
     clipped,
     counted,
     html_page,
@@ -186,4 +188,11 @@ def test_words_and_numbers_are_cut_where_they_must():
     ]
     page = text_page(("t", [str(i) for i in range(99)], ("a", "b"), [("1", "2")] * 99))
     assert len(page.splitlines()) == LINES
+    for n in (MOST, MOST + 1):
+        page = text_page(("t", (), ("a",), [("1",)] * n))
+        assert page.endswith("... and 1 more") == (n > MOST)
+    for n in (MOST_IN_HTML, MOST_IN_HTML + 1):
+        page = html_page(("t", (), ("a",), [("1",)] * n))
+        assert len(rows_of(page)) == 1 + MOST_IN_HTML
+        assert page.endswith("<p>and 1 more</p></div>") == (n > MOST_IN_HTML)
     assert html_page(("t", (), (), ())) == "<div><p><strong>t</strong></p></div>"

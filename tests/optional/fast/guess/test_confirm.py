@@ -6,10 +6,12 @@ from flint import arb
 
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.rational import exact_form
-from quasistatic_ref.lab.scenes.contacts import no_contacts
+from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
 from quasistatic_ref.lab.scenes.grasps import aligned_grasp_step, grasp_step
+from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast.compiled import why_not
 from quasistatic_ref.optional.fast.guess.confirm import BallHessian, BallStep, all_nearest
+from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, zeros
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import linear_term
 from tests.certify.test_exact import resting_point
@@ -94,6 +96,34 @@ def test_the_right_working_set_is_confirmed_with_the_same_bits(step):
     truth, answer = optimum_and_answer(step)
     assert answer is not None
     assert differing(answer, truth) == []
+
+
+def held_point(*bounds):
+    """H = 1, a force along y, a floor at z = -1e-3, and own rows a'x >= b: (axis, b) of each."""
+    floor = contacts_of(1e-3, np.eye(3)[None], np.eye(4, 3)[None], 0.0)
+    names = tuple(f"row {i}" for i in range(len(bounds)))
+    own = Extra(names, np.eye(3)[[axis for axis, _ in bounds]], [b for _, b in bounds])
+    step = free_step(np.eye(3), (0.0, 5.0, -9.0), floor, 1.0)
+    return step.replace(cone="frictionless", extra=own)
+
+
+@pytest.mark.parametrize(
+    ("bounds", "rows", "coordinates", "expected"),
+    [
+        # W: the floor, and x >= 0. A copy of each row follows from W, and the coordinate x.
+        ([(0, 0.0), (2, -1e-3), (0, 0.0)], (2, 3), (0,), Degeneracy(False, True, implied=True)),
+        # z >= -2e-3 has a slack of 1e-3, wherever it stands among the rows.
+        ([(0, 0.0), (2, -2e-3), (0, 0.0)], (2, 3), (), None),
+        ([(0, 0.0), (0, 0.0), (2, -2e-3)], (2, 3), (), None),
+        # y is pushed, z is not zero.
+        ([(0, 0.0)], (), (1,), None),
+        ([(0, 0.0)], (), (2,), None),
+        # y >= 5: nothing is left, because of the force alone.
+        ([(0, 0.0), (1, 5.0)], (2,), (), Degeneracy(True, False)),
+    ],
+)
+def test_what_is_zero_is_told_from_what_is_not(bounds, rows, coordinates, expected):
+    assert zeros(held_point(*bounds), (0, 1), rows, coordinates) == expected
 
 
 def test_random_steps_have_the_same_bits_and_wrong_sets_are_refused():
