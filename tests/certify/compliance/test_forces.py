@@ -23,6 +23,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone_matrix
 from quasistatic_ref.step.data import Extra, StepData
 from quasistatic_ref.tolerances import COMPLIANCE
+from tests.certify.test_farkas import EAST, WEST, point_between_walls
 from tests.helpers import changed
 from tests.oracles.random_steps import mixed_step
 from tests.step.test_groups import two_bodies
@@ -168,6 +169,15 @@ def test_rows_that_contradict_each_other_are_proved_to():
     with pytest.raises(StepInfeasible, match="cannot be satisfied by any displacement") as failure:
         contact_forces(own, near=near)
     assert failure.value.step is own
+
+
+def test_walls_that_overlap_have_forces_only_where_a_solution_is_claimed():
+    """Each gives way by 1 mm, f_n = 1 mm / c."""
+    step = point_between_walls([EAST, WEST], -1e-3)
+    with pytest.raises(StepInfeasible):
+        contact_forces(step)
+    f_n = contact_forces(step, near=(np.zeros(3), np.zeros((2, 4)))).wrench[:, 2]
+    np.testing.assert_allclose(f_n, 1e-3 / COMPLIANCE, rtol=ROUNDING)
 
 
 def test_a_generic_slope_keeps_its_shares_for_40_steps():

@@ -193,7 +193,7 @@ optional/fast/native.py
 optional/fast/second_order.py
     native cones
 solve/solve.py
-    SOLVED native float_bound
+    SOLVED native float_bound enclosure
 solve/solver.py solve/through_cvxpy.py optional/qpsolvers/through_qpsolvers.py
     SOLVED
 optional/large/sparse.py optional/fast/sparse_solver.py
