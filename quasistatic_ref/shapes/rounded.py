@@ -4,7 +4,7 @@ import numpy as np
 
 from quasistatic_ref.shapes.shape import Shape
 from quasistatic_ref.step.arrays import Array
-from quasistatic_ref.step.ordered import dot, norm
+from quasistatic_ref.step.ordered import dot
 
 _AXES = np.eye(3)
 
@@ -50,7 +50,7 @@ def distance_to_rounded_box(
     """
     excess = np.abs(points) - half_extents  # > 0 beyond a face
     beyond = np.maximum(excess, 0.0)
-    outside = norm(beyond)
+    outside = np.sqrt(dot(beyond, beyond))
     inside = np.maximum.reduce(excess, axis=-1)
     is_inside = outside == 0
     nearest_face = _AXES.take(excess.argmax(axis=-1), axis=1).T  # x before y before z, as beyond

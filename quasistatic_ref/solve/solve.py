@@ -131,8 +131,9 @@ def solved(both: StepInBothUnits, solver: Solver, accuracy: float, certify: str)
         solution = _certified(both, solver, accuracy)
     else:
         solution = uncertified(both, solver, solver.answer(both, accuracy), certify)
-    residuals = [*solution.certificate.residuals.values()]
-    good = finite(np.concatenate([solution.delta_q, solution.lam, solution.lam_extra, residuals]))
+    residuals = solution.certificate.residuals.values()
+    good = all(map(finite, (solution.delta_q, solution.lam, solution.lam_extra)))
+    good = good and all(map(math.isfinite, residuals))
     if certify != "off" or solution.lam_extra.size:
         good = good and (_far_from_largest(solution) or finite(solution.wrench.ravel()))
     if not good:

@@ -166,7 +166,7 @@ def small_power(g: Array) -> int:
     g : ndarray, shape (n_v,)
         [N s, N m s].
     """
-    return min(int(np.frexp(np.abs(g).max(initial=0.0))[1]), 0)
+    return min(math.frexp(np.abs(g).max(initial=0.0))[1], 0)
 
 
 def units_from(coordinate: Array, squares: Array, free_length: float, b: Array) -> Units:

@@ -192,6 +192,7 @@ class BallStep:
                 impulse, shown = all_nearest(hessian.net(step, at))
             if not shown.all():
                 return None
+        positive = slack[slack > 0].tolist()
         lam_of_rows = np.zeros(len(slack))
         lam_of_rows[working] = lam_w
         return ExactOptimum(
@@ -202,7 +203,7 @@ class BallStep:
             working_set=tuple(working),
             multipliers_unique=means.unique,
             differentiable=means.smooth,
-            smallest_inactive_slack=_least(slack) if means.smooth else 0.0,
+            smallest_inactive_slack=min(positive, default=None) if means.smooth else 0.0,
             smallest_active_multiplier=min(lam_w.tolist(), default=None),
             walks=0,
         )
@@ -270,8 +271,3 @@ def _column(values: Array) -> arb_mat:
 
 def _dot(direction: list[float], nu: list[arb]) -> arb:
     return nu[0] * direction[0] + nu[1] * direction[1] + nu[2] * direction[2]
-
-
-def _least(slack: Array) -> float | None:
-    """The smallest of the slacks that are not zero, (m,) [m]; None if there is none."""
-    return min(slack[slack > 0].tolist(), default=None)

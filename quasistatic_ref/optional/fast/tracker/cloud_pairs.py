@@ -9,7 +9,7 @@ from itertools import groupby, pairwise
 
 import numpy as np
 
-from quasistatic_ref.contact.distance import ClosestPoints, closest
+from quasistatic_ref.contact.distance import ClosestPoints
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.contact.separations import OWN
 from quasistatic_ref.contact.shape_in_world import ShapeInWorld
@@ -98,8 +98,10 @@ class CloudPairs:
         self.slope = np.array([made.bounds[0] for made in lists])
         self.offset = np.array([made.bounds[1] for made in lists])
         self.owner = np.repeat(np.arange(len(lists)), lengths)
-        self.slices = [slice(a, b) for a, b in pairwise(self.start.tolist())]
-        self.distances = distances([solid.shape for solid in self.solids], self.slices)
+        own = [slice(a, b) for a, b in pairwise(self.start.tolist())]
+        self.distances = distances([solid.shape for solid in self.solids], own)
+        # Where the first n_c of each list are, once each is in ascending order.
+        self.leading = np.arange(len(self.pair_of)) + (self.start[:-1] - self.first)[self.pair_of]
 
     def poses(self, R: Array, t: Array) -> tuple[Array, Array]:
         """Where the solids and the clouds are, at poses (L, 3, 3) and (L, 3) of the links.
@@ -141,8 +143,7 @@ class CloudPairs:
 
     def kept(self, phi: Array) -> Indices:
         """The n_c closest points of each pair, in ascending distance, of `phi` (N,) [m]."""
-        each = zip(self.pairs, self.slices, strict=True)
-        return np.concatenate([closest(phi[own], pair.k) + own.start for pair, own in each])
+        return np.lexsort((phi, self.owner)).take(self.leading)  # ties stay in order
 
     def limits(self, relative: Array) -> Array:
         """The limit of each list, shape (P,) [m], at `relative` (P, 3, 4) [-, m]."""
@@ -204,12 +205,14 @@ class CloudPairs:
         """
         within = TIED_FACES * max(self.extent, float(np.abs(world[:, :, 3]).max()))
         touching = (phi <= within) & self.has_edges
-        if len(self.on_box) and touching.any():
+        if not touching.any():
+            return []
+        if len(self.on_box):
             at = x.take(self.on_box, axis=0)
             heights = np.concatenate([at, -at], axis=1) - self.box
             heights.sort(axis=1)
             touching[self.on_box] &= heights[:, -2] >= heights[:, -1] - within
-        return np.unique(self.pair_of[touching]).tolist() if touching.any() else []
+        return sorted({*self.pair_of[touching].tolist()})
 
 
 def sides(pair: ContactPair) -> tuple[PlacedShape, PlacedShape]:
@@ -235,7 +238,8 @@ def distances(solids: Sequence[Shape], lists: Sequence[slice]) -> list[tuple[sli
         The points of each pair among all.
     """
     found: list[tuple[slice, Distance]] = []
-    for rounded, group in groupby(zip(solids, lists, strict=True), _is_rounded):
+    pairs = zip(solids, lists, strict=True)
+    for rounded, group in groupby(pairs, lambda pair: isinstance(pair[0], Rounded)):
         each = [*group]
         if not rounded or len(each) == 1:
             found += [(own, solid.signed_distance) for solid, own in each]
@@ -249,7 +253,3 @@ def distances(solids: Sequence[Shape], lists: Sequence[slice]) -> list[tuple[sli
             (every, partial(distance_to_rounded_box, half_extents=half_extents, radius=radius))
         )
     return found
-
-
-def _is_rounded(pair: tuple[Shape, slice]) -> bool:
-    return isinstance(pair[0], Rounded)

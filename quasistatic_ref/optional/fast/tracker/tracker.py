@@ -132,16 +132,16 @@ class ContactTracker:
             x, phi, normal = clouds.measured(relative)
             kept = clouds.kept(phi)
             phi_k = phi.take(kept.take(clouds.last))
-            proved = phi_k < clouds.limits(relative)
-            if proved.all():
+            (unproved,) = (~(phi_k < clouds.limits(relative))).nonzero()
+            if not unproved.size:
                 found = (field.take(kept, axis=0) for field in (x, phi, normal))
                 return clouds.contacts(world, relative, kept, *found)
-            for i in np.flatnonzero(~proved).tolist():
+            for i in unproved.tolist():
                 # A new list is proved where it was made; if not, for some error, all points are.
                 n = normal[kept[clouds.first[i]]]
                 self.lists[i].make(relative[i], n, float(phi_k[i]), self.steps, attempt > 0)
             clouds.put([each.list for each in self.lists])
-        name = clouds.pairs[int(np.argmin(proved))].name
+        name = clouds.pairs[unproved[0]].name
         raise ContactError("has distances that are not numbers", field=name)
 
 
