@@ -21,6 +21,10 @@ from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import friction_rows
 from quasistatic_ref.step.standard_form import linear_term
 
+ROUNDING: Final = 2.0**-50
+"""Of a product with a column of length one, relative to the other factor."""
+MOST: Final = 3
+"""Entries that become positive, at most, for each that there is."""
 STIFF: Final = 2.0**5
 """By which a user's row is multiplied. Its stiffness is the square of that times a contact's."""
 
@@ -41,11 +45,11 @@ def guessed_faces(step: StepData, compliance: float) -> list[Rows]:
     list of tuple of int, length n_c
     """
     n_c = step.contacts.n_c
-    if not n_c:  # SciPy 1.17 crashes on a matrix without columns
+    if not n_c:
         return []
     try:
         lam = _multipliers(step, compliance)
-    except (ValueError, RuntimeError):
+    except ValueError:
         return [()] * n_c
     faces = []
     for j, count in enumerate(step.counts.tolist()):
@@ -62,11 +66,7 @@ def _multipliers(step: StepData, compliance: float) -> Array:
     ------
     ValueError
         If H is not positive definite in float64, or an entry of the problem is not finite.
-    RuntimeError
-        If the method of Lawson and Hanson does not end.
     """
-    from scipy.optimize import nnls  # takes as long as a short run
-
     own = step.extra
     n_own = len(own.b)
     of_contacts = cone_rows(step)
@@ -82,4 +82,46 @@ def _multipliers(step: StepData, compliance: float) -> Array:
     root = np.sqrt(compliance / step.h)
     M = np.vstack([np.linalg.solve(L, A.T), root * C.T])
     d = np.concatenate([np.linalg.solve(L, linear_term(step)), z_0 / root])
-    return np.asarray(nnls(M, -d)[0], dtype=np.float64)
+    return nonnegative_least_squares(M, -d)
+
+
+def nonnegative_least_squares(M: Array, d: Array) -> Array:
+    """The x >= 0, shape (m,), that makes M x - d shortest: Lawson and Hanson (1974), in float64.
+
+    SciPy has this method; to import it takes as long as a short run.
+
+    Parameters
+    ----------
+    M : ndarray, shape (k, m)
+        No column is zero.
+    d : ndarray, shape (k,)
+
+    Raises
+    ------
+    LinAlgError
+        If float64 does not suffice for the least squares of some columns.
+    """
+    lengths = np.linalg.norm(M, axis=0)
+    M = M / lengths
+    x = np.zeros(len(lengths))
+    positive = np.zeros(len(lengths), dtype=bool)
+    for _ in range(MOST * len(lengths)):
+        descent = np.where(positive, 0.0, M.T @ (d - M @ x))
+        steepest = int(np.argmax(descent))
+        if not descent[steepest] > ROUNDING * np.linalg.norm(d):
+            break
+        positive[steepest] = True
+        while True:
+            towards = np.zeros(len(lengths))
+            towards[positive] = np.linalg.lstsq(M[:, positive], d)[0]
+            falling = positive & (towards <= 0)
+            if not falling.any():
+                break
+            shares = np.full(len(lengths), np.inf)
+            shares[falling] = x[falling] / (x[falling] - towards[falling])
+            first = int(np.argmin(shares))
+            x += shares[first] * (towards - x)
+            positive[first] = False
+            x[~positive] = 0.0
+        x = towards
+    return np.asarray(x / lengths)

@@ -16,6 +16,7 @@ from quasistatic_ref.optional.derivatives.turned_tangents import stays
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.cones import cone, cone_matrix
 from quasistatic_ref.step.data import Mask
+from quasistatic_ref.step.ordered import crossed
 
 FIELDS = ("dq_dq",)
 
@@ -89,16 +90,16 @@ def out_of_reach(simulator: Simulator, rates: StepRates) -> Mask:
     """
     points = rates.result.points
     mu = rates.result.step.contacts.mu
-    links = np.stack([simulator.layout.link_alpha, simulator.layout.link_beta])
-    at = np.stack([points.alpha, points.beta])
+    links = np.concatenate([simulator.layout.link_alpha, simulator.layout.link_beta])
+    at = np.concatenate([points.alpha, points.beta])
+    extents = np.array([couple.of.extents for couple in rates.couples]).reshape(-1, 2).T.ravel()
     twists = (rates.motion.J @ rates.x)[links]
-    motion = np.linalg.norm(twists[..., :3] + np.cross(twists[..., 3:], at), axis=2)
-    turn = np.linalg.norm(twists[..., 3:], axis=2)
-    extents = np.array([couple.of.extents for couple in rates.couples]).reshape(-1, 2).T
+    motion = np.linalg.norm(twists[:, :3] + crossed(twists[:, 3:], at), axis=1)
+    turn = np.linalg.norm(twists[:, 3:], axis=1)
     turning = turn > 0  # any other point of the shape is this far from the end
     motion[turning] += np.sqrt(3) * turn[turning] * extents[turning]
-    closed = (1 + 2 * mu[:, 0]) * motion.sum(axis=0) + mu[:, 2] * turn.sum(axis=0)
-    return np.asarray(points.phi > closed)
+    motion, turn = (both.reshape(2, -1).sum(axis=0) for both in (motion, turn))
+    return np.asarray(points.phi > (1 + 2 * mu[:, 0]) * motion + mu[:, 2] * turn)
 
 
 @cache

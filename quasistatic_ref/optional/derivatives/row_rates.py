@@ -52,11 +52,16 @@ class RowRates:
         self.links = np.stack([layout.link_beta, layout.link_alpha])
         frames = np.stack([contacts.n, contacts.d1, contacts.d2], axis=2)
         d_frames = np.stack([rates.n, *tangent_rates(contacts, rates.n)], axis=2)
-        of_beta, d_of_beta = _screws(points.beta, rates.beta, frames, d_frames)
-        of_alpha, d_of_alpha = _screws(points.alpha, rates.alpha, frames, d_frames)
+        screws, d_screws = _screws(
+            np.concatenate([points.beta, points.alpha]),
+            np.concatenate([rates.beta, rates.alpha]),
+            np.concatenate([frames, -frames]),
+            np.concatenate([d_frames, -d_frames]),
+        )
         scale = scaled_by(contacts)[:, None]
-        self.screws = np.stack([of_beta, -of_alpha]) * scale
-        self.d_screws = np.stack([d_of_beta, -d_of_alpha]) * scale[..., None]
+        sides = 2, contacts.n_c
+        self.screws = screws.reshape(*sides, 6, 4) * scale
+        self.d_screws = d_screws.reshape(*sides, *d_screws.shape[1:]) * scale[..., None]
 
     def of_motion(self, x: Array) -> Array:
         """Derivatives by q of gap, slips and spin, (n_c, 4, n_v), x (n_v,) being fixed [m]."""
@@ -82,20 +87,20 @@ class RowRates:
         return self.motion.force_rates(wrenches, d_wrenches)
 
 
-def _screws(at: Array, d_at: Array, frames: Array, d_frames: Array) -> tuple[Array, Array]:
-    """Screws of motions along n, d1 and d2 of points, and about n, (n_c, 6, 4), and their rates.
+def _screws(at: Array, d_at: Array, axes: Array, d_axes: Array) -> tuple[Array, Array]:
+    """Screws (N, 6, 4) of the motions of points along three axes and about the first; their rates.
 
-    The axes are the columns of `frames`, (n_c, 3, 3), and all rates, (..., n_v), are by q.
+    The axes are the columns of `axes`, (N, 3, 3), and all rates, (..., n_v), are by q.
     """
-    n_c, _, n_v = d_at.shape
+    N, _, n_v = d_at.shape
     arm = at[:, :, None]
-    screws = np.zeros((n_c, 6, 4))
-    screws[:, :3, :3] = frames
-    screws[:, 3:, :3] = crossed(arm, frames)
-    screws[:, 3:, 3] = frames[:, :, 0]
-    rates = np.zeros((n_c, 6, 4, n_v))
-    rates[:, :3, :3] = d_frames
-    turned = crossed(d_at[:, :, None], frames[..., None])
-    rates[:, 3:, :3] = turned + crossed(arm[..., None], d_frames)
-    rates[:, 3:, 3] = d_frames[:, :, 0]
+    screws = np.zeros((N, 6, 4))
+    screws[:, :3, :3] = axes
+    screws[:, 3:, :3] = crossed(arm, axes)
+    screws[:, 3:, 3] = axes[:, :, 0]
+    rates = np.zeros((N, 6, 4, n_v))
+    rates[:, :3, :3] = d_axes
+    turned = crossed(d_at[:, :, None], axes[..., None])
+    rates[:, 3:, :3] = turned + crossed(arm[..., None], d_axes)
+    rates[:, 3:, 3] = d_axes[:, :, 0]
     return screws, rates

@@ -37,7 +37,7 @@ SETS = {
     "SYSTEM": "system system_forces system_refusals random_mechanisms",
     "SCENES": "scenario simulator words",
     "FOLLOWED": "tracker_bound tracker",
-    "LARGE": "float_bound bound_formulas",
+    "LARGE": "bound_formulas float_bound",
     "CONTACT": "eq02_relative_velocity eq03_contact_jacobian",
 }
 TABLE = """
@@ -77,7 +77,7 @@ optional/ellipsoid/apex.py optional/extensions/conic.py
     FORGED
 optional/large/least_eigenvalues.py optional/large/opening.py optional/large/sizes.py
 optional/large/float_bound.py
-    LARGE
+    LARGE sizes
 optional/large/outward.py
     sizes LARGE
 optional/ellipsoid/cone.py
@@ -187,7 +187,7 @@ solve/cvxpy_problem.py
 optional/fast/backends.py
     defaults SOLVERS
 optional/fast/solver.py
-    SOLVED native defaults
+    SOLVED native defaults float_bound
 optional/fast/native.py
     units
 optional/fast/second_order.py
@@ -197,7 +197,7 @@ solve/solve.py
 solve/solver.py solve/through_cvxpy.py optional/qpsolvers/through_qpsolvers.py
     SOLVED
 optional/large/sparse.py optional/fast/sparse_solver.py
-    SPARSE float_bound
+    SPARSE sizes float_bound
 step/arrays.py optional/fast/posed.py
     SYSTEM mass_in_blocks DATA
 step/pivots.py

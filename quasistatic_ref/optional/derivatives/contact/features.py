@@ -61,11 +61,6 @@ class Feature(NamedTuple):
     curvature: float = 0.0
 
     @property
-    def ways(self) -> Array:
-        """Its free directions, or that of a rim, shape (2, 3), filled up by zeros [-]."""
-        return np.concatenate([self.free, self.arc, np.zeros((2, 3))])[:2]
-
-    @property
     def merged(self) -> "Feature":
         """The same with the directions in which it ends as free ones."""
         if not len(self.ends):
@@ -75,7 +70,9 @@ class Feature(NamedTuple):
 
     def turned(self, R: Array) -> "Feature":
         """The same in another frame, R of shape (3, 3) [-] from this frame to that."""
-        free, ends, arc = (some @ R.T for some in (self.free, self.ends, self.arc))
+        free, ends, arc = (
+            some @ R.T if len(some) else some for some in (self.free, self.ends, self.arc)
+        )
         return Feature(R @ self.bend @ R.T, free, ends, arc, self.curvature)
 
 

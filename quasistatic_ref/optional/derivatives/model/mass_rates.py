@@ -13,6 +13,8 @@ from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.optional.derivatives.model.tangent import bracket, cross_matrix
 from quasistatic_ref.step.arrays import Array
 
+SWAPPED = [3, 4, 5, 0, 1, 2]
+
 
 class MassRates:
     """Derivatives of M x and of gravity's generalised force at one configuration.
@@ -61,7 +63,7 @@ class MassRates:
         v = v[:, :, None]
         momentum = self.inertia @ v
         # A wrench [force; moment] is carried along as a twist [moment; force] is.
-        turned = np.roll(bracket(S, np.roll(momentum, 3, axis=1)), 3, axis=1)
+        turned = bracket(S, momentum[:, SWAPPED])[:, SWAPPED]
         d_momentum = turned + self.inertia @ (dv - bracket(S, v))
         return self.motion.force_rates(momentum[:, :, 0], d_momentum)
 

@@ -40,15 +40,18 @@ def bracket(S: Array, T: Array) -> Array:
     S, T : ndarray, shape (N, 6, ...)
         [m, rad]; an axis of length 1 in the one stands for all of the other.
     """
-    nu, omega = np.split(S, 2, axis=1)
-    along, about = np.split(T, 2, axis=1)
-    linear = crossed(omega, along) + crossed(nu, about)
-    return np.concatenate([linear, crossed(omega, about)], axis=1)
+    omega = S[:, 3:]
+    linear = crossed(omega, T[:, :3]) + crossed(S[:, :3], T[:, 3:])
+    return np.concatenate([linear, crossed(omega, T[:, 3:])], axis=1)
 
 
 def adjoint(twist: Array) -> Array:
     """The matrix ad of a twist (6,) [m, rad], shape (6, 6): ad T is the bracket with T."""
-    return np.asarray(bracket(twist[None, :, None], np.eye(6)[None])[0])
+    along, about = cross_matrix(twist.reshape(2, 3))
+    ad = np.zeros((6, 6))
+    ad[:3, :3] = ad[3:, 3:] = about
+    ad[:3, 3:] = along
+    return ad
 
 
 def right_jacobian(ad: Array) -> Array:
@@ -154,5 +157,5 @@ def _bases(joints: Sequence[Joint], change: Array) -> list[tuple[tuple[slice, sl
             own = COORDINATES[joint.kind]
             twist = np.zeros(6)
             twist[own] = change[joint.v]
-            found.append(((joint.v, joint.v), adjoint(twist)[np.ix_(own, own)]))
+            found.append(((joint.v, joint.v), adjoint(twist)[own][:, own]))
     return found
