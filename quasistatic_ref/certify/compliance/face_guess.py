@@ -86,15 +86,18 @@ def _multipliers(step: StepData, compliance: float) -> Array:
 
 
 def nonnegative_least_squares(M: Array, d: Array) -> Array:
-    """The x >= 0, shape (m,), that makes M x - d shortest: Lawson and Hanson (1974), in float64.
+    """The x >= 0, shape (m,), that makes M x - d shortest, in float64.
 
-    SciPy has this method; to import it takes as long as a short run.
+    This is the method of Lawson and Hanson (1974), but that of entries which are not positive the
+    least leaves, whatever x was before. SciPy has theirs; to import it takes as long as a short
+    run.
 
     Parameters
     ----------
     M : ndarray, shape (k, m)
-        No column is zero.
+        No column is zero [any unit].
     d : ndarray, shape (k,)
+        [any unit].
 
     Raises
     ------
@@ -112,16 +115,10 @@ def nonnegative_least_squares(M: Array, d: Array) -> Array:
             break
         positive[steepest] = True
         while True:
-            towards = np.zeros(len(lengths))
-            towards[positive] = np.linalg.lstsq(M[:, positive], d)[0]
-            falling = positive & (towards <= 0)
+            x = np.zeros(len(lengths))
+            x[positive] = np.linalg.lstsq(M[:, positive], d)[0]
+            falling = positive & (x <= 0)
             if not falling.any():
                 break
-            shares = np.full(len(lengths), np.inf)
-            shares[falling] = x[falling] / (x[falling] - towards[falling])
-            first = int(np.argmin(shares))
-            x += shares[first] * (towards - x)
-            positive[first] = False
-            x[~positive] = 0.0
-        x = towards
+            positive[np.argmin(np.where(falling, x, np.inf))] = False
     return np.asarray(x / lengths)

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from quasistatic_ref.optional.doctor.table import AFTER, BEFORE, OF_TIME
+from quasistatic_ref.optional.doctor.table import AFTER, OF_SCENE, OF_TIME
 
 PAGE = (Path(__file__).parents[3] / "docs" / "findings.md").read_text("utf-8")
 WORDS, *SCENES = re.findall(r"^```python\n(.*?)^```", PAGE, re.M | re.S)
-GRAVE = {kind.name: kind.grave for kind in (*BEFORE, *AFTER, *OF_TIME)}
+GRAVE = {kind.name: kind.grave for kind in (*OF_SCENE, *AFTER, *OF_TIME)}
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +38,8 @@ def test_a_scene_of_the_page_is_named_with_its_cause(words, scene):
 def test_the_page_has_every_kind_with_its_weight_and_scenes_enough():
     sections = dict(re.findall(r"^## (.*)\n\n(\*.*?\.\*)", PAGE, re.M))
     assert set(sections) == set(GRAVE)
-    for kind in (*BEFORE, *AFTER, *OF_TIME):
-        when = "Before" if kind in BEFORE else "After"
+    for kind in (*OF_SCENE, *AFTER, *OF_TIME):
+        when = "Before" if kind in OF_SCENE else "After"
         assert sections[kind.name] == f"*{when} a run{', grave' * kind.grave}.*"
     wanted = [scene.partition(":")[0][2:] for scene in SCENES]
     troubled = [name for name in wanted if name != "nothing"]
