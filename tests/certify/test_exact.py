@@ -5,6 +5,7 @@ from fractions import Fraction as F
 
 import numpy as np
 import pytest
+from flint import fmpq_mat
 
 from quasistatic_ref.certify.active_set import Farkas
 from quasistatic_ref.certify.degeneracy import (
@@ -12,6 +13,7 @@ from quasistatic_ref.certify.degeneracy import (
     multipliers_unique,
 )
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
+from quasistatic_ref.certify.minimiser import rational_solution
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepDataError
 from quasistatic_ref.lab.scenes.contacts import contacts_of
@@ -40,6 +42,13 @@ def test_a_contact_at_which_nothing_moves_is_no_push_out():
     still = contacts_of(0.0, [np.eye(3)], np.zeros((1, 4, 2)), 0.5)
     step = free_step(2.0 * np.eye(2), [1.0, 0.0], still, 0.5)
     assert step_optimum(step).delta_q.tolist() == [0.125, 0.0]
+
+
+def test_the_minimiser_without_rows_is_where_the_loads_balance_in_fractions():
+    """H x = g, without rounding."""
+    form = exact_form(grasp_step(np.random.default_rng(1)))
+    x = fmpq_mat(form.n, 1, rational_solution(form, ()).point)
+    assert fmpq_mat(form.H) * x == fmpq_mat(form.g)
 
 
 @pytest.mark.parametrize("phi", [0.0, 1e-5, -1e-3, 1e-300])
