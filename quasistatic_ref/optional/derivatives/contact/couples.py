@@ -165,7 +165,7 @@ def _couple(of: PairInWorld, points: ClosestPoints, j: int) -> Couple:
         features.append(local.turned(body.R))
         if isinstance(body.shape, Sphere):
             centre = (1 - side, body.t)
-    crosses = not pair.has_cloud and index >= pair.corners + pair.n_c > pair.corners + 1
+    crosses = not pair.has_cloud and index >= pair.corners + pair.n_c
     return Couple(of, phi, ends, n, (features[0], features[1]), centre, rim, crosses)
 
 

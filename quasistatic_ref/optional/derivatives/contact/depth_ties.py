@@ -92,10 +92,10 @@ def _inside_tie(shape: Shape, p: Array, size: float, way: Array | None = None) -
 
 
 def _on_medial_plane(shape: Ellipsoid, p: Array, near: float) -> bool:
-    """Whether p is on the disc from which the surface is as far above as below."""
+    """Whether p is on the disc from which the surface is as far above as below: it is inside."""
     e = shape.half_axes
     least = int(e.argmin())
-    if abs(p[least]) > near or np.sum((p / e) ** 2) >= 1:
+    if abs(p[least]) > near:
         return False
     rest = [i for i in range(3) if i != least]
     spread = e[rest] ** 2 - e[least] ** 2

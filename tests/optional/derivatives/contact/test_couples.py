@@ -11,7 +11,12 @@ from quasistatic_ref.optional.derivatives.contact.contact_rates import (
     contact_rates,
     nearly_level,
 )
-from quasistatic_ref.optional.derivatives.contact.couples import Rim, couples, rim_velocity
+from quasistatic_ref.optional.derivatives.contact.couples import (
+    PairInWorld,
+    Rim,
+    couples,
+    rim_velocity,
+)
 from quasistatic_ref.optional.derivatives.contact.features import Feature
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.shapes.placed_shape import (
@@ -20,6 +25,7 @@ from quasistatic_ref.shapes.placed_shape import (
     Cone,
     Cylinder,
     HalfSpace,
+    PointCloud,
     Sphere,
 )
 from tests.contact.still import pair, placed
@@ -80,9 +86,36 @@ def test_candidates_of_two_cones_are_tips_and_quarters_of_rims():
     expected |= {6 + quarter: Rim(1, quarter, 0.03) for quarter in range(4)}
     points = kept(system, found[0].of.pair)[0].point
     assert {int(k): c.rim for k, c in zip(points, found, strict=True)} == expected
+    assert not any(c.crosses for c in found)
     _, found = kept(system, pair_of(system, Cone(0.03, 0.06), Cone(0.05, 0.04), "fixed", 11))
     rims = {c.rim for c in found if c.rim is not None}
     assert rims == {Rim(0, quarter, 0.03) for quarter in range(4)}
+
+
+BLOCK = Box(np.full(3, 0.1))
+PILL = Capsule(0.03, 0.05)
+
+
+@pytest.mark.parametrize(
+    ("shape", "xyz", "rpy", "k", "crossings"),
+    [
+        (BLOCK, (0.0, 0.0, 0.2001), (0.0, 0.0, np.pi / 4), 9, 8),
+        (BLOCK, (0.0, 0.0, 0.2001), (0.0, 0.0, np.pi / 4), 1, 0),
+        (PILL, (0.0601, 0.0, 0.0), (np.pi / 2, 0.0, 0.0), 2, 1),
+    ],
+)
+def test_edges_cross_where_bodies_lie_across_each_other(shape, xyz, rpy, k, crossings):
+    # Turned by 45 deg, each edge of a box crosses two of the other's; no corner is over the other.
+    # The lines of capsules at a right angle cross once. A closest pair alone is no crossing.
+    system = body(xyz, rpy)
+    _, found = kept(system, pair_of(system, shape, shape, "fixed", k))
+    assert sum(couple.crosses for couple in found) == crossings
+
+
+def test_a_cloud_is_as_large_as_the_box_about_it():
+    cloud = PointCloud(np.array([[5.0, 0.0, 0.0], [5.5, 0.0, 0.25]]))
+    bodies = tuple(ShapeInWorld(shape, np.eye(3), np.zeros(3)) for shape in (cloud, FLOOR))
+    assert PairInWorld(pair(placed(cloud), placed(FLOOR, 1)), bodies).extents == (0.5, np.inf)
 
 
 def test_the_ball_about_a_capsule_s_corner_is_its_own():

@@ -54,6 +54,7 @@ TIES = {
 NO_TIES = {
     "the middle of a face of a box": (BOX, (0.07, 0.0, 0.0)),
     "beyond the rim of a cone, as far": (CONE, (0.3 + 2 * (0.3 - CONE_R), 0.0, -0.1 - 2 * D)),
+    "an edge of a box": (BOX, (0.1, 0.2, 0.05)),
     "near a face of a mesh": (TETRAHEDRON, (0.02, 0.03, 0.06)),
     "beyond where two sides of an ellipsoid tie": (WIDE, (1.01 * END, 0.0, 0.0)),
     "off the middle of a long ellipsoid": (Ellipsoid(np.array([0.3, 0.1, 0.1])), (0.05, 0, 0)),
@@ -93,8 +94,8 @@ def test_a_point_with_two_nearest_points_of_a_solid_is_tied(name) -> None:
     near = p + NEAR * solid.extent * np.array(way)
     assert inside(solid, near, POINT, (TURNED, AT))
     assert inside(solid, near, Sphere(0.01), (TURNED, AT))
-    for sign in (1, -1):
-        assert not inside(solid, p + sign * AWAY * np.array(way), POINT, (TURNED, AT))
+    for off in (0.75 * TIED / solid.extent, -AWAY):
+        assert not inside(solid, p + off * np.array(way), POINT, (TURNED, AT))
     if not isinstance(solid, Ellipsoid):  # whose two normals are never equal to the last digits
         with pytest.raises(ContactError, match=r"p: the bodies are as deep in each other along \["):
             inside(solid, p, POINT, STILL)
@@ -124,13 +125,40 @@ PAIRS = {
 def test_two_solids_as_deep_in_each_other_along_two_axes_are_tied(name) -> None:
     a, b, t = PAIRS[name]
     way = np.eye(3)[0]
-    near = np.array(t) + NEAR * max(a.extent, b.extent) * way
+    size = max(a.extent, b.extent)
+    near = np.array(t) + NEAR * size * way
     assert tied(a, b, (TURNED, AT), (TURNED, TURNED @ near + AT))
-    for off in (AWAY, -AWAY):
+    for off in (0.75 * TIED / size, -AWAY):
         moved = TURNED @ (np.array(t) + off * way) + AT
         assert not tied(a, b, (TURNED, AT), (TURNED, moved))
     with pytest.raises(ContactError, match="as deep in each other along"):
         tied(a, b, STILL, (np.eye(3), np.array(t)))
+
+
+# Its two upper faces fall by atan(0.1) from the ridge, an angle within FACING.
+ROOF = convex_hull(
+    [[x, y, z] for y in (-0.1, 0.1) for x, z in ((-0.1, -0.1), (0.1, -0.1), (-0.1, -0.01),
+                                                 (0.1, -0.01), (0, 0))]
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_a_corner_is_tied_between_faces_that_face_the_pair_s(side) -> None:
+    """It is below a ridge, and by as much below either face; n is up from the roof, or down to it.
+
+    If n were opposite, the one face would count that is level.
+    """
+    shapes = (ROOF, BOX) if side == 0 else (BOX, ROOF)
+    found = couple_of(*shapes, STILL, (np.eye(3), np.eye(3)[0]))
+    corner = found.of.bodies[side].t + np.array([0.0, 0.03, -0.02])
+    n = np.array([0.0, 0.0, 1.0 if side == 0 else -1.0])
+    assert depth_tie(found._replace(n=n, centre=(side, corner)))
+    assert not depth_tie(found._replace(n=-n, centre=(side, corner)))
+
+
+def test_boxes_that_touch_at_their_edges_are_not_in_penetration() -> None:
+    edge = np.array([0.2 + 0.2, 0.0, 0.2 + 0.2])
+    assert not tied(B, B, STILL, (np.eye(3), edge))
 
 
 def test_capsules_are_tied_where_their_axes_cross() -> None:

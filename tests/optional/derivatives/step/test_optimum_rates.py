@@ -1,5 +1,7 @@
 """How the optimum moves with the data of a step, in closed form."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from quasistatic_ref.optional.derivatives.step.optimum_rates import (
@@ -8,6 +10,7 @@ from quasistatic_ref.optional.derivatives.step.optimum_rates import (
 )
 from quasistatic_ref.optional.derivatives.step.touching import Touching
 from quasistatic_ref.tolerances import CONSISTENT
+from tests.tolerances import ROUNDING
 
 
 def walls(normals, strict, idle):
@@ -55,9 +58,36 @@ def test_a_row_opens_by_more_than_the_rounding_of_what_it_is_a_sum_of():
     """x_1 follows the first wall, which moves by 0.1; the second moves with it, or stays."""
     normals = [[1.0, 0.0], [-3.0, 0.0]]
     touching = walls(normals, [0], [1])
-    for motion, opens in (([0.1, -0.3], False), ([0.1, -0.2], True), ([0.0, 0.0], False)):
-        found = Equations(touching).rates(rates(normals, motion=motion))
+    for motion, terms, opens in (
+        ([0.1, -0.3], 0.0, False),
+        ([0.1, -0.2], 0.0, True),
+        ([0.0, 0.0], 0.0, False),
+        ([0.0, CONSISTENT / 10], 1.0, False),
+    ):
+        found = Equations(touching).rates(rates(normals, motion=motion, terms=terms))
         assert found.opens.ravel().tolist() == [opens]
+
+
+def test_a_wall_exerts_what_the_optimum_does_not_follow():
+    """A wall takes the part of a load along its normal n: it exerts -n (n . load).
+
+    Of a load along the wall that is nothing, and not its rounding either.
+    """
+    n = np.array([0.6, 0.8, 0.0])
+    equations = Equations(walls([n], [0], []))
+    for load, along in (([1.0, 2.0, 3.0], 2.2), ([-8.0, 6.0, 0.1], 0.0)):
+        found = equations.rates(rates([n], load=load))
+        np.testing.assert_allclose(found.exerted[:, 0], -along * n, rtol=ROUNDING, atol=0.0)
+
+
+def test_rows_that_lose_their_load_touch_without_it():
+    """Of walls 0 and 1 that bear load, 2 and 3 without load and 4 and 5 that are away."""
+    touching = walls(np.eye(6), [0, 1], [2, 3])
+    away = replace(touching, open=np.array([[4, 0], [5, 0]]), slack=np.array([0.4, 0.5]))
+    found = away.unloaded(np.array([[1, 0], [2, 0], [4, 0]]))
+    assert found.strict[:, 0].tolist() == [0]
+    assert sorted(found.idle[:, 0].tolist()) == [1, 2, 3, 4]
+    assert (found.open.tolist(), found.slack.tolist()) == ([[5, 0]], [0.5])
 
 
 def test_walls_that_are_one_contradict_each_other_if_they_move_apart():

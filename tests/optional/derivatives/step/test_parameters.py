@@ -13,7 +13,7 @@ from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
 from tests.certify.test_exact import resting_point
 from tests.helpers import point_on_floor
-from tests.tolerances import EXACT
+from tests.tolerances import EXACT, ROUNDING
 
 
 def found_at(step):
@@ -47,13 +47,19 @@ def test_a_coefficient_that_would_break_a_dependence_of_rows_is_refused():
 
 
 def test_a_turning_body_off_its_slips_has_derivatives_by_slip():
-    """Pressed and turned with mu_v = 0: the row -spin lifts it by mu_omega times its turn.
+    """Pressed and turned with mu_v = 0: the row -spin lifts it by mu = mu_omega times its turn.
 
-    No row of a slip touches there, so that mu_v may grow from 0 and changes nothing.
+    No row of a slip touches there, so that mu_v may grow from 0 and changes nothing. With H = I,
+    g = h^2 (-2, 4) along (z, turn) and z = mu turn, (1 + mu^2) turn is h^2 (4 - 2 mu) = 1 - mu / 2.
     """
-    step = resting_point(mu_v=0.0, mu_omega=0.25).replace(tau_u=[0.0, 0.0, -2.0, 4.0])
+    mu = 0.25
+    step = resting_point(mu_v=0.0, mu_omega=mu).replace(tau_u=[0.0, 0.0, -2.0, 4.0])
     answer = solve_step(step)
     assert answer.certificate.active == ((0, 5),)
     found = found_at(step)
     assert "mu_v[c0]" not in found.why_not
     np.testing.assert_allclose(found.mu_v[:, 0], np.zeros(4), rtol=EXACT, atol=EXACT)
+    turn = (1 - mu / 2) / (1 + mu**2)
+    d_turn = (-0.5 - 2 * mu * turn) / (1 + mu**2)
+    expected = [0.0, 0.0, turn + mu * d_turn, d_turn]
+    np.testing.assert_allclose(found.mu_omega[:, 0], expected, rtol=ROUNDING, atol=0.0)

@@ -122,6 +122,7 @@ def test_derivatives_agree_with_central_differences_on_50_random_steps():
             continue
         found = sensitivity(step, exact_certificate(step, best))
         every = keys(step)
+        assert found.tau_a.shape == (step.n_v, step.n_a)
         for k in rng.permutation(len(every))[:4]:
             key = every[k]
             if said(step, key) in found.why_not:

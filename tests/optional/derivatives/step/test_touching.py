@@ -8,9 +8,10 @@ import pytest
 from quasistatic_ref.optional.derivatives.step.optimum_rates import (
     Equations,
 )
-from quasistatic_ref.optional.derivatives.step.touching import bearing, touching_rows
-from quasistatic_ref.tolerances import BEARING, TOUCHING
+from quasistatic_ref.optional.derivatives.step.touching import _most, bearing, touching_rows
+from quasistatic_ref.tolerances import BEARING, FILLED, SHARE, SPLIT, TOUCHING
 from tests.helpers import changed, point_on_floor
+from tests.tolerances import ROUNDING
 
 
 def test_a_multiplier_is_nothing_compared_with_the_size_of_the_step():
@@ -29,12 +30,31 @@ def test_a_row_in_the_span_of_those_that_bear_load_bears_it_too():
     assert bearing(rows, np.array([2.0, 2.0, 0.0]), size).tolist() == [True, True, True]
 
 
-def test_rows_that_face_each_other_bear_load_in_some_optimal_lam():
-    """Also where another row bears a hundred times the step."""
+@pytest.mark.parametrize("off", [0.0, SPLIT / SHARE / 10])
+def test_rows_that_face_each_other_bear_load_in_some_optimal_lam(off):
+    """Also where another row bears a hundred times the step.
+
+    Where they are off by an angle, a share SHARE of the load misses it by SHARE * off, which is
+    below SPLIT.
+    """
     size = 1e7
-    rows = np.array([[1.0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1]])
+    rows = np.array([[1.0, 0, 0], [0, 1, 0], [0, -1, off], [0, 0, 1]])
     lam = np.array([100.0 * size, 0.0, 0.0, 0.0])
     assert bearing(rows, lam, size).tolist() == [True, True, True, False]
+
+
+def test_the_most_that_a_row_bears_is_what_the_others_can_add_to_the_load():
+    """The load z is s (1, 0, 0) + |f| f / |f| with f = (-s, 0, 1): the first row bears s.
+
+    It is below SHARE, which is tried first. With f = (s, 0, 1) it bears nothing.
+    """
+    s = SHARE / 10
+    for side, most in ((-s, s), (s, 0.0)):
+        f = np.array([side, 0.0, 1.0])
+        rows = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], f / np.linalg.norm(f)])
+        found = _most(rows, rows[1], 0)
+        np.testing.assert_allclose(found, [most, 0.0, bool(most) * np.linalg.norm(f)],
+                                   rtol=ROUNDING, atol=ROUNDING)  # fmt: skip
 
 
 def answer(step, lam):
@@ -69,10 +89,15 @@ def test_rows_touch_within_the_rounding_of_their_place_or_under_load():
     assert touching_rows(pressed, np.zeros(1)).strict.tolist() == [[0, 1]]
 
 
-def test_where_nothing_moves_a_contact_that_is_away_does_not_touch():
-    """One of its contacts moves with no coordinate: its rows are zero."""
-    step = point_on_floor(phi=1e-3)
+@pytest.mark.parametrize(("phi", "away"), [(1e-3, 4), (FILLED, 0)])
+def test_where_nothing_moves_a_contact_that_is_away_does_not_touch(phi, away):
+    """One of its contacts moves with no coordinate: its rows are zero.
+
+    Of the contact that stands for nothing no row is away.
+    """
+    step = point_on_floor(phi=phi)
     for J in (step.contacts.J, 0 * step.contacts.J):
         moved = step.replace(contacts=changed(step.contacts, J=J))
         found = touching_rows(answer(moved, np.zeros(4)), np.ones(1))
         assert not found.contacts
+        assert found.slack.tolist() == [phi] * away
