@@ -101,7 +101,7 @@ def nonnegative_least_squares(M: Array, d: Array) -> Array:
 
     Raises
     ------
-    LinAlgError
+    ValueError
         If float64 does not suffice for the least squares of some columns.
     """
     lengths = np.linalg.norm(M, axis=0)
