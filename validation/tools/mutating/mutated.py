@@ -203,7 +203,7 @@ step/arrays.py optional/fast/posed.py
 step/pivots.py
     pivots SYSTEM mass_in_blocks DATA
 step/contacts.py
-    step/groups artifacts DATA
+    step/groups artifacts DATA fixed_point
 step/data.py
     DATA step/groups
 step/extension.py
