@@ -38,8 +38,8 @@ def stays(step: StepData, x: Array, touching: Touching, j: int) -> bool:
         return all(_inside(table, turn @ load) for turn in turns)
     if strict or idle:
         return False
-    room = INSIDE * np.abs(motion).max()
-    return all(bool((table @ turn @ motion > room).all()) for turn in turns)
+    margin = INSIDE * np.abs(motion).max()
+    return all(bool((table @ turn @ motion > margin).all()) for turn in turns)
 
 
 def _turns(n: Array, d1: Array, d2: Array) -> list[Array]:

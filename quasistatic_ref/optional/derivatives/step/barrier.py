@@ -79,9 +79,9 @@ def barrier_step(step: StepData, kappa: float) -> Barrier:
 def _newton(H: Array, g: Array, A: Array, b: Array, kappa: float) -> Barrier | None:
     L = np.linalg.cholesky(H)
     x = np.linalg.solve(H, g)
-    room = float(np.abs(A @ x - b).max(initial=0.0)) + kappa**0.5
-    slack = np.full(len(b), room)
-    mu = max(kappa, room * float(np.abs(L.T @ x).max(initial=0.0)))
+    initial_slack = float(np.abs(A @ x - b).max(initial=0.0)) + kappa**0.5
+    slack = np.full(len(b), initial_slack)
+    mu = max(kappa, initial_slack * float(np.abs(L.T @ x).max(initial=0.0)))
     lam = mu / slack
     least = np.inf
     size = 0.0
