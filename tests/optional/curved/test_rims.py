@@ -103,7 +103,7 @@ def test_rims_cross_where_their_circles_do_in_the_planes_of_both(d, swapped) -> 
 
 
 def on_puck(top, d, gap=0.0, between=0.0):
-    """The number of crossings of a puck and another solid, which stands d beside it and a gap above."""
+    """The number of crossings of a puck and a solid over it, a gap above, whose axis is d away."""
     low = ShapeInWorld(Cylinder(0.07, 0.01), STRAIGHT, np.array([0.0, 0.0, -0.01]))
     bottom = top.half_extents[2] if isinstance(top, Box) else top.half_length
     there = ShapeInWorld(top, STRAIGHT, np.array([d, 0.0, gap + bottom]))
