@@ -88,9 +88,9 @@ def _multipliers(step: StepData, compliance: float) -> Array:
 def nonnegative_least_squares(M: Array, d: Array) -> Array:
     """The x >= 0, shape (m,), that makes M x - d shortest, in float64.
 
-    This is the method of Lawson and Hanson (1974), but that of entries which are not positive the
-    least leaves, whatever x was before. SciPy has theirs; to import it takes as long as a short
-    run.
+    The method is that of Lawson and Hanson (1974) with another choice of the entry that is set to
+    zero: the least one that is not positive; theirs is the first that vanishes on the way from the
+    former x. SciPy has their method, but importing SciPy takes as long as a short run.
 
     Parameters
     ----------

@@ -140,8 +140,8 @@ def _summary(rows: list[Row]) -> list[tuple[str, ...]]:
 def _swept(rows: list[Row], options: argparse.Namespace) -> int:
     failed = sum(row["outcome"] != "done" for row in rows)
     if options.json:
-        told = {"rows": len(rows), "fast": True, "failed": failed, "store": str(options.out)}
-        shared.print_json(told)
+        summary = {"rows": len(rows), "fast": True, "failed": failed, "store": str(options.out)}
+        shared.print_json(summary)
         return 0
     measures = sorted({name for row in rows for name in row["measures"]})
     table: list[tuple[str, ...]] = [("sweep", "values", "outcome", *measures)]

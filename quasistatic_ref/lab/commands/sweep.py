@@ -49,8 +49,8 @@ def run(options: argparse.Namespace) -> int:
     first = [f"{name}={json_text(values[0])}" for name, values in variations.items()]
     fast = load_scenario(options.scenario, [*settings, *first]).fast
     if options.json:
-        told = {"runs": len(rows), "fast": fast, "failed": failed, "store": str(options.out)}
-        shared.print_json(told)
+        summary = {"runs": len(rows), "fast": fast, "failed": failed, "store": str(options.out)}
+        shared.print_json(summary)
         return int(failed > 0)
     swept = [name for name, values in variations.items() if len(values) > 1]
     table: list[tuple[str, ...]] = [(*swept, "outcome", *MEASURES)]

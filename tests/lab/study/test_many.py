@@ -40,8 +40,8 @@ def test_a_grid_is_run_kept_and_gone_on_with(tmp_path, capsys):
     tables.close()
     kept = {path: path.stat().st_mtime_ns for path in (tmp_path / "runs").iterdir()}
     assert main([*argv, "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert (told["runs"], told["fast"]) == (4, False)
+    printed = json.loads(capsys.readouterr().out)
+    assert (printed["runs"], printed["fast"]) == (4, False)
     written = [path for path, time in kept.items() if path.stat().st_mtime_ns != time]
     assert len(written) == 1
     assert [line["run"] for line in table(tmp_path)] == [line["run"] for line in lines]

@@ -43,11 +43,11 @@ def test_the_entries_of_J_are_told_once_before_the_first_step(capsys):
         recorder = SimpleNamespace(simulator=SimpleNamespace(layout=layout, system=system))
         pace = Pace(False, 2)
         pace.before(recorder)
-    told = capsys.readouterr().err
+    printed = capsys.readouterr().err
     pace.before(recorder)
     assert capsys.readouterr().err == ""
-    assert told.startswith(f"quasistatic-ref: J has {4 * SPARSE_FROM_PIQP * n_v:,} entries")
-    assert told.count("\n") == 1
+    assert printed.startswith(f"quasistatic-ref: J has {4 * SPARSE_FROM_PIQP * n_v:,} entries")
+    assert printed.count("\n") == 1
 
 
 def test_a_fast_run_says_nothing():
