@@ -6,13 +6,10 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.certify.residuals import largest, optimality_residuals
+from quasistatic_ref.optional.ellipsoid.cone import cone_violations
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.standard_form import standard_form
-from tests.helpers import (
-    judged,
-    planted_step,
-    sphere_on_floor,
-)
+from tests.helpers import judged, planted_step, sphere_on_floor
 from tests.tolerances import ROUNDING
 
 SIZE = 1e-3
@@ -81,6 +78,17 @@ def test_rows_of_the_user_beside_an_ellipsoid_are_judged_one_by_one():
     near(found.primal, 0.3)
     near(found.dual, 0.7)
     near(found.complementarity, 0.3 * 0.7)
+
+
+def test_violations_in_an_ellipsoid_stand_contact_by_contact_before_the_user_s_rows():
+    """Of s = (1, 2, 0, 0) and f = (3, 0, 4, 5) with mu = (2, 2, 0), and a row of -7 and -11."""
+    mu = np.array([[2.0, 2.0, 0.0]])
+    slack = np.array([1.0, 2.0, 0.0, 0.0, -7.0])
+    lam = np.array([3.0, 0.0, 4.0, 5.0, -11.0])
+    short, pull, work = cone_violations(mu, slack, lam)
+    np.testing.assert_array_equal(short, [2 * 2 - 1, 7])
+    np.testing.assert_array_equal(pull, [4 / 2 - 3, 0, 0, 5, 11])  # no coefficient allows the 5
+    np.testing.assert_array_equal(work, [1 * 3, 7 * 11])
 
 
 def test_the_work_of_a_contact_in_an_ellipsoid_is_one_sum():

@@ -7,6 +7,7 @@ import pytest
 from flint import arb, arb_mat
 
 from quasistatic_ref.certify.rational import exact_form
+from quasistatic_ref.lab.scenes.contacts import repeated
 from quasistatic_ref.optional.ellipsoid.enclosure import (
     Checked,
     _impulses,
@@ -16,7 +17,7 @@ from quasistatic_ref.optional.ellipsoid.enclosure import (
 from quasistatic_ref.optional.ellipsoid.interior import Pair
 from quasistatic_ref.optional.ellipsoid.newton import OPEN, STICKS
 from quasistatic_ref.optional.ellipsoid.scaled_blocks import scaled_blocks
-from tests.helpers import point_on_floor
+from tests.helpers import changed, point_on_floor
 from tests.tolerances import ROUNDING
 
 M, MU, PHI, H_STEP = 0.3, 0.5, 2e-3, 0.01
@@ -54,6 +55,19 @@ def test_a_pair_outside_of_its_cone_in_any_coordinate_is_refused(k):
         assert (found is not None) == inside
 
 
+def test_the_gap_of_a_pair_is_the_distance_to_the_optimum_of_its_lagrangian_and_its_work():
+    """Of m / 2 h |x - h^2 F / m - h p / m|^2 + lam' s, p being the impulse of the contact."""
+    step, form, frame = posed()
+    x = np.array([1e-3, 0.0, 5e-3])
+    lam = np.array([0.02, -3e-3, 4e-3, 0.0])
+    axes = [step.contacts.n[0], step.contacts.d1[0], step.contacts.d2[0]]
+    off = x - H_STEP**2 * FORCE / M - H_STEP / M * lam[:3] @ axes
+    s = np.array([PHI, 0.0, 0.0]) + axes @ x
+    expected = M / (2 * H_STEP) * off @ off + lam[:3] @ s
+    gap = checked(frame, frame.start(x, lam)).gap * form.net_unit * form.x_unit
+    np.testing.assert_allclose(float(gap), expected, rtol=ROUNDING)
+
+
 def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
     """H x - g = m x / h - h F; -2^-1200 N s is no float64, and rounded to zero."""
     _, form, _ = posed(point_on_floor(M, MU, PHI, (4.0, 0.0, -1.0), H_STEP))
@@ -68,12 +82,14 @@ def test_net_is_the_impulse_of_the_contact_and_its_zeros_have_no_sign():
 
 def test_impulses_of_a_contact_without_load_are_zeros_without_a_sign():
     step, form, frame = posed()
-    lam = np.array([0.02, -3e-3, 4e-3, -1e-3])
+    lam = np.array([0.02, -3e-3, 0.0, -1e-3])
     found = SimpleNamespace(lam=units(lam, form.lam_unit))
+    found.lam[2] = -(arb(2) ** -1200)
     none = _impulses(step, frame, found, [OPEN])
     assert none.tobytes() == np.zeros(4).tobytes()
     some = _impulses(step, frame, found, [STICKS])
     np.testing.assert_allclose(some, lam, rtol=ROUNDING, atol=0.0)
+    assert not np.signbit(some[2])
 
 
 def test_an_answer_in_si_units_is_one_of_the_program_and_back():
@@ -86,6 +102,36 @@ def test_an_answer_in_si_units_is_one_of_the_program_and_back():
     np.testing.assert_allclose(found_x, delta_q, rtol=ROUNDING)
     found_lam = [float(m * v * form.lam_unit) for m, v in zip(frame.mu, y.entries(), strict=True)]
     np.testing.assert_allclose(found_lam, [*lam[:3], 0.0], rtol=ROUNDING)
+
+
+def test_what_gives_way_moves_by_the_compliance_times_the_force():
+    """In the units of the cone: s = mu (gap + J x) + c / h y, where lam = mu y."""
+    step, form, _ = posed()
+    c = 1e-3
+    frame = scaled_blocks(step, form, c)
+    lam = np.array([0.02, -3e-3, 4e-3, 0.0])
+    pair = frame.start(np.array([1e-3, 2e-3, 5e-3]), lam)
+    slacks = frame.problem.slacks(*pair).entries()
+    s = [
+        float(v * ell * frame.size * form.slack_unit)
+        for v, ell in zip(slacks, frame.length, strict=True)
+    ]
+    axes = [step.contacts.n[0], step.contacts.d1[0], step.contacts.d2[0]]
+    motion = axes @ np.array([1e-3, 2e-3, 5e-3]) + [PHI, 0.0, 0.0]
+    mu = np.array([1.0, MU, MU])
+    np.testing.assert_allclose(s[:3], mu * motion + c / H_STEP * lam[:3] / mu, rtol=ROUNDING)
+
+
+def test_the_unit_of_a_block_is_its_largest_entry():
+    """Of two walls at x = 0 it is the first entry of both; the second wall has twice the lever."""
+    step, *_ = posed()
+    walls = repeated(step.contacts, [0, 0])
+    axes = {"n": np.eye(3)[[0, 0]], "d1": np.eye(3)[[1, 1]], "d2": np.eye(3)[[2, 2]]}
+    J = walls.J * np.array([1.0, 2.0])[:, None, None]
+    _, _, frame = posed(step.replace(contacts=changed(walls, **axes, J=J)))
+    first = float(frame.balls.A[0, 0] * frame.root[0])
+    found = [float(ell) for ell in frame.length]
+    np.testing.assert_allclose(found, [first] * 4 + [2 * first] * 4, rtol=ROUNDING)
 
 
 @pytest.mark.parametrize(("phi", "gap"), [(PHI, 1.0), (0.0, 0.0)])

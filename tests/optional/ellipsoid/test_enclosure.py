@@ -4,14 +4,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from flint import arb
 
 from quasistatic_ref.certify.certificate import verify
+from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.farkas import farkas_refutation
 from quasistatic_ref.cli.certificate_words import in_words
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.grasps import grasp_step
+from quasistatic_ref.optional.ellipsoid import enclosure as of_enclosure
+from quasistatic_ref.optional.ellipsoid import forces as of_forces
 from quasistatic_ref.optional.ellipsoid.enclosure import enclosure
+from quasistatic_ref.optional.ellipsoid.interior import interior_point
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.cones import cone_matrix
@@ -160,3 +165,34 @@ def test_the_methods_of_polyhedra_refuse_the_ellipsoid():
     answer = solve_step(step)
     assert error_bound(step, answer.delta_q, answer.lam) == float("inf")
     assert "proves nothing of a cone" in str(farkas_refutation(step, ["1"] * 8))
+
+
+def test_a_contact_without_load_is_inside_of_its_cone():
+    """Where no gap is claimed, what sticks out is compared with the largest impulse, here 0."""
+    step = round_step(point_on_floor(phi=1e-3, force=(0.0, 0.0, 1.0)))
+    answer = solve_step(step)
+    assert not answer.lam.any()
+    answer = replace(answer, certificate=replace(answer.certificate, gap=None))
+    assert verified(step, answer)
+
+
+def test_an_enclosure_holds_the_answer_however_wide_it_is(monkeypatch):
+    """Forces by compliance from a pair that is far off, which is accepted on request alone."""
+    step = round_step(pinch())
+    sharp = solve_step(step)
+    answer = np.concatenate([sharp.forces[:, [2, 0, 1, 3]], sharp.compliant.delta_q], axis=None)
+    balls = []
+    for module in (of_forces, of_enclosure):
+        monkeypatch.setattr(module, "rounded", lambda ball: balls.append(ball) or float(ball))
+    far = arb(2) ** -30
+    monkeypatch.setattr(
+        of_forces, "guesses", lambda frame, _: [(interior_point(frame.problem, far), [])]
+    )
+    with pytest.raises(StepNotSolved, match="no enclosure"):
+        contact_forces(step)
+    monkeypatch.setattr(of_forces, "WIDE", 2 * far)
+    contact_forces(step)
+    middles, radii = np.array([[float(ball.mid()), float(ball.rad())] for ball in balls]).T
+    off = np.abs(middles - answer)
+    assert (off <= radii).all()
+    assert (off > 1e-9 * np.abs(answer)).any()

@@ -4,12 +4,13 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat, ctx
 
-from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, interior_point
+from quasistatic_ref.optional.ellipsoid.interior import Blocks, Pair, diagonal, interior_point
 from quasistatic_ref.optional.ellipsoid.newton import (
     INWARDS,
     OPEN,
     SLIDES,
     STICKS,
+    _inwards,
     _opening,
     _projected,
     contact_states,
@@ -78,6 +79,23 @@ def assert_pair(problem, pair, expected, tolerance):
     np.testing.assert_allclose(floats(pair.x), x, rtol=0, atol=tolerance)
     np.testing.assert_allclose(floats(problem.slacks(*pair)), s, rtol=0, atol=tolerance)
     np.testing.assert_allclose(floats(pair.y), y, rtol=0, atol=4 * tolerance)
+
+
+def test_a_cone_that_gives_way_is_pressed_by_twice_what_moves_out_of_it():
+    """A rigid row x >= 0 is opened by a way d of its own, which closes the cone about -x by d."""
+    A = arb_mat([[1], [-1], [0], [0]])
+    one = arb_mat([[1]])
+    c = 0.25
+    problem = Blocks(
+        one, column([0]), A, column(np.zeros(4)), diagonal([0, c, c, c]), [range(1), range(1, 4)]
+    )
+    y = np.array([1.0, 3.0, 0.0, 0.0])
+    d = float(INWARDS)
+    with ctx.workprec(640):
+        moved = _inwards(problem, Pair(column([0]), column(y)), [STICKS, SLIDES])
+        lifts = floats(moved.y - column(y))
+    np.testing.assert_allclose(floats(moved.x), d, rtol=ROUNDING)
+    np.testing.assert_allclose(lifts, [d * y.max(), d * (y.max() + 2 / c), 0, 0], rtol=ROUNDING)
 
 
 def test_the_nearest_point_of_a_cone_leaves_a_difference_in_the_cone_across_it():

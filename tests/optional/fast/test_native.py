@@ -20,23 +20,33 @@ from quasistatic_ref.solve.units import (
     natural_units,
     phi_within_reach,
 )
+from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.extension import Extension
 from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, error, planted_step, random_step, unconstrained
 from tests.tolerances import ACTIVE_SET, EXACT
 
 every_backend = pytest.mark.parametrize("backend", installed("native"))
+FAR_AWAY = [1e-4, 50.0, 2e-4]
+"""Gaps [m] of three contacts, of which one is out of reach."""
+
+
+def some_step(rng, phi=None, rows=(6, 4, 6)):
+    """A step with levers of a millimetre, and with a row of the user's own."""
+    step = random_step(rng, rows=rows)
+    contacts = changed(step.contacts, J=1e-3 * step.contacts.J)
+    contacts = contacts if phi is None else changed(contacts, phi=phi)
+    return step.replace(contacts=contacts, extra=Extra(("own",), 1e-3 * np.ones((1, 7)), [-1e-3]))
 
 
 @every_backend
 @pytest.mark.parametrize("far", [False, True])
 def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backend, far, rng):
     # Written again, it holds nothing of the step before.
-    solver = NativeSolver(random_step(rng), backend)
-    solver.answer(DenseStepInBothUnits(random_step(rng)), 1e-9)
-    step = random_step(rng)
-    if far:
-        step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0, 2e-4]))
+    solver = NativeSolver(some_step(rng), backend)
+    solver.answer(DenseStepInBothUnits(some_step(rng)), 1e-9)
+    step = some_step(rng, FAR_AWAY if far else None)
+    assert natural_units(step).length != 1
     solver.answer(DenseStepInBothUnits(step), 1e-9)
     natural = natural_step(step, natural_units(step))
     if solver.adapter.NEAR:
@@ -52,9 +62,7 @@ def test_the_program_handed_over_is_the_standard_form_of_the_natural_step(backen
 @pytest.mark.parametrize("far", [False, True])
 def test_the_natural_form_stays_that_of_the_step_when_it_is_written(backend, far, rng):
     """In rows of C, as residuals read it; a program of that order is not copied."""
-    step = random_step(rng)
-    if far:
-        step = step.replace(contacts=changed(step.contacts, phi=[1e-4, 50.0, 2e-4]))
+    step = some_step(rng, FAR_AWAY if far else None)
     both = DenseStepInBothUnits(step)
     solver = FastSolver(step, backend)
     out_of_reach = solver.write(both)
@@ -64,6 +72,16 @@ def test_the_natural_form_stays_that_of_the_step_when_it_is_written(backend, far
     assert both.natural_form.A.flags.c_contiguous
     shared = both.natural_form.A is solver.program.A
     assert shared == (solver.adapter.ORDER == "C" and out_of_reach is None)
+    if out_of_reach is not None:
+        assert far
+        np.testing.assert_array_equal(out_of_reach, [*np.repeat([0, 1, 0], step.counts), 0])
+
+
+def test_only_a_step_of_the_same_layout_and_sizes_is_taken(rng):
+    solver = NativeSolver(random_step(rng), "daqp")
+    assert solver.takes(random_step(rng))
+    assert not solver.takes(random_step(rng, rows=(4, 6, 6)))
+    assert not solver.takes(random_step(rng, n_a=4, n_u=3))
 
 
 def test_a_step_without_rows_needs_no_backend(rng):
@@ -80,13 +98,13 @@ def test_a_start_from_the_answer_before_that_fails_is_followed_by_a_cold_one(rng
     right = solve_step(step, solver, certify="off").delta_q
 
     def reply(self, same_H, warm):
-        calls.append(warm)
+        calls.append((same_H, warm))
         return Reply(None, None, False, "at a loss") if warm else honest(self, same_H, warm)
 
     monkeypatch.setattr(Daqp, "reply", reply)
     found = solve_step(step, solver, certify="off").delta_q
     assert error(step, found, right) <= ACTIVE_SET
-    assert calls == [True, False]
+    assert calls == [(True, True), (False, False)]
 
 
 def test_extensions_that_are_more_than_rows_need_cvxpy(rng):

@@ -12,7 +12,7 @@ from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.fast.sparse_solver import SparseSolver
-from quasistatic_ref.optional.large import float_bound
+from quasistatic_ref.optional.large import float_bound, sparse
 from quasistatic_ref.optional.large.bound import error_bound
 from quasistatic_ref.optional.large.float_bound import FloatBound, least_way
 from quasistatic_ref.optional.large.judged import bound_verdict
@@ -28,6 +28,7 @@ from tests.helpers import always_in_blocks, changed, error, in_blocks, point_on_
 from tests.optional.large.test_bound import made_up, within
 from tests.optional.large.test_sparse import step_after
 from tests.oracles.random_steps import any_step
+from tests.tolerances import ROUNDING
 
 FUZZED = 60
 """Random steps with answers made to look good."""
@@ -83,6 +84,25 @@ def test_rows_of_the_user_s_own_are_bounded_in_dense_matrices():
     bound = dense_bound_of(step, beyond, exact.lam)
     assert 1e-12 / np.abs(exact.delta_q).max() < bound < 1e-6
     assert within(step, exact, beyond, bound, exact.lam)
+
+
+@pytest.mark.parametrize("module", [float_bound, sparse])
+def test_the_sizes_of_rows_are_natural_and_the_user_s_own_come_last(module, monkeypatch):
+    """Each entry of a point's A, whose J is I, has a single term: its size is the entry's own."""
+    step = point_on_floor(force=(400.0, 0.0, -3.0))
+    if module is float_bound:  # in sparse matrices there are no rows of a user's own
+        wall = Extra(("wall",), -np.eye(3)[:1], np.array([-1e-3]))
+        step = step.replace(extra=wall)
+    given = []
+    sizes_of = module.step_sizes
+    monkeypatch.setattr(
+        module, "step_sizes", lambda of, A, units: given.append(A) or sizes_of(of, A, units)
+    )
+    exact = step_optimum(step)
+    bound_of = BOTH[module is sparse]
+    assert bound_of(step, exact.delta_q, exact.lam) < 1e-6
+    A = csc_matrix(given[0]).toarray()
+    np.testing.assert_allclose(A, np.abs(DenseStepInBothUnits(step).natural_form.A), rtol=ROUNDING)
 
 
 def test_a_bound_that_is_too_large_is_tried_in_balls(monkeypatch):

@@ -136,6 +136,15 @@ def test_rows_out_of_reach_are_moved_to_their_reach():
     np.testing.assert_allclose(solver.program.b, np.maximum(b, reach), rtol=ROUNDING)
 
 
+def test_contacts_in_blocks_are_raised_as_others_are():
+    step = random_step(np.random.default_rng(3))
+    contacts = in_blocks(step).contacts
+    s = np.array([1e-3, 2e-3, 0.0])
+    raised = contacts.raised(s)
+    np.testing.assert_array_equal(raised.phi, step.contacts.phi + s)
+    assert raised.blocks is contacts.blocks
+
+
 @pytest.mark.parametrize("column", [[1, 0], [1, 1], [-1, 0], [2, 4], [3, 2]])
 def test_columns_that_do_not_ascend_are_refused(column):
     with pytest.raises(StepDataError, match=r"blocks.column: must ascend .* n_v = 3"):

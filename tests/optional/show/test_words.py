@@ -27,6 +27,7 @@ from quasistatic_ref.shapes.placed_shape import Sphere
 from quasistatic_ref.simulate.recorder import Recorder
 from quasistatic_ref.simulate.trajectory import Trajectory, trajectory_read
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Extra
 from quasistatic_ref.step.problem import StepProblem
 from quasistatic_ref.step.standard_form import standard_form
@@ -102,6 +103,22 @@ def test_empty_things_are_short_too(tmp_path):
     check(failed)
     assert "ended early" in repr(failed)
     assert "why it ended: step 3:" in repr(failed)
+
+
+def test_what_is_known_of_multipliers_and_active_rows_is_said_and_nothing_else():
+    """Two rows, n + mu d1 >= 0 and n - mu d1 >= 0, keep a point where nothing pulls along d2."""
+    step = point_on_floor(force=(0.0, 0.0, -1.0))
+    proved = solve_step(step)
+    off = solve_step(step, certify="off")
+    said = "2 active rows; multipliers not unique, delta_q differentiable"
+    assert all(said in repr(one) for one in (proved, proved.certificate))
+    assert not any("multipliers" in repr(one) for one in (off, off.certificate))
+    assert repr(off).endswith("not known")
+    # A file may claim a row that no cone has.
+    names = cone(step.cone).row_names
+    claims = replace(proved.certificate, active=((0, 0), (0, len(names)), (0, 99)))
+    last = repr(replace(proved, certificate=claims)).splitlines()[-1]
+    assert last.endswith(f"{names[0]} {len(names)} 99")
 
 
 def test_a_system_counts_the_actuated_coordinates_of_each_body():
@@ -190,9 +207,9 @@ def test_words_and_numbers_are_cut_where_they_must():
     assert len(page.splitlines()) == LINES
     for n in (MOST, MOST + 1):
         page = text_page(("t", (), ("a",), [("1",)] * n))
-        assert page.endswith("... and 1 more") == (n > MOST)
+        assert page.endswith("... and 1 more") == ("more" in page) == (n > MOST)
     for n in (MOST_IN_HTML, MOST_IN_HTML + 1):
         page = html_page(("t", (), ("a",), [("1",)] * n))
         assert len(rows_of(page)) == 1 + MOST_IN_HTML
-        assert page.endswith("<p>and 1 more</p></div>") == (n > MOST_IN_HTML)
+        assert page.endswith("<p>and 1 more</p></div>") == ("more" in page) == (n > MOST_IN_HTML)
     assert html_page(("t", (), (), ())) == "<div><p><strong>t</strong></p></div>"

@@ -60,7 +60,7 @@ certify/residuals.py
 certify/compliance/forces.py certify/compliance/faces.py
 certify/compliance/eliminated.py certify/compliance/face_guess.py
 optional/ellipsoid/forces.py
-    forces
+    forces ellipsoid/enclosure
 certify/arithmetic.py
     environments
 certify/rational.py certify/dependence.py certify/active_set.py certify/degeneracy.py
