@@ -130,12 +130,9 @@ def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | 
     U, s, V = np.linalg.svd(matrix)
     rank = int(np.count_nonzero(s > UNIQUE))
     slides = V[rank:]
-    across = U[:, rank:].T
     if np.abs(slides[:, :2]).max() > CONSISTENT:
         return None  # the normal itself is not determined
-    if np.abs(across @ right).max(initial=0.0) > CONSISTENT * max(1.0, float(np.abs(right).max())):
-        return None
-    for way in slides[:, 2:4] @ free:
+    for way in slides[:, 2:4] @ free:  # consistent if way . (turns x n) = 0
         if np.abs(np.cross(turns, way[:, None], axis=0)).max(initial=0.0) > CONSISTENT:
             return None
     return np.asarray(V[:rank].T @ ((U[:, :rank].T @ right) / s[:rank, None]))

@@ -2,12 +2,15 @@
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
-from quasistatic_ref.optional.derivatives.contact.spare_pairs import spare_pair
+from quasistatic_ref.contact.shape_in_world import ShapeInWorld
+from quasistatic_ref.optional.derivatives.contact import spare_pairs
+from quasistatic_ref.optional.derivatives.contact.spare_pairs import _face_corners, spare_pair
 from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.shapes.convex_mesh import convex_hull
-from quasistatic_ref.shapes.placed_shape import Box
+from quasistatic_ref.shapes.placed_shape import Box, Cylinder, Sphere
 from tests.optional.derivatives.contact.test_couples import body, kept, pair_of
 
 SLAB = Box(np.array([0.3, 0.3, 0.05]))
@@ -50,6 +53,34 @@ def test_parallel_faces_jump_unless_the_smaller_lies_on_the_larger(
     lower, upper, xyz, k, expected, first
 ):
     assert kind(lower, upper, xyz, first, k) == expected
+
+
+def test_a_unique_closest_pair_stays_where_it_is_whatever_corners_are_as_near(monkeypatch):
+    """A tip over a slab."""
+    monkeypatch.setattr(spare_pairs, "_covered", lambda of: False)
+    tip = convex_hull(-np.array([*PYRAMID.vertices]))
+    assert kind(SLAB, tip, (0.0, 0.0, 0.151), "fixed", 2) is None
+
+
+DISC = Cylinder(0.5, 0.2)
+CORNERS_FARTHEST_ALONG = [
+    (Box(np.array([0.5, 0.3, 0.2])), (0, 0, 1), 4),
+    (Box(np.array([0.5, 0.3, 0.2])), (0, 1, 1), 2),
+    (Box(np.array([0.5, 0.3, 0.2])), (1, 1, 1), 1),
+    (DISC, (0, 0, 1), 1),  # its rim is a curve, whose corners stand for its face together
+    (DISC, (1, 0, 0), 2),
+    (DISC, (1, 0, 1), 1),
+    (Sphere(0.5), (0, 0, 1), 1),
+]
+
+
+@pytest.mark.parametrize("scale", [1e-4, 1.0, 1e4])
+@pytest.mark.parametrize(("shape", "way", "count"), CORNERS_FARTHEST_ALONG)
+def test_corners_of_a_face_are_counted_at_every_size(shape, way, count, scale):
+    R = Rotation.from_rotvec([0.3, -0.5, 0.8]).as_matrix()
+    lengths = {name: scale * length for name, length in vars(shape).items()}
+    there = ShapeInWorld(type(shape)(**lengths), R, np.ones(3))
+    assert _face_corners(there, R @ (np.array(way) / np.linalg.norm(way))) == count
 
 
 def test_corners_of_one_face_do_not_stand_for_those_of_the_other():
