@@ -1,11 +1,15 @@
 """Derivatives of (+) and (-): small turns and half turns."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.model.coordinates import Joint
 from quasistatic_ref.optional.derivatives.model.tangent import (
     adjoint,
+    entry_rates,
     half_turns,
     right_jacobian,
 )
@@ -52,3 +56,25 @@ def test_a_half_turn_about_any_axis_is_named(joint: Joint, axis: int, n: int) ->
         change = np.zeros(n)
         change[axis] = turn
         assert half_turns([joint], change, within) == ([joint.name] if named else [])
+
+
+def test_only_joints_all_of_whose_coordinates_change_can_turn_by_half() -> None:
+    puck = replace(PLANAR, q=slice(7, 11), v=slice(6, 9))
+    change = np.array([0, 0, 0, 0, np.pi, 0, 0, 0, np.pi])
+    assert half_turns([FLOATING, puck], change, 0.0) == ["box/base", "puck/base"]
+    assert half_turns([FLOATING, puck], change[:6], 0.0) == ["box/base"]
+
+
+def test_entries_of_a_base_change_as_those_of_its_unit_part() -> None:
+    """Translations by the rotation R, and (x, w) by its product with (e / 2, 0), at any length."""
+    x = np.array([0.3, -1.2, 0.5])
+    w = 2.0
+    E = entry_rates([FLOATING], np.array([1.0, 2.0, 3.0, *x, w]))
+    R = Rotation.from_quat([*x, w]).as_matrix()
+    turns = [[*(w * e + np.cross(x, e)) / 2, -x @ e / 2] for e in np.eye(3)]
+    np.testing.assert_allclose(E[:3], np.hstack([R, np.zeros((3, 3))]), rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(E[3:, 3:], np.transpose(turns), rtol=0, atol=ROUNDING)
+    # (c, s) = (3, 4): R = (0.6, -0.8; 0.8, 0.6), and (c, s) changes by (-s, c).
+    flat = entry_rates([PLANAR], np.array([1.0, 2.0, 3.0, 4.0]))
+    expected = [[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, -4], [0, 0, 3]]
+    np.testing.assert_allclose(flat, expected, rtol=0, atol=ROUNDING)

@@ -51,6 +51,12 @@ def test_newton_s_method_cut_short_gives_the_minimiser_or_nothing(scale, monkeyp
     assert 0 < answers < 29
 
 
+def test_without_rows_and_loads_nothing_moves(rng):
+    step = random_step(rng, rows=())
+    at_rest = step.replace(tau_a=np.zeros(3), tau_u=np.zeros(4), delta_q_bar_a=np.zeros(3))
+    np.testing.assert_array_equal(barrier_step(at_rest, 1e-6).x, np.zeros(7))
+
+
 def test_rows_that_are_far_push_as_little_as_kappa_says(rng):
     # lam = kappa / slack, of 1e-30 or less: far below the rounding of the loads, and yet known.
     step = random_step(rng)

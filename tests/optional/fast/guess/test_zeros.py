@@ -13,6 +13,7 @@ from quasistatic_ref.optional.fast.guess.zeros import Degeneracy, zeros
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.step.data import Extra
 from tests.certify.test_exact import resting_point
+from tests.helpers import changed
 from validation.make.confirmed_bits import differing, proof
 
 SPINS, SLIPS = [4, 5], [0, 1, 2, 3]
@@ -57,6 +58,16 @@ def test_a_row_without_slack_that_nothing_presses_on_is_a_kink():
     assert zeros(weightless, [], [], [0, 1, 2, 3]) == Degeneracy(unique=True, smooth=True)
     truth = form_optimum(exact_form(weightless))
     assert (truth.multipliers_unique, truth.differentiable) == every[:2]
+
+
+def test_the_same_rows_of_another_contact_are_another_claim():
+    """Where the contact's point moves along n alone, its slips n + d1 are its gap."""
+    free = resting_point()
+    J = free.contacts.J.copy()
+    J[:, :2] = 0.0
+    held = free.replace(contacts=changed(free.contacts, J=J))
+    assert zeros(held, SPINS, [0], []).implied
+    assert not zeros(free, SPINS, [0], []).implied
 
 
 def test_the_same_numbers_in_another_shape_are_another_claim():
