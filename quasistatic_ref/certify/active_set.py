@@ -146,7 +146,7 @@ def _walk(minimiser: Minimiser, p: int) -> Minimiser | Farkas:
                 support = {i: -c_j for i, c_j in zip(working, c, strict=True) if c_j}
                 return Farkas({**support, p: fmpq(1)})
         rest = working[:leaving] + working[leaving + 1 :]
-        minimiser = minimiser.on(rest)  # where the next line starts
+        minimiser = minimiser.on(rest)  # start of the next line; the walk is already inside of it
 
 
 def _first_to_vanish(minimiser: Minimiser, after: Minimiser) -> int | None:

@@ -1,4 +1,4 @@
-"""A default run first calls functions in the order in which contributing.md tells to read them."""
+"""A default run calls functions in the order, and by the callers, that contributing.md names."""
 
 import re
 import sys
@@ -9,6 +9,7 @@ from quasistatic_ref.scenario.scenario import load_scenario
 
 PACKAGE = Path(quasistatic_ref.__file__).parent
 PAGE = PACKAGE.parent / "docs" / "contributing.md"
+BRANCH = re.compile(r"^( *)(\w+(?:\.\w+)?) +(\w+/\w+\.py)", re.MULTILINE)
 ITEM = re.compile(r"^\d+\. (.*)$", re.MULTILINE)
 FILE = re.compile(r"`([\w/]+\.py)`")
 NAME = re.compile(r"`(\w+(?:\.\w+)?)`")
@@ -16,23 +17,44 @@ NOT_CALLED = ["verify"]
 """Named as a function that no step calls."""
 
 
+SECTION = PAGE.read_text().partition("## Read the code")[2].partition("\n## ")[0]
+
+
+def called(name):
+    """The function of a name: of a class its constructor."""
+    return f"{name}.__init__" if name[0].isupper() and "." not in name else name
+
+
 def named():
-    """(name, the files of its item) of each function; the name of a class is its constructor's."""
-    section = PAGE.read_text().partition("## Read the code")[2].partition("\n## ")[0]
-    for words in ITEM.findall(section):
+    """(name, the files of its item) of each function of the list."""
+    for words in ITEM.findall(SECTION):
         files = [f"{PACKAGE}/{file}" for file in FILE.findall(words)]
         for name in NAME.findall(FILE.sub("", words)):
-            is_class = name[0].isupper() and "." not in name
-            yield (f"{name}.__init__" if is_class else name), files
+            yield called(name), files
+
+
+def branches():
+    """(file, name) of each function of the tree, with that of the one it is indented below."""
+    above = {}
+    for indent, name, file in BRANCH.findall(SECTION.partition("```text")[2].partition("```")[0]):
+        function = f"{PACKAGE}/{file}", called(name)
+        above[len(indent)] = function
+        if indent:
+            yield function, above[len(indent) - 4]
 
 
 def test_a_run_first_calls_functions_in_the_order_of_the_reading_path():
     first_calls = {}
+    tree = dict(branches())
+    callers = {function: set() for function in tree}
 
     def note(frame, event, _):
-        code = frame.f_code
-        if event == "call":
-            first_calls.setdefault((code.co_filename, code.co_qualname), len(first_calls))
+        if event != "call":
+            return
+        function = frame.f_code.co_filename, frame.f_code.co_qualname
+        first_calls.setdefault(function, len(first_calls))
+        while function in tree and (frame := frame.f_back):
+            callers[function].add((frame.f_code.co_filename, frame.f_code.co_qualname))
 
     before = sys.getprofile()
     sys.setprofile(note)
@@ -46,5 +68,7 @@ def test_a_run_first_calls_functions_in_the_order_of_the_reading_path():
         places[name] = min(found, default=None)
     assert len(places) > 30
     assert [name for name, place in places.items() if place is None] == NOT_CALLED
-    called = [name for name in places if name not in NOT_CALLED]
-    assert called == sorted(called, key=places.get)
+    in_order = [name for name in places if name not in NOT_CALLED]
+    assert in_order == sorted(in_order, key=places.get)
+    assert len(tree) > 20
+    assert [one for one, caller in tree.items() if caller not in callers[one]] == []
