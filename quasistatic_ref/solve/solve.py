@@ -119,7 +119,7 @@ def solve_step(
 def solved(both: StepInBothUnits, solver: Solver, accuracy: float, certify: str) -> StepSolution:
     """The optimum of a step that fits a solver, from the step in both units.
 
-    It is called :func:`~quasistatic_ref.step.arrays.without_warnings`.
+    It is called through :func:`~quasistatic_ref.step.arrays.without_warnings`.
 
     Parameters
     ----------

@@ -15,6 +15,7 @@ PAGES = sorted(
 
 PRINTED = {
     "README.md": "tests/meta/test_readme.py",
+    "docs/contributing.md": "tests/meta/test_reading_path.py: the calls of a step",
     "docs/quickstart.md": "tests/quoted.toml: the lines of demo",
     "docs/guides/check_your_implementation.md": "below",
     "docs/guides/run_a_study.md": "below",
