@@ -195,4 +195,4 @@ def test_an_enclosure_holds_the_answer_however_wide_it_is(monkeypatch):
     middles, radii = np.array([[float(ball.mid()), float(ball.rad())] for ball in balls]).T
     off = np.abs(middles - answer)
     assert (off <= radii).all()
-    assert (off > 1e-9 * np.abs(answer)).any()
+    assert (off > ROUNDING * np.abs(answer)).any()  # by more than rounding

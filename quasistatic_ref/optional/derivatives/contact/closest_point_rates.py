@@ -132,7 +132,8 @@ def _sliding(matrix: Array, right: Array, free: Array, turns: Array) -> Array | 
     slides = V[rank:]
     if np.abs(slides[:, :2]).max() > CONSISTENT:
         return None  # the normal itself is not determined
-    for way in slides[:, 2:4] @ free:  # consistent if way . (turns x n) = 0
+    # If the bodies turn about the line alone, way . (turns x n) = 0: the equations are consistent.
+    for way in slides[:, 2:4] @ free:
         if np.abs(np.cross(turns, way[:, None], axis=0)).max(initial=0.0) > CONSISTENT:
             return None
     return np.asarray(V[:rank].T @ ((U[:, :rank].T @ right) / s[:rank, None]))

@@ -31,14 +31,14 @@ def test_an_edge_on_a_face_may_turn_about_itself_and_about_nothing_else(features
     rates = found(features, (0 * X, 0 * X), turned)
     assert rates.unique[0]
     # The normal is the face's: dn = DIAGONAL x n.
-    np.testing.assert_allclose(rates.n[0, :, 0], np.cross(DIAGONAL, N), atol=ROUNDING)
+    np.testing.assert_allclose(rates.n[0, :, 0], np.cross(DIAGONAL, N), rtol=0, atol=ROUNDING)
     for way in (np.cross(DIAGONAL, N), N, X):
         other = [way if f is FACE else 0 * X for f in features]
         assert not found(features, (0 * X, 0 * X), other).unique[0]
         # Both bodies turn as one about the first point.
         as_one = found(features, (0 * X, PHI * np.cross(way, N)), (way, way))
         assert as_one.unique[0]
-        np.testing.assert_allclose(as_one.n[0, :, 0], np.cross(way, N), atol=ROUNDING)
+        np.testing.assert_allclose(as_one.n[0, :, 0], np.cross(way, N), rtol=0, atol=ROUNDING)
 
 
 def test_each_of_several_pairs_slides_along_its_own_line():
@@ -51,4 +51,4 @@ def test_each_of_several_pairs_slides_along_its_own_line():
         np.full(2, PHI), n, features, np.zeros((2, 2, 3, 1)), omega, np.ones(2)
     )
     assert rates.unique.all()
-    np.testing.assert_allclose(rates.n, 0.0, atol=ROUNDING)  # the faces do not turn
+    np.testing.assert_allclose(rates.n, 0.0, rtol=0, atol=ROUNDING)  # the faces do not turn
