@@ -28,6 +28,7 @@ from quasistatic_ref.contact.tied_faces import TURNED, Surface, cloud_surface, c
 from quasistatic_ref.errors import ContactError
 from quasistatic_ref.model.system import Kinematics
 from quasistatic_ref.shapes.placed_shape import PointCloud
+from quasistatic_ref.step.arrays import finite
 from quasistatic_ref.step.data import Array, Indices, Mask
 from quasistatic_ref.step.ordered import dot, norm, product, rotated
 from quasistatic_ref.tolerances import FILLED, ON_RIM, REPEATED, SAME_NORMAL, UPRIGHT
@@ -87,7 +88,7 @@ def closest_points(pairs: Sequence[ContactPair], kinematics: Kinematics) -> Clos
 
 def check_finite(R: Array, t: Array) -> None:
     """Raise ContactError unless all poses are finite."""
-    if not (np.isfinite(R).all() and np.isfinite(t).all()):
+    if not (finite(R.ravel()) and finite(t.ravel())):
         raise ContactError("must be finite", field="poses")
 
 

@@ -28,8 +28,9 @@ class ContactGeometry:
     def __init__(self, layout: ContactLayout, column_map: ColumnMap) -> None:
         self.layout = layout
         self.column_map = column_map
-        # 1 where a column of J moves alpha's (first) or beta's link, else 0.
-        self.moves = column_map.moves[np.stack([layout.link_alpha, layout.link_beta])]
+        # 1 where a column of J moves alpha's (first) or beta's link, else 0; for each row of J.
+        moves = column_map.moves[np.stack([layout.link_alpha, layout.link_beta])]
+        self.moves = np.repeat(moves, 4, axis=2)
 
     def contacts(self, points: ClosestPoints, kinematics: Kinematics) -> Contacts:
         """The contacts of one step, from the closest points of all pairs.

@@ -204,22 +204,22 @@ class StepData(Plain, Shown):
         one, other = np.concatenate([of_a, of_u + self.n_a]).T
         return one, other
 
-    @cached_property
+    @property
     def n_a(self) -> int:
         """Number of actuated coordinates."""
         return int(self.tau_a.size)
 
-    @cached_property
+    @property
     def n_u(self) -> int:
         """Number of un-actuated coordinates."""
         return int(self.tau_u.size)
 
-    @cached_property
+    @property
     def n_v(self) -> int:
         """Number of coordinates of delta_q."""
         return self.n_a + self.n_u
 
-    @cached_property
+    @property
     def m(self) -> int:
         """Number of all multipliers, the user's own rows last; in a polyhedral cone, of rows."""
         return int(self.offsets[-1]) + len(self.extra.names)
@@ -229,17 +229,17 @@ class StepData(Plain, Shown):
         """Which rows of the cone the contacts have; one object for steps that have the same."""
         return row_layout(self.cone, self.contacts.rows.tobytes())
 
-    @cached_property
+    @property
     def counts(self) -> Indices:
         """Number of multipliers of each contact, shape (n_c,); in a polyhedral cone, of rows."""
         return self.row_layout.counts
 
-    @cached_property
+    @property
     def mask(self) -> Mask:
         """Which of the cone's rows each contact has, shape (n_c, R)."""
         return self.row_layout.mask
 
-    @cached_property
+    @property
     def offsets(self) -> Indices:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return self.row_layout.offsets

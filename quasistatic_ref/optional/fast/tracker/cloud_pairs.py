@@ -75,6 +75,7 @@ class CloudPairs:
         self.sides = np.concatenate([pair_of, len(pairs) + pair_of])
         self.swapped = self.solid_is_beta[pair_of, None]
         self.swaps = bool(self.swapped.any())
+        self.sign = np.where(self.swapped, -1.0, 1.0)
         extents = np.array([solid.shape.extent for solid in self.solids])
         self.extent = float(extents[np.isfinite(extents)].max(initial=0.0))
         shapes = [self.solids[i].shape for i in pair_of]
@@ -178,22 +179,12 @@ class CloudPairs:
         local = np.concatenate([normal, self.points.take(kept, axis=0)])
         n, point = rotated(pose[:, :, :3], local).reshape(2, -1, 3)
         point += pose[len(phi) :, :, 3]
-        found = ClosestPoints(
-            phi=phi + 0.0,
-            alpha=point - phi[:, None] * n,
-            beta=point,
-            n=n + 0.0,
-            point=self.index[kept],
-            tie=tie,
-        )
-        if not self.swaps:
-            return found
-        other = found.swapped()
-        return found._replace(
-            alpha=np.where(self.swapped, other.alpha, found.alpha),
-            beta=np.where(self.swapped, other.beta, found.beta),
-            n=np.where(self.swapped, other.n, found.n) + 0.0,
-        )
+        alpha = point - phi[:, None] * n
+        beta = point
+        if self.swaps:
+            alpha, beta = np.where(self.swapped, (beta, alpha), (alpha, beta))
+            n = self.sign * n
+        return ClosestPoints(phi + 0.0, alpha, beta, n + 0.0, self.index[kept], tie)
 
     def open_pairs(self, world: Array, x: Array, phi: Array) -> list[int]:
         """Pairs of which a contact touches or is inside, as near to two faces, or may be.
