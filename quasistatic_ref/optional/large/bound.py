@@ -34,6 +34,9 @@ from quasistatic_ref.step.cones import cone
 from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
+RIDGE = 1e-10
+"""Of the direction: it is sought in float64, and its rows are looked at in balls."""
+
 
 def error_bound(step: StepData, delta_q: Array, lam: Array) -> float:
     """A bound of ||delta_q - delta_q*||_H / ||H^-1 g||_H [-], infinite where none is known.
@@ -88,7 +91,7 @@ def opening_direction(step: StepData) -> Array | None:
     """A direction v with A v > 0 in every row, shape (n_v,); None if none is found."""
     form = standard_form(step)
     unit = 1 / np.sqrt(np.diag(form.H))
-    d = opening(csc_matrix(form.A * unit), np.zeros(len(form.A)))
+    d = opening(csc_matrix(form.A * unit), np.zeros(len(form.A)), RIDGE)
     return None if d is None else d * unit
 
 

@@ -18,7 +18,7 @@ RIDGE = 1e-3
 body touches nothing."""
 
 
-def opening(A: csc_matrix, slack: Array) -> Array | None:
+def opening(A: csc_matrix, slack: Array, ridge: float = RIDGE) -> Array | None:
     """A direction v with a_i v > 0 for all rows a_i that are nearly tight, or None.
 
     Parameters
@@ -27,6 +27,8 @@ def opening(A: csc_matrix, slack: Array) -> Array | None:
         In natural units [-].
     slack : ndarray, shape (m,)
         A x - b [-].
+    ridge : float
+        Less of it finds directions in narrower wedges, and is rounded worse [-].
 
     Returns
     -------
@@ -40,7 +42,7 @@ def opening(A: csc_matrix, slack: Array) -> Array | None:
     scale = np.divide(near, length, out=np.zeros(len(slack)), where=near)
     B = (diags(scale) @ A).tocsc()
     # A ridge, since a pseudo-inverse would be dense: the same limit in a few more rounds.
-    normal = (B.T @ B + RIDGE * identity(B.shape[1])).tocsc()
+    normal = (B.T @ B + ridge * identity(B.shape[1])).tocsc()
     factor = splu(normal, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
     d = before = np.zeros(B.shape[1])
     # Alternating projections of z = B v (d here) to {z >= 1} and to the range of B: Cheney and

@@ -50,6 +50,17 @@ def test_wedged_or_broken_answers_are_not_bounded():
     assert error_bound(rest, np.zeros(3), np.zeros(4)) == np.inf  # g = 0: no scale
 
 
+def test_a_direction_is_found_in_a_narrow_wedge():
+    eps = 1e-5  # half its angle [rad]
+    sides = Extra(("left", "right"), np.array([[1.0, eps, 0], [-1.0, eps, 0]]), np.zeros(2))
+    step = point_between_walls(np.zeros((0, 3)), [], force=(1.0, 0.0, 0.0)).replace(extra=sides)
+    v = opening_direction(step)
+    assert (sides.A @ v > 0).all()  # |v_x| < eps v_y
+    # 1e-9 m along x is beyond the right side; along v it gets back.
+    exact = step_optimum(step)
+    assert error_bound(step, np.array([1e-9, 0.0, 0.0]), exact.lam) < np.inf
+
+
 def made_up(rng, step, exact, least=-9, balanced=0.5, factors=(1.0, 0.5, 2.0, -1.0)):
     """An answer that is wrong in a way that a careless bound does not see, and its multipliers.
 
