@@ -35,7 +35,8 @@ from quasistatic_ref.step.data import Array, StepData
 from quasistatic_ref.step.standard_form import standard_form
 
 RIDGE = 1e-10
-"""Of the direction: it is sought in float64, and its rows are looked at in balls."""
+"""That of ``opening``, so small that directions in narrow wedges are found. Their rounding does no
+harm: how far each row opens along them is looked at in balls."""
 
 
 def error_bound(step: StepData, delta_q: Array, lam: Array) -> float:

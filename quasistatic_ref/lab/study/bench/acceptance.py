@@ -9,14 +9,14 @@ PAPER = 90.0
 """The paper's step takes less than this: Julia 1.9.2 on a Mac M1 Pro, all distances, its own
 interior-point method, at an accuracy that it does not give [us]."""
 
-OVER_SOLVER = 21.0
+OVER_SOLVER = 16.0
 """What a step without a compiler may cost in bare calls of DAQP, of 22 us each where the two take
 turns. A step is some 420 calls of about a microsecond each, whatever they compute; with fewer, its
-lines would not read as the equations. The limit was 16 before the step had the same bits on every
-processor and chose between faces that are equally near: both take a quarter of its time."""
+lines would not read as the equations."""
 
-THROUGH_CVXPY = 6.0
-"""What a step through CVXPY may at least cost in native steps without a compiler."""
+THROUGH_CVXPY = 8.0 * 12.0 / OVER_SOLVER
+"""What a step through CVXPY may at least cost in native steps. It was 8 while a native step might
+cost 12 bare calls; native steps may cost more since, and those through CVXPY may not."""
 
 BOUNDED = 1.5
 """What a step with residuals and a bound of its error may cost in steps that claim nothing; both

@@ -179,10 +179,12 @@ class CloudPairs:
         local = np.concatenate([normal, self.points.take(kept, axis=0)])
         n, point = rotated(pose[:, :, :3], local).reshape(2, -1, 3)
         point += pose[len(phi) :, :, 3]
-        alpha = point - phi[:, None] * n
+        foot = point - phi[:, None] * n
+        alpha = foot
         beta = point
         if self.swaps:
-            alpha, beta = np.where(self.swapped, (beta, alpha), (alpha, beta))
+            alpha = np.where(self.swapped, point, foot)
+            beta = np.where(self.swapped, foot, point)
             n = self.sign * n
         return ClosestPoints(phi + 0.0, alpha, beta, n + 0.0, self.index[kept], tie)
 
