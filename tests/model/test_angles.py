@@ -5,11 +5,20 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from flint import arb
 
-from quasistatic_ref.model.angles import angle_of, cos_sin
+from quasistatic_ref.model import angles
+from quasistatic_ref.model.angles import LEAST, SMALL, angle_of, cos_sin
 
 HARD = (0.0, 5e-324, 1e-310, 1e-8, math.pi / 2, math.pi, 1e22, 1e300, 1.7976931348623157e308)
 """Zero and subnormal numbers, cosines that cancel, and turns of 1,000 bits."""
+
+
+OPEN = (0.015515654961528161, 0.012537286725264064)
+"""Angles whose sine, and whose cosine, is so near to a midpoint that float64 leaves them open."""
+
+OPEN_VECTOR = (0.014071091568256375, 0.9484108567326982)
+"""(y, x) of an angle for which the same is true."""
 
 
 def nearest(x):
@@ -40,3 +49,55 @@ def test_no_angle_has_no_sine(angle):
 
 def test_a_vector_that_is_no_number_has_no_angle():
     assert math.isnan(angle_of(math.nan, 1.0))
+
+
+def small_angles():
+    """Angles of both signs up to SMALL [rad]: half of them where the last terms count most."""
+    generator = np.random.default_rng(3)
+    powers = np.concatenate([generator.uniform(-60, -6, 1500), generator.uniform(-7, -6, 4000)])
+    return (generator.choice([-1, 1], powers.size) * 2.0**powers).tolist()
+
+
+def test_small_angles_are_correctly_rounded():
+    every = [*small_angles(), *OPEN, SMALL, -SMALL]
+    with mpmath.workdps(60):
+        expected = [(nearest(mpmath.cos(a)), nearest(mpmath.sin(a))) for a in every]
+    assert [cos_sin(a) for a in every] == expected
+
+
+def test_angles_of_vectors_near_the_x_axis_are_correctly_rounded():
+    generator = np.random.default_rng(4)
+    tangents = small_angles()
+    lengths = generator.uniform(0.5, 2, len(tangents)) * 2.0 ** generator.integers(-2, 5)
+    every = [(t * x, x) for t, x in zip(tangents, lengths.tolist(), strict=True)]
+    # Numbers whose products underflow or overflow, and quotients that are subnormal.
+    every += [OPEN_VECTOR, (5e-324, 0.9), (3e-320, 0.7), (1e-310, 1e-300), (1e290, 1e300)]
+    every += [(s * y, x) for y, x in ((LEAST, 0.3), (LEAST / 3, 0.3)) for s in (1, -1)]
+    with mpmath.workdps(60):
+        expected = [nearest(mpmath.atan2(*v)) for v in every]
+    assert [angle_of(*v) for v in every] == expected
+
+
+def test_balls_decide_only_what_the_series_leave_open(monkeypatch):
+    """They cost ten times as much; one in a thousand of these angles needs them."""
+    asked = []
+
+    def counted(angle):
+        asked.append(angle)
+        return arb(angle)
+
+    counted.atan2 = arb.atan2
+    monkeypatch.setattr(angles, "arb", counted)
+    for a in (0.0, *small_angles()):
+        cos_sin(a)
+        angle_of(a, 1.0)
+    assert len(asked) < 40
+    asked.clear()
+    cos_sin(OPEN[0])
+    cos_sin(OPEN[1])
+    angle_of(*OPEN_VECTOR)
+    assert asked == [*OPEN, *OPEN_VECTOR]
+
+
+def test_zero_has_the_positive_sign():
+    assert all(math.copysign(1, a) == 1 for a in (cos_sin(-0.0)[1], angle_of(-0.0, 1.0)))
