@@ -101,7 +101,7 @@ def columns_at(columns: Array, r: Array, n: Array) -> Array:
     r_yzx = r.take(YZX, axis=-1)[..., None]
     r_zxy = r.take(ZXY, axis=-1)[..., None]
     turning = omega.take(YZX, axis=0) * r_zxy - omega.take(ZXY, axis=0) * r_yzx
-    J[..., :3, :] = nu_origin + turning
+    np.add(nu_origin, turning, out=J[..., :3, :])
     J[..., 3, :] = product(n, omega)
     return J
 

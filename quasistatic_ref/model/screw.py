@@ -38,12 +38,14 @@ def moved(joint: Joint, q: list[float], delta_q: list[float]) -> list[float]:
         v = [increment[0], increment[1], 0.0]
         w = [0.0, 0.0, increment[2]]
         t = translation(v, w, half_turn(w))
-        return [*_carried(joint, q_joint, t)[:2], *_heading(q_joint[2:], increment[2])]
+        x, y, _ = _carried([*q_joint[:2], 0.0], _rotation(joint, q_joint), t)
+        return [x, y, *_heading(q_joint[2:], increment[2])]
     v = increment[:3]
     w = increment[3:]
     half = half_turn(w)
     t = translation(v, w, half)
-    return [*_carried(joint, q_joint, t), *_quaternion(q_joint[3:], w, half)]
+    position = _carried(q_joint[:3], _rotation(joint, q_joint), t)
+    return position + _quaternion(q_joint[3:], w, half)
 
 
 def change(joint: Joint, q: list[float], q_next: list[float]) -> list[float]:
@@ -61,8 +63,9 @@ def change(joint: Joint, q: list[float], q_next: list[float]) -> list[float]:
     planar = joint.kind == "planar"
     z = 0.0 if planar else q_joint_next[2] - q_joint[2]
     apart = [q_joint_next[0] - q_joint[0], q_joint_next[1] - q_joint[1], z]
-    columns = zip(*_rotation(joint, q_joint), strict=True)  # of R: the base's own axes in the world
-    displacement = [dot(axis, apart) for axis in columns]
+    # The columns of R are the base's own axes in the world.
+    axis_x, axis_y, axis_z = zip(*_rotation(joint, q_joint), strict=True)
+    displacement = [dot(axis_x, apart), dot(axis_y, apart), dot(axis_z, apart)]
     if planar:
         angle = _turn(q_joint[2:], q_joint_next[2:])
         return [*linear_part(displacement, [0.0, 0.0, angle])[:2], angle]
@@ -148,16 +151,21 @@ def _combined(v: Vector, w: Vector, a: float, c1: float, c2: float) -> list[floa
     ]
 
 
-def _carried(joint: Joint, q_joint: list[float], t: Vector) -> list[float]:
-    """Where a base is that starts here and is carried by a translation of its own, 3 floats [m]."""
-    rows = zip(q_joint, _rotation(joint, q_joint), strict=False)  # the quaternion comes after
-    return [at + dot(row, t) for at, row in rows]
+def _carried(position: Vector, R: list[list[float]], t: Vector) -> list[float]:
+    """The position of a base, 3 floats, after a translation t in its own axes, those of R [m]."""
+    x, y, z = position
+    row_x, row_y, row_z = R
+    return [x + dot(row_x, t), y + dot(row_y, t), z + dot(row_z, t)]
 
 
 def _quaternion(q_joint: Vector, w: Vector, half: HalfTurn) -> list[float]:
     """A quaternion times that of a rotation vector, of length one; without a turn as it is."""
     _, C, ratio = half
-    p, q, r = (ratio / 2 * part for part in w)
+    p, q, r = w
+    scale = ratio / 2
+    p *= scale
+    q *= scale
+    r *= scale
     if p == q == r == 0:
         return [*q_joint]
     x, y, z, s = q_joint

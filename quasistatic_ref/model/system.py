@@ -142,8 +142,7 @@ class System(Shown):
         self.joints: tuple[Joint, ...] = self._order.joints
         self._turning = [joint for joint in self.joints if joint.kind in screw.TURNING]
         others = [joint for joint in self.joints if joint.kind not in screw.TURNING]
-        self._scalars_q = np.array([joint.q.start for joint in others], dtype=np.int64)
-        self._scalars_v = np.array([joint.v.start for joint in others], dtype=np.int64)
+        self._scalars = [(joint.q.start, joint.v.start) for joint in others]
         self.coordinates: tuple[Coordinate, ...] = tuple(
             coordinate for joint in self.joints for coordinate in joint.coordinates
         )
@@ -201,13 +200,14 @@ class System(Shown):
         """Configuration q (+) delta_q, shape (n_q,)."""
         q = with_shape(q, "q", (self.n_q,))
         delta_q = with_shape(delta_q, "delta_q", (self.n_v,))
-        q_next = q.copy()
         here = q.tolist()
+        there = q.tolist()
         change = delta_q.tolist()
-        q_next[self._scalars_q] += delta_q[self._scalars_v]
         for joint in self._turning:
-            q_next[joint.q] = screw.moved(joint, here, change)
-        return q_next
+            there[joint.q] = screw.moved(joint, here, change)
+        for i, j in self._scalars:
+            there[i] += change[j]
+        return np.array(there)
 
     def difference(self, q: Array, q_next: Array) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
@@ -217,14 +217,15 @@ class System(Shown):
         """The first n entries of q_next (-) q, which are those of whole joints."""
         q = with_shape(q, "q", (self.n_q,))
         q_next = with_shape(q_next, "q", (self.n_q,))
-        delta_q = np.zeros(self.n_v)
         here = q.tolist()
         there = q_next.tolist()
-        delta_q[self._scalars_v] = q_next[self._scalars_q] - q[self._scalars_q]
+        change = [0.0] * self.n_v
         for joint in self._turning:
             if joint.v.stop <= n:
-                delta_q[joint.v] = screw.change(joint, here, there)
-        return delta_q[:n]
+                change[joint.v] = screw.change(joint, here, there)
+        for i, j in self._scalars:
+            change[j] = there[i] - here[i]
+        return np.array(change[:n])
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
         """Change of the actuated coordinates q_a (-) q, shape (n_a,); see :meth:`with_actuated`.
@@ -238,8 +239,7 @@ class System(Shown):
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""
-        if np.shape(q_a) != (self.n_q_a,):
-            raise ModelError(f"must have shape ({self.n_q_a},)", field="q_a", value=np.shape(q_a))
+        q_a = with_shape(q_a, "q_a", (self.n_q_a,))
         return np.concatenate([q_a, np.asarray(q)[self.n_q_a :]])
 
     def checked(self, q: ArrayLike) -> Array:

@@ -66,12 +66,16 @@ class Stopwatch:
         self.seconds: dict[str, float] = {}
         self._last = time.perf_counter()
 
-    def __call__(self, name: str, **apart: float) -> None:
-        """Record the lap that ends under a name, and its parts, `apart` [s], under their own."""
+    def __call__(self, name: str) -> None:
+        """Record the lap that ends under a name."""
         now = time.perf_counter()
-        self.seconds[name] = now - self._last - sum(apart.values())
-        self.seconds.update(apart)
+        self.seconds[name] = now - self._last
         self._last = now
+
+    def separate(self, part: str, seconds: float, name: str) -> None:
+        """Record a part of a lap, of so many `seconds` [s], apart from it."""
+        self.seconds[name] -= seconds
+        self.seconds[part] = seconds
 
 
 def _remade(
@@ -260,7 +264,8 @@ class Simulator(Shown):
         # An extension adds rows and coordinates (step/extension.py): from here on the step is the
         # one that was solved. Without an extension it is the same.
         step = solution.step
-        lap("solve", proof=solution.statistics.proof_time)
+        lap("solve")
+        lap.separate("proof", solution.statistics.proof_time, "solve")
         q_next = self.system.integrate(q, solution.delta_q[: self.system.n_v])  # q (+) delta_q
         self.limits.check_reach(step, self.system.links, self.system.kinematics(q_next).t)
         lap("integrate")
@@ -306,9 +311,10 @@ class Simulator(Shown):
 
     def generalised_force(self, q: Array, force: Array | float) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
-        if np.shape(force) not in {(), self.gravity_factor.shape}:
+        shape = np.asarray(force).shape
+        if shape not in {(), self.gravity_factor.shape}:
             problem = f"must have shape {self.gravity_factor.shape}"
-            raise StepDataError(problem, field="force", value=np.shape(force))
+            raise StepDataError(problem, field="force", value=shape)
         tau: Array = self.gravity_factor * self.system.gravity_force(q, self.gravity) + force
         return tau
 

@@ -81,11 +81,14 @@ class RowLayout(NamedTuple):
         Which of the cone's rows each contact has.
     offsets : ndarray of int, shape (n_c + 1,)
         Where each contact's rows start.
+    numbers : ndarray of int, shape (m,)
+        Of the rows that the contacts have, among all n_c R.
     """
 
     counts: Indices
     mask: Mask
     offsets: Indices
+    numbers: Indices
 
 
 @lru_cache(maxsize=32)
@@ -94,7 +97,8 @@ def row_layout(cone_name: str, rows: bytes) -> RowLayout:
     counts = cone_of(cone_name).counts(np.frombuffer(rows, np.int64))
     mask = np.arange(len(cone_of(cone_name).row_names)) < counts[:, None]
     offsets = np.concatenate([[0], np.cumsum(counts)])
-    return RowLayout(read_only(counts), read_only(mask), read_only(offsets))
+    numbers = np.flatnonzero(mask)
+    return RowLayout(*map(read_only, (counts, mask, offsets, numbers)))
 
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
@@ -243,6 +247,14 @@ class StepData(Plain, Shown):
     def offsets(self) -> Indices:
         """Where each contact's rows start in A, b and lam, shape (n_c + 1,)."""
         return self.row_layout.offsets
+
+    def present(self, rows: Array) -> Array:
+        """The rows that the contacts have, shape (m, ...), of all rows (n_c, R, ...) of the cone.
+
+        It is ``rows[mask]``, in half the time.
+        """
+        flat = rows.reshape(self.mask.size, *rows.shape[2:])
+        return flat.take(self.row_layout.numbers, axis=0)
 
     @cached_property
     def H(self) -> Array:

@@ -60,7 +60,8 @@ def rows_along(contacts: Contacts, J: Array, name: str = PYRAMID) -> Array:
     friction_cone = cone(name)
     mu_v, _, mu_omega = friction_cone.row_coefficients(contacts.mu).T[:, :, None]
     rows = friction_cone.function(J_n, mu_v * J_1, mu_v * J_2, mu_omega * J_w)
-    return np.array(rows).swapaxes(0, 1)
+    # np.stack(rows, axis=1) takes twice as long.
+    return np.concatenate(rows, axis=1).reshape(len(J_n), len(rows), J_n.shape[1])
 
 
 def row_constants(contacts: Contacts, name: str = PYRAMID) -> Array:

@@ -58,8 +58,8 @@ def standard_form(step: StepData) -> StandardForm:
     >>> form.H.shape, form.A.shape
     ((6, 6), (6, 6))
     """
-    A = friction_rows(step.contacts, step.cone)[step.mask]  # Eq. (8)
-    b = -row_constants(step.contacts, step.cone)[step.mask]  # Eq. (8)
+    A = step.present(friction_rows(step.contacts, step.cone))  # Eq. (8)
+    b = -step.present(row_constants(step.contacts, step.cone))  # Eq. (8)
     if step.extra.names:
         A = np.vstack([A, step.extra.A])
         b = np.concatenate([b, step.extra.b])

@@ -66,6 +66,11 @@ class FloatBound:
         return least_eigenvalues(csc_matrix(self.H))
 
     @cached_property
+    def definite(self) -> bool:
+        """Whether these bounds are all above zero."""
+        return bool((self.least > 0).all())
+
+    @cached_property
     def sizes(self) -> Any:
         """The absolute values of H."""
         return abs(self.H)
@@ -99,7 +104,9 @@ class FloatBound:
             [N s]
         """
         step = both.si_step
-        A = np.concatenate([row_sizes(step, step.contacts.J), np.abs(step.extra.A)])
+        A = row_sizes(step, step.contacts.J)
+        if step.extra.names:
+            A = np.concatenate([A, np.abs(step.extra.A)])
         A *= both.units.coordinate / both.units.length
         sizes = step_sizes(step, A, both.units)
         return self.error(both.natural_form, sizes, *in_natural(delta_q, lam, both.units))
@@ -121,7 +128,7 @@ class FloatBound:
             Its multipliers [-]; negative ones are taken as zero.
         """
         y = np.maximum(lam, 0.0)
-        if not (in_range(x, y, form.b) and sizes.usable and (self.least > 0).all()):
+        if not (in_range(x, y, form.b) and sizes.usable and self.definite):
             return math.inf
         free = self.free_length(form.g, sizes)
         if not free > 0:
@@ -160,8 +167,8 @@ class FloatBound:
             opens = A @ v
             e = rounding(sizes.row_terms, sizes.rows(v))
             surely = below(opens - e)
-            t = least_way(low, surely)
-            if t < math.inf and surely[low < 0].min() >= least:
+            t = least_way(low, surely, least)
+            if t < math.inf:
                 self.direction = v
                 way = up(t * up(math.sqrt(total_of_products(above(v * v), self.most))))
                 return way, up(t * max(total_of_products(y, above(opens + e)), 0.0))
@@ -194,10 +201,15 @@ class FloatBound:
         return down(along / up(math.sqrt(square))) if along > 0 else 0.0
 
 
-def least_way(low: Array, opens: Array) -> float:
-    """A t >= 0 [-] with low + t opens >= 0 for all rows, each (m,) [-]; infinite if unknown."""
-    short = low < 0
-    if not (opens[short] > 0).all():
+def least_way(low: Array, opens: Array, least: float = 0.0) -> float:
+    """A t >= 0 [-] with low + t opens >= 0 for all rows, each (m,) [-]; infinite if unknown.
+
+    It is unknown, too, if a row whose low is negative opens by less than `least` [-].
+    """
+    (short,) = (low < 0).nonzero()
+    opened = opens.take(short)
+    slowest = float(opened.min(initial=math.inf))
+    if not (slowest > 0 and slowest >= least):
         return math.inf
-    t = float((-low[short] / opens[short]).max(initial=0.0)) * ENOUGH
+    t = float((-low.take(short) / opened).max(initial=0.0)) * ENOUGH
     return t if bool((below(low + below(t * opens)) >= 0).all()) else math.inf

@@ -119,7 +119,7 @@ def row_sizes(step: StepData, J: Array) -> Array:
     J = np.abs(J)
     motion = np.concatenate([axes @ J[:, :3], J[:, 3:]], axis=1)
     rows = np.abs(cone_matrix(step.cone)) @ (scaled_by(contacts)[:, :, None] * motion)
-    return np.asarray(rows[step.mask])
+    return step.present(rows)
 
 
 def step_sizes(step: StepData, A: Any, units: Units) -> TermSizes:
@@ -138,5 +138,5 @@ def step_sizes(step: StepData, A: Any, units: Units) -> TermSizes:
     spring = np.abs(step.K_q) @ np.abs(step.delta_q_bar_a)  # Eq. (1)
     load = np.concatenate([spring + np.abs(step.tau_a), np.abs(step.tau_u)]) * step.h * of_load
     scales = [step.h, 1 / units.length, 1 / units.size]
-    numbers = [scaled_by(step.contacts), S, S / units.length, of_load, scales]
+    numbers = [step.contacts.mu, S, S / units.length, of_load, scales]
     return term_sizes(A, load, step.n_a, numbers)

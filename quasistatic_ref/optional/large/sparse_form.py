@@ -105,6 +105,6 @@ def sparse_hessian(step: StepData) -> csc_matrix:
 
 def sparse_form(step: StepData, pattern: Pattern) -> StandardForm:
     """Its standard form, with sparse H and A in the places of the pattern."""
-    rows = rows_along(step.contacts, in_blocks(step).J, step.cone)[step.mask]  # Eqs. (4), (8)
-    b = -row_constants(step.contacts, step.cone)[step.mask]
+    rows = step.present(rows_along(step.contacts, in_blocks(step).J, step.cone))  # Eqs. (4), (8)
+    b = -step.present(row_constants(step.contacts, step.cone))
     return StandardForm(pattern.H, linear_term(step), pattern.matrix(rows), b)

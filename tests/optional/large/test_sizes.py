@@ -82,7 +82,7 @@ def counting(cone, monkeypatch, n_c=2):
     numbers = SimpleNamespace(n=counted(c.n), d1=counted(c.d1), d2=counted(c.d2), mu=c.mu)
     monkeypatch.setattr(of, "scaled_by", lambda _: counted(scaled_by(c)))
     monkeypatch.setattr(of, "cone_matrix", lambda _: counted(cone_matrix(cone)))
-    posed = SimpleNamespace(contacts=numbers, cone=cone, mask=step.mask)
+    posed = SimpleNamespace(contacts=numbers, cone=cone, present=step.present)
     A = row_sizes(posed, counted(c.J))
     m, n_v = A.shape
     return TermSizes(A, np.zeros(n_v), n_v, m, True), counted(np.ones(n_v)), counted(np.ones(m))

@@ -144,7 +144,8 @@ class CompiledStep:
         limits = simulator.limits
         if not gap >= -limits.penetration:
             limits.check_penetration(step)
-        lap("solve", proof=solution.statistics.proof_time)
+        lap("solve")
+        lap.separate("proof", solution.statistics.proof_time, "solve")
         q_next = self.screws.integrate(solution.delta_q)
         self.poses.move(q_next)
         if not self.reach(self.scene.address) <= SURELY * limits.reach**2:

@@ -72,6 +72,7 @@ class CloudPairs:
         self.last = ends[1:] - 1
         pair_of = np.repeat(np.arange(len(pairs)), count)
         self.pair_of = pair_of
+        self.no_ties = np.full(len(pair_of), OWN)
         self.sides = np.concatenate([pair_of, len(pairs) + pair_of])
         self.swapped = self.solid_is_beta[pair_of, None]
         self.swaps = bool(self.swapped.any())
@@ -80,9 +81,11 @@ class CloudPairs:
         self.extent = float(extents[np.isfinite(extents)].max(initial=0.0))
         shapes = [self.solids[i].shape for i in pair_of]
         self.has_edges = np.array([not isinstance(shape, HalfSpace) for shape in shapes])
-        self.on_box = np.flatnonzero([isinstance(shape, Box) for shape in shapes])
-        half_extents = [shape.half_extents for shape in shapes if isinstance(shape, Box)]
-        self.box = np.tile(np.reshape(half_extents, (-1, 3)), 2)
+        no_box = np.full(3, np.nan)
+        half_extents = [
+            shape.half_extents if isinstance(shape, Box) else no_box for shape in shapes
+        ]
+        self.box = np.tile(half_extents, 2)
 
     def put(self, lists: Sequence[Shortlist]) -> None:
         """Take over the short lists of all pairs."""
@@ -164,7 +167,7 @@ class CloudPairs:
         x, phi, normal : ndarray, shapes (n_c, 3), (n_c,) and (n_c, 3)
             As of :meth:`measured`, of the points that are kept [m], [m] and [-].
         """
-        tie = np.full(len(phi), OWN)
+        tie = self.no_ties.copy()
         for i in self.open_pairs(world, x, phi):
             own = slice(self.first[i], self.last[i] + 1)
             solid, cloud = (
@@ -186,7 +189,7 @@ class CloudPairs:
             alpha = np.where(self.swapped, point, foot)
             beta = np.where(self.swapped, foot, point)
             n = self.sign * n
-        return ClosestPoints(phi + 0.0, alpha, beta, n + 0.0, self.index[kept], tie)
+        return ClosestPoints(phi + 0.0, alpha, beta, n + 0.0, self.index.take(kept), tie)
 
     def open_pairs(self, world: Array, x: Array, phi: Array) -> list[int]:
         """Pairs of which a contact touches or is inside, as near to two faces, or may be.
@@ -197,15 +200,12 @@ class CloudPairs:
             As of :meth:`contacts` [-, m], [m] and [m].
         """
         within = TIED_FACES * max(self.extent, float(np.abs(world[:, :, 3]).max()))
-        touching = (phi <= within) & self.has_edges
-        if not touching.any():
-            return []
-        if len(self.on_box):
-            at = x.take(self.on_box, axis=0)
-            heights = np.concatenate([at, -at], axis=1) - self.box
-            heights.sort(axis=1)
-            touching[self.on_box] &= heights[:, -2] >= heights[:, -1] - within
-        return sorted({*self.pair_of[touching].tolist()})
+        (touching,) = ((phi <= within) & self.has_edges).nonzero()
+        at = x.take(touching, axis=0)
+        heights = np.concatenate([at, -at], axis=1) - self.box.take(touching, axis=0)
+        heights.sort(axis=1)
+        one_nearest = heights[:, -2] < heights[:, -1] - within  # never of NaN, where no box is
+        return sorted({*self.pair_of[touching[~one_nearest]].tolist()})
 
 
 def sides(pair: ContactPair) -> tuple[PlacedShape, PlacedShape]:
