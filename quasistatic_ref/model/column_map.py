@@ -47,7 +47,8 @@ class ColumnMap:
         self.mimics = model.nvExtended > model.nv
         # A mimic joint comes after the one that it mimics.
         self.owned = np.unique(self.owner, return_index=True)[1]
-        self.copies = np.setdiff1d(np.arange(model.nvExtended), self.owned)
+        copies = np.setdiff1d(np.arange(model.nvExtended), self.owned)
+        self.copies = list(zip(copies.tolist(), self.owner[copies].tolist(), strict=True))
 
     @cached_property
     def coordinates(self) -> Array:
@@ -60,6 +61,6 @@ class ColumnMap:
         if not self.mimics:
             return self.order.paper_v(columns)
         of_joints = columns.take(self.owned, axis=-1)
-        for x in self.copies.tolist():
-            of_joints[..., self.owner[x]] += columns[..., x]
+        for x, owner in self.copies:
+            of_joints[..., owner] += columns[..., x]
         return of_joints

@@ -152,7 +152,7 @@ class CloudPairs:
     def limits(self, relative: Array) -> Array:
         """The limit of each list, shape (P,) [m], at `relative` (P, 3, 4) [-, m]."""
         bounds = (self.slope @ relative.reshape(-1, 12, 1))[:, :, 0] + self.offset
-        return np.asarray(bounds.min(axis=1))
+        return np.asarray(np.minimum.reduce(bounds, axis=1))
 
     def contacts(
         self, world: Array, relative: Array, kept: Indices, x: Array, phi: Array, normal: Array
