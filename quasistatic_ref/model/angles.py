@@ -11,7 +11,7 @@ import math
 
 from flint import arb, ctx
 
-SMALL = 2.0**-6
+SMALL = 2.0**-7
 """Largest angle [rad], or tangent [-], of the series."""
 
 SERIES = 2.0**-49
@@ -70,10 +70,10 @@ def angle_of(y: float, x: float) -> float:
 def _series_cos_sin(angle: float) -> tuple[float | None, float | None]:
     """Cosine and sine of an angle up to SMALL; None where their rounding is open."""
     z = angle * angle
-    to_cos = -z * (1 / 2 - z * (1 / 24 - z * (1 / 720 - z / 40320)))
-    to_sin = -angle * z * (1 / 6 - z * (1 / 120 - z * (1 / 5040 - z / 362880)))
+    to_cos = -z * (1 / 2 - z * (1 / 24 - z / 720))
+    to_sin = -angle * z * (1 / 6 - z * (1 / 120 - z / 5040))
     c = _rounded_sum(1.0, to_cos, SERIES * to_cos)
-    s = _rounded_sum(angle + 0.0, to_sin, SERIES * to_sin)  # zero is 0.0, never -0.0
+    s = _rounded_sum(angle, to_sin, SERIES * to_sin)
     return c, s
 
 
@@ -82,8 +82,8 @@ def _series_angle_of(y: float, x: float) -> float | None:
     t = y / x
     rest = _remainder(y, t, x) / x  # of the tangent
     z = t * t
-    to_angle = -t * z * (1 / 3 - z * (1 / 5 - z * (1 / 7 - z * (1 / 9 - z / 11))))
-    return _rounded_sum(t + 0.0, rest + to_angle, SERIES * (abs(rest) + abs(to_angle)))
+    to_angle = -t * z * (1 / 3 - z * (1 / 5 - z * (1 / 7 - z / 9)))
+    return _rounded_sum(t, rest + to_angle, SERIES * (abs(rest) + abs(to_angle)))
 
 
 def _rounded_sum(large: float, small: float, error: float) -> float | None:
