@@ -68,7 +68,10 @@ def angle_of(y: float, x: float) -> float:
 
 
 def _series_cos_sin(angle: float) -> tuple[float | None, float | None]:
-    """Cosine and sine of an angle up to SMALL; None where their rounding is open."""
+    """Cosine and sine of an angle up to SMALL; None where their rounding is open.
+
+    Where z is subnormal or 0, the sums are wrong, and too small to change a rounding.
+    """
     z = angle * angle
     to_cos = -z * (1 / 2 - z * (1 / 24 - z / 720))
     to_sin = -angle * z * (1 / 6 - z * (1 / 120 - z / 5040))
