@@ -169,15 +169,12 @@ def _quaternion(q_joint: Vector, w: Vector, half: HalfTurn) -> list[float]:
     if p == q == r == 0:
         return [*q_joint]
     x, y, z, s = q_joint
-    product = [
-        s * p + x * C + y * r - z * q,
-        s * q + y * C + z * p - x * r,
-        s * r + z * C + x * q - y * p,
-        s * C - x * p - y * q - z * r,
-    ]
-    a, b, c, d = product
+    a = s * p + x * C + y * r - z * q
+    b = s * q + y * C + z * p - x * r
+    c = s * r + z * C + x * q - y * p
+    d = s * C - x * p - y * q - z * r
     shorter = (3 - (a * a + b * b + c * c + d * d)) / 2  # of 1 / sqrt, next to 1
-    return [shorter * part for part in product]
+    return [shorter * a, shorter * b, shorter * c, shorter * d]
 
 
 def _rotation_between(q_joint: Vector, q_joint_next: Vector) -> tuple[list[float], float, float]:

@@ -312,7 +312,7 @@ class Simulator(Shown):
     def generalised_force(self, q: Array, force: Array | float) -> Array:
         """Gravity at q and a `force`, shape (n_v,) [N, N m]; StepDataError as above."""
         shape = np.asarray(force).shape
-        if shape not in {(), self.gravity_factor.shape}:
+        if shape and shape != self.gravity_factor.shape:
             problem = f"must have shape {self.gravity_factor.shape}"
             raise StepDataError(problem, field="force", value=shape)
         tau: Array = self.gravity_factor * self.system.gravity_force(q, self.gravity) + force

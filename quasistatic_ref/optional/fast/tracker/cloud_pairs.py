@@ -205,6 +205,8 @@ class CloudPairs:
         heights = np.concatenate([at, -at], axis=1) - self.box.take(touching, axis=0)
         heights.sort(axis=1)
         one_nearest = heights[:, -2] < heights[:, -1] - within  # never of NaN, where no box is
+        if np.logical_and.reduce(one_nearest):
+            return []
         return sorted({*self.pair_of[touching[~one_nearest]].tolist()})
 
 
