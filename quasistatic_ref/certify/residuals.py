@@ -4,7 +4,6 @@ They do not depend on the solver that gave the answer. They prove nothing: a cer
 them, and its proof is in exact.py. Only ``certify="residual"`` refuses answers by them.
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,8 +37,7 @@ class Residuals:
     @property
     def worst(self) -> float:
         """The largest of the four, NaN if any of them is: for a step in natural units [-]."""
-        every = vars(self).values()
-        return math.nan if any(map(math.isnan, every)) else max(0.0, *every)
+        return largest(np.array([*vars(self).values()]))
 
 
 def largest(x: Array) -> float:

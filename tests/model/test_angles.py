@@ -52,7 +52,7 @@ def test_a_vector_that_is_no_number_has_no_angle():
 
 
 def small_angles():
-    """Angles of both signs up to SMALL [rad]: half of them where the last terms count most."""
+    """Angles of both signs up to SMALL [rad]: most of them where the last terms count most."""
     generator = np.random.default_rng(3)
     powers = np.concatenate([generator.uniform(-60, -7, 1500), generator.uniform(-8, -7, 4000)])
     return (generator.choice([-1, 1], powers.size) * 2.0**powers).tolist()
@@ -80,7 +80,7 @@ def test_angles_of_vectors_near_the_x_axis_are_correctly_rounded():
 
 
 def test_balls_decide_only_what_the_series_leave_open(monkeypatch):
-    """They cost ten times as much; one in a thousand of these angles needs them."""
+    """Some one in a thousand of these angles needs them."""
     asked = []
 
     def counted(angle):
@@ -92,10 +92,11 @@ def test_balls_decide_only_what_the_series_leave_open(monkeypatch):
     cos_sin(0.0)
     angle_of(0.0, 1.0)
     assert not asked
-    for a in small_angles():
+    every = small_angles()
+    for a in every:
         cos_sin(a)
         angle_of(0.9 * a, 0.9)
-    assert len(asked) < 40
+    assert len(asked) < len(every) / 200
     asked.clear()
     cos_sin(OPEN[0])
     cos_sin(OPEN[1])
