@@ -62,5 +62,6 @@ class ColumnMap:
             return self.order.paper_v(columns)
         of_joints = columns.take(self.owned, axis=-1)
         for x, owner in self.copies:
-            of_joints[..., owner] += columns[..., x]
+            of_owner = of_joints[..., owner]
+            of_owner += columns[..., x]
         return of_joints

@@ -211,31 +211,32 @@ class System(Shown):
 
     def difference(self, q: Array, q_next: Array) -> Array:
         """Change delta_q = q_next (-) q, shape (n_v,): q_next = integrate(q, delta_q)."""
-        return self._change(q, q_next, self.n_v)
-
-    def _change(self, q: Array, q_next: Array, n: int) -> Array:
-        """The first n entries of q_next (-) q, which are those of whole joints."""
         q = with_shape(q, "q", (self.n_q,))
         q_next = with_shape(q_next, "q", (self.n_q,))
-        here = q.tolist()
-        there = q_next.tolist()
-        change = [0.0] * self.n_v
+        return self._change(q.tolist(), q_next.tolist(), self.n_v)
+
+    def _change(self, here: list[float], there: list[float], n: int) -> Array:
+        """The first n entries of a change of q, those of whole joints, of which both q hold all."""
+        change = [0.0] * n
         for joint in self._turning:
             if joint.v.stop <= n:
                 change[joint.v] = screw.change(joint, here, there)
         for i, j in self._scalars:
-            change[j] = there[i] - here[i]
-        return np.array(change[:n])
+            if j < n:
+                change[j] = there[i] - here[i]
+        return np.array(change)
 
     def actuated_difference(self, q: Array, q_a: Array) -> Array:
-        """Change of the actuated coordinates q_a (-) q, shape (n_a,); see :meth:`with_actuated`.
+        """Change of the actuated coordinates q_a (-) q, shape (n_a,).
 
         Raises
         ------
         ModelError
             Unless q_a has shape (n_q_a,).
         """
-        return self._change(q, self.with_actuated(q, q_a), self.n_a)
+        q = with_shape(q, "q", (self.n_q,))
+        q_a = with_shape(q_a, "q_a", (self.n_q_a,))
+        return self._change(q.tolist(), q_a.tolist(), self.n_a)
 
     def with_actuated(self, q: Array, q_a: Array) -> Array:
         """Copy of q with the actuated entries q_a; ModelError unless they have shape (n_q_a,)."""

@@ -110,7 +110,7 @@ class Workspace:
             R += part.R
             t += part.t
             columns.append(part.data.J.reshape(6, -1))  # a single column comes as a vector
-        all_columns = columns[0].copy() if len(columns) == 1 else np.hstack([self._none, *columns])
+        all_columns = np.concatenate([self._none, *columns], axis=1)
         arrays = np.array(R), np.array(t), all_columns
         for array in arrays:
             array.setflags(write=False)

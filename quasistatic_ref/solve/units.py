@@ -32,6 +32,8 @@ STANDSTILL = 2.0**-100
 """Size of a step that nothing drives [(N m s)^0.5]."""
 SMALLEST = 2.0**-960
 """Least size of a step [(N m s)^0.5]: its inverse, times a coordinate's unit, is a float64."""
+VANISHING = 2.0**-800
+"""Sum of squares of loads, y'y [N m s], above which no square underflows that matters."""
 
 
 class Units(NamedTuple):
@@ -150,23 +152,23 @@ def units_of(form: StandardForm, hessian: HessianInBothUnits) -> Units:
     """
     squares = squared_lengths(form, hessian)
     power = small_power(form.g * hessian.coordinate)
-    g = np.ldexp(form.g, -power)
+    g = np.ldexp(form.g, -power) if power else form.g
     square = max(float(g.dot(hessian.H_inverse).dot(g)), 0.0)
     free_length = math.ldexp(math.sqrt(square), power)  # ||H^-1 g||_H
     return units_from(hessian.coordinate, squares, free_length, form.b)
 
 
-def small_power(g: Array) -> int:
-    """A power of two near the largest of small loads, at most 0.
-
-    Of loads over that power the squares do not vanish.
+def small_power(y: Array) -> int:
+    """The power of two next to the largest of loads so small that their squares vanish; else 0.
 
     Parameters
     ----------
-    g : ndarray, shape (n_v,)
-        [N s, N m s].
+    y : ndarray, shape (n_v,)
+        In units of the coordinates [(N m s)^0.5].
     """
-    return min(math.frexp(np.abs(g).max(initial=0.0))[1], 0)
+    if y.dot(y) > VANISHING:
+        return 0
+    return math.frexp(np.abs(y).max(initial=0.0))[1]
 
 
 def units_from(coordinate: Array, squares: Array, free_length: float, b: Array) -> Units:

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.system import Body, System
-from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, link, robot, written
+from tests.model.urdf.urdf_texts import BOX, CHAIN, inertial, joint, link, robot, written
 from tests.tolerances import ROUNDING
 
 
@@ -60,6 +60,17 @@ def test_actuated_entries_are_replaced_and_the_others_kept(scene: System, q: np.
     assert not np.array_equal(mixed, q)
     with pytest.raises(ModelError, match=r"q_a: must have shape \(10,\)"):
         scene.with_actuated(q, q)
+
+
+def test_actuated_coordinates_change_whatever_comes_after_them() -> None:
+    crane = robot(
+        *(link(name, inertial=inertial("2", ("0.01",) * 3)) for name in ("rail", "cart", "bob")),
+        joint("slide", "rail", "cart", "prismatic", "1 0 0"),
+        joint("swing", "cart", "bob", "revolute", "0 1 0"),
+    )
+    system = System([Body("crane", crane, actuated=["slide"])])
+    change = system.actuated_difference(np.array([0.25, 1.0]), np.array([0.75]))
+    assert change.tolist() == [0.75 - 0.25]
 
 
 def test_everything_actuated_leaves_an_empty_block(tmp_path: Path) -> None:

@@ -88,7 +88,7 @@ class SparseStep:
         squares = np.bincount(form.A.indices, rows * rows, minlength=len(form.b))
         y = form.g * S
         power = small_power(y)
-        near_one = np.ldexp(y, -power)
+        near_one = np.ldexp(y, -power) if power else y
         square = max(float(near_one @ kind.bound.factor.solve(near_one)), 0.0)
         free_length = math.ldexp(math.sqrt(square), power)  # ||H^-1 g||_H
         self.units = units = units_from(S, np.sort(squares), free_length, form.b)

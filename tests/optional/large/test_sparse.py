@@ -136,6 +136,21 @@ def test_rows_out_of_reach_are_moved_to_their_reach():
     np.testing.assert_allclose(solver.program.b, np.maximum(b, reach), rtol=ROUNDING)
 
 
+def test_loads_whose_squares_vanish_move_the_size_and_nothing_else(rng):
+    # Loads and gaps of 2^-900 of a step's are those of the same step in units of 2^-900.
+    power = 2.0**-900
+    step = random_step(rng)
+    names = ("tau_a", "tau_u", "delta_q_bar_a")
+    tiny = step.replace(
+        **{name: power * getattr(step, name) for name in names},
+        contacts=changed(step.contacts, phi=power * step.contacts.phi),
+    )
+    solver = SparseSolver(in_blocks(step), "clarabel")
+    units = solver.in_both_units(in_blocks(step)).units
+    of_tiny = solver.in_both_units(in_blocks(tiny)).units
+    assert (of_tiny.size, of_tiny.length) == (power * units.size, units.length)
+
+
 def test_contacts_in_blocks_are_raised_as_others_are():
     step = random_step(np.random.default_rng(3))
     contacts = in_blocks(step).contacts

@@ -74,9 +74,12 @@ class CloudPairs:
         self.pair_of = pair_of
         self.no_ties = np.full(len(pair_of), OWN)
         self.sides = np.concatenate([pair_of, len(pairs) + pair_of])
-        self.swapped = self.solid_is_beta[pair_of, None]
-        self.swaps = bool(self.swapped.any())
-        self.sign = np.where(self.swapped, -1.0, 1.0)
+        swapped = self.solid_is_beta[pair_of]
+        self.sign = np.where(swapped, -1.0, 1.0)[:, None]
+        # alpha and beta of each contact, among all feet on the solids and then all points
+        of_solid = np.arange(len(pair_of))
+        of_cloud = of_solid + len(pair_of)
+        self.alpha_beta = np.where(swapped, [of_cloud, of_solid], [of_solid, of_cloud])
         extents = np.array([solid.shape.extent for solid in self.solids])
         self.extent = float(extents[np.isfinite(extents)].max(initial=0.0))
         shapes = [self.solids[i].shape for i in pair_of]
@@ -119,9 +122,11 @@ class CloudPairs:
         """
         P = self.P
         world = product(R.take(self.link, axis=0), self.on_link)
-        world[:, :, 3] += t.take(self.link, axis=0)
+        origin = world[:, :, 3]
+        origin += t.take(self.link, axis=0)
         apart = world[P:].copy()
-        apart[:, :, 3] -= world[:P, :, 3]
+        displacement = apart[:, :, 3]
+        displacement -= origin[:P]
         return world, product(world[:P, :, :3].transpose(0, 2, 1), apart)
 
     def measured(self, relative: Array) -> tuple[Array, Array, Array]:
@@ -139,10 +144,8 @@ class CloudPairs:
         """
         pose = relative.take(self.owner, axis=0)
         x = rotated(pose[:, :, :3], self.points) + pose[:, :, 3]
-        phi = np.empty(len(x))
-        normal = np.empty(x.shape)
-        for some, distance in self.distances:
-            phi[some], normal[some] = distance(x[some])
+        found = [distance(x[some]) for some, distance in self.distances]
+        phi, normal = map(np.concatenate, zip(*found, strict=True))
         return x, phi, normal
 
     def kept(self, phi: Array) -> Indices:
@@ -183,13 +186,9 @@ class CloudPairs:
         n, point = rotated(pose[:, :, :3], local).reshape(2, -1, 3)
         point += pose[len(phi) :, :, 3]
         foot = point - phi[:, None] * n
-        alpha = foot
-        beta = point
-        if self.swaps:
-            alpha = np.where(self.swapped, point, foot)
-            beta = np.where(self.swapped, foot, point)
-            n = self.sign * n
-        return ClosestPoints(phi + 0.0, alpha, beta, n + 0.0, self.index.take(kept), tie)
+        alpha, beta = np.concatenate([foot, point]).take(self.alpha_beta, axis=0)
+        n = self.sign * n + 0.0
+        return ClosestPoints(phi + 0.0, alpha, beta, n, self.index.take(kept), tie)
 
     def open_pairs(self, world: Array, x: Array, phi: Array) -> list[int]:
         """Pairs of which a contact touches or is inside, as near to two faces, or may be.

@@ -124,7 +124,7 @@ class ContactTracker:
         clouds = self.clouds
         world, relative = clouds.poses(R, t)
         self.steps += 1
-        if not self.lists_made:
+        if not self.lists[0].made:
             for each, pose in zip(self.lists, relative, strict=True):
                 each.make(pose, each.first_normal(pose), np.inf, self.steps)
             clouds.put([each.list for each in self.lists])
