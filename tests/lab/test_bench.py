@@ -10,7 +10,7 @@ from quasistatic_ref.lab.study.bench.acceptance import promises
 from quasistatic_ref.lab.study.bench.derived import MAPPED, STEP
 from quasistatic_ref.lab.study.bench.grasp import bare_daqp, places
 from quasistatic_ref.lab.study.bench.report import promise_rows
-from quasistatic_ref.lab.study.bench.timing import in_turn
+from quasistatic_ref.lab.study.bench.timing import in_turn, least
 from quasistatic_ref.solve.units import DenseStepInBothUnits, in_si
 from tests.helpers import error
 from tests.tolerances import ACTIVE_SET
@@ -46,7 +46,12 @@ def test_the_interfaces_lead_to_the_same_step(at):
         assert error(step, alone, delta_q) <= ACTIVE_SET
 
 
-def test_times_are_taken_in_turn_and_the_least_is_kept():
+def test_of_several_runs_the_least_time_of_each_round_is_kept():
+    runs = [{"a": np.array([1.0, 5.0, 3.0])}, {"a": np.array([4.0, 2.0, 3.0])}]
+    assert least(iter(runs))["a"].tolist() == [min(1, 4), min(5, 2), min(3, 3)]
+
+
+def test_times_are_taken_in_turn():
     calls = []
     rounds = [{"a": lambda: calls.append("a"), "b": lambda: calls.append("b")}] * 2
     times = in_turn(rounds, repeat=2)

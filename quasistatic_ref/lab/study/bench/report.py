@@ -55,8 +55,9 @@ def page(tables: Mapping[str, Any]) -> str:
         "",
         "Written by `quasistatic-ref bench`; the numbers are those of one machine "
         f"({m['processor']}, {m['cores']} cores, {m['system']}, Python {m['python']}, "
-        f"NumPy {m['numpy']}, {m['load']}), medians, what is compared taking turns in one process. "
-        "Nothing is certified unless it says so, records are light.",
+        f"NumPy {m['numpy']}, {m['load']}), medians of the least times of each step, taken in "
+        "turn in one process with what it is compared with. Nothing is certified unless it says "
+        "so, records are light.",
         "",
         f"In short: {paper_sentence(tables)}.",
         "",

@@ -1,7 +1,7 @@
 """Times that can be compared: taken in turn, in one process, as medians."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -40,12 +40,21 @@ def in_turn(
     dict of str to ndarray, shape (rounds,)
         [s].
     """
-    best: dict[str, Array] = {}
-    for _ in range(repeat):
-        taken = [{name: seconds(job, clock) for name, job in jobs.items()} for jobs in rounds]
-        for name in rounds[0]:
-            times = np.array([row[name] for row in taken])
-            best[name] = np.minimum(best.get(name, times), times)
+    return least(_once_in_turn(rounds, clock) for _ in range(repeat))
+
+
+def _once_in_turn(rounds: Sequence[Mapping[str, Job]], clock: Clock) -> dict[str, Array]:
+    taken = [{name: seconds(job, clock) for name, job in jobs.items()} for jobs in rounds]
+    return {name: np.array([times[name] for times in taken]) for name in rounds[0]}
+
+
+def least(runs: Iterable[Mapping[str, Array]]) -> dict[str, Array]:
+    """Of each job and round the least time in several runs, by name, shape (rounds,) [s]."""
+    first, *others = runs
+    best = dict(first)
+    for times in others:
+        for name in best:
+            best[name] = np.minimum(best[name], times[name])
     return best
 
 
