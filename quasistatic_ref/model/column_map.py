@@ -62,6 +62,7 @@ class ColumnMap:
             return self.order.paper_v(columns)
         of_joints = columns.take(self.owned, axis=-1)
         for x, owner in self.copies:
+            # A view: `of_joints[..., owner] += ...` would write the sums a second time.
             of_owner = of_joints[..., owner]
             of_owner += columns[..., x]
         return of_joints

@@ -10,9 +10,9 @@ PAPER = 90.0
 interior-point method, at an accuracy that it does not give [us]."""
 
 OVER_SOLVER = 16.0
-"""What a step without a compiler may cost in bare calls of DAQP, of 22 us each where the two take
-turns. A step is some 420 calls of about a microsecond each, whatever they compute; with fewer, its
-lines would not read as the equations."""
+"""What a step without a compiler may cost in bare calls of DAQP, of 22 to 27 us each where the two
+take turns. A step is some 420 calls of about a microsecond each, whatever they compute; with fewer,
+its lines would not read as the equations."""
 
 THROUGH_CVXPY = 8.0 * 12.0 / OVER_SOLVER
 """What a step through CVXPY may at least cost in native steps. It was 8 while a native step might

@@ -179,8 +179,8 @@ def costs(scene: Scene, steps: int, repeat: int) -> dict[str, Any]:
     steps : int
         That are measured; a tenth of that on the plain path.
     repeat : int
-        How often the scene is started anew and run; of each step the least time is kept. The plain
-        path is run once.
+        Number of runs from the scene's start; of each step the least time is kept. The plain path
+        has one run.
     """
     times = least(in_turn([_uncertified(scene)] * steps) for _ in range(repeat))
     certified = least(in_turn([_certified(scene)] * steps) for _ in range(repeat))

@@ -27,8 +27,8 @@ REPEAT = 12
 """How often the steps that promises speak of are taken. On a machine whose pace varies by half from
 minute to minute, ratios of least times of 12 stay within 5 % of each other, of 2 within 20 %."""
 
-AFRESH = 5
-"""How often a scene of solids is started anew, to take the same steps."""
+RUNS = 5
+"""Runs of a scene of solids, each from its start, so that they have the same steps."""
 
 
 def tables(quick: bool, tell: Tell) -> dict[str, Any]:
@@ -64,7 +64,7 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     found["derivatives"] = of_derivatives(2 if quick else 100, 1 if quick else 2)
     tell("solids")
     scenes = [*SCENES][:1] if quick else [*SCENES]
-    found["solids"] = solid_scenes(scenes, 3 if quick else 200, 1 if quick else AFRESH)
+    found["solids"] = solid_scenes(scenes, 3 if quick else 200, 1 if quick else RUNS)
     found["machine"]["load"] = f"{load}, after it {_load()}"
     found["promises"] = promises(found)
     return found

@@ -50,12 +50,8 @@ def _once_in_turn(rounds: Sequence[Mapping[str, Job]], clock: Clock) -> dict[str
 
 def least(runs: Iterable[Mapping[str, Array]]) -> dict[str, Array]:
     """Of each job and round the least time in several runs, by name, shape (rounds,) [s]."""
-    first, *others = runs
-    best = dict(first)
-    for times in others:
-        for name in best:
-            best[name] = np.minimum(best[name], times[name])
-    return best
+    every = [*runs]
+    return {name: np.minimum.reduce([times[name] for times in every]) for name in every[0]}
 
 
 def microseconds(times: Array) -> float:

@@ -122,6 +122,7 @@ class CloudPairs:
         """
         P = self.P
         world = product(R.take(self.link, axis=0), self.on_link)
+        # Views: `world[:, :, 3] += ...` would write the sums a second time.
         origin = world[:, :, 3]
         origin += t.take(self.link, axis=0)
         apart = world[P:].copy()
