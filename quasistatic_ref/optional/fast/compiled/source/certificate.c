@@ -20,36 +20,31 @@ static void motion(const Proof *s, const Room *m, int64_t c, Number *out, double
     double ell = s->units[0], rho = s->units[1], of_nu[4];
     const double *mu = s->mu + 4 * c;
     Number nu[4];
+    Sum sum = EMPTY;
     for (int i = 0; i < 4; i++) {
-        Sum sum;
-        clear(&sum);
         of_nu[i] = 0.0;
         for (int64_t v = 0; v < n; v++) {
             double unit = s->coordinate[v] / ell, entry = s->J[n * (4 * c + i) + v];
             if (entry == 0.0)
                 continue;
-            Number J = scaled(entry, unit);
-            add_product(&sum, m->z + v, &J, 1);
+            add_product(&sum, m->z + v, scaled(entry, unit), 1);
             of_nu[i] += fabs(entry * unit) * m->e[v];
         }
-        nu[i] = carried(&sum);
+        carried(&sum, nu + i);
     }
     for (int a = 0; a < 4; a++) {
         const double *axis = s->frame + 16 * c + 4 * a;
-        Sum sum;
-        clear(&sum);
         e[a] = 0.0;
         for (int i = 0; i < 4; i++) {
-            Number along = exact(axis[i]);
-            add_product(&sum, nu + i, &along, 1);
+            add_product(&sum, nu + i, exact(axis[i]), 1);
             e[a] += fabs(axis[i]) * of_nu[i];
         }
         if (a == 0) {
-            Number phi = scaled(s->phi[c], 1 / (rho * ell));
+            Number phi = number(scaled(s->phi[c], 1 / (rho * ell)));
             add(&sum, &phi);
         }
-        Number x = carried(&sum), by = exact(mu[a]);
-        out[a] = product(&x, &by);
+        carried(&sum, out + a);
+        product(out + a, exact(mu[a]), out + a);
         e[a] *= mu[a];
     }
 }
@@ -60,6 +55,7 @@ static void slacks(Proof *s, Room *m)
     double unit = s->units[0] * s->units[1];
     int64_t last = -1, next = 0;
     Number of[4];
+    Sum sum = EMPTY;
     double e[4];
     for (int64_t r = 0; r < s->rows; r++) {
         int64_t c = s->contact[r];
@@ -71,16 +67,14 @@ static void slacks(Proof *s, Room *m)
         if (c != last)
             motion(s, m, c, of, e);
         last = c;
-        Sum sum;
         double error = 0.0;
-        clear(&sum);
         for (int a = 0; a < 4; a++) {
             double coefficient = s->cone[4 * s->row[r] + a];
-            Number by = exact(coefficient);
-            add_product(&sum, of + a, &by, 1);
+            add_product(&sum, of + a, exact(coefficient), 1);
             error += fabs(coefficient) * e[a];
         }
-        Number x = carried(&sum);
+        Number x;
+        carried(&sum, &x);
         error *= UP;
         if (fabs(value(&x)) * DOWN <= error) {
             s->idle[s->counts[0]++] = r;
@@ -149,7 +143,6 @@ static void rounded(Proof *s, Room *m)
 {
     int64_t n = s->n_v, k = s->working;
     double rho = s->units[1];
-    Number minus_one = exact(-1.0);
     at_rest(s, m, m->rests);
     for (int64_t v = 0; v < n; v++) {
         s->delta_q[v] = s->net[v] = 0.0;
@@ -167,7 +160,7 @@ static void rounded(Proof *s, Room *m)
         if (m->rests[v] == AT_REST)
             continue;
         if (held(s, m->rests, v))
-            net = product(m->g + v, &minus_one); /* A'lam is -g there */
+            product(m->g + v, exact(-1.0), &net); /* A'lam is -g there */
         else
             for (int64_t w = 0; w < k; w++)
                 error += fabs(m->K[(n + w) * (n + k) + v]) * m->e[n + w];
@@ -214,12 +207,12 @@ static int proved(Proof *s, Room *m)
     for (int64_t i = 0; i < n; i++)
         m->r[i] = m->g[i];
     system_of(s, m);
-    memcpy(m->copy, m->K, (size_t)(N * N) * sizeof(double));
+    memcpy(m->R, m->K, (size_t)(N * N) * sizeof(double));
     if (lost)
         return LOST;
-    if (!inverse(m->copy, m->R, N))
+    if (!inverse(m->R, N, m->pivot))
         return SINGULAR;
-    defect(m->R, m->K, N, m->G, m->copy);
+    defect(m->R, m->K, N, m->G, m->e);
     for (int bits = REFINED; code != DECIDED && bits <= FINEST; bits += FINEST - REFINED) {
         s->counts[0] = s->counts[1] = 0;
         s->least[0] = s->least[1] = INFINITY;
@@ -245,9 +238,9 @@ static int proved(Proof *s, Room *m)
 int proof(Proof *s)
 {
     size_t n = (size_t)s->n_v, k = (size_t)s->working, N = n + k, width = 4 * (size_t)s->n_c;
-    size_t numbers = 2 * n + k * n + 3 * N, doubles = 4 * N * N + 2 * N;
-    size_t integers = (k + 1) * width + k;
-    size_t bytes = numbers * sizeof(Number) + doubles * sizeof(double)
+    size_t numbers = 2 * n + k * n + 2 * N, doubles = 3 * N * N + 2 * N;
+    size_t integers = (k + 1) * width + N;
+    size_t bytes = numbers * sizeof(Number) + N * sizeof(Float) + doubles * sizeof(double)
                  + integers * sizeof(int64_t) + n;
     char *at = calloc(bytes, 1);
     if (!at)
@@ -258,16 +251,15 @@ int proof(Proof *s)
     m.A = m.net + n;
     m.z = m.A + k * n;
     m.r = m.z + N;
-    m.change = m.r + N;
+    m.change = (Float *)(m.r + N);
     m.K = (double *)(m.change + N);
     m.R = m.K + N * N;
     m.G = m.R + N * N;
-    m.copy = m.G + N * N;
-    m.rest = m.copy + N * N;
+    m.rest = m.G + N * N;
     m.e = m.rest + N;
     m.table = (int64_t *)(m.e + N);
     m.pivot = m.table + (k + 1) * width;
-    m.rests = (char *)(m.pivot + k);
+    m.rests = (char *)(m.pivot + N);
     int code = proved(s, &m);
     free(at);
     return code;

@@ -8,36 +8,42 @@
 
 #include "proof.h"
 
-/* The inverse of a matrix in float64, by Gauss and Jordan; 0 if a pivot is zero. */
-int inverse(double *a, double *R, int64_t n)
+static void exchange(double *a, double *b)
 {
-    for (int64_t i = 0; i < n * n; i++)
-        R[i] = i % (n + 1) ? 0.0 : 1.0;
+    double x = *a;
+    *a = *b;
+    *b = x;
+}
+
+/* The inverse of a matrix in float64, in its place, by Gauss and Jordan; 0 if a pivot is zero. */
+int inverse(double *R, int64_t n, int64_t *pivot)
+{
     for (int64_t c = 0; c < n; c++) {
         int64_t p = c;
         for (int64_t i = c + 1; i < n; i++)
-            if (fabs(a[i * n + c]) > fabs(a[p * n + c]))
+            if (fabs(R[i * n + c]) > fabs(R[p * n + c]))
                 p = i;
-        double pivot = a[p * n + c];
-        if (!(fabs(pivot) > 0.0))
+        pivot[c] = p;
+        for (int64_t j = 0; j < n && p != c; j++)
+            exchange(R + c * n + j, R + p * n + j);
+        double divisor = R[c * n + c];
+        if (!(fabs(divisor) > 0.0))
             return 0;
-        for (int64_t j = 0; j < n; j++) {
-            double x = a[p * n + j], y = R[p * n + j];
-            a[p * n + j] = a[c * n + j];
-            R[p * n + j] = R[c * n + j];
-            a[c * n + j] = x / pivot;
-            R[c * n + j] = y / pivot;
-        }
+        R[c * n + c] = 1.0;
+        for (int64_t j = 0; j < n; j++)
+            R[c * n + j] /= divisor;
         for (int64_t i = 0; i < n; i++) {
-            double f = a[i * n + c];
+            double f = R[i * n + c];
             if (i == c || f == 0.0)
                 continue;
-            for (int64_t j = c; j < n; j++) /* before c the pivot's row is zero */
-                a[i * n + j] -= f * a[c * n + j];
+            R[i * n + c] = 0.0;
             for (int64_t j = 0; j < n; j++)
                 R[i * n + j] -= f * R[c * n + j];
         }
     }
+    for (int64_t c = n - 1; c >= 0; c--) /* rows that were exchanged are columns of the inverse */
+        for (int64_t i = 0; i < n && pivot[c] != c; i++)
+            exchange(R + i * n + c, R + i * n + pivot[c]);
     return 1;
 }
 

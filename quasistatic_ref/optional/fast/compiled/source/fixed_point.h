@@ -2,7 +2,9 @@
 
    A Number is the sum of d[j] 2^(56 (j - 16)) over its digits from `low` to below `high`; digits
    are from -2^55 to 2^55, those of a float64, of which there are two at most, inside of +-2^56.
-   Products are collected in a Sum, whose digits have room for 2^14 of them. */
+   A Float is a float64 that is a factor: (low + high 2^56) 2^(56 (place - 16)).
+   Products are collected in a Sum. Its digits have room for 2^14 of them, and are zero below `low` and
+   from `high` on. */
 
 #ifndef FIXED_POINT_H
 #define FIXED_POINT_H
@@ -11,20 +13,22 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { BITS = 56, FRACTION = 16, DIGITS = 19 };
+enum { BITS = 56, FRACTION = 16, DIGITS = 20 };
 
 typedef struct { int low, high; int64_t d[DIGITS]; } Number;
+typedef struct { int place; int64_t low, high; } Float;
 typedef struct { int low, high; __int128 d[DIGITS]; } Sum;
+
+static const Sum EMPTY = {DIGITS, 0, {0}};
 
 /* Set by whatever would not fit, below the grid or beyond the last digit, and cleared by hand, as the
    flags of a processor are: what this thread has computed since is worth nothing. */
 extern _Thread_local int lost;
 
 /* A float64. What lies below 2^-grid is cut off where `cut` is set, else lost. */
-static inline Number digits_of(double x, int grid, int cut)
+static inline Float digits_of(double x, int grid, int cut)
 {
-    Number f;
-    f.low = f.high = 0;
+    Float f = {0, 0, 0};
     if (x == 0.0)
         return f;
     uint64_t bits;
@@ -49,29 +53,31 @@ static inline Number digits_of(double x, int grid, int cut)
             place = 0;
         }
     }
-    int shift = place % BITS, j = place / BITS;
-    int64_t low = (int64_t)(((uint64_t)m << shift) & (((uint64_t)1 << BITS) - 1));
-    int64_t high = shift ? m >> (BITS - shift) : 0;
-    f.low = low ? j : j + 1;
-    f.high = high ? j + 2 : j + 1;
-    f.d[j] = x < 0.0 ? -low : low;
-    f.d[j + 1] = x < 0.0 ? -high : high;
+    unsigned shift = (unsigned)place % BITS;
+    int sign = 1 - 2 * (int)(bits >> 63);
+    f.place = (int)((unsigned)place / BITS);
+    f.low = sign * (int64_t)(((uint64_t)m << shift) & (((uint64_t)1 << BITS) - 1));
+    f.high = sign * (m >> (BITS - shift));
     return f;
 }
 
-static inline Number exact(double x) { return digits_of(x, BITS * FRACTION, 0); }
+static inline Float exact(double x) { return digits_of(x, BITS * FRACTION, 0); }
 
-static inline void clear(Sum *sum) { sum->low = sum->high = 0; }
+static inline Number number(Float f)
+{
+    Number x;
+    x.low = f.place;
+    x.high = f.place + (f.high != 0 ? 2 : f.low != 0);
+    x.d[f.place] = f.low;
+    x.d[f.place + 1] = f.high;
+    return x;
+}
 
-/* Have the digits from `low` to below `high` set. */
+/* Count the digits from `low` to below `high` as digits of a sum. */
 static inline void reach(Sum *sum, int low, int high)
 {
-    if (sum->low == sum->high)
-        sum->low = sum->high = low;
-    while (sum->low > low)
-        sum->d[--sum->low] = 0;
-    while (sum->high < high)
-        sum->d[sum->high++] = 0;
+    sum->low = low < sum->low ? low : sum->low;
+    sum->high = high > sum->high ? high : sum->high;
 }
 
 static inline void add(Sum *sum, const Number *x)
@@ -84,68 +90,74 @@ static inline void add(Sum *sum, const Number *x)
 }
 
 /* Add x y, or subtract it where the sign is -1. */
-static inline void add_product(Sum *sum, const Number *x, const Number *y, int sign)
+static inline void add_product(Sum *sum, const Number *x, Float y, int sign)
 {
-    int first = x->low + y->low - FRACTION, last = x->high + y->high - 1 - FRACTION;
-    if (x->low == x->high || y->low == y->high)
+    int count = x->high - x->low, first = x->low + y.place - FRACTION, last = first + count;
+    if (count == 0 || !(y.low | y.high))
         return;
-    if (first < 0 || last > DIGITS) {
+    if (first < 0 || last >= DIGITS) {
         lost = 1;
         return;
     }
-    reach(sum, first, last);
-    for (int k = y->low; k < y->high; k++) {
-        int64_t digit = sign * y->d[k];
-        for (int j = x->low; j < x->high; j++)
-            sum->d[j + k - FRACTION] += (__int128)x->d[j] * digit;
+    reach(sum, first, last + 1);
+    const int64_t *digit = x->d + x->low;
+    int64_t low = sign * y.low, high = sign * y.high;
+    __int128 *to = sum->d + first, above = 0;
+    for (int j = 0; j < count; j++) {
+        to[j] += above + (__int128)digit[j] * low;
+        above = (__int128)digit[j] * high;
     }
+    to[count] += above;
 }
 
-static inline Number carried(const Sum *sum)
+/* The number that a sum has come to; the sum is empty then. */
+static inline void carried(Sum *sum, Number *x)
 {
-    Number x;
     __int128 carry = 0;
-    x.low = x.high = 0;
-    for (int j = sum->low; j < DIGITS && (j < sum->high || carry); j++) {
-        __int128 digit = (j < sum->high ? sum->d[j] : 0) + carry;
+    int low = sum->low, j = low;
+    for (; j < sum->high || (carry && j < DIGITS); j++) {
+        __int128 digit = sum->d[j] + carry;
+        sum->d[j] = 0;
         carry = (digit + ((__int128)1 << (BITS - 1))) >> BITS;
-        x.d[j] = (int64_t)(digit - carry * ((__int128)1 << BITS));
-        if (x.d[j]) {
-            x.low = x.high ? x.low : j;
-            x.high = j + 1;
-        }
+        x->d[j] = (int64_t)((uint64_t)digit - ((uint64_t)carry << BITS));
     }
     if (carry)
         lost = 1;
-    return x;
+    sum->low = DIGITS;
+    sum->high = 0;
+    while (j > low && x->d[j - 1] == 0)
+        j--;
+    while (low < j && x->d[low] == 0)
+        low++;
+    x->low = low;
+    x->high = j;
 }
 
-static inline Number total(const Number *x, const Number *y)
+static inline void total(const Number *x, const Number *y, Number *out)
 {
-    Sum sum;
-    clear(&sum);
+    Sum sum = EMPTY;
     add(&sum, x);
     add(&sum, y);
-    return carried(&sum);
+    carried(&sum, out);
 }
 
-static inline Number product(const Number *x, const Number *y)
+static inline void product(const Number *x, Float y, Number *out)
 {
-    Sum sum;
-    clear(&sum);
+    Sum sum = EMPTY;
     add_product(&sum, x, y, 1);
-    return carried(&sum);
+    carried(&sum, out);
 }
 
-/* The value, to a relative 2^-50: the first digit is at least twice what follows. */
+/* The value, to a relative 2^-50, from the first two digits: what follows is at most half a unit of
+   the second, and they are at least 2^55 of these units. */
 static inline double value(const Number *x)
 {
     static const double weight[DIGITS] = {
         0x1p-896, 0x1p-840, 0x1p-784, 0x1p-728, 0x1p-672, 0x1p-616, 0x1p-560,
         0x1p-504, 0x1p-448, 0x1p-392, 0x1p-336, 0x1p-280, 0x1p-224, 0x1p-168,
-        0x1p-112, 0x1p-56, 1.0, 0x1p56, 0x1p112,
+        0x1p-112, 0x1p-56, 1.0, 0x1p56, 0x1p112, 0x1p168,
     };
-    int last = x->high - 4 > x->low ? x->high - 4 : x->low;
+    int last = x->high - 2 > x->low ? x->high - 2 : x->low;
     double sum = 0.0;
     for (int j = x->high - 1; j >= last; j--)
         sum = sum * 0x1p56 + (double)x->d[j];

@@ -11,7 +11,7 @@ int hessian(Proof *s)
     int64_t n = s->n_v, n_a = s->n_a, n_u = n - n_a;
     Number *H = s->hessian;
     lost = 0;
-    Number h = exact(*s->h);
+    Float h = exact(*s->h);
     for (int64_t i = 0; i < n; i++)
         for (int64_t j = 0; j < n; j++) {
             double S = s->coordinate[i] * s->coordinate[j], entry = 0.0;
@@ -19,13 +19,13 @@ int hessian(Proof *s)
                 entry = s->K_q[i * n_a + j];
             else if (i >= n_a && j >= n_a)
                 entry = s->M_u[(i - n_a) * n_u + j - n_a];
-            Number x = scaled(entry, S);
+            Number *x = H + i * n + j;
+            *x = number(scaled(entry, S));
             if (i < n_a) {
-                x = product(&x, &h);
-                x = product(&x, &h);
+                product(x, h, x);
+                product(x, h, x);
             }
-            H[i * n + j] = x;
-            s->hessian_values[i * n + j] = value(&x);
+            s->hessian_values[i * n + j] = value(x);
         }
     return !lost;
 }
@@ -35,23 +35,21 @@ void load(const Proof *s, Number *g)
 {
     int64_t n_a = s->n_a;
     double rho = s->units[1];
-    Number h = exact(*s->h);
+    Float h = exact(*s->h);
+    Sum sum = EMPTY;
     for (int64_t i = 0; i < s->n_v; i++) {
-        Sum sum;
-        clear(&sum);
-        Number tau = scaled(s->tau[i], s->coordinate[i] / rho);
+        Number tau = number(scaled(s->tau[i], s->coordinate[i] / rho));
         add(&sum, &tau);
         for (int64_t j = 0; i < n_a && j < n_a; j++) {
             double K = s->K_q[i * n_a + j], to = s->delta_q_bar_a[j];
             if (K == 0.0 || to == 0.0)
                 continue;
-            Number stiffness = scaled(K, s->coordinate[i] * s->coordinate[j]);
-            Number change = scaled(to, 1 / (rho * s->coordinate[j]));
-            add_product(&sum, &stiffness, &change, 1);
+            Number stiffness = number(scaled(K, s->coordinate[i] * s->coordinate[j]));
+            add_product(&sum, &stiffness, scaled(to, 1 / (rho * s->coordinate[j])), 1);
         }
-        Number x = carried(&sum);
-        x = product(&x, &h);
-        g[i] = product(&x, &h);
+        carried(&sum, g + i);
+        product(g + i, h, g + i);
+        product(g + i, h, g + i);
     }
 }
 
@@ -60,17 +58,14 @@ static void direction(const Proof *s, int64_t c, int64_t row, Number *out)
 {
     Number share[4];
     for (int a = 0; a < 4; a++) {
-        Number coefficient = exact(s->cone[4 * row + a]), mu = exact(s->mu[4 * c + a]);
-        share[a] = product(&coefficient, &mu);
+        Number coefficient = number(exact(s->cone[4 * row + a]));
+        product(&coefficient, exact(s->mu[4 * c + a]), share + a);
     }
+    Sum sum = EMPTY;
     for (int i = 0; i < 4; i++) {
-        Sum sum;
-        clear(&sum);
-        for (int a = 0; a < 4; a++) {
-            Number axis = exact(s->frame[16 * c + 4 * a + i]);
-            add_product(&sum, share + a, &axis, 1);
-        }
-        out[i] = carried(&sum);
+        for (int a = 0; a < 4; a++)
+            add_product(&sum, share + a, exact(s->frame[16 * c + 4 * a + i]), 1);
+        carried(&sum, out + i);
     }
 }
 
@@ -79,6 +74,7 @@ void system_of(const Proof *s, Room *m)
 {
     int64_t n = s->n_v, k = s->working, N = n + k;
     double ell = s->units[0], rho = s->units[1];
+    Sum sum = EMPTY;
     for (int64_t i = 0; i < n; i++)
         for (int64_t j = 0; j < n; j++)
             m->K[i * N + j] = s->hessian_values[i * n + j];
@@ -87,18 +83,16 @@ void system_of(const Proof *s, Room *m)
         Number along[4];
         direction(s, c, row, along);
         for (int64_t v = 0; v < n; v++) {
-            Sum sum;
-            clear(&sum);
             for (int i = 0; i < 4; i++) {
-                Number J = scaled(s->J[n * (4 * c + i) + v], s->coordinate[v] / ell);
-                add_product(&sum, along + i, &J, 1);
+                double J = s->J[n * (4 * c + i) + v];
+                add_product(&sum, along + i, scaled(J, s->coordinate[v] / ell), 1);
             }
-            Number x = carried(&sum);
-            m->A[w * n + v] = x;
-            m->K[(n + w) * N + v] = value(&x);
-            m->K[v * N + n + w] = -value(&x);
+            Number *x = m->A + w * n + v;
+            carried(&sum, x);
+            m->K[(n + w) * N + v] = value(x);
+            m->K[v * N + n + w] = -value(x);
         }
-        m->r[n + w] = scaled(-s->phi[c] * s->cone[4 * row], 1 / (rho * ell));
+        m->r[n + w] = number(scaled(-s->phi[c] * s->cone[4 * row], 1 / (rho * ell)));
     }
 }
 
@@ -107,33 +101,31 @@ void corrected(const Proof *s, Room *m)
 {
     int64_t n = s->n_v, k = s->working, N = n + k;
     const Number *H = s->hessian;
+    Sum pressed = EMPTY, sum = EMPTY;
     for (int64_t i = 0; i < N; i++) {
         double change = 0.0;
         for (int64_t j = 0; j < N; j++)
             change += m->R[i * N + j] * m->rest[j];
         m->change[i] = digits_of(change, GRID, 1);
-        m->z[i] = total(m->z + i, m->change + i);
+        Number moved = number(m->change[i]);
+        total(m->z + i, &moved, m->z + i);
     }
     for (int64_t i = 0; i < n; i++) {
-        Sum pressed, sum;
-        clear(&pressed);
-        clear(&sum);
         for (int64_t w = 0; w < k; w++)
-            add_product(&pressed, m->A + w * n + i, m->change + n + w, 1);
-        Number moved = carried(&pressed);
+            add_product(&pressed, m->A + w * n + i, m->change[n + w], 1);
+        Number moved;
+        carried(&pressed, &moved);
         add(&sum, m->r + i);
         add(&sum, &moved);
         for (int64_t j = 0; j < n; j++)
-            add_product(&sum, H + i * n + j, m->change + j, -1);
-        m->r[i] = carried(&sum);
-        m->net[i] = total(m->net + i, &moved);
+            add_product(&sum, H + i * n + j, m->change[j], -1);
+        carried(&sum, m->r + i);
+        total(m->net + i, &moved, m->net + i);
     }
     for (int64_t w = 0; w < k; w++) {
-        Sum sum;
-        clear(&sum);
         add(&sum, m->r + n + w);
         for (int64_t v = 0; v < n; v++)
-            add_product(&sum, m->A + w * n + v, m->change + v, -1);
-        m->r[n + w] = carried(&sum);
+            add_product(&sum, m->A + w * n + v, m->change[v], -1);
+        carried(&sum, m->r + n + w);
     }
 }

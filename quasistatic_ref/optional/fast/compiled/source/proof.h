@@ -14,7 +14,7 @@ enum { AT_REST = 1, STILL };
 
 /* Bits to which the solution is refined, and again where a small number is open; of the grid of its
    corrections. Ties of bodies at rest on each other are broken by 2^-260. */
-enum { REFINED = 160, FINEST = 400, GRID = 440, ROUNDS = 16 };
+enum { REFINED = 120, FINEST = 400, GRID = 440, ROUNDS = 16 };
 
 #define UP (1 + 0x1p-40)   /* for the rounding of sums of non-negative float64 numbers */
 #define DOWN (1 - 0x1p-40)
@@ -60,15 +60,16 @@ typedef struct {
 
 /* What one proof computes. */
 typedef struct {
-    Number *g, *A, *z, *r, *net, *change;
-    double *K, *R, *G, *rest, *e, *copy;
+    Number *g, *A, *z, *r, *net;
+    Float *change;
+    double *K, *R, *G, *rest, *e;
     int64_t *table, *pivot;
     char *rests;
     int refuted, open; /* whether a sign is wrong, and whether a number is not rounded yet */
 } Room;
 
 /* x in other units, `by` being a power of two. */
-static inline Number scaled(double x, double by)
+static inline Float scaled(double x, double by)
 {
     double y = x * by;
     if (x != 0.0 && !(fabs(y) > NORMAL && fabs(y) < 1 / NORMAL))
@@ -79,7 +80,7 @@ static inline Number scaled(double x, double by)
 void load(const Proof *s, Number *g);
 void system_of(const Proof *s, Room *m);
 void corrected(const Proof *s, Room *m);
-int inverse(double *a, double *R, int64_t n);
+int inverse(double *R, int64_t n, int64_t *pivot);
 void defect(const double *R, const double *K, int64_t n, double *G, double *sizes);
 int error_bounds(const double *R, const double *G, const double *r, int64_t n, double *e);
 int nearest(const Number *x, double e, double h, double unit, double *out);

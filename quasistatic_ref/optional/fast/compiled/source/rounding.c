@@ -31,14 +31,13 @@ static int nearest_of_two(const Number *x, double e, double *c)
 static int nearest_quotient(const Number *x, double e, double h, double *out)
 {
     double c = value(x) / h, rest = 0.0;
-    Number divisor = exact(h);
+    Number divisor = number(exact(h));
     for (int round = 0; round < 3; round++) {
-        Sum sum;
-        clear(&sum);
+        Sum sum = EMPTY;
         add(&sum, x);
-        Number quotient = exact(c);
-        add_product(&sum, &divisor, &quotient, -1);
-        Number left = carried(&sum);
+        add_product(&sum, &divisor, exact(c), -1);
+        Number left;
+        carried(&sum, &left);
         rest = value(&left);
         double better = c + rest / h;
         if (better == c)
