@@ -3,6 +3,7 @@
 The rows of A are contact-major; the user's own rows come last, as if of one contact more.
 """
 
+from bisect import bisect_right
 from collections.abc import Iterable
 
 import numpy as np
@@ -26,8 +27,9 @@ def places(step: StepData, rows: Iterable[int]) -> tuple[NDArray[np.int64], NDAr
 
 def contact_rows(step: StepData, rows: Iterable[int]) -> tuple[tuple[int, int], ...]:
     """(contact, row) of some rows of A; contact n_c stands for the user's own rows."""
-    contact, row = places(step, rows)
-    return tuple(zip(contact.tolist(), row.tolist(), strict=True))
+    offsets = step.offsets.tolist()
+    placed = ((i, bisect_right(offsets, i) - 1) for i in rows)
+    return tuple((contact, i - offsets[contact]) for i, contact in placed)
 
 
 def flat_rows(step: StepData, pairs: Iterable[tuple[int, int]]) -> tuple[int, ...]:

@@ -162,6 +162,7 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
     check_arithmetic()  # a backend may have changed it
     begin = time.perf_counter()
     si_answer = None
+    digits = statistics.digits
     if answer is not None:
         si_answer = in_si(answer.natural_delta_q, answer.natural_lam, units)
     certificate_of: Callable[..., Certificate]
@@ -180,9 +181,9 @@ def _certified(both: StepInBothUnits, solver: Solver, accuracy: float) -> StepSo
         norm = solver.norm(both)
         distance = norm.of_displacement(si_answer[0] - delta_q)
         free_length = norm.of_impulse(both.si_form.g)
-        statistics = statistics._replace(digits=relative_digits(distance, free_length))
+        digits = relative_digits(distance, free_length)
     residuals = vars(both.natural_residuals(*in_natural(delta_q, lam, units)))
-    statistics = statistics._replace(proof_time=time.perf_counter() - begin)
+    statistics = statistics._replace(digits=digits, proof_time=time.perf_counter() - begin)
     certificate = certificate_of(step, optimum, residuals)
     return step_solution(step, delta_q, lam, certificate, statistics, optimum.net)
 
@@ -204,18 +205,18 @@ def _answer_and_statistics(
     both: StepInBothUnits, solver: Solver, accuracy: float
 ) -> tuple[NaturalAnswer | None, SolverStatistics]:
     """A backend's answer, or None, and what it said and cost."""
-    statistics = SolverStatistics(
-        solver.name, "not called", None, None, accuracy, interface=solver.interface
-    )
-    if solver.name == NONE:
-        return None, statistics
-    answer = None
-    try:
-        answer = solver.answer(both, accuracy)
-        statistics = answer.statistics
-    except StepNotSolved as failure:
-        statistics = statistics._replace(status=f"failed: {failure.status}", digits=0.0)
-    return answer, statistics
+    status = "not called"
+    digits = None
+    if solver.name != NONE:
+        try:
+            answer = solver.answer(both, accuracy)
+        except StepNotSolved as failure:
+            status = f"failed: {failure.status}"
+            digits = 0.0
+        else:
+            return answer, answer.statistics
+    name = solver.name
+    return None, SolverStatistics(name, status, None, None, accuracy, digits, solver.interface)
 
 
 def uncertified(

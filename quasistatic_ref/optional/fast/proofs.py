@@ -45,11 +45,11 @@ class GroupNorm:
 
     Parameters
     ----------
-    parts : list of (ndarray of int, EnergyNorm)
+    parts : list of (ndarray of int or slice, EnergyNorm)
         Coordinates of each group, and its norm.
     """
 
-    parts: list[tuple[Indices, EnergyNorm]]
+    parts: list[tuple[Indices | slice, EnergyNorm]]
 
     def of_displacement(self, v: Array) -> float:
         """||v||_H of a displacement v, shape (n_v,) [m, rad]; its square is in [N m s]."""
@@ -157,6 +157,11 @@ class KeptGroup:
     constant: Constants | None
     kept: Kept
 
+    @property
+    def coordinates(self) -> Indices | slice:
+        """The coordinates of the group; all, without an index, where it is the whole step."""
+        return slice(None) if self.constant is None else self.group.coordinates
+
     def optimum(self, whole: StepInBothUnits, lam: Array, slack: Array, in_c: Any) -> ExactOptimum:
         """The exact optimum of the group; parameters of the `whole` step as of :class:`Kept`'s.
 
@@ -231,9 +236,9 @@ class Proofs:
         self._small: Mask | None = None
         self.prover: Any = None
 
-    def norms(self) -> list[tuple[Indices, EnergyNorm]]:
+    def norms(self) -> list[tuple[Indices | slice, EnergyNorm]]:
         """Coordinates of each group of the last step, and its norm."""
-        return [(part.group.coordinates, part.kept.norm) for part in self.parts]
+        return [(part.coordinates, part.kept.norm) for part in self.parts]
 
     def norm(self) -> Norm:
         """The norm ||.||_H of the last step."""
@@ -248,8 +253,9 @@ class Proofs:
         """
         step = both.si_step
         form = both.natural_form
-        lam, slack = np.zeros((2, step.m))
-        if answer is not None:
+        if answer is None:
+            lam, slack = np.zeros((2, step.m))
+        else:
             lam = answer.natural_lam
             slack = form.A @ answer.natural_delta_q - form.b
         coupling = _coupling(step)
