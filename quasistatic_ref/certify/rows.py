@@ -7,22 +7,9 @@ from bisect import bisect_right
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from quasistatic_ref.step.cones import cone
-from quasistatic_ref.step.data import StepData
-
-
-def places(step: StepData, rows: Iterable[int]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Contact, and row of that contact, of some rows of A; contact n_c has the user's own rows.
-
-    Returns
-    -------
-    ndarray, shape (rows,), twice
-    """
-    flat = np.array([*rows], dtype=np.int64)
-    contact = step.offsets.searchsorted(flat, side="right") - 1
-    return contact, flat - step.offsets[contact]
+from quasistatic_ref.step.data import Indices, StepData
 
 
 def contact_rows(step: StepData, rows: Iterable[int]) -> tuple[tuple[int, int], ...]:
@@ -30,6 +17,16 @@ def contact_rows(step: StepData, rows: Iterable[int]) -> tuple[tuple[int, int], 
     offsets = step.offsets.tolist()
     placed = ((i, bisect_right(offsets, i) - 1) for i in rows)
     return tuple((contact, i - offsets[contact]) for i, contact in placed)
+
+
+def places(step: StepData, rows: Iterable[int]) -> Indices:
+    """Contacts, and rows of those contacts, as :func:`contact_rows` has them.
+
+    Returns
+    -------
+    ndarray of int, shape (2, rows)
+    """
+    return np.array(contact_rows(step, rows), dtype=np.int64).reshape(-1, 2).T
 
 
 def flat_rows(step: StepData, pairs: Iterable[tuple[int, int]]) -> tuple[int, ...]:
