@@ -39,7 +39,7 @@ def test_rows_have_a_contact_and_a_number_in_it(step):
     assert pairs[59:61] == ((9, 5), (10, 0))  # ten contacts of six rows, then four each
     assert pairs[-3:] == ((14, 3), (15, 0), (15, 1))
     assert flat_rows(step, pairs) == tuple(rows)
-    assert (places(step, rows).T == pairs).all()
+    assert np.array_equal(places(step, rows).T, pairs)
     assert places(step, []).shape == (2, 0)
     for none in ((0, 6), (10, 4), (15, 2), (16, 0), (-1, 0), (0, -1)):
         with pytest.raises(IndexError, match=f"no row {none[1]} of contact {none[0]}"):

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from quasistatic_ref.lab.study.bench.timing import Job, in_turn, microseconds, ratio
+from quasistatic_ref.lab.study.bench.timing import Job, in_turn, least, microseconds, ratio
 from quasistatic_ref.optional.fast.adapters.program import Program
 from quasistatic_ref.optional.fast.native import NativeSolver
 from quasistatic_ref.optional.fast.simulator import FastSimulator
@@ -106,37 +106,59 @@ def by_numpy(scenario: Scenario) -> FastSimulator:
     return simulator
 
 
-def by_compiled_code(at: Places, repeat: int) -> dict[str, float] | None:
-    """Compiled steps in turn with DAQP alone, and certified ones; None where nothing is compiled.
+class CompiledSteps:
+    """Compiled steps in turn with DAQP alone, and certified ones, in several parts of a run.
 
-    Returns
-    -------
-    dict of str to float
-        Medians of both and the 99th percentile of the second [us], the first over DAQP's call [-].
+    Least times of parts that are a minute apart are those of calm moments, if there is one.
+
+    Parameters
+    ----------
+    at : Places
     """
-    fast = at.scenario.simulator()
-    assert isinstance(fast, FastSimulator)
-    run = _Run(fast, at)
-    proved = _Run(replace(at.scenario, certify=CERTIFY[0]).simulator(), at)
-    run.step(0)
-    if fast.compiled is None:
-        return None
-    solver = run.simulator.solver
-    assert isinstance(solver, NativeSolver)
-    assert isinstance(solver.program, Program)
-    alone = bare_daqp(solver.program)
-    rounds: list[dict[str, Job]] = [
-        {"before": partial(run.step, k - 1), "step": partial(run.step, k), "DAQP alone": alone}
-        for k in range(1, len(at.q), 2)
-    ]
-    times = in_turn(rounds, repeat)
-    certified = in_turn([{"": partial(proved.step, k)} for k in range(len(at.q))], repeat)[""]
-    return {
-        "step": microseconds(times["step"]),
-        "over_solver": ratio(times["step"], times["DAQP alone"]),
-        "certified": microseconds(certified),
-        "certified, p99": 1e6 * float(np.quantile(certified, 0.99)),
-    }
+
+    def __init__(self, at: Places) -> None:
+        fast = at.scenario.simulator()
+        assert isinstance(fast, FastSimulator)
+        run = _Run(fast, at)
+        proved = _Run(replace(at.scenario, certify=CERTIFY[0]).simulator(), at)
+        run.step(0)
+        solver = run.simulator.solver
+        assert isinstance(solver, NativeSolver)
+        assert isinstance(solver.program, Program)
+        alone = bare_daqp(solver.program)
+        self.compiled = fast.compiled is not None
+        self.rounds: list[dict[str, Job]] = [
+            {"before": partial(run.step, k - 1), "step": partial(run.step, k), "DAQP alone": alone}
+            for k in range(1, len(at.q), 2)
+        ]
+        self.certified: list[dict[str, Job]] = [
+            {"certified": partial(proved.step, k)} for k in range(len(at.q))
+        ]
+        self.parts: list[dict[str, Array]] = []
+
+    def take(self, repeat: int) -> None:
+        """Take all steps `repeat` times; none where nothing is compiled."""
+        if self.compiled:
+            self.parts.append(in_turn(self.rounds, repeat) | in_turn(self.certified, repeat))
+
+    def found(self) -> dict[str, float] | None:
+        """What the parts have come to; None where nothing is compiled.
+
+        Returns
+        -------
+        dict of str to float
+            Medians of both and the 99th percentile of the second [us], the first over DAQP's call
+            [-].
+        """
+        if not self.compiled:
+            return None
+        times = least(self.parts)
+        return {
+            "step": microseconds(times["step"]),
+            "over_solver": ratio(times["step"], times["DAQP alone"]),
+            "certified": microseconds(times["certified"]),
+            "certified, p99": 1e6 * float(np.quantile(times["certified"], 0.99)),
+        }
 
 
 class _Run:

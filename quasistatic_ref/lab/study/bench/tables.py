@@ -11,7 +11,7 @@ from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.bench.acceptance import promises
 from quasistatic_ref.lab.study.bench.derived import of_derivatives
 from quasistatic_ref.lab.study.bench.grasp import (
-    by_compiled_code,
+    CompiledSteps,
     certification,
     interfaces,
     places,
@@ -51,20 +51,23 @@ def tables(quick: bool, tell: Tell) -> dict[str, Any]:
     repeat = 1 if quick else REPEAT
     found: dict[str, Any] = {"quick": quick, "machine": machine()}
     load = f"load before the run {_load()}"
+    twice = 1 if quick else 2
     at = places(steps)
-    tell("interfaces")
-    found["interfaces"] = interfaces(at, repeat)
-    tell("compiled")
-    found["compiled"] = by_compiled_code(at, repeat)
-    tell("certification")
     some = places(4 if quick else 60)
-    found["certification"] = certification(some, 1 if quick else 2)
-    found["residual_over_off"] = residual_over_off(some, repeat)
-    tell("derivatives")
-    found["derivatives"] = of_derivatives(2 if quick else 100, 1 if quick else 2)
-    tell("solids")
     scenes = [*SCENES][:1] if quick else [*SCENES]
-    found["solids"] = solid_scenes(scenes, 3 if quick else 200, 1 if quick else RUNS)
+    each: dict[str, Callable[[], Any]] = {
+        "interfaces": lambda: interfaces(at, repeat),
+        "certification": lambda: certification(some, twice),
+        "residual_over_off": lambda: residual_over_off(some, repeat),
+        "derivatives": lambda: of_derivatives(2 if quick else 100, twice),
+        "solids": lambda: solid_scenes(scenes, 3 if quick else 200, 1 if quick else RUNS),
+    }
+    compiled = CompiledSteps(at)
+    for name, measured in each.items():
+        tell(name)
+        found[name] = measured()
+        compiled.take(repeat)
+    found["compiled"] = compiled.found()
     found["machine"]["load"] = f"{load}, after it {_load()}"
     found["promises"] = promises(found)
     return found
