@@ -109,7 +109,8 @@ def by_numpy(scenario: Scenario) -> FastSimulator:
 class CompiledSteps:
     """Compiled steps in turn with DAQP alone, and certified ones, in several parts of a run.
 
-    Least times of parts that are a minute apart are those of calm moments, if there is one.
+    A machine that is shared may be slower for seconds or minutes. Least times of several parts are
+    less likely to be all from such a phase.
 
     Parameters
     ----------
