@@ -79,6 +79,13 @@ def test_the_bounds_of_a_proof_are_bounds(tmp_path):
     assert holds(made(tmp_path, "", ""))
 
 
+def test_a_bound_that_is_infinite_shows_no_contraction(tmp_path):
+    R, G = np.full((2, 2), 1e300), np.full((2, 2), 0.9)
+    r, e = np.full(2, 1e10), np.zeros(2)
+    given = pointer(R), pointer(G), pointer(r), ctypes.c_int64(2), pointer(e)
+    assert not made(tmp_path, "", "").error_bounds(*given)
+
+
 MUTANTS = {
     "no rounding of the sums": ("((double)n * 0x1p-52 + 0x1p-47) * (sizes[j] + one)", "0.0"),
     "no rounding of K and of the difference": ("+ 0x1p-47) * (sizes[j] + one)", ") * 0.0"),

@@ -51,8 +51,8 @@ def library(folder):
 def cases():
     """Factors of up to twelve products, and whether these surely fit.
 
-    Three factors of 53 bits fit between 2^-740 and 2^220, one fits above 2^-844 and below 2^112.
-    Some come near these ends.
+    Some factors and products come near the least and the largest that fit, where a sum may be given
+    up though it fits.
     """
     sizes = [(0, 0, 0), (74, 74, 74), (-245, -245, -245), (-843, 70, 70)]
     rng = np.random.default_rng(12)

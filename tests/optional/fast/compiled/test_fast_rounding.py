@@ -28,6 +28,17 @@ int shown(int64_t first, int64_t second, int64_t third, int place, double e, dou
         x.d[place - 2] = third;
     return nearest_of_two(&x, e, c);
 }
+int shown_quotient(const double *factors, int n, double h, double *c)
+{
+    Sum sum = EMPTY;
+    Number x, one;
+    for (int i = 0; i < n; i++) {
+        one = number(exact(factors[2 * i]));
+        add_product(&sum, &one, exact(factors[2 * i + 1]), 1);
+    }
+    carried(&sum, &x);
+    return nearest_quotient(&x, 0.0, h, c);
+}
 """
 
 
@@ -42,6 +53,12 @@ def library(folder, text="", other=""):
     subprocess.run(command, check=True, capture_output=True)
     found = ctypes.CDLL(str(out))
     found.shown.argtypes = [*[ctypes.c_int64] * 3, ctypes.c_int, ctypes.c_double, ctypes.c_void_p]
+    found.shown_quotient.argtypes = [
+        ctypes.c_void_p,
+        ctypes.c_int,
+        ctypes.c_double,
+        ctypes.c_void_p,
+    ]
     return found
 
 
@@ -80,6 +97,33 @@ def holds(made):
 def test_a_number_that_is_said_to_be_nearest_is(tmp_path):
     right, count = holds(library(tmp_path))
     assert right
+    assert count > CASES // 4
+
+
+def quotients():
+    """Factors of the products that add up to a number, and its divisor: x / h is near a tie."""
+    rng = np.random.default_rng(7)
+    for k in range(CASES):
+        h = float(rng.uniform(0.5, 1.0)) * 2.0 ** int(rng.integers(-8, 9))
+        c = 2.0 ** int(rng.integers(-9, 9)) * (float(rng.uniform(1.0, 2.0)) if k % 2 else 1.0)
+        gap = (np.nextafter(c, np.inf if k % 4 < 2 else 0.0) - c) / 2
+        off = h * gap * 2.0 ** -int(rng.integers(1, 70)) * int(rng.choice([-1, 1]))
+        yield [(h, c), (h, gap), (1.0, off)], h
+    h = float.fromhex("0x1.ffffffffffff9p+45")  # candidates are 8 and its neighbour, by turns
+    yield [(h, -8.0), (h, 2.0**-51), (1.0, float.fromhex("0x1.ffffffffffffep-60"))], h
+
+
+def test_a_quotient_that_is_said_to_be_nearest_is(tmp_path):
+    made = library(tmp_path)
+    count = 0
+    c = ctypes.c_double()
+    for factors, h in quotients():
+        given = np.array(factors)
+        if not made.shown_quotient(given.ctypes.data, len(given), h, ctypes.byref(c)):
+            continue
+        count += 1
+        x = sum(Fraction(a) * Fraction(b) for a, b in factors)
+        assert c.value == float(x / Fraction(h))
     assert count > CASES // 4
 
 

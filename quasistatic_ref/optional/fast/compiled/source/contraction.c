@@ -83,7 +83,7 @@ int error_bounds(const double *R, const double *G, const double *r, int64_t n, d
             double moved = 0.0;
             for (int64_t j = 0; j < n; j++)
                 moved += G[i * n + j] * e[j];
-            if (!(moved * UP <= e[i] / 2)) {
+            if (!(moved * UP <= e[i] / 2 && e[i] < INFINITY)) {
                 e[i] = 4 * moved;
                 shown = 0;
             }

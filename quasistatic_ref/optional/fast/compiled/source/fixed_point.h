@@ -21,7 +21,7 @@ typedef struct { int low, high; __int128 d[DIGITS]; } Sum;
 
 static const Sum EMPTY = {DIGITS, 0, {0}};
 
-/* Set by whatever would not fit, below the grid or beyond the last digit, and cleared by hand, as the
+/* Set by whatever might not fit, below the grid or beyond the last digit, and cleared by hand, as the
    flags of a processor are: what this thread has computed since is worth nothing. */
 extern _Thread_local int lost;
 
@@ -148,7 +148,7 @@ static inline void product(const Number *x, Float y, Number *out)
     carried(&sum, out);
 }
 
-/* The value, to a relative 2^-50, from the first two digits: what follows is at most half a unit of
+/* The value, to a relative 2^-50, from the first two digits: what follows is less than one unit of
    the second, and they are at least 2^55 of these units. */
 static inline double value(const Number *x)
 {

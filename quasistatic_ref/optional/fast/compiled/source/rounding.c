@@ -30,7 +30,7 @@ static int nearest_of_two(const Number *x, double e, double *c)
 /* The float64 nearest to x / h, x being known to within e; 0 if that is not shown. */
 static int nearest_quotient(const Number *x, double e, double h, double *out)
 {
-    double c = value(x) / h, rest = 0.0;
+    double c = value(x) / h;
     Number divisor = number(exact(h));
     for (int round = 0; round < 3; round++) {
         Sum sum = EMPTY;
@@ -38,14 +38,13 @@ static int nearest_quotient(const Number *x, double e, double h, double *out)
         add_product(&sum, &divisor, exact(c), -1);
         Number left;
         carried(&sum, &left);
-        rest = value(&left);
-        double better = c + rest / h;
+        double rest = value(&left), better = c + rest / h;
+        *out = c;
         if (better == c)
-            break;
-        c = better;
+            return is_nearest(c, rest, e, h);
+        c = better; /* to which the rest does not belong */
     }
-    *out = c;
-    return is_nearest(c, rest, e, h);
+    return 0;
 }
 
 /* The same, times a unit; zero is shown if it is known exactly. */
