@@ -33,6 +33,7 @@ def test_a_quick_run_writes_every_table_and_does_not_judge(tmp_path, capsys):
     for title in ("by every interface", "certificate", "Derivatives", "Scenes of solids"):
         assert title in text
     assert f"| full, plain | {found['certification']['full, plain']:.1f} |" in text
+    assert text.count("| not judged |") == len(found["promises"])
 
 
 def test_the_interfaces_lead_to_the_same_step(at):
@@ -88,5 +89,5 @@ def test_each_promise_is_judged_by_its_limit():
         "many, step over the bare solver": False,
         **{f"{name}, proved over not": False for name in solids},
     }
-    rows = promise_rows(promises(tables))
+    rows = promise_rows(promises(tables), judged=True)
     assert rows[1] == ("step over the bare solver", "16.5", "at most 16", "FAILS")

@@ -31,7 +31,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         shared.print_json(found)
         return status
-    shared.print_rows(promise_rows(found["promises"]))
+    shared.print_rows(promise_rows(found["promises"], judged=not options.quick))
     print(paper_sentence(found))
     print(f"wrote bench.json and bench.md to {options.out}")
     return status
