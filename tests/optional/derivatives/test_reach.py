@@ -76,6 +76,17 @@ def test_a_ball_that_nearly_reaches_the_floor_has_derivatives_on_both_sides(gap)
     assert exact.reach == found.reach < NEARLY
 
 
+@pytest.mark.parametrize("gap", [-1e-15, -1e-17])
+def test_a_ball_whose_load_is_rounding_meets_no_kink_as_it_rises(gap):
+    simulator, q = reaching(gap)
+    found, kinds = verdict(simulator, q)
+    assert kinds == {reason.WEAK}
+    assert found.result.solution.lam.any()
+    # It touches no more, and there is no other contact.
+    assert found.reach_along(q=Z).distance == np.inf
+    assert found.reach_along(tau=Z).distance == np.inf
+
+
 def test_at_a_kink_the_reach_is_zero_and_a_smoothed_step_has_none():
     simulator, q = reaching()
     found, _ = verdict(simulator, q)

@@ -205,7 +205,9 @@ class Equations:
         if size:
             pressed[~opened] = bearing(unit[~opened], (pushes * length)[~opened], size)
         strict = np.concatenate([t.strict, t.idle[pressed]])
-        return replace(t, strict=strict, idle=t.idle[~pressed & ~opened])
+        impulses = t.impulses.copy()
+        impulses[tuple(t.idle[opened].T)] = 0.0  # the load of an idle row is rounding
+        return replace(t, strict=strict, idle=t.idle[~pressed & ~opened], impulses=impulses)
 
 
 def _complementary(rows: Array, slack: Array) -> Array:

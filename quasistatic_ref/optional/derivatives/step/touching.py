@@ -36,8 +36,8 @@ class Touching:
         How the cone's rows combine them [-].
     strict, idle : ndarray of int, shape (k, 2)
         Contact and row of those that bear load in some optimal lam, and of the others.
-    multipliers : ndarray, shape (n_c, 4)
-        Those of an optimal lam, of the generators [N s].
+    impulses : ndarray, shape (n_c, R)
+        Those of an optimal lam [N s].
     open : ndarray of int, shape (k, 2)
         Contact and row of those that do not touch.
     slack : ndarray, shape (k,)
@@ -49,9 +49,14 @@ class Touching:
     table: Array
     strict: Indices
     idle: Indices
-    multipliers: Array
+    impulses: Array
     open: Indices
     slack: Array
+
+    @property
+    def multipliers(self) -> Array:
+        """What the impulses make of the generators, shape (n_c, 4) [N s]."""
+        return self.impulses @ self.table
 
     @property
     def contacts(self) -> set[int]:
@@ -118,10 +123,10 @@ def touching_rows(solution: StepSolution, places: Array) -> Touching:
         size = float((np.abs(phi) / length).min())
     Z = every[touches]
     bears = bearing(unit[touches], (lam * length)[touches], size)
-    multipliers = impulses(contacts, lam, step.cone) @ table
+    of_rows = impulses(contacts, lam, step.cone)
     away = ~touches & (phi < FILLED)
     return Touching(
-        inverse, generators, table, Z[bears], Z[~bears], multipliers, every[away], slack[away]
+        inverse, generators, table, Z[bears], Z[~bears], of_rows, every[away], slack[away]
     )
 
 

@@ -21,9 +21,9 @@ def walls(normals, strict, idle):
     table = np.array([[1.0, 0, 0, 0]])
     rows = [np.array([[j, 0] for j in some], dtype=np.int64).reshape(-1, 2)
             for some in (strict, idle)]  # fmt: skip
-    multipliers = np.zeros((len(normals), 4))
+    impulses = np.zeros((len(normals), 1))
     none = np.zeros(0)
-    return Touching(np.eye(n), generators, table, *rows, multipliers, rows[0][:0], none)
+    return Touching(np.eye(n), generators, table, *rows, impulses, rows[0][:0], none)
 
 
 def rates(normals, load=None, motion=None, terms=0.0, turns=None):
