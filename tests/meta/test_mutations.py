@@ -4,9 +4,11 @@ The mutants are generated (validation/tools/mutating/mutants.py); these are a fi
 All of them: ``python -m validation.tools.mutations``.
 """
 
+from collections import Counter
+
 from validation.tools.mutating.mutants import mutants
 from validation.tools.mutating.mutated import TESTS
-from validation.tools.mutations import PACKAGE, all_mutants, outcomes
+from validation.tools.mutations import PACKAGE, all_mutants, outcomes, reasons, tried_files
 
 PAGE = "step/problem.py"
 FORM = "step/standard_form.py"
@@ -98,6 +100,12 @@ def test_every_mutant_of_the_sample_is_killed():
     tests = {key: (test,) for test, own in SAMPLE.items() for key in own}
     said = dict(outcomes([known[key] for key in keys], lambda mutant: tests[mutant.key], jobs=2))
     assert not [key for key in keys if said[key] == "survived"]
+
+
+def test_no_file_has_more_survivors_than_reasons():
+    given = Counter(key.split()[0] for key in reasons())
+    survivors = {file: int(row[-1]) for file, row in tried_files().items()}
+    assert [file for file, count in survivors.items() if count > given[file]] == []
 
 
 def test_every_file_of_the_mathematics_has_its_tests_named():

@@ -99,10 +99,10 @@ def tried_files() -> dict[str, tuple[str, ...]]:
     return {row[0].strip("`"): tuple(row[1:]) for row in rows if row[0].startswith("`")}
 
 
-def table_written(found: Mapping[str, str]) -> None:
-    """Enter each file all of whose mutants were tried into the table of results."""
+def table_written(files: Iterable[str], found: Mapping[str, str]) -> None:
+    """Enter each of some files, if all of its mutants were tried, into the table of results."""
     rows = tried_files()
-    for file in TESTS:
+    for file in files:
         said = [found.get(mutant.key) for mutant in all_mutants([file])]
         if None not in said:
             counts = (str(said.count(kind)) for kind in KINDS)
@@ -131,7 +131,7 @@ def main() -> int:
         if said == "survived":
             tqdm.write(key, file=sys.stderr)
     found = {key: one["said"] for key, one in log.found.items()}
-    table_written(found)
+    table_written(files, found)  # a log may hold others, tried before their tests changed
     known = reasons()
     counts = Counter(found[mutant.key] for mutant in chosen)
     print(f"{len(chosen)} mutants: {', '.join(f'{n} {said}' for said, n in counts.items())}")

@@ -254,7 +254,8 @@ class Proofs:
         step = both.si_step
         form = both.natural_form
         if answer is None:
-            lam, slack = np.zeros((2, step.m))
+            lam = np.zeros(step.m)
+            slack = np.zeros(step.m)
         else:
             lam = answer.natural_lam
             slack = form.A @ answer.natural_delta_q - form.b

@@ -206,7 +206,7 @@ class Equations:
             pressed[~opened] = bearing(unit[~opened], (pushes * length)[~opened], size)
         strict = np.concatenate([t.strict, t.idle[pressed]])
         impulses = t.impulses.copy()
-        impulses[tuple(t.idle[opened].T)] = 0.0  # the load of an idle row is rounding
+        impulses[tuple(t.idle[opened].T)] = 0.0  # a row that opens bears nothing
         return replace(t, strict=strict, idle=t.idle[~pressed & ~opened], impulses=impulses)
 
 

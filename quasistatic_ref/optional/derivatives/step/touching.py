@@ -37,7 +37,7 @@ class Touching:
     strict, idle : ndarray of int, shape (k, 2)
         Contact and row of those that bear load in some optimal lam, and of the others.
     impulses : ndarray, shape (n_c, R)
-        Those of an optimal lam [N s].
+        The multiplier of each row in an optimal lam [N s]; 0 where a contact lacks it.
     open : ndarray of int, shape (k, 2)
         Contact and row of those that do not touch.
     slack : ndarray, shape (k,)
