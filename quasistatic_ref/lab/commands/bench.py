@@ -13,7 +13,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--quick", action="store_true", help="a little of everything, to see that it runs"
     )
-    shared.add(parser, "--out", default="validation/results/benchmarks")
+    shared.add(parser, "--out", default="benchmarks")
     shared.add(parser, "--json")
 
 

@@ -26,7 +26,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     """Declare the options of this command."""
     names = parser.add_argument("names", nargs="*", metavar="NAME", help=HELP)
     shared.completed(names, lambda: [*BY_NAME, reality.NAME])
-    shared.add(parser, "--out", default="validation/results")
+    shared.add(parser, "--out", default="results")
     shared.add(parser, "--json")
     reality.add_options(parser)
 

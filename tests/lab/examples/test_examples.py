@@ -4,6 +4,8 @@ The runs of the grasp are those of ``demo``; what is slow is run in full by
 validation/tools/notebooks.py.
 """
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -14,7 +16,6 @@ from quasistatic_ref.lab.examples import (
     grasp,
     grasp_against_mu_omega,
     hold_or_slip,
-    plan_a_push,
     solver_digits,
 )
 from quasistatic_ref.lab.examples.gallery import EXAMPLES, example, figure_of
@@ -23,6 +24,7 @@ from quasistatic_ref.lab.study.bench import profile
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.tolerances import FITTED
+from tests.extras import GALLERY, missing
 from tests.legible import faults
 from tests.tolerances import DIFFERENCE_OF_STEPS, EXACT, FIRST_ORDER, ROUNDING, SCENARIO, THRESHOLD
 
@@ -46,7 +48,9 @@ def runs_of_the_demo(demo, monkeypatch):
     monkeypatch.setattr(flat_patch, "DRAWN", 0.25)
     monkeypatch.setattr(hold_or_slip, "MU_V", np.array([0.2, 0.5]))
     monkeypatch.setattr(hold_or_slip, "MU_OMEGA", np.array([0.015, 0.02]))
-    monkeypatch.setattr(plan_a_push, "KAPPAS", np.geomspace(1e-5, 1e-8, 26))
+    if not missing("jax"):  # which the example imports
+        plan = import_module("quasistatic_ref.lab.examples.plan_a_push")
+        monkeypatch.setattr(plan, "KAPPAS", np.geomspace(1e-5, 1e-8, 26))
     monkeypatch.setattr(profile, "STEPS", 20)
 
 
@@ -101,7 +105,7 @@ def test_there_is_an_example_for_every_subject():
     assert len(EXAMPLES) == len(set(EXAMPLES)) == 31
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize("name", GALLERY)
 def test_the_figure_of_an_example_is_legible(name):
     figure = figure_of(name)
     assert figure.axes
@@ -159,10 +163,11 @@ def test_a_smoothed_step_tends_to_the_exact_one_also_at_a_kink():
     np.testing.assert_allclose(middle, 0.5, rtol=1e-9)
 
 
+@pytest.mark.extra("jax")
 def test_a_planned_push_reaches_its_goal_in_certified_steps():
     found = np.reshape(list(numbers("plan_a_push").values()), (2, 3))
     assert (found < [5.0, 5.0, 41]).all()  # mm, degrees
-    assert (found[:, 2] == plan_a_push.STEPS).all()
+    assert (found[:, 2] == 40).all()  # of its steps
 
 
 def test_a_slider_turns_as_lynch_says_when_it_is_slow():
@@ -221,12 +226,14 @@ def test_more_accuracy_means_more_digits_but_never_all():
     assert digits.max() < 16
 
 
+@pytest.mark.extra("robots")
 def test_the_joints_of_the_robot_yield_by_the_torques_of_the_push():
     measured, formula, way = numbers("robot_push").values()
     np.testing.assert_allclose(measured, formula, rtol=2 * FIRST_ORDER)
     assert 8 < way < 12  # 12 mm less the 1.25 mm before it was met
 
 
+@pytest.mark.extra("robots")
 def test_the_finger_rolls_on_the_drum_and_slides_without_friction():
     turn, difference, smooth = numbers("hand_turns_a_drum").values()
     np.testing.assert_allclose(turn, 0.945, atol=0.005)

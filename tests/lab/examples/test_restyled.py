@@ -5,7 +5,7 @@ import inspect
 import pytest
 from matplotlib import pyplot as plt
 
-from quasistatic_ref.lab.examples.gallery import EXAMPLES
+from tests.extras import GALLERY
 from validation.tools.restyled import FIGURES, GRID, drawer, in_styles
 
 QUICK = ("six_rows_of_a_contact", "corner_loads")
@@ -24,7 +24,7 @@ def test_a_figure_is_legible_in_columns_slides_posters_and_grids(name):
         plt.close(page)
 
 
-@pytest.mark.parametrize("name", [*EXAMPLES, *FIGURES])
+@pytest.mark.parametrize("name", [*GALLERY, *FIGURES])
 def test_every_figure_takes_axes_first_and_physical_parameters_by_name(name):
     first, *others = inspect.signature(drawer(name)).parameters.values()
     assert first.name == "ax"

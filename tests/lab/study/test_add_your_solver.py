@@ -43,6 +43,7 @@ def folder(tmp_path, monkeypatch, importable):
     sys.modules.pop("my_solver", None)
 
 
+@pytest.mark.extra("fast")  # a part of the page is compiled
 def test_every_command_of_the_page_does_what_it_says(folder, monkeypatch):
     """Both solvers stand in every table; on problems with a solution they have 12 digits."""
     ran = []

@@ -82,8 +82,8 @@ HOSTILE = {
     "a lam beyond its cone": (
         "qp/ellipsoid/flat", "lam", lambda lam: [1e308] * len(lam), "lam is another one, and ",
     ),
-    "a lam beyond float64": (
-        "qp/grasp/0", "lam", lambda lam: [1e308] * len(lam), "A'lam is off by nan",
+    "a lam beyond float64": (  # sums that overflow are inf or nan, by the order of summation
+        "qp/grasp/0", "lam", lambda lam: [1e308] * len(lam), "A'lam is off by ",
     ),
     "a list for a claim": (
         "qp/random/2", "certificate",

@@ -16,6 +16,7 @@ from quasistatic_ref.lab.vectors.challenge.serve import served
 from quasistatic_ref.lab.vectors.challenge.simpler import MOVES, shrunk
 from quasistatic_ref.lab.vectors.check.patched import program
 from quasistatic_ref.lab.vectors.layers import LAYERS, layer
+from tests.extras import marked
 from tests.lab.vectors.material import ROOT
 from tests.lab.vectors.programs import command
 from validation.make import challenges, planted_bugs
@@ -131,13 +132,17 @@ def test_serving_answers_each_line_and_survives_what_is_no_case():
 OWN = f"{sys.executable} -m quasistatic_ref.cli.main vectors challenge --serve own"
 
 
-@pytest.mark.parametrize("program", [*planted_bugs.COMMANDS.values(), OWN])
-def test_the_programs_and_the_package_are_found_right(program, tmp_path, capsys):
-    given = ["vectors", "challenge", "--command", program, "--cases", "44", "--seed", "1"]
+PROGRAMS = {**planted_bugs.COMMANDS, "package": OWN}
+
+
+@pytest.mark.parametrize("name", marked(PROGRAMS, {"javascript": "node"}))
+def test_the_programs_and_the_package_are_found_right(name, tmp_path, capsys):
+    given = ["vectors", "challenge", "--command", PROGRAMS[name], "--cases", "44", "--seed", "1"]
     given += ["--timeout", "100", "--quiet", "--out", str(tmp_path)]
     assert main(given) == 0, capsys.readouterr().err
 
 
+@pytest.mark.extra("node")
 def test_a_planted_bug_is_found_named_and_small():
     (given,) = (one for one in planted_bugs.bugs() if one["name"] == "one point midway")
     one = planted_bugs.trial(given)

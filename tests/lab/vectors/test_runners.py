@@ -18,6 +18,7 @@ from quasistatic_ref.lab.vectors.challenge.program import Program
 from quasistatic_ref.lab.vectors.check.folder import answer_judged, check_answers
 from quasistatic_ref.lab.vectors.check.verdict import FAILED
 from quasistatic_ref.lab.vectors.files import Case
+from tests.extras import marked
 from tests.lab.vectors.material import JAVASCRIPT, NUMPY, VECTORS, cases
 from tests.tolerances import CLOSED_FORM
 from validation.make.planted_bugs import COMMANDS, RUNNERS
@@ -55,6 +56,7 @@ def test_the_plain_program_passes_layers_1_to_8(numpy_answers):
     assert all(layer.count("passed") > 0 for layer in report.layers)
 
 
+@pytest.mark.extra("node")
 def test_the_javascript_runner_passes_layers_2_to_7(javascript_answers):
     report = check_answers(javascript_answers, VECTORS, JAVASCRIPT)
     assert report.ok, report.sentences
@@ -63,7 +65,7 @@ def test_the_javascript_runner_passes_layers_2_to_7(javascript_answers):
         assert layer.count("passed") + layer.count("acceptable") == len(cases(layer.layer)) > 0
 
 
-@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize("name", marked(COMMANDS, {"javascript": "node"}))
 def test_what_challenges_found_in_the_programs_is_mended(name):
     program = Program(COMMANDS[name])
     with program:
@@ -99,6 +101,7 @@ def test_the_plain_program_shares_no_code_with_the_package():
                 assert part.module in (own if part.level == 1 else LIBRARIES)
 
 
+@pytest.mark.extra("node")
 def test_the_javascript_runner_needs_node_alone():
     for path in RUNNERS.glob("*.js"):
         needs = set(re.findall(r'require\("([^"]*)"\)', path.read_text()))

@@ -77,6 +77,7 @@ def test_a_patch_is_named(name, layer):
     assert [mistake.name for mistake in report.mistakes] == wanted
 
 
+@pytest.mark.extra("node")
 @pytest.mark.parametrize("name", BUGS)
 def test_a_bug_planted_in_javascript_is_named(name, tmp_path):
     bug = BUGS[name]

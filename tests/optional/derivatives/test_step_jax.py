@@ -1,13 +1,10 @@
 """Steps as functions of JAX: its own check of gradients, and no number at a kink unsaid."""
 
-import sys
+from importlib import import_module
 
-import jax
 import numpy as np
 import pytest
-from jax.test_util import check_grads
 
-import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError, NotDifferentiable
 from quasistatic_ref.lab.scenes.nudge import RADIUS, H, points, resting
 from quasistatic_ref.lab.scenes.pushed_block import pushed_block
@@ -16,8 +13,12 @@ from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step import reason
 from quasistatic_ref.optional.derivatives.step_jax import smoothed_jax, step_jax
 from quasistatic_ref.shapes.placed_shape import Sphere
+from tests.extras import reason as needs
 from tests.optional.derivatives.free_bodies import BOX, FLOOR, free, vector_scene
 from tests.tolerances import JAX_GRADIENT, JAX_STEP
+
+jax = pytest.importorskip("jax", reason=needs("jax"))
+check_grads = import_module("jax.test_util").check_grads
 
 G = 9.81
 NONE = np.zeros(0)
@@ -177,9 +178,3 @@ def test_elements_of_a_vmap_are_steps_taken_once(monkeypatch):
     by_q = jax.jit(jax.vmap(jax.jacfwd(lambda q: step(q, NONE)[0])))
     jax.block_until_ready(by_q(np.tile(q, (3, 1))))
     assert len(taken) == 3
-
-
-def test_without_jax_one_sentence_names_the_extra(monkeypatch):
-    monkeypatch.setitem(sys.modules, "jax", None)
-    with pytest.raises(InputError, match=r"pip install 'quasistatic-ref\[jax\]'"):
-        qr.step_jax(kink()[0])

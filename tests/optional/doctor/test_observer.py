@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from quasistatic_ref.cli.main import main
-from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
+from tests.extras import SCENARIOS
 from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
 
 GUIDE = Path(__file__).parents[3] / "docs" / "findings.md"
@@ -117,7 +117,7 @@ DRAGS = {"block_push", "block_incline", "panda_push"}
 """Their drag is not small."""
 
 
-@pytest.mark.parametrize("name", scenario_names())
+@pytest.mark.parametrize("name", SCENARIOS)
 def test_of_a_scenario_that_comes_along_nothing_is_found_but_its_drag(name):
     settings = ["solver.certify=off", "record=light", "steps=60"]
     run = load_scenario(name, settings, fast=True).run(progress=False)

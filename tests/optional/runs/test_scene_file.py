@@ -5,11 +5,11 @@ import pytest
 
 import quasistatic_ref as qr
 from quasistatic_ref.errors import InputError
-from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.scenes.systems import RAIL
 from quasistatic_ref.model.rotation import rotation
 from quasistatic_ref.optional.runs.scene_file import scenario_written
 from tests.contact.still import placed
+from tests.extras import SCENARIOS
 
 TURNED = rotation(np.array([0.3, -0.2, 1.1]))
 STANDING = (
@@ -65,7 +65,7 @@ def test_a_scene_is_loaded_as_it_was_written_and_moves_alike(tmp_path):
     assert names == ["scene.toml", "scene_ball.npy", "scene_ball.urdf", "scene_rail.urdf"]
 
 
-@pytest.mark.parametrize("name", scenario_names())
+@pytest.mark.parametrize("name", SCENARIOS)
 def test_every_scenario_of_the_package_is_written_as_it_was_loaded(tmp_path, name):
     simulator = qr.load_scenario(name, fast=True).simulator()
     loaded = qr.load_scenario(qr.scenario_written(simulator, tmp_path / "copy.toml", steps=1))

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.model.system import Body, System
-from quasistatic_ref.optional.fast.compiled import compiled, why_not
+from quasistatic_ref.optional.fast.compiled import compiled
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.shapes.placed_shape import PlacedShape, PointCloud
 from quasistatic_ref.simulate.simulator import Simulator
@@ -24,10 +24,8 @@ ROOT = Path(__file__).parents[4]
 KNOWN = ("sphere", "box", "capsule", "cylinder", "half-space", "tilted half-space")
 CONES = ("pyramid", "product", "facets-8", "frictionless")
 
-# The rest of the suite holds without a compiler, which QUASISTATIC_REF_CC=none shows; CI has one.
-needs_compiler = pytest.mark.skipif(  # a compiler is optional: NumPy takes the same steps
-    why_not() is not None, reason=f"no compiled code here: {why_not()}"
-)
+# The rest of the suite holds without a compiler, which QUASISTATIC_REF_CC=none shows.
+needs_compiler = pytest.mark.extra("fast")
 STONE = robot(link("stone", "", inertial("0.3", ("3e-4",) * 3)))
 CART = robot(link("cart", "", inertial("2", ("0.1",) * 3)))
 WHEELS = robot(

@@ -56,6 +56,7 @@ def refused(*_):
     raise AssertionError("the method that decides everything was called, or prepared")
 
 
+@pytest.mark.extra("robots")
 @pytest.mark.parametrize("by", ["balls", pytest.param("compiled code", marks=needs_compiler)])
 def test_rows_that_daqp_does_not_see_do_not_cost_the_exact_method(monkeypatch, by):
     """A hand turns a ball: from the third step on a row is missing of nearly every guess."""

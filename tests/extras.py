@@ -1,0 +1,59 @@
+"""Tests that need an extra say so where they stand: ``@pytest.mark.extra("robots")``.
+
+Where the extra is not installed they are skipped, and pytest's summary names it.
+"""
+
+import re
+from collections.abc import Iterable, Mapping
+from functools import cache
+from importlib.metadata import PackageNotFoundError, distribution, requires
+from typing import Any
+
+import pytest
+
+from quasistatic_ref.formats.resources import scenario_names
+from quasistatic_ref.lab.examples.gallery import EXAMPLES
+from quasistatic_ref.optional.fast.compiled import why_not
+
+OF_EXTRA = re.compile(r"""([\w.-]+).*\bextra *== *['"]([\w-]+)['"]""")
+"""A requirement of the package's metadata: the name of what is required, and the extra."""
+
+
+@cache
+def missing(extra: str) -> bool:
+    """Whether a package of an extra is not installed; of ``fast``, whether nothing compiles C."""
+    if extra == "fast":
+        return why_not() is not None  # any C compiler serves as well as the extra's
+    matches = filter(None, map(OF_EXTRA.match, requires("quasistatic-ref") or ()))
+    packages = [match[1] for match in matches if match[2] == extra]
+    assert packages, f"pyproject.toml declares no extra {extra}"
+    return not all(map(_installed, packages))
+
+
+def _installed(package: str) -> bool:
+    try:
+        distribution(package)
+    except PackageNotFoundError:
+        return False
+    return True
+
+
+def reason(extra: str) -> str:
+    """What pytest's summary says of a test that is skipped."""
+    return f'needs the extra {extra}: pip install -e ".[test,{extra}]"'
+
+
+def marked(names: Iterable[str], needs: Mapping[str, str]) -> list[Any]:
+    """Parameters of a test; those that need an extra are marked with it."""
+    return [
+        pytest.param(name, marks=pytest.mark.extra(needs[name])) if name in needs else name
+        for name in names
+    ]
+
+
+SCENARIOS = marked(scenario_names(), {"allegro_turn": "robots", "panda_push": "robots"})
+"""The scenarios that come along."""
+GALLERY = marked(
+    EXAMPLES, {"hand_turns_a_drum": "robots", "plan_a_push": "jax", "robot_push": "robots"}
+)
+"""The examples of the gallery."""

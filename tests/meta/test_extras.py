@@ -1,0 +1,64 @@
+"""What needs an extra is marked with it, and nothing else is skipped."""
+
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from tests.extras import missing
+
+ROOT = Path(__file__).parents[2]
+EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"][
+    "optional-dependencies"
+]
+SKIPS = re.compile(r"pytest\.skip\(|mark\.skip|collect_ignore|importorskip\((?!.*reason=needs\()")
+CONFTEST = """
+from tests import conftest
+from tests.conftest import *
+
+conftest.missing = lambda extra: extra == "robots"
+"""
+"""The hooks of this suite, where one extra is missing."""
+MARKED = """
+import pytest
+
+@pytest.mark.extra("robots")
+@pytest.mark.parametrize("k", [1, 2])
+def test_that_needs_it(k):
+    pass
+
+@pytest.mark.extra("fast")
+def test_that_has_what_it_needs():
+    pass
+"""
+
+
+def test_nothing_is_skipped_but_for_want_of_an_extra():
+    sources = [path for path in ROOT.glob("tests/**/*.py") if path.name != Path(__file__).name]
+    found = {path.name for path in sources if SKIPS.search(path.read_text("utf-8"))}
+    assert found == {"conftest.py"}, "it skips by the marker"
+
+
+def test_every_marker_names_an_extra(request):
+    marks = [mark.args for item in request.session.items for mark in item.iter_markers("extra")]
+    assert {extra for (extra,) in marks} <= EXTRAS.keys()
+    with pytest.raises(AssertionError, match="declares no extra nonsense"):
+        missing("nonsense")
+
+
+def test_what_is_skipped_is_named_with_its_extra_and_listed_for_a_second_run(tmp_path):
+    """The list is what a run with every extra takes: the two runs leave out nothing."""
+    (tmp_path / "conftest.py").write_text(CONFTEST, "utf-8")
+    (tmp_path / "test_marked.py").write_text(MARKED, "utf-8")
+    command = [sys.executable, "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider"]
+    done = subprocess.run(
+        [*command, "--left-out", tmp_path / "left_out", tmp_path],
+        cwd=ROOT, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert "1 passed, 2 skipped" in done.stdout
+    assert 'needs the extra robots: pip install -e ".[test,robots]"' in done.stdout
+    name = "test_marked.py::test_that_needs_it"
+    assert (tmp_path / "left_out").read_text("utf-8").split() == [f"{name}[1]", f"{name}[2]"]
