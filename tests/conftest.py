@@ -25,6 +25,7 @@ settings.load_profile("ci" if os.environ.get("CI") else "local")
 
 def pytest_configure(config: pytest.Config) -> None:
     """Declare the marker of tests that need an extra."""
+    os.environ.pop("PYTEST_ADDOPTS", None)  # of this run, not of those that tests start
     config.addinivalue_line("markers", "extra(name): a test that needs an extra of pyproject.toml")
 
 

@@ -3,6 +3,7 @@
 import doctest
 import subprocess
 import sys
+import tempfile
 from operator import attrgetter
 from pathlib import Path
 
@@ -57,7 +58,8 @@ def test_the_names_are_those_that_dir_shows():
 
 
 @pytest.mark.parametrize("name", marked(NAMES, dict.fromkeys(JAX, "jax")))
-def test_every_name_says_what_it_is_with_an_example_that_runs(name):
+def test_every_name_says_what_it_is_with_an_example_that_runs(name, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))  # some examples write a file
     said = getattr(qr, name).__doc__
     example = doctest.DocTestParser().get_doctest(said, {"qr": qr, "np": np}, name, None, None)
     assert example.examples

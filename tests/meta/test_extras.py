@@ -55,7 +55,7 @@ def test_what_is_skipped_is_named_with_its_extra_and_listed_for_a_second_run(tmp
     (tmp_path / "test_marked.py").write_text(MARKED, "utf-8")
     command = [sys.executable, "-m", "pytest", "-q", "-rs", "-p", "no:cacheprovider"]
     done = subprocess.run(
-        [*command, "--left-out", tmp_path / "left_out", tmp_path],
+        [*command, f"--rootdir={tmp_path}", f"--left-out={tmp_path / 'left_out'}", tmp_path],
         cwd=ROOT, capture_output=True, text=True, check=True,
     )  # fmt: skip
     assert "1 passed, 2 skipped" in done.stdout

@@ -127,11 +127,11 @@ def test_bad_solvers_cost_themselves_only_and_a_budget_stays_used_up(run, tmp_pa
     assert table(run(MIXED)) == table(rows)
 
 
-def test_on_a_cluster_of_two_workers_the_results_are_the_same(run, small, whole):
+def test_on_a_cluster_of_two_workers_the_results_are_the_same(run, small, whole, tmp_path):
     """The workers are threads of this process: what goes to and fro is pickled all the same."""
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=False, protocol="tcp://",
-        dashboard_address=None,
+        dashboard_address=None, local_directory=str(tmp_path / "workers"),
     ) as cluster:  # fmt: skip
         there = run(small, "there", scheduler=cluster.scheduler_address)
     assert table(there) == table(contents(whole).rows)
