@@ -11,6 +11,7 @@ import time
 from contextlib import closing
 from pathlib import Path
 
+import dask
 import distributed
 
 import quasistatic_ref
@@ -129,9 +130,9 @@ def test_bad_solvers_cost_themselves_only_and_a_budget_stays_used_up(run, tmp_pa
 
 def test_on_a_cluster_of_two_workers_the_results_are_the_same(run, small, whole, tmp_path):
     """The workers are threads of this process: what goes to and fro is pickled all the same."""
-    with distributed.LocalCluster(
+    with dask.config.set(temporary_directory=str(tmp_path)), distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=False, protocol="tcp://",
-        dashboard_address=None, local_directory=str(tmp_path / "workers"),
+        dashboard_address=None,
     ) as cluster:  # fmt: skip
         there = run(small, "there", scheduler=cluster.scheduler_address)
     assert table(there) == table(contents(whole).rows)
