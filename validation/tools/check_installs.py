@@ -5,8 +5,10 @@ Run ``python -m validation.tools.check_installs [EXTRA ...]``.
 Builds the wheel. For each extra (``base`` is none) makes a fresh environment, installs the wheel
 with that extra and nothing else, and runs the commands that ``COMMANDS`` gives it, in an empty
 folder; those that start with ``checkout:`` run in the checkout, whose programs or pages they are.
-Each must end with status 0. What the extra does not bring must be refused by one sentence that
-names the extra that does (``REFUSED``). The README's own lines are taken from the README.
+Each must end with status 0, and write only where its line or its ``--help`` says. What the extra
+does not bring must be refused by one sentence that names the extra that does (``REFUSED``). Then
+the extra ``test`` is added, and the tests that need an extra run: those of this one must not be
+skipped. The README's own lines are taken from the README.
 
 ``--python`` names another interpreter, ``--lowest`` installs the lowest versions that are declared,
 ``--out`` writes the table and keeps what other runs wrote there. The base comes by pip, as the
@@ -30,7 +32,15 @@ from importlib.metadata import distributions
 from pathlib import Path
 from textwrap import dedent
 
-from validation.tools.installs import CHECKOUT, COMMANDS, REFUSED, SCRIPTS, WALK_FILES
+from validation.tools.installs import (
+    ACTIONS,
+    CHECKOUT,
+    COMMANDS,
+    MARKED,
+    REFUSED,
+    SCRIPTS,
+    WALK_FILES,
+)
 from validation.tools.scripts import ROOT, asked, environment
 
 HEAD = (
@@ -130,8 +140,11 @@ def faults(at: Environment, extra: str) -> list[str]:
     wrong = []
     for line in COMMANDS[extra]:
         start = time.perf_counter()
+        there = {path.name for path in at.folder.iterdir()}
         done = at.run(line)
         fault = f"status {done.returncode}\n{done.stdout}{done.stderr}" if done.returncode else ""
+        if unasked := {path.name for path in at.folder.iterdir()} - there - places(at, line):
+            fault += f"writes {sorted(unasked)}, which neither the line nor its help names"
         if not fault and line.startswith("quasistatic-ref run") and "--json" in line:
             report = json.loads(done.stdout)
             if report["certified"] != f"{report['steps']} of {report['steps']} steps exact":
@@ -149,6 +162,28 @@ def faults(at: Environment, extra: str) -> list[str]:
     return wrong
 
 
+def places(at: Environment, line: str) -> set[str]:
+    """The names in the empty folder that a command may make: those of its line and its help."""
+    words = shlex.split(line)
+    said = " ".join(words)
+    if words[0] == "quasistatic-ref":
+        action = [word for word in words[2:4] if word in ACTIONS]
+        said += at.run(shlex.join([*words[:2], *action, "--help"])).stdout
+    return {part for word in re.findall(r"[\w./-]+", said) for part in Path(word).parts}
+
+
+def skipped(at: Environment, wheel: Path, extra: str) -> list[str]:
+    """With `test` beside the extra: the tests of the extra that fail, or that are skipped."""
+    uv = wheel.parent / "uv" / "bin" / "uv"
+    python = at.home / "bin" / "python"
+    command = [uv, "pip", "install", "-q", "--python", python, f"{wheel}[{extra},test]"]
+    subprocess.run([str(word) for word in command], check=True)
+    done = at.run("checkout:python -m pytest -q -p no:cacheprovider -m extra -n 2")
+    print(done.stdout[-2000:], flush=True)
+    wrong = [line for line in done.stdout.splitlines() if f"needs the extra {extra}:" in line]
+    return wrong + ([f"pytest ended with status {done.returncode}"] if done.returncode else [])
+
+
 def row(wheel: Path, extra: str, python: str, lowest: bool) -> tuple[list[str], list[str]]:
     """The cells of a line of the table, and what was wrong."""
     folder = Path(tempfile.mkdtemp(prefix="installs-"))
@@ -162,6 +197,8 @@ def row(wheel: Path, extra: str, python: str, lowest: bool) -> tuple[list[str], 
         print(f"{extra}, Python {version}: {size:.0f} MB in {took:.0f} s", flush=True)
         start = time.perf_counter()
         wrong = faults(at, extra)
+        if extra in MARKED:
+            wrong += skipped(at, wheel, extra)
         ran = time.perf_counter() - start
     except subprocess.CalledProcessError as error:
         return [extra, python, _versions(lowest), *"-----", "cannot be installed"], [str(error)]

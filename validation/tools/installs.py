@@ -113,6 +113,11 @@ COMMANDS = {
 }
 """Extra -> command lines; ``{out}`` is the empty folder."""
 
+ACTIONS = {"ask", "challenge", "check", "export", "own", "pack", "problems", "report", "run"}
+"""Words that name a command below ``study`` or ``vectors``."""
+MARKED = ("fast", "jax", "node", "robots", "all")
+"""Extras that tests need, by the marker ``extra``."""
+
 SCRIPTS = {
     "readme.py": ("README.md", "solve_step"),
     "diff.py": ("docs/sensitivity.md", "DIFFCP"),

@@ -1,0 +1,151 @@
+"""README's tests as other machines run them: kernels, orders, versions, Pythons.
+
+    python -m validation.make.machines [NAME ...] [--out FILE]
+
+Each row is one run of all tests with what README's line installs. Rows that are not named stay as
+they are in FILE. An environment is made in a temporary folder for each Python and each choice of
+versions; pip and the network are needed. A row takes three to six minutes on two cores. Exit status
+1 if a test fails.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from validation.tools.check_installs import LOWEST
+from validation.tools.scripts import ROOT, asked, environment, shown
+
+HEAD = """# README's tests, as other machines run them
+
+Written by `python -m validation.make.machines --out validation/results/machines.md`. Each row is
+one run of all tests with what README's line installs. *Kernels* are those of OpenBLAS
+(`OPENBLAS_CORETYPE`); *no vector code*: NumPy without its own (`NPY_DISABLE_CPU_FEATURES`) and
+OpenBLAS for the oldest x86-64. *Shuffled*: files, and tests within each, in a random order (the
+plugin pytest-random-order, with the seed that is named). *Lowest*: of each package that
+`pyproject.toml` names the lowest version. Skipped are the tests that need an extra.
+
+| run | Python | NumPy | passed | failed | skipped | minutes |
+|---|---|---|---|---|---|---|
+"""
+COUNT = re.compile(r"(\d+) (passed|failed|skipped|error)")
+
+
+class Machine(NamedTuple):
+    """How the tests are run.
+
+    Parameters
+    ----------
+    python : str
+    lowest : bool
+        Whether with the lowest versions that are declared.
+    settings : mapping
+        Variables of the environment.
+    options : tuple of str
+        Of pytest.
+    """
+
+    python: str = sys.executable
+    lowest: bool = False
+    settings: Mapping[str, str] = {}
+    options: tuple[str, ...] = ()
+
+
+def kernel(name: str) -> dict[str, str]:
+    """The variable that chooses a kernel of OpenBLAS."""
+    return {"OPENBLAS_CORETYPE": name}
+
+
+VECTORS = " ".join(np.show_config(mode="dicts")["SIMD Extensions"]["found"])
+MACHINES = {
+    "this machine": Machine(),
+    **{f"kernel {name}": Machine(settings=kernel(name))
+       for name in ("Prescott", "Haswell", "SkylakeX", "Zen")},
+    "no vector code": Machine(settings=kernel("Prescott") | {"NPY_DISABLE_CPU_FEATURES": VECTORS}),
+    "no compiler": Machine(settings={"QUASISTATIC_REF_CC": "none"}),
+    **{f"shuffled, seed {seed}": Machine(options=(
+           "-p", "random_order.plugin", "--random-order", f"--random-order-seed={seed}"))
+       for seed in (1, 2)},
+    "lowest versions": Machine(lowest=True),
+    **{f"Python {version}": Machine(python=f"python{version}")
+       for version in ("3.12", "3.13", "3.14")},
+}  # fmt: skip
+
+
+def interpreter(machine: Machine, folder: Path) -> Path:
+    """The interpreter of an environment with what README's line installs, made unless it is there.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such Python.
+    subprocess.CalledProcessError
+        If a package cannot be installed.
+    """
+    if shutil.which(machine.python) is None:
+        raise FileNotFoundError(machine.python)
+    home = folder / f"{Path(machine.python).name}{'-lowest' * machine.lowest}"
+    if home.exists():
+        return home / "bin" / "python"
+    wanted = ["-e", f"{ROOT}[test]", "pytest-random-order"]
+    if not machine.lowest:
+        return environment(home, *wanted, python=machine.python)
+    own = environment(home, python=machine.python)
+    uv = environment(folder / "uv", "uv").with_name("uv")
+    subprocess.run([uv, "pip", "install", "-q", "--python", own, *LOWEST, *wanted], check=True)
+    return own
+
+
+def row(name: str, folder: Path) -> tuple[str, bool]:
+    """The line of the table of a run, and whether no test failed."""
+    machine = MACHINES[name]
+    try:
+        python = interpreter(machine, folder)
+    except (FileNotFoundError, subprocess.CalledProcessError) as error:
+        said = "no such Python here" if isinstance(error, FileNotFoundError) else "not installable"
+        return f"| {name} | {said} | | | | | |", True
+    asks = "import platform, numpy; print(platform.python_version(), numpy.__version__)"
+    versions = subprocess.check_output([python, "-c", asks], text=True).split()
+    command = [python, "-m", "pytest", "-n", "2", "-q", "-p", "no:cacheprovider", *machine.options]
+    start = time.perf_counter()
+    done = subprocess.run(
+        command, cwd=ROOT, env={**os.environ, **machine.settings}, text=True, stdout=subprocess.PIPE
+    )
+    minutes = (time.perf_counter() - start) / 60
+    last = done.stdout.strip().splitlines()[-1]
+    found = {word: int(number) for number, word in COUNT.findall(last)}
+    failed = found.get("failed", 0) + found.get("error", 0)
+    if done.returncode:
+        print(done.stdout, file=sys.stderr)
+    counts = (found.get("passed", 0), failed, found.get("skipped", 0))
+    cells = [name, *versions, *map(str, counts), f"{minutes:.1f}"]
+    return f"| {' | '.join(cells)} |", done.returncode == 0
+
+
+def main() -> int:
+    """Run what was named, or all; exit status 1 if a test failed."""
+    options = asked(__doc__, MACHINES, out=Path)
+    rows = {}
+    if options.out is not None and options.out.exists():
+        lines = options.out.read_text("utf-8").splitlines()
+        rows = {line.split(" | ")[0].removeprefix("| "): line for line in lines}
+    good = True
+    with tempfile.TemporaryDirectory() as folder:
+        for name in options.names or MACHINES:
+            rows[name], passed = row(name, Path(folder))
+            print(rows[name], file=sys.stderr, flush=True)
+            good &= passed
+    shown(HEAD + "\n".join(rows[name] for name in MACHINES if name in rows), options.out)
+    return int(not good)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
