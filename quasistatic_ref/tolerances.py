@@ -174,8 +174,9 @@ SAME_NORMAL: Final = 1e-6
 triangles of a mesh, or the face of one body and the face of another that lies flat on it."""
 
 FILLED: Final = 1e6
-"""Distance [m] of a contact that stands for nothing. No step is as long: bodies are smaller, and a
-run ends 100 m from the origin."""
+"""Least distance [m] of a contact that stands for nothing.
+
+It repeats one that is at most half as far, and so bears nothing however long the step is."""
 
 CLOSED_FORM: Final = 1e-12
 """Largest difference of a certified step from its closed form, relative to the largest term.

@@ -11,7 +11,8 @@ Two solids:
   crossings if k corners are.
 - No candidate is nearer than the closest pair, so k = 1 keeps that one alone.
 - Where fewer than k candidates are left, the number is filled with copies of the closest pair at
-  the distance ``FILLED``, at which a contact bears nothing.
+  the distance ``FILLED``, or twice its own if that is more: their rows are its own, only farther,
+  and bear nothing.
 """
 
 from collections.abc import Sequence
@@ -115,7 +116,8 @@ def pair_closest_points(pair: ContactPair, R: Array, t: Array) -> ClosestPoints:
     candidates = every_candidate(pair, a, b, nearest)
     order = closest(np.where(ranked_last(candidates, pair.k), np.inf, candidates.phi), pair.k)
     kept = candidates.chosen(order[np.argsort(candidates.phi[order], kind="stable")])
-    far = nearest._replace(phi=np.array([FILLED]), tie=np.array([OWN]))
+    beyond = np.maximum(FILLED, 2 * nearest.phi)
+    far = nearest._replace(phi=beyond, tie=np.array([OWN]))
     missing = np.arange(pair.n_c - len(order))
     filling = far.chosen(0 * missing)._replace(point=pair.corners + 1 + missing)
     return joined_contacts([kept, filling])

@@ -201,3 +201,7 @@ def test_copies_of_the_closest_pair_fill_the_number_at_a_distance_that_bears_not
     assert found.point.tolist() == [8, 9, 10, 11]
     assert np.array_equal(found.n, np.tile(-Z, (4, 1)))
     assert found_for(ball, box, world).point.tolist() == [0]
+    # A ball 3e6 m away: its copies are twice as far, not nearer than itself.
+    plain = placed(Box((1e7, 1e7, 0.2)))
+    beyond = found_for(placed(Sphere(0.1), 1, t=(0.0, 0.0, 3e6)), plain, world, k=4).phi
+    assert beyond.tolist() == [beyond[0], *[2 * beyond[0]] * 3]

@@ -4,8 +4,12 @@ import numpy as np
 import pytest
 
 from quasistatic_ref import parts
+from quasistatic_ref.contact.pairs import ContactPair
+from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.optional.fast.simulator import FastSimulator
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.shapes.placed_shape import Box, PlacedShape, Sphere
+from quasistatic_ref.simulate.limits import Limits
 from quasistatic_ref.simulate.simulator import Simulator
 from quasistatic_ref.step.standard_form import standard_form
 from tests.extras import SCENARIOS
@@ -49,3 +53,16 @@ def test_the_plain_path_asks_for_nothing_of_fast(monkeypatch):
     load_scenario("sphere_spin", steps=1).run(progress=False)
     assert asked
     assert not any(name.startswith("quasistatic_ref.optional.fast") for name in asked)
+
+
+@pytest.mark.parametrize("fast", [False, True])
+def test_a_fall_of_3000_km_ends_on_the_floor(fast):
+    """In a step of 1000 s, h^2 g = 9.8e6 m: no contact that fills a number stops it before."""
+    system = System([Body.of_shape("ball", Sphere(0.1), 1.0, xyz=(0.0, 0.0, 3e6))])
+    floor = PlacedShape("floor", 0, np.eye(3), np.zeros(3), Box((1e7, 1e7, 0.2)))
+    pair = ContactPair("floor(floor, ball)", floor, system.shapes[0], 0.5, 0.0, 4, 4)
+    limits = Limits(reach=1e8)
+    made = Simulator(system, [pair], h=1000.0, K_q=np.zeros((0, 0)), limits=limits, fast=fast)
+    step = made.step(system.q_start, np.zeros(0))
+    assert step.solution.certificate.kind == "exact"
+    np.testing.assert_allclose(step.q[:3], [0.0, 0.0, 0.2 + 0.1], rtol=0.0, atol=1e-9)

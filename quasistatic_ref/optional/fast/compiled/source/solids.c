@@ -214,8 +214,9 @@ static int closest_of_pair(SolidPairs *s, int64_t p)
     sort(s->candidates, 0, kept, s->order);
     for (int64_t i = 0; i < kept; i++)
         write(s, s->start[p] + i, s->candidates + s->order[i]);
+    double beyond = larger(FILLED, 2 * nearest.phi);
     for (int64_t i = kept; i < count; i++) {
-        nearest.phi = FILLED;
+        nearest.phi = beyond;
         nearest.point = s->corners[p] + 1 + i - kept;
         write(s, s->start[p] + i, &nearest);
     }
