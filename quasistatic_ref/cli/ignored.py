@@ -1,7 +1,8 @@
 """What the model ignores of the files it was given, in one line each."""
 
+import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from quasistatic_ref.model.system import System
 
@@ -9,10 +10,13 @@ ALWAYS = (
     "velocities and accelerations: nothing moves on by itself",
     "visual geometry, and contacts between bodies that no pair names",
     "xacro: macros are not expanded, and a file that holds any is refused",
+    "names of robots and materials: a body is called what its scenario calls it",
 )
 WORDS = {
     "limit": "joint limits: position, effort and velocity",
-    "dynamics": "joint damping and friction",
+    "joint.dynamics.damping": "joint damping",
+    "joint.dynamics.friction": "joint friction",
+    "axis": "axes of fixed joints, which cannot move",
     "safety_controller": "safety controllers",
     "calibration": "joint calibration",
     "mimic": "mimics of fixed joints, which cannot move",
@@ -25,24 +29,41 @@ WORDS = {
 }
 
 
-def ignored_lines(system: System) -> list[str]:
+def ignored_lines(system: System, rubbed: Collection[str] = ()) -> list[str]:
     """What the model ignores: one line each.
 
     Elements of one kind are counted, not listed. Links with visual but no collision geometry are
     named, because nothing can touch them.
+
+    Parameters
+    ----------
+    system : System
+    rubbed : collection of str
+        Names of bodies whose joints have the friction that their files say.
     """
+    moving = [joint.name for joint in system.joints] + [joint.name for joint in system.mimics]
     lines = list(ALWAYS)
     for body in (body.name for body in system.bodies):
         of = f"{body}: "
         ignored = [entry.removeprefix(of) for entry in system.ignored if entry.startswith(of)]
-        counts = Counter(entry.rpartition(".")[2] for entry in ignored)
-        lines += [f"{body}: {WORDS.get(tag, f'<{tag}>')} ({n})" for tag, n in counts.items()]
+        if body in rubbed:
+            used = {f"joint[{name.removeprefix(f'{body}/')}].dynamics.friction" for name in moving}
+            ignored = [entry for entry in ignored if entry not in used]
+        counts = Counter(_words(entry) for entry in ignored)
+        lines += [f"{body}: {words} ({n})" for words, n in counts.items()]
         unseen = _visual_only(system, body, ignored)
         if unseen:
             lines.append(
                 f"{body}: links with visual but no collision geometry: {', '.join(unseen)}"
             )
     return lines
+
+
+def _words(entry: str) -> str:
+    """Which kind an entry is of: ``joint[hip].armature`` is <joint.armature>."""
+    kind = re.sub(r"\[.*\]|^robot\.", "", entry)
+    last = kind.rpartition(".")[2]
+    return WORDS.get(kind) or WORDS.get(last) or f"<{kind}>"
 
 
 def _visual_only(system: System, body: str, ignored: Sequence[str]) -> list[str]:

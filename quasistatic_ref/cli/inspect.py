@@ -2,6 +2,7 @@
 
 import argparse
 import re
+from collections.abc import Collection
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.model.system import Body, System
 from quasistatic_ref.parts import part
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
+from quasistatic_ref.scenario.scenario_table import URDF
 from quasistatic_ref.step.cones import cone
 
 READ_AS = "a fixed base, all joints actuated"
@@ -58,8 +60,8 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def system_record(system: System) -> dict[str, Any]:
-    """What a system holds, as plain data."""
+def system_record(system: System, rubbed: Collection[str] = ()) -> dict[str, Any]:
+    """What a system holds, as plain data; `rubbed` bodies have the friction of their files."""
     return {
         "coordinates": [
             {"name": c.name, "unit": c.unit, "actuated": c.actuated} for c in system.coordinates
@@ -82,7 +84,7 @@ def system_record(system: System) -> dict[str, Any]:
             for i, link in enumerate(system.links)
             if i > 0
         ],
-        "ignored": ignored_lines(system),
+        "ignored": ignored_lines(system, rubbed),
         "notes": list(system.notes),
     }
 
@@ -94,7 +96,8 @@ def body_name(path: Path) -> str:
 
 def scenario_record(scenario: Scenario) -> dict[str, Any]:
     """What a scenario holds, as plain data."""
-    record = system_record(scenario.system)
+    rubbed = [name for name, body in scenario.bodies.items() if body.joint_friction == URDF]
+    record = system_record(scenario.system, rubbed)
     for i, coordinate in enumerate(record["coordinates"]):
         if coordinate["actuated"]:
             coordinate["K_q"] = scenario.K_q[i, i]

@@ -8,7 +8,7 @@ import pytest
 from quasistatic_ref.cli.main import main
 from quasistatic_ref.cli.options import WIDTH
 from tests.extras import SCENARIOS
-from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import CHAIN, inertial, joint, link, mimic, robot, written
 from tests.scenes import RAIL, SWING, written_scenario
 from tests.tolerances import ROUNDING
 
@@ -32,6 +32,27 @@ def test_inspect_shows_a_urdf(tmp_path, capsys):
     assert "read with a fixed base, all joints actuated" in text
     assert "rail/slide" in text
     assert "the model ignores:" in text
+
+
+def test_inspect_does_not_call_ignored_what_the_scenario_uses(tmp_path, capsys):
+    rubbed = '<dynamics damping="1" friction="2"/>'
+    arm = robot(
+        link("a", inertial=""), link("b"), link("c"), link("d"),
+        joint("slide", "a", "b", "prismatic", more=rubbed),
+        joint("under", "a", "c", "prismatic", more=rubbed + mimic("slide", 2.0)),
+        joint("weld", "a", "d", "fixed", more=rubbed),
+    )  # fmt: skip
+    written(tmp_path, arm, "arm.urdf")
+    lines = {}
+    for friction in ('"urdf"', "{ slide = 1 }"):
+        text = 'format = "quasistatic-ref/scenario"\nversion = 1\nh = 0.01\nsteps = 1\n'
+        text += f'[bodies.arm]\nurdf = "arm.urdf"\njoint_friction = {friction}\n'
+        path = written(tmp_path, text, "scene.toml")
+        assert main(["inspect", str(path), "--json"]) == 0
+        lines[friction] = json.loads(capsys.readouterr().out)["ignored"]
+    assert "arm: joint friction (1)" in lines['"urdf"']  # of the weld
+    assert "arm: joint friction (3)" in lines["{ slide = 1 }"]
+    assert all("arm: joint damping (3)" in each for each in lines.values())
 
 
 def test_inspect_says_what_a_mimic_follows(tmp_path, capsys):

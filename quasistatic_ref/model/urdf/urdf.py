@@ -15,10 +15,10 @@ import numpy as np
 import pinocchio as pin
 
 from quasistatic_ref.errors import ModelError, about_file
-from quasistatic_ref.model.urdf.urdf_file import UrdfFile, urdf_file
+from quasistatic_ref.model.urdf.urdf_file import UrdfFile, is_inline, urdf_file
 from quasistatic_ref.model.urdf.urdf_inertia import checked_inertias, group_inertias
 from quasistatic_ref.model.urdf.urdf_shapes import checked_shapes, resolved_text, same_pose
-from quasistatic_ref.model.urdf.urdf_tree import link_poses
+from quasistatic_ref.model.urdf.urdf_tree import link_poses, visiting_order
 from quasistatic_ref.shapes.placed_shape import PlacedShape
 from quasistatic_ref.tolerances import LOADED
 
@@ -120,9 +120,37 @@ def _moving_joints(file: UrdfFile, base: str) -> list[str]:
 
 
 def urdf_model(text: str, base: str) -> Any:
-    """The pinocchio model of a URDF's text."""
+    """The pinocchio model of a URDF's text; ModelError where a mimic joint cannot be met."""
     root = () if base == "fixed" else (BASES[base](), BASE)
-    return pin.buildModelFromXML(text, *root, mimic=True)
+    readable, names = _readable(text)
+    model = pin.buildModelFromXML(readable, *root, mimic=True)
+    for number in range(1, model.njoints):
+        model.names[number] = names.get(model.names[number], model.names[number])
+    for frame in model.frames:
+        if frame.type != pin.FrameType.BODY:
+            frame.name = names.get(frame.name, frame.name)
+    return model
+
+
+def _readable(text: str) -> tuple[str, dict[str, str]]:
+    """A URDF that pinocchio can read, and what its joints are called here, by their names in it.
+
+    Meshes in the text itself are left out. Joints are numbered where pinocchio, which visits the
+    joints of a link in alphabetical order, would meet a mimic joint before its leader.
+    """
+    robot = ElementTree.fromstring(text)
+    for link in robot.findall("link"):
+        for collision in link.findall("collision"):
+            if any(map(is_inline, collision.findall("geometry/mesh"))):
+                link.remove(collision)
+    order = visiting_order(robot)
+    names = {f"{number:04}": name for number, name in enumerate(order)}
+    numbers = {name: number for number, name in names.items()}
+    for joint in robot.findall("joint") if order else ():
+        joint.set("name", numbers[joint.attrib["name"]])
+        for mimic in joint.findall("mimic"):
+            mimic.set("joint", numbers[mimic.attrib["joint"]])
+    return ElementTree.tostring(robot, encoding="unicode"), names
 
 
 def with_turns(text: str) -> str:
@@ -143,15 +171,12 @@ def _loaded(text: str, base: str) -> tuple[Any, Any]:
     # From the text, not the path: what is loaded is what was read and checked.
     try:
         model = urdf_model(text, base)
-        geometry = pin.buildGeomFromUrdfString(model, text, pin.GeometryType.COLLISION)
+        geometry = pin.buildGeomFromUrdfString(
+            model, _readable(text)[0], pin.GeometryType.COLLISION
+        )
     except (ValueError, RuntimeError) as error:
         reason = " ".join(str(error).split())
-        if "not in the kinematic tree" in reason:
-            reason = (
-                "a mimic joint is met before the joint that it mimics; joints of one link are "
-                "visited in alphabetical order, so rename one of the two"
-            )
-        elif "valid URDF" in reason:
+        if "valid URDF" in reason:
             reason = "its URDF parser refuses it, for the reason printed on standard error"
         else:  # what a mesh library says, without where in its source it says so
             reason = reason.rpartition("message: ")[2]

@@ -12,7 +12,7 @@ from quasistatic_ref.formats.quoting import suggestion
 from quasistatic_ref.model.urdf.urdf_tree import FileJoint, Mimic, checked_tree
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.shapes.placed_shape import Box, Capsule, Cylinder, Shape, Sphere
-from quasistatic_ref.step.arrays import Array
+from quasistatic_ref.step.arrays import Array, Indices
 from quasistatic_ref.step.ordered import product
 from quasistatic_ref.tolerances import INERTIA_TRIANGLE
 
@@ -22,13 +22,18 @@ MOST_LINKS = 1000
 stack does."""
 LARGEST_FILE = 16 * 2**20
 """Largest URDF [bytes]; those of humanoids have 0.2 MiB."""
+_ROBOT = ("name", "version")
 _VERSIONS = ("1.0", "1.1", "1.2")
+_INLINE = ("vertex", "face")
+"""Attributes of a mesh that stands in the text itself: coordinates, and three corners a triangle.
+
+No other reader of URDFs knows them; models of MuJoCo are written with them."""
 _GEOMETRIES = {
     "box": ("size",),
     "sphere": ("radius",),
     "cylinder": ("radius", "length"),
     "capsule": ("radius", "length"),
-    "mesh": ("filename", "scale"),
+    "mesh": ("filename", "scale", *_INLINE),
 }
 """Shape -> its attributes."""
 
@@ -46,6 +51,26 @@ class FileMesh:
 
 
 @dataclass(frozen=True, eq=False)
+class InlineMesh:
+    """A mesh in the text itself.
+
+    Parameters
+    ----------
+    vertices : ndarray, shape (V, 3)
+        [m].
+    triangles : ndarray of int, shape (T, 3)
+        Numbers of vertices.
+    """
+
+    vertices: Array
+    triangles: Indices
+
+
+FileShape = Shape | FileMesh | InlineMesh
+"""A shape as written."""
+
+
+@dataclass(frozen=True, eq=False)
 class FileLink:
     """A link as written.
 
@@ -58,7 +83,7 @@ class FileLink:
         Centre of mass in the link's frame [m].
     inertia : ndarray, shape (3, 3)
         About the centre of mass, along the link's axes [kg m^2].
-    collisions : tuple of (Shape or FileMesh, R (3, 3), t (3,))
+    collisions : tuple of (FileShape, R (3, 3), t (3,))
         Each shape and its frame in the link's [m].
     named : tuple of (str or None)
         The name of each, where its ``collision`` has one.
@@ -70,7 +95,7 @@ class FileLink:
     mass: float
     com: Array
     inertia: Array
-    collisions: tuple[tuple[Shape | FileMesh, Array, Array], ...]
+    collisions: tuple[tuple[FileShape, Array, Array], ...]
     defect: Defect | None = None
     named: tuple[str | None, ...] = ()
 
@@ -91,7 +116,8 @@ class UrdfFile:
     joints : tuple of FileJoint
         Parents before children.
     ignored : tuple of str
-        Elements that the model does not use, e.g. ``link[base].visual``.
+        Elements and attributes that the model does not use, e.g. ``link[base].visual``; and what
+        elements ``<ignored name="...">`` name, by which a converter says what it left out.
     """
 
     path: Path
@@ -130,7 +156,8 @@ def _content(path: Path, text: str) -> UrdfFile:
     if version not in _VERSIONS:
         problem = f"must be one of {', '.join(_VERSIONS)}"
         raise ModelError(problem, field="robot.version", value=version)
-    ignored = Tag(robot, "robot").ignored("link", "joint")
+    ignored = Tag(robot, "robot").ignored("link", "joint", "ignored", attributes=_ROBOT)
+    ignored += [Tag(each, "robot.ignored").text("name") for each in robot.findall("ignored")]
     links: dict[str, FileLink] = {}
     if len(robot.findall("link")) > MOST_LINKS:
         problem = f"holds more than {MOST_LINKS} links"
@@ -148,14 +175,15 @@ def _content(path: Path, text: str) -> UrdfFile:
 def _link(element: Element, ignored: list[str]) -> FileLink:
     name = Tag(element, "link").text("name")
     link = Tag(element, f"link[{name}]")
-    ignored += link.ignored("inertial", "collision")
+    ignored += link.ignored("inertial", "collision", attributes=("name",))
     mass, com, inertia, defect = _inertial(link, ignored)
     collisions = []
     for number, each in enumerate(element.findall("collision")):
         collision = Tag(each, f"{link.where}.collision[{number}]")
-        ignored += collision.ignored("origin", "geometry")
+        ignored += collision.ignored("origin", "geometry", attributes=("name",))
         R, t = collision.frame()
         collisions.append((written_shape(collision), R, t))
+        ignored += collision.child("geometry").ignored(*_GEOMETRIES)
     named = tuple(each.get("name") for each in element.findall("collision"))
     return FileLink(name, mass, com, inertia, tuple(collisions), defect, named)
 
@@ -193,7 +221,7 @@ def inertia_defect(inertia: Array) -> Defect | None:
     return None
 
 
-def written_shape(collision: Tag) -> Shape | FileMesh:
+def written_shape(collision: Tag) -> FileShape:
     """The shape of a collision or visual element.
 
     Raises
@@ -210,6 +238,8 @@ def written_shape(collision: Tag) -> Shape | FileMesh:
     if kind not in _GEOMETRIES:
         raise ModelError(f"is not a shape{suggestion(kind, _GEOMETRIES)}", field=shape.where)
     shape.only(*_GEOMETRIES[kind])
+    if is_inline(shape.element):
+        return _inline_mesh(shape)
     if kind == "mesh":
         scale = shape.numbers("scale", 3, default=1.0)
         if not (scale != 0).all():
@@ -231,6 +261,27 @@ def written_shape(collision: Tag) -> Shape | FileMesh:
         raise
 
 
+def is_inline(shape: Element) -> bool:
+    """Whether a shape is a mesh in the text itself, which only this reader knows."""
+    return shape.tag == "mesh" and "vertex" in shape.attrib
+
+
+def _inline_mesh(mesh: Tag) -> InlineMesh:
+    mesh.only(*_INLINE)
+    arrays = []
+    for name in _INLINE:
+        count = len(mesh.text(name).split())
+        if count % 3:
+            raise ModelError("must be triples of numbers", field=f"{mesh.where}.{name}")
+        arrays.append(mesh.numbers(name, count).reshape(-1, 3))
+    vertices, corners = arrays
+    triangles = corners.astype(np.int64)
+    if np.any(triangles != corners) or triangles.min() < 0 or triangles.max() >= len(vertices):
+        problem = f"must be numbers of vertices, 0 to {len(vertices) - 1}"
+        raise ModelError(problem, field=f"{mesh.where}.face")
+    return InlineMesh(vertices, triangles)
+
+
 def _joint(element: Element, ignored: list[str]) -> FileJoint:
     name = Tag(element, "joint").text("name")
     joint = Tag(element, f"joint[{name}]")
@@ -240,12 +291,18 @@ def _joint(element: Element, ignored: list[str]) -> FileJoint:
         if kind == "floating":
             problem += ', or base = "floating" where the whole body floats'
         raise ModelError(problem, field=f"{joint.where}.type", value=kind)
-    ignored += joint.ignored("origin", "parent", "child", "axis", "mimic")
+    read = ("origin", "parent", "child", "axis", "mimic", "dynamics")
+    ignored += joint.ignored(*read, attributes=("name", "type"))
+    dynamics = joint.perhaps("dynamics")
+    if dynamics is not None:  # a scenario may read the friction
+        ignored += dynamics.ignored()
     R, t = joint.frame()
     parent, child = (joint.child(end, "link").text("link") for end in ("parent", "child"))
     axis = np.array([1.0, 0.0, 0.0])  # what URDF says where nothing is written
     written = joint.perhaps("axis")
-    if written is not None and kind != "fixed":
+    if written is not None and kind == "fixed":
+        ignored.append(written.where)
+    elif written is not None:
         written.only("xyz")
         axis = written.numbers("xyz", 3)
         length = float(np.hypot.reduce(axis))

@@ -9,8 +9,14 @@ import numpy as np
 
 from quasistatic_ref.errors import ModelError, about_field
 from quasistatic_ref.model.readers.mesh_files import hull_note, hull_of_loaded, mesh_path
-from quasistatic_ref.model.urdf.urdf_file import FileMesh, UrdfFile
+from quasistatic_ref.model.urdf.urdf_file import (
+    FileMesh,
+    InlineMesh,
+    UrdfFile,
+    is_inline,
+)
 from quasistatic_ref.model.urdf.urdf_xml import xml_root
+from quasistatic_ref.shapes.convex_mesh import hull_of_mesh
 from quasistatic_ref.shapes.placed_shape import PlacedShape, Shape
 from quasistatic_ref.step.arrays import Array
 from quasistatic_ref.tolerances import LOADED
@@ -33,7 +39,8 @@ def resolved_text(file: UrdfFile, package_dirs: Sequence[str | Path]) -> str:
         for ignored in [child for child in link if child.tag not in ("inertial", "collision")]:
             link.remove(ignored)
         for count, collision in enumerate(link.findall("collision")):
-            for mesh in collision.findall("geometry/mesh"):
+            files = [m for m in collision.findall("geometry/mesh") if not is_inline(m)]
+            for mesh in files:
                 with about_field(f"link[{link.get('name')}].collision[{count}].mesh.filename"):
                     path = mesh_path(mesh.get("filename", ""), file.path.parent, package_dirs)
                 mesh.set("filename", str(path))
@@ -44,6 +51,8 @@ def checked_shapes(
     file: UrdfFile, model: Any, geometry: Any, links: Sequence[str], frames: Sequence[int]
 ) -> tuple[tuple[PlacedShape, ...], tuple[str, ...]]:
     """Every collision shape in the frame of its link, as loaded; and notes on its meshes.
+
+    Meshes in the text itself, which pinocchio is not given, are placed as written.
 
     Raises
     ------
@@ -57,26 +66,34 @@ def checked_shapes(
         collisions = file.links[link].collisions
         loaded = [shape for shape in geometry.geometryObjects if shape.parentFrame == frame]
         where = f"link[{link}].collision"
-        if len(loaded) != len(collisions):
+        inline = [isinstance(shape, InlineMesh) for shape, _, _ in collisions]
+        if len(loaded) != inline.count(False):
             capsules = any(type(shape).__name__ == "Capsule" for shape, _, _ in collisions)
             hint = '; <capsule> needs <robot version="1.1"> or 1.2' if capsules else ""
             problem = (
                 f"only {len(loaded)} of its shapes were loaded, "
                 f"for the reason printed on standard error{hint}"
             )
-            raise ModelError(problem, field=where, value=len(collisions))
-        for count, ((shape, R, t), given) in enumerate(zip(collisions, loaded, strict=True)):
-            placement = model.frames[frame].placement.actInv(given.placement)
-            same = same_pose(placement, R, t)
-            solid = _solid(shape, given, f"{where}[{count}]") if same else None
+            raise ModelError(problem, field=where, value=inline.count(False))
+        following = iter(loaded)
+        for count, (shape, R, t) in enumerate(collisions):
+            at = (R, t)
+            if isinstance(shape, InlineMesh):
+                with about_field(f"{where}[{count}].mesh.vertices"):
+                    solid: Any = hull_of_mesh(shape.vertices, shape.triangles)
+            else:
+                given = next(following)
+                placement = model.frames[frame].placement.actInv(given.placement)
+                at = (placement.rotation, placement.translation)
+                same = same_pose(placement, R, t)
+                solid = _solid(shape, given, f"{where}[{count}]") if same else None
             if solid is None:
                 problem = "was not loaded as written"
                 raise ModelError(problem, field=f"{where}[{count}]", value=shape)
             given_name = file.links[link].named[count]
             name = given_name if given_name and _usable(given_name, every) else f"{link}#{count}"
-            if isinstance(shape, FileMesh):
+            if isinstance(shape, FileMesh | InlineMesh):
                 notes.append(hull_note(name, solid))
-            at = (placement.rotation, placement.translation)
             shapes.append(PlacedShape(name, number, *at, solid))
     return tuple(shapes), tuple(notes)
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
@@ -113,6 +114,65 @@ def _check_mimic(joint: FileJoint, named: Mapping[str, FileJoint]) -> None:
             'type="revolute" with limits in its place'
         )
         raise ModelError(problem, field=field, value=of)
+
+
+def visiting_order(robot: Element) -> list[str]:
+    """All joints, those of a link in the order in which to visit them; [] if any order will do.
+
+    It is alphabetical, except that joints wait for a joint that they, or joints that they move,
+    mimic, or that moves a joint that is mimicked.
+
+    Raises
+    ------
+    ModelError
+        If a joint mimics one that it moves, or joints wait for each other.
+    """
+    joints = {joint.attrib["name"]: joint for joint in robot.findall("joint")}
+    parent = {name: _end(joint, "parent") for name, joint in joints.items()}
+    mover = {_end(joint, "child"): name for name, joint in joints.items()}
+    waits: dict[str, set[str]] = {name: set() for name in joints}
+    moving = {name: joint for name, joint in joints.items() if joint.get("type") != "fixed"}
+    for name, joint in moving.items():
+        for mimic in joint.findall("mimic"):
+            own = _movers(name, parent, mover)
+            leaders = _movers(mimic.attrib["joint"], parent, mover)
+            for after, before in zip(own, leaders, strict=False):
+                if after != before:
+                    waits[after].add(before)
+                    break
+            else:
+                if len(own) < len(leaders):
+                    problem = "is a joint that this one moves; let that one mimic this one"
+                    of = mimic.attrib["joint"]
+                    raise ModelError(problem, field=f"joint[{name}].mimic", value=of)
+    if all(before < after for after, others in waits.items() for before in others):
+        return []
+    order = []
+    for link in dict.fromkeys(parent.values()):
+        left = sorted(name for name in joints if parent[name] == link)
+        while left:
+            ready = [name for name in left if waits[name].isdisjoint(left)]
+            if not ready:
+                problem = "joints that they move mimic joints that the others move, both ways round"
+                raise ModelError(problem, field="joints", value=left)
+            order.append(ready[0])
+            left.remove(ready[0])
+    return order
+
+
+def _end(joint: Element, end: str) -> str:
+    """The parent or child link of a joint."""
+    element = joint.find(end)
+    assert element is not None  # files are checked before
+    return element.attrib["link"]
+
+
+def _movers(name: str, parent: Mapping[str, str], mover: Mapping[str, str]) -> list[str]:
+    """The joints from the root to a joint."""
+    found = [name]
+    while above := mover.get(parent[found[0]]):
+        found.insert(0, above)
+    return found
 
 
 def link_poses(

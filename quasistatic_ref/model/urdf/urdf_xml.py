@@ -5,6 +5,7 @@ attribute, a number with a tail.
 """
 
 import difflib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
@@ -162,17 +163,33 @@ class Tag:
             raise ModelError("is missing", field=f"{self.where}.{tag}")
         return child
 
-    def ignored(self, *read: str) -> list[str]:
-        """Names of the children that are not read; ModelError if one looks like a misprint."""
+    def ignored(self, *read: str, attributes: Sequence[str] = ()) -> list[str]:
+        """Names of the children and attributes that are not read.
+
+        Parameters
+        ----------
+        read : str
+            Tags of the children that are read.
+        attributes : sequence of str
+            Those that are read.
+
+        Raises
+        ------
+        ModelError
+            If one that is not read looks like a misprint.
+        """
+        tags = [child.tag for child in self.element]
+        given = [name for name in self.element.attrib if not name.startswith("xmlns")]
         ignored = []
-        for tag in (child.tag for child in self.element if child.tag not in read):
-            name = f"{self.where}.{tag}"
-            if tag.startswith("xacro:"):
-                raise ModelError("is a macro: expand the file with xacro first", field=name)
-            near = difflib.get_close_matches(tag, read, n=1, cutoff=0.8)
-            if near:
-                raise ModelError(f"is unknown; did you mean {near[0]!r}?", field=name)
-            ignored.append(name)
+        for names, known in ((given, attributes), (tags, read)):
+            for tag in [name for name in names if name not in known]:
+                name = f"{self.where}.{tag}"
+                if tag.startswith("xacro:"):
+                    raise ModelError("is a macro: expand the file with xacro first", field=name)
+                near = difflib.get_close_matches(tag, known, n=1, cutoff=0.8)
+                if near:
+                    raise ModelError(f"is unknown; did you mean {near[0]!r}?", field=name)
+                ignored.append(name)
         return list(dict.fromkeys(ignored))
 
     def frame(self) -> tuple[Array, Array]:

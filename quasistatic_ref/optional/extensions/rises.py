@@ -135,14 +135,20 @@ def _support(system: System, name: str, mu_v: float, mu_omega: float) -> Contact
 
 
 def urdf_friction(system: System, name: str) -> dict[str, float]:
-    """What ``<dynamics friction>`` says of the joints of a body, by coordinate [N, N m]."""
+    """What ``<dynamics friction>`` says of the joints of a body, by coordinate [N, N m].
+
+    A joint that mimics another adds its own times the size of its multiplier to that of the other.
+    """
     (text,) = (t for body, t in zip(system.bodies, system.texts, strict=True) if body.name == name)
-    joints = {joint.get("name"): joint.find("dynamics") for joint in xml_root(text).iter("joint")}
-    found = {}
-    for coordinate in system.coordinates:
-        owner, _, joint = coordinate.name.partition("/")
-        dynamics = joints.get(joint) if owner == name else None
-        if dynamics is not None:
-            says = Tag(dynamics, f"{name}: joint[{joint}].dynamics")
-            found[coordinate.name] = float(says.numbers("friction", 1, default=0.0)[0])
+    moves = {coordinate.name: (coordinate.name, 1.0) for coordinate in system.coordinates}
+    moves |= {mimic.name: (mimic.of, mimic.multiplier) for mimic in system.mimics}
+    found: dict[str, float] = {}
+    for joint in xml_root(text).iter("joint"):
+        dynamics = joint.find("dynamics")
+        moved = moves.get(f"{name}/{joint.get('name')}")
+        if dynamics is not None and moved is not None:
+            says = Tag(dynamics, f"{name}: joint[{joint.get('name')}].dynamics")
+            coordinate, factor = moved
+            friction = abs(factor) * says.number("friction", default=0.0)
+            found[coordinate] = found.get(coordinate, 0.0) + friction
     return found

@@ -21,6 +21,7 @@ from tests.model.urdf.urdf_texts import (
     inertial,
     joint,
     link,
+    mimic,
     robot,
     written,
 )
@@ -129,6 +130,29 @@ def test_an_axis_that_is_not_written_is_x() -> None:
     hinge = joint("j", "a", "b").replace('<axis xyz="0 0 1"/>', "")
     urdf = loaded_urdf(robot(link("a"), link("b"), hinge))
     assert urdf.file.joints[0].axis.tolist() == [1.0, 0.0, 0.0]
+
+
+def test_a_mimic_may_be_met_before_its_leader() -> None:
+    """Among joints of one link, and where both are moved by other joints of that link.
+
+    At z = 0.3 the follower is at 2 (0.3) + 0.1 about the axis z.
+    """
+    follows = mimic("z", 2.0, 0.1)
+    near = robot(*map(link, "abc"), joint("z", "a", "b"), joint("k", "a", "c", more=follows))
+    far = robot(
+        *map(link, "abcde"), joint("y", "a", "b"), joint("z", "b", "c"), joint("i", "a", "d"),
+        joint("k", "d", "e", more=follows),
+    )  # fmt: skip
+    turned = Rotation.from_euler("z", 2 * 0.3 + 0.1).as_matrix()
+    for text in (near, far):
+        body = Body("r", text, base="planar", actuated="all", positions={"z": 0.3})
+        system = System([body, Body("other", text)])
+        assert [m.of for m in system.mimics] == ["r/z", "other/z"]
+        moving = [joint.name for joint in system.joints]
+        assert sorted(moving) == sorted(set(moving))
+        of = system.mimics[0].name.replace("k", "c" if text is near else "e")
+        R = system.kinematics(system.q_start).R[system.links.index(of)]
+        assert np.abs(R - turned).max() < ROUNDING
 
 
 def _other_axis(model: pin.Model, _: pin.GeometryModel) -> None:

@@ -107,11 +107,20 @@ REFUSED: dict[str, tuple[str, str, str, str]] = {
         'name="k" type="continuous"',
         r"joint\[k\].mimic: a continuous joint can only mimic, .*; write type=\"revolute\" ",
     ),
-    "mimic first": (
-        robot(link("a"), link("b"), link("c"), joint("z", "a", "b"), joint("k", "a", "c")),
-        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>',
-        '<limit lower="-1" upper="1" effort="1" velocity="1"/>' + mimic("z") + "</joint></robot>",
-        "a mimic joint is met before the joint that it mimics",
+    "mimics what it moves": (
+        robot(link("a"), link("b"), link("c"), joint("k", "a", "b"), joint("j", "b", "c")),
+        "</joint>",
+        mimic("j") + "</joint>",
+        r"joint\[k\].mimic: is a joint that this one moves; let that one mimic this one .*'j'",
+    ),
+    "mimics both ways round": (
+        robot(
+            *map(link, "abcde"), joint("i", "a", "b"), joint("j", "b", "c", more=mimic("k")),
+            joint("k", "a", "d"), joint("l", "d", "e"),
+        ),
+        "</joint></robot>",
+        mimic("i") + "</joint></robot>",
+        r"joints: .* mimic joints that the others move, both ways round \(got \['i', 'k'\]\)",
     ),
 }  # fmt: skip
 

@@ -12,7 +12,15 @@ from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.extension import Extension, Rises
 from tests.helpers import random_step
-from tests.model.urdf.urdf_texts import collision, inertial, joint, link, robot, written
+from tests.model.urdf.urdf_texts import (
+    collision,
+    inertial,
+    joint,
+    link,
+    mimic,
+    robot,
+    written,
+)
 from tests.tolerances import ROUNDING
 
 H = 0.01
@@ -62,8 +70,8 @@ k = 4
 """
 
 
-def scene(folder, text, **settings):
-    written(folder, DRAWER, "drawer.urdf")
+def scene(folder, text, drawer=DRAWER, **settings):
+    written(folder, drawer, "drawer.urdf")
     written(folder, L, "l.urdf")
     (folder / "scene.toml").write_text(text)
     return load_scenario(folder / "scene.toml", **settings)
@@ -91,6 +99,27 @@ def test_the_files_own_friction_is_taken_when_asked_for(tmp_path):
     asked = scene(tmp_path, DRAWN.replace("{ slide = 3.0 }", '"urdf"'))
     assert asked.rises.loads.tolist() == said.rises.loads.tolist() == [3.0]
     assert not len(scene(tmp_path, DRAWN.replace("joint_friction", "positions")).rises)
+
+
+@pytest.mark.parametrize("force", [3.5, 4.999, -4.999, 6.0])
+def test_a_joint_that_follows_adds_its_friction_by_its_multiplier(tmp_path, force):
+    """The follower moves 2 delta_q against 1 N: beyond 3 N + 2 1 N both open.
+
+    delta_q = h^2 (F - f) / (M + m_r), M = m + 2^2 m, m_r = 1e-6 M.
+    """
+    follows = mimic("slide", -2.0) + '<dynamics friction="1.0"/>'
+    two = robot(
+        link("cabinet", inertial=""),
+        link("drawer"),
+        link("lower"),
+        joint("slide", "cabinet", "drawer", "prismatic", "1 0 0", '<dynamics friction="3.0"/>'),
+        joint("under", "cabinet", "lower", "prismatic", "1 0 0", follows),
+    )
+    asked = scene(tmp_path, DRAWN.replace("{ slide = 3.0 }", '"urdf"'), drawer=two)
+    assert asked.rises.loads.tolist() == [5.0]
+    M = 2.0 + 2.0**2 * 2.0
+    expected = np.sign(force) * H**2 * max(abs(force) - 5.0, 0.0) / (M + 1e-6 * M)
+    np.testing.assert_allclose(step(asked, force).delta_q[0], expected, rtol=ROUNDING, atol=0.0)
 
 
 def test_terms_of_an_extension_see_no_rise():
