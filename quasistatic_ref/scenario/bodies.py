@@ -136,7 +136,6 @@ def body_entry(name: str, table: TableReader, folder: Path) -> BodyEntry:
     else:
         assert mjcf is not None
         robot = needed_part("mjcf.mjcf", "mjcf").mjcf_urdf(mjcf, base)
-        folders.append(mjcf.parent)
     try:
         body = Body(name, robot, base, actuated, xyz, rpy, start, folders)
     except ModelError as error:

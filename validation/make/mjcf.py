@@ -1,14 +1,17 @@
-"""MJCF models of others against MuJoCo: ``python -m validation.make.mjcf [--count N]``.
+"""MJCF models against MuJoCo: ``python -m validation.make.mjcf [--count N]``.
 
 At N random configurations, each body's mass, pose and Jacobian, the mass matrix and signed
-distances of shapes are compared with MuJoCo's. pip installs ``PACKAGES`` into a temporary folder,
-without what they need: of them only the models are read. Exit status 1 if a difference exceeds its
-tolerance.
+distances of shapes are compared with MuJoCo's, of models of others. pip installs ``PACKAGES`` into
+a temporary folder, without what they need: of them only the models are read. Of N random models
+of meshes, it is also compared how far each mesh reaches, with MuJoCo's compiled vertices and with
+those that the files hold. Exit status 1 if a difference exceeds its tolerance.
 """
 
 import subprocess
 import sys
 import tempfile
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,12 +20,14 @@ import numpy as np
 
 from quasistatic_ref.contact.distance import closest_points
 from quasistatic_ref.contact.pairs import ContactPair
-from quasistatic_ref.errors import ContactError
+from quasistatic_ref.errors import ContactError, ModelError
 from quasistatic_ref.lab.page.markdown import markdown_table
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
+from quasistatic_ref.optional.mjcf.names import Names
 from quasistatic_ref.step.data import Array
+from tests.oracles.random_mjcf import random_model
 from validation.tools.scripts import asked, shown
 
 PACKAGES = ("gymnasium==1.4.0", "dm_control==1.0.50")
@@ -35,6 +40,9 @@ MODELS = (
 )  # fmt: skip
 mujoco = import_module("mujoco")
 SAME, CURVED = 1e-12, 1e-6
+REACH, WORDS = 1e-9, 1e-5
+"""Tolerances of how far a mesh reaches [m]: against MuJoCo's vertices, and against those of the
+files, which MuJoCo keeps in single precision."""
 """Tolerances: relative to the largest entry; of distances to cylinders and boxes, which MuJoCo and
 coal find by iteration [m]."""
 EXACT = ("Sphere", "Capsule")
@@ -48,6 +56,13 @@ matrices over their largest entry, and of signed distances [m] of {pairs} pairs 
 shapes at most: spheres and capsules, and others where they are apart.
 
 {table}
+
+Random models of meshes: {models} of `tests/oracles/random_mjcf.py`, with meshes in files (others of
+the same name next to them), inline and built-in, `refpos`, `refquat`, `scale`, `strippath`, folders
+and attached models. {right} are right, {refused} refused, {wrong} wrong. Largest differences of how
+far a mesh reaches: {reach:.1e} m from MuJoCo's compiled vertices, {words:.1e} m from those of the
+files, which MuJoCo keeps in single precision; of masses, poses, Jacobians and mass matrices:
+{rest:.1e}. How many models have what: {kinds}.
 """
 
 
@@ -65,6 +80,13 @@ class Differences(NamedTuple):
     curved: float
 
 
+class Reaches(NamedTuple):
+    """Largest differences of how far the meshes of a model reach [m]: from what, and how much."""
+
+    mujoco: float
+    words: float
+
+
 def error(a: Array, b: Array) -> float:
     """Largest difference of two arrays, over the largest entry of the second."""
     return float(np.abs(a - b).max(initial=0.0) / (np.abs(b).max(initial=0.0) or 1.0))
@@ -75,7 +97,7 @@ def system_of(path: Path) -> tuple[System, Any]:
     model = mujoco.MjModel.from_xml_path(str(path))
     base = "floating" if (model.jnt_type == mujoco.mjtJoint.mjJNT_FREE).any() else "fixed"
     text = mjcf_urdf(path, base)
-    body = Body("r", text, base, "all", package_dirs=[path.parent])
+    body = Body("r", text, base, "all")
     return System([body]), model
 
 
@@ -83,7 +105,7 @@ def placed(system: System, model: Any, q: Array) -> tuple[Array, Array]:
     """MuJoCo's qpos of a configuration q, and T with its qvel = T delta_q."""
     qpos = model.qpos0.copy()
     T = np.zeros((model.nv, system.n_v))
-    names = [model.joint(i).name or f"joint{i}" for i in range(model.njnt)]
+    names = Names.of(model).joints
     for joint in system.joints:
         own = joint.name.partition("/")[2]
         i = 0 if own == "base" else names.index(own)
@@ -107,7 +129,7 @@ def differences(path: Path, count: int, seed: int = 0) -> Differences:
     system, model = system_of(path)
     data = mujoco.MjData(model)
     rng = np.random.default_rng(seed)
-    bodies = ["worldbody", *(model.body(i).name or f"body{i}" for i in range(1, model.nbody))]
+    bodies = Names.of(model).bodies
     links = [system.links.index(f"r/{b}") if f"r/{b}" in system.links else 0 for b in bodies]
     numbers = {i: link for i, link in enumerate(links) if link}
     mass = max(abs(system.masses[k] - model.body_mass[i]) for i, k in numbers.items())
@@ -153,6 +175,74 @@ def differences(path: Path, count: int, seed: int = 0) -> Differences:
     return Differences(system.n_v, len(system.shapes), len(system.ignored), mass, *worst.tolist())
 
 
+def reaches(path: Path, points: Mapping[str, Array], seed: int = 0) -> Reaches:
+    """How far meshes reach from the origins of their bodies, against MuJoCo and their own points.
+
+    Parameters
+    ----------
+    path : Path
+    points : mapping of str to ndarray, shape (N, 3)
+        Those of geoms, in the frame of their body [m].
+    seed : int
+    """
+    system, model = system_of(path)
+    directions = np.random.default_rng(seed).normal(size=(200, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    worst = np.zeros(2)
+    for placed in system.shapes:
+        name = placed.name.partition("/")[2]
+        geom = model.geom(name)
+        mesh = model.mesh(int(geom.dataid[0]))
+        first = int(mesh.vertadr[0])
+        R = np.zeros(9)
+        mujoco.mju_quat2Mat(R, geom.quat)
+        compiled = model.mesh_vert[first : first + int(mesh.vertnum[0])] @ R.reshape(3, 3).T
+        here = placed.shape.support_value(directions @ placed.R) + directions @ placed.t
+        own = (directions @ (compiled + geom.pos).T).max(axis=1)
+        worst[0] = max(worst[0], np.abs(here - own).max())
+        if name in points:
+            words = (directions @ points[name].T).max(axis=1)
+            worst[1] = max(worst[1], np.abs(here - words).max())
+    return Reaches(*worst.tolist())
+
+
+class Tried(NamedTuple):
+    """What random models came to."""
+
+    right: int
+    refused: list[str]
+    wrong: list[int]
+    reach: float
+    words: float
+    rest: float
+    kinds: Counter[str]
+
+
+def random_models(seeds: Iterable[int]) -> Tried:
+    """Random models of meshes: right, or refused in words, or wrong."""
+    right = 0
+    refused = []
+    wrong = []
+    worst = np.zeros(3)
+    kinds: Counter[str] = Counter()
+    for seed in seeds:
+        with tempfile.TemporaryDirectory() as folder:
+            made = random_model(Path(folder), seed)
+            kinds.update(made.kinds)
+            try:
+                far = reaches(made.path, made.points)
+            except ModelError as refusal:
+                refused.append(f"{seed}: {refusal}")
+                continue
+            rest = max(differences(made.path, 1)[3:7])
+        worst = np.maximum(worst, [*far, rest])
+        if far.mujoco <= REACH and far.words <= WORDS and rest <= SAME:
+            right += 1
+        else:
+            wrong.append(seed)
+    return Tried(right, refused, wrong, *worst.tolist(), kinds)
+
+
 def shape_pairs(
     system: System, model: Any, numbers: dict[int, int], rng: np.random.Generator
 ) -> list[tuple[ContactPair, int, int]]:
@@ -166,7 +256,7 @@ def shape_pairs(
     every = [(a, b) for a, b in every if a.link != b.link]
     chosen = rng.permutation(len(every))[:PAIRS]
     return [
-        (ContactPair("p(a, b)", a, b, 0.0, 0.0, 4, 1), number[id(a)], number[id(b)])
+        (ContactPair("p(a, b)", a, b, 0.0, 0.0, 4, 1, hull=True), number[id(a)], number[id(b)])
         for a, b in (every[i] for i in chosen)
     ]
 
@@ -188,7 +278,15 @@ def main() -> int:
             "spheres and capsules", "other shapes")  # fmt: skip
     table = "\n".join(markdown_table(head, rows, 1))
     version = mujoco.__version__
-    page = PAGE.format(count=options.count, version=version, pairs=PAIRS, table=table)
+    tried = random_models(range(options.count))
+    status = status or int(bool(tried.wrong))
+    page = PAGE.format(
+        count=options.count, version=version, pairs=PAIRS, table=table, models=options.count,
+        right=tried.right, refused=len(tried.refused), wrong=len(tried.wrong), reach=tried.reach,
+        words=tried.words, rest=tried.rest,
+        kinds=", ".join(f"{kind} {number}" for kind, number in sorted(tried.kinds.items())),
+    )  # fmt: skip
+    print("\n".join(tried.refused), file=sys.stderr)
     shown(page, options.out)
     return status
 

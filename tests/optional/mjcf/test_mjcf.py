@@ -13,7 +13,7 @@ from quasistatic_ref.optional.show.figures.visuals import visuals
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.simulate.scene import Scene
 from tests.model.urdf.urdf_texts import written
-from validation.make.mjcf import CURVED, SAME, differences
+from validation.make.mjcf import CURVED, SAME, differences, random_models
 
 ARM = """<mujoco>
   <compiler angle="degree" eulerseq="zyx" autolimits="true"/>
@@ -76,6 +76,49 @@ def test_everything_is_where_mujoco_has_it(arm):
     assert found.curved < CURVED
 
 
+def test_meshes_are_where_mujoco_has_them_however_they_are_written():
+    """A sample of those of ``validation/results/mjcf.md``."""
+    tried = random_models(range(8))
+    assert tried.right + len(tried.refused) == 8
+    assert not tried.wrong
+    assert not tried.refused
+    assert {
+        "refpos",
+        "refquat",
+        "scale",
+        "strippath",
+        "attach",
+        "vertex",
+        "builtin",
+        "file",
+    } <= set(tried.kinds)
+
+
+def test_a_shape_that_is_not_mujocos_is_refused_by_its_name(arm, monkeypatch):
+    def longer(model, g):
+        shape = honest(model, g)
+        if shape is not None and shape.tag == "mesh":
+            shape.set("vertex", shape.get("vertex").replace("0.1", "0.100001", 1))
+        return shape
+
+    honest = mjcf._shape
+    assert "<mesh " in mjcf_urdf(arm)
+    monkeypatch.setattr(mjcf, "_shape", longer)
+    with pytest.raises(ModelError, match=r"arm.xml: geom\[pad\]: is another shape, or elsewhere"):
+        mjcf_urdf(arm)
+
+
+def test_a_body_without_a_name_is_called_like_no_other(tmp_path):
+    other = '<body name="body1"><geom name="of_body1" size="0.2"/></body>'
+    world = f'<mujoco><worldbody><body><geom size="0.1"/></body>{other}</worldbody></mujoco>'
+    system = System([Body("a", mjcf_urdf(written(tmp_path, world, "two.xml")))])
+    assert system.links[1:] == ("a/worldbody", "a/body1_", "a/body1")
+    masses = dict(zip(system.links, system.masses.tolist(), strict=True))
+    # 1000 kg/m^3 times 4/3 pi r^3
+    assert masses["a/body1_"] == pytest.approx(4e3 / 3 * np.pi * 0.1**3)
+    assert masses["a/body1"] == pytest.approx(4e3 / 3 * np.pi * 0.2**3)
+
+
 def test_a_free_body_is_the_root_and_moves_as_mujocos(tmp_path):
     shapes = '<geom type="sphere" size="0.1" pos="0.1 0.2 0"/><geom type="box" size="0.1 0.2 0.3"/>'
     path = written(tmp_path, BALL.format(shapes), "ball.xml")
@@ -87,7 +130,7 @@ def test_a_free_body_is_the_root_and_moves_as_mujocos(tmp_path):
 
 
 def test_what_is_not_carried_over_is_listed_by_its_name(arm):
-    system = System([Body("a", mjcf_urdf(arm), actuated="all", package_dirs=[arm.parent])])
+    system = System([Body("a", mjcf_urdf(arm), actuated="all")])
     assert system.links[1:] == (
         "a/worldbody", "a/upper:lift", "a/upper:swing", "a/upper:roll", "a/upper", "a/hand",
         "a/body3:joint4", "a/body3",
@@ -95,16 +138,14 @@ def test_what_is_not_carried_over_is_listed_by_its_name(arm):
     (swing,) = [joint for joint in system.joints if joint.name == "a/swing"]
     assert swing.limits == pytest.approx(np.radians([-110, 70]))  # from ref on
     assert {name.removeprefix("a: ") for name in system.ignored} == {
-        "robot.option", "robot.actuator.motor", "robot.sensor.sensor0", "robot.site.tip",
-        "robot.light.light0", "joint[lift].dynamics", "joint[lift].limit", "joint[swing].dynamics",
-        "joint[swing].limit", "joint[swing].ref", "joint[roll].dynamics", "joint[roll].limit",
-        "joint[roll].armature", "joint[roll].stiffness", "joint[turn].dynamics",
-        "joint[turn].limit", "joint[joint4].dynamics", "joint[joint4].limit",
-        "link[worldbody].geom.floor", "link[worldbody].collision[0].friction",
-        "link[upper].collision[0].friction", "link[upper].geom.shell",
-        "link[hand].collision[0].friction", "link[body3].collision[0].friction",
-        "link[body3].collision[1].friction",
+        "option", "actuator.general[motor]", "sensor.jointpos", "site[tip]", "light",
+        "joint[swing].dynamics.friction", "joint[swing].ref", "joint[roll].armature",
+        "joint[roll].stiffness", "default[thin].joint.damping", "geom[floor]", "geom[shell]",
+        "asset.mesh[wedge].content_type",
+        *(f"joint[{name}].limit" for name in ("lift", "swing", "roll", "turn", "joint4")),
         *(f"link[{name}].visual" for name in ("worldbody", "upper", "hand", "body3")),
+        *(f"link[{name}].collision[0].friction" for name in ("worldbody", "upper", "hand")),
+        *(f"link[body3].collision[{i}].friction" for i in (0, 1)),
     }  # fmt: skip
 
 

@@ -12,7 +12,12 @@ from quasistatic_ref.errors import ModelError
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.readers.mesh_files import loaded_mesh, mesh_path, triangles_of
 from quasistatic_ref.model.system import System
-from quasistatic_ref.model.urdf.urdf_file import FileMesh, urdf_file, written_shape
+from quasistatic_ref.model.urdf.urdf_file import (
+    FileMesh,
+    InlineMesh,
+    urdf_file,
+    written_shape,
+)
 from quasistatic_ref.model.urdf.urdf_xml import Tag, xml_root
 from quasistatic_ref.optional.show.figures.looks import body_colours
 from quasistatic_ref.optional.show.figures.surfaces import surface_points, triangles
@@ -70,6 +75,8 @@ def _of_body(body: Body, system: System, own: str) -> Iterator[Visual]:
 
 def _corners(shape: Any, folder: Path, package_dirs: Sequence[Any]) -> Array:
     """Triangles as triples of points, shape (3T, 3) [m]."""
+    if isinstance(shape, InlineMesh):
+        return np.asarray(shape.vertices[shape.triangles.ravel()])
     if not isinstance(shape, FileMesh):
         return triangles(surface_points(shape, AROUND, UP))
     loaded = loaded_mesh(mesh_path(shape.uri, folder, package_dirs), shape.scale)

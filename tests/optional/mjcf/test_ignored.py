@@ -1,0 +1,513 @@
+"""Each element and attribute of MJCF is read, listed as ignored, or refused.
+
+Which there are is what MuJoCo's own schema says. Small files hold them one by one; compared with
+the file without it, each changes what is loaded, or what is listed, or is refused. Of an element
+that is listed whole, nothing is read, so that its attributes and children need no file of their
+own.
+"""
+
+import re
+from functools import cache
+from pathlib import Path
+
+import mujoco
+import pytest
+
+from quasistatic_ref.cli.ignored import ALWAYS
+from quasistatic_ref.errors import ModelError
+from quasistatic_ref.model.urdf.urdf_file import urdf_file
+from quasistatic_ref.optional.mjcf.mjcf import mjcf_urdf
+from tests.model.urdf.urdf_texts import LISTED, OBJ, REFUSED, USED, written
+
+Element = tuple[str, ...]
+"""The tags from below <mujoco> to an element."""
+
+
+@cache
+def schema() -> dict[Element, list[str]]:
+    """The attributes of each element, as MuJoCo prints them."""
+    found: dict[Element, list[str]] = {}
+    path: Element = ()
+    for line in mujoco.mj_printSchema(False, False).splitlines():
+        element = re.match(r"( *)(\S+) \(.\)(.*)", line)
+        if element:
+            tag = element[2].replace("(world)body", "body")
+            path = (*path[: len(element[1]) // 3], tag)
+            found[path[1:]] = element[3].split()
+        elif path:
+            found[path[1:]] += line.split()
+    return found
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("models")
+    (path / "in").mkdir()
+    for name, size in {"a.obj": 0.1, "b.obj": 0.4, "in/a.obj": 0.7}.items():
+        written(path, OBJ.format(size), name)
+    for name, size in {"child.xml": 0.1, "child": 0.1, "other.xml": 0.4}.items():
+        written(path, CHILD.format(size), name)
+    return path
+
+
+@cache
+def outcome(folder: Path, text: str, base: str) -> tuple[str, set[str]] | str:
+    """What is loaded of a file, and what is listed as ignored; or the sentence that refuses it."""
+    try:
+        urdf = mjcf_urdf(written(folder, text, "model.xml"), base)
+    except ModelError as error:
+        return str(error)
+    loaded = re.sub('<ignored name="[^"]*" />', "", urdf)
+    return loaded, set(urdf_file(urdf).ignored)
+
+
+def effect(folder: Path, text: str, without: str, name: str) -> str:
+    """Whether what `text` says more, an attribute or element of a name, has which effect."""
+    base = "floating" if "freejoint" in text else "fixed"
+    found = outcome(folder, text, base)
+    plain = outcome(folder, without, base)
+    if isinstance(found, str):
+        return REFUSED if found != plain else "unnoticed"
+    if isinstance(plain, str) or found[0] != plain[0]:
+        return USED
+    named = any(f".{entry}".endswith(f".{name}") for entry in found[1])
+    return LISTED if named or found[1] != plain[1] else "unnoticed"
+
+
+CHILD = """<mujoco><option timestep="0.1"/><worldbody><body name="c"><geom size="{}"/></body>
+<body name="e"><geom size="0.2"/></body><frame name="f"><body name="d"><geom size="0.3"/></body>
+</frame></worldbody></mujoco>"""
+VERTICES = 'vertex="0 0 0 0.1 0 0 0 0.2 0 0 0 0.3"'
+CLASS = '<default><default class="d"><geom size="0.7"/><joint axis="0 1 1"/><mesh scale="2 3 4"/>'
+CLASS += "</default></default>"
+BLUE = '<asset><material name="blue" rgba="0 0 1 1"/></asset>'
+GEOM = '<geom type="box" size="0.1 0.2 0.3" pos="0 0.1 0.2" euler="10 20 30"/>'
+TURNED = '<body euler="10 20 30"><geom size="0.1"/></body>'
+OF_MESH = '<body><geom type="mesh" mesh="m"/></body>'
+
+
+def doc(body: str, *sections: str) -> str:
+    return f"<mujoco>{CLASS}{BLUE}{''.join(sections)}<worldbody>{body}</worldbody></mujoco>"
+
+
+def mesh(attributes: str) -> str:
+    return f"<asset><mesh {attributes}/></asset>"
+
+
+TEMPLATES = {
+    ("compiler",): doc(TURNED, "<compiler @/>"),
+    ("asset", "mesh"): doc(OF_MESH, mesh(f'name="m" {VERTICES} @')),
+    ("body",): doc('<body><joint/><geom size="0.2"/><body @><geom size="0.1"/></body></body>'),
+    ("body", "joint"): doc(f'<body name="b"><joint @/>{GEOM}</body>'),
+    ("body", "freejoint"): doc(f"<body><freejoint @/>{GEOM}</body>"),
+    ("body", "geom"): doc('<body><geom size="0.1 0.2 0.3" @/></body>'),
+}  # fmt: skip
+"""Files in which an attribute stands where @ is."""
+PLACE = {
+    "pos": "1 2 3", "quat": "0.8 0.6 0 0", "axisangle": "1 0 0 40", "euler": "10 20 30",
+    "xyaxes": "0 1 0 -1 0 0", "zaxis": "1 1 1",
+}  # fmt: skip
+VALUES: dict[Element, dict[str, str]] = {
+    ("compiler",): {
+        "usethread": "false", "saveinertial": "true", "savecanonical": "false", "angle": "radian",
+        "savecompiled": "false", "passthrough": "textures", "texturedir": "in", "eulerseq": "zyx",
+        "coordinate": "global", "settotalmass": "3", "boundmass": "100", "boundinertia": "9",
+    },
+    ("asset", "mesh"): {
+        "inertia": "shell", "maxhullvert": "4", "scale": "1 2 3", "refpos": "0.1 0.2 0.3",
+        "refquat": "0 1 0 0", "normal": "1 0 0 0 1 0 0 0 1 1 0 0", "smoothnormal": "true",
+        "texcoord": "0 0 0 1 1 0 1 1", "material": "blue", "face": "0 2 1 0 1 3 0 3 2 1 2 3",
+        "class": "d",
+    },
+    ("body",): PLACE | {
+        "gravcomp": "1", "mocap": "true", "user": "1", "name": "named", "childclass": "none",
+    },
+    ("body", "joint"): {
+        "name": "named", "class": "d", "type": "slide", "axis": "1 2 3", "pos": "1 2 3",
+        "range": "-10 20", "frictionloss": "0.3", "actuatorfrcrange": "-1 1", "armature": "0.1",
+        "actuatorfrclimited": "true", "actuatorgravcomp": "true", "damping": "1", "group": "2",
+        "limited": "true", "margin": "0.1", "ref": "0.2", "solimpfriction": "0.8 0.9 0.1",
+        "solimplimit": "0.8 0.9 0.1", "solreffriction": "0.1 1", "solreflimit": "0.1 1",
+        "springdamper": "0.1 1", "springref": "0.1", "springyield": "0.1", "stiffness": "3",
+        "user": "1",
+    },
+    ("body", "freejoint"): {"align": "true", "group": "2", "name": "named"},
+    ("body", "geom"): PLACE | {
+        "name": "named", "type": "box", "density": "300", "mass": "3", "shellinertia": "true",
+        "rgba": "1 0 0 1", "material": "blue", "group": "4", "contype": "2", "conaffinity": "2",
+        "adhesion": "0.1", "castshadow": "false", "condim": "4", "fluidcoef": "1 2 3 4 5",
+        "fluidshape": "ellipsoid", "gap": "0.1", "margin": "0.2", "priority": "2", "solmix": "0.3",
+        "solimp": "0.8 0.9 0.1", "solref": "0.1 1", "surfacevel": "1 0 0 0 0 0", "user": "1",
+    },
+}  # fmt: skip
+"""A value of each attribute, which the file without it does not have by default."""
+IGNORED = {
+    ("compiler",): "passthrough savecanonical savecompiled saveinertial texturedir usethread",
+    ("asset", "mesh"): "maxhullvert normal smoothnormal texcoord",
+    ("body",): "gravcomp user",
+    ("body", "joint"): (
+        "actuatorfrcrange actuatorgravcomp armature damping group margin ref solimpfriction "
+        "solimplimit solreffriction solreflimit springdamper springref springyield stiffness user"
+    ),
+    ("body", "freejoint"): "group name",
+    ("body", "geom"): (
+        "adhesion castshadow condim conaffinity contype fluidcoef fluidshape gap margin priority "
+        "solimp solmix solref surfacevel user"
+    ),
+}
+"""Which of them are listed."""
+NEVER = {
+    ("compiler",): "coordinate",
+    ("body",): "mocap childclass",
+    ("body", "joint"): "actuatorfrclimited limited",
+}
+"""Which of them are refused: by MuJoCo where they say too little, or contradict the others."""
+
+
+def inertial(attributes: str) -> str:
+    return doc(f"<body><inertial {attributes}/></body>")
+
+
+def fitted(compiler: str, geom: str) -> str:
+    box = f'<body><geom type="box" mesh="m" {geom}/></body>'
+    return doc(box, f"<compiler {compiler}/>", mesh(f'name="m" {VERTICES}'))
+
+
+def attached(attach: str, model: str = 'name="k" file="child.xml"', compiler: str = "") -> str:
+    other = '<model name="l" file="other.xml"/>'
+    body = f'<body><geom size="1"/><frame pos="1 0 0"><attach prefix="p" {attach}/></frame></body>'
+    return doc(body, f"<compiler {compiler}/>", f"<asset><model {model}/>{other}</asset>")
+
+
+ONE = 'mass="1" pos="0 0 0" diaginertia="1 1.5 2"'
+FILE = mesh('name="m" file="a.obj"')
+RANGE = '<body><joint range="-10 20"/><geom size="0.1"/></body>'
+STATIC = f"<body>{GEOM}<body>{GEOM}</body></body>"
+HFIELD = '<asset><hfield name="h" nrow="2" ncol="2" size="1 1 1 1"/></asset>'
+SLEEP = '<body name="b" {}><joint/><geom size="0.1"/></body>'
+PAIRS: dict[str, tuple[str, str, str]] = {
+    "compiler.alignfree": (
+        doc(f"<body><freejoint/>{GEOM}</body>", '<compiler alignfree="true"/>'),
+        doc(f"<body><freejoint/>{GEOM}</body>"), USED,
+    ),
+    "compiler.assetdir": (
+        doc(OF_MESH, FILE, '<compiler assetdir="in"/>'), doc(OF_MESH, FILE), USED,
+    ),
+    "compiler.meshdir": (
+        doc(OF_MESH, FILE, '<compiler meshdir="in"/>'), doc(OF_MESH, FILE), USED,
+    ),
+    "compiler.strippath": (
+        doc(OF_MESH, mesh('name="m" file="in/a.obj"'), '<compiler strippath="true"/>'),
+        doc(OF_MESH, mesh('name="m" file="in/a.obj"')), USED,
+    ),
+    "compiler.autolimits": (doc(RANGE, '<compiler autolimits="false"/>'), doc(RANGE), REFUSED),
+    "compiler.balanceinertia": (
+        doc('<body><inertial mass="1" pos="0 0 0" diaginertia="1 1 3"/></body>',
+            '<compiler balanceinertia="true"/>'),
+        doc('<body><inertial mass="1" pos="0 0 0" diaginertia="1 1 3"/></body>'), USED,
+    ),
+    "compiler.conflict": (
+        attached('model="k" body="c"', compiler='conflict="error"'), attached('model="k" body="c"'),
+        LISTED,
+    ),
+    "compiler.discardvisual": (
+        doc('<body><geom size="1"/><geom size="0.1" contype="0" conaffinity="0"/></body>',
+            '<compiler discardvisual="true"/>'),
+        doc('<body><geom size="1"/><geom size="0.1" contype="0" conaffinity="0"/></body>'), USED,
+    ),
+    "compiler.fitaabb": (fitted('fitaabb="true"', ""), fitted("", ""), USED),
+    "compiler.fusestatic": (doc(STATIC, '<compiler fusestatic="true"/>'), doc(STATIC), USED),
+    "compiler.inertiafromgeom": (
+        doc(f"<body><inertial {ONE}/>{GEOM}</body>", '<compiler inertiafromgeom="true"/>'),
+        doc(f"<body><inertial {ONE}/>{GEOM}</body>"), USED,
+    ),
+    "compiler.inertiagrouprange": (
+        doc(f'<body>{GEOM}<geom size="1" group="3"/></body>',
+            '<compiler inertiagrouprange="0 2"/>'),
+        doc(f'<body>{GEOM}<geom size="1" group="3"/></body>'), USED,
+    ),
+    "default.class": (
+        doc('<body><geom class="d"/></body>').replace('"d"', '"e"', 1),
+        doc('<body><geom class="d"/></body>'), REFUSED,
+    ),
+    "asset.mesh.name": (
+        doc(OF_MESH, mesh(f'name="n" {VERTICES}')), doc(OF_MESH, mesh(f'name="m" {VERTICES}')),
+        REFUSED,
+    ),
+    "asset.mesh.file": (
+        doc(OF_MESH, mesh('name="m" file="b.obj"')), doc(OF_MESH, FILE), USED,
+    ),
+    "asset.mesh.content_type": (
+        doc(OF_MESH, mesh('name="m" file="a.obj" content_type="model/stl"')), doc(OF_MESH, FILE),
+        LISTED,
+    ),
+    "asset.mesh.vertex": (
+        doc(OF_MESH, mesh(f'name="m" {VERTICES}'.replace("0.1", "0.3"))),
+        doc(OF_MESH, mesh(f'name="m" {VERTICES}')), USED,
+    ),
+    "asset.mesh.builtin": (
+        doc(OF_MESH, mesh('name="m" builtin="cone" params="8 0.5"')),
+        doc(OF_MESH, mesh('name="m" builtin="sphere" params="2"')), USED,
+    ),
+    "asset.mesh.params": (
+        doc(OF_MESH, mesh('name="m" builtin="cone" params="8 0.5"')),
+        doc(OF_MESH, mesh('name="m" builtin="cone" params="8 0.4"')), USED,
+    ),
+    "asset.model.name": (
+        attached('model="k" body="c"', 'name="m" file="child.xml"'),
+        attached('model="k" body="c"'), REFUSED,
+    ),
+    "asset.model.file": (
+        attached('model="k" body="c"', 'name="k" file="other.xml"'),
+        attached('model="k" body="c"'), USED,
+    ),
+    "asset.model.content_type": (
+        attached('model="k" body="c"', 'name="k" file="child" content_type="text/xml"'),
+        attached('model="k" body="c"', 'name="k" file="child"'), USED,
+    ),
+    "body.attach.model": (attached('model="l" body="c"'), attached('model="k" body="c"'), USED),
+    "body.attach.body": (attached('model="k" body="d"'), attached('model="k" body="c"'), USED),
+    "body.attach.frame": (attached('model="k" frame="f"'), attached('model="k" body="c"'), USED),
+    "body.attach.prefix": (
+        attached('model="k" body="c"').replace('"p"', '"q"'), attached('model="k" body="c"'), USED,
+    ),
+    "body.fuse": (
+        doc(STATIC.replace("><body>", '><body fuse="false">'), '<compiler fusestatic="true"/>'),
+        doc(STATIC, '<compiler fusestatic="true"/>'), USED,
+    ),
+    "body.simple": (
+        doc(STATIC.replace("><body>", '><body simple="false">')), doc(STATIC), LISTED,
+    ),
+    "body.sleep": (doc(SLEEP.format('sleep="never"')), doc(SLEEP.format("")), LISTED),
+    "body.inertial.mass": (inertial(ONE.replace("1", "3", 1)), inertial(ONE), USED),
+    "body.inertial.diaginertia": (inertial(ONE.replace("1.5", "2")), inertial(ONE), USED),
+    "body.inertial.fullinertia": (
+        inertial('mass="1" pos="0 0 0" fullinertia="1 1.5 2 0.1 0.2 0.1"'), inertial(ONE), USED,
+    ),
+    "body.inertial.pos": (inertial(ONE.replace("0 0 0", "1 2 3")), inertial(ONE), USED),
+    **{
+        f"body.inertial.{name}": (inertial(f'{ONE} {name}="{value}"'), inertial(ONE), USED)
+        for name, value in PLACE.items() if name != "pos"
+    },
+    "body.geom.size": (
+        doc('<body><geom size="0.1"/></body>'), doc('<body><geom size="0.2"/></body>'), USED,
+    ),
+    "body.geom.class": (
+        doc('<body><geom class="d"/></body>'), doc('<body><geom size="0.2"/></body>'), USED,
+    ),
+    "body.geom.fromto": (
+        doc('<body><geom type="capsule" size="0.1" fromto="0 0 0 0 0 1"/></body>'),
+        doc('<body><geom type="capsule" size="0.1" fromto="0 0 0 0 1 0"/></body>'), USED,
+    ),
+    "body.geom.mesh": (
+        doc(OF_MESH, FILE, mesh('name="n" file="b.obj"')).replace('mesh="m"', 'mesh="n"'),
+        doc(OF_MESH, FILE, mesh('name="n" file="b.obj"')), USED,
+    ),
+    "body.geom.fitscale": (fitted("", 'fitscale="2"'), fitted("", ""), USED),
+    "body.geom.hfield": (
+        doc(f'<geom type="hfield" hfield="h"/>{STATIC}', HFIELD), doc(STATIC, HFIELD), LISTED,
+    ),
+    "default.geom.hfield": (
+        doc('<geom type="hfield"/>', "<default><geom hfield='h'/></default>", HFIELD),
+        doc("", HFIELD), LISTED,
+    ),
+    "body.geom.friction": (
+        doc('<body><geom size="0.1" friction="0.3"/></body>'),
+        doc('<body><geom size="0.1" contype="0" conaffinity="0"/></body>'), USED,
+    ),
+}  # fmt: skip
+"""Attributes that need a file of their own: that file, another one, and what differs."""
+
+
+def attributes() -> dict[str, tuple[str, str, str]]:
+    """Each attribute of elements that are read in part."""
+    found = {}
+    for element, values in VALUES.items():
+        for name, value in values.items():
+            effect = LISTED if name in IGNORED.get(element, "").split() else USED
+            if name in NEVER.get(element, "").split():
+                effect = REFUSED
+            text = TEMPLATES[element]
+            without = text.replace("@", "")
+            said = f'{name}="{value}"'
+            found[".".join((*element, name))] = text.replace("@", said), without, effect
+            if name in schema().get(("default", element[-1]), ()):
+                default = f"<mujoco><default><{element[-1]} {said}/></default>"
+                text = without.replace("<mujoco>", default)
+                found[f"default.{element[-1]}.{name}"] = text, without, effect
+    for name in ("fitscale", "friction", "fromto", "mesh", "size"):
+        text, without, effect = PAIRS[f"body.geom.{name}"]
+        said = re.findall(f' {name}="[^"]*"', text)[-1]
+        default = f"<mujoco><default><geom{said}/></default>"
+        text = text.replace(said, "").replace("<mujoco>", default)
+        found[f"default.geom.{name}"] = text, without, effect
+    return found | PAIRS
+
+
+ATTRIBUTES = attributes()
+
+
+@pytest.mark.parametrize("name", ATTRIBUTES)
+def test_an_attribute_is_read_or_listed_or_refused(folder: Path, name: str) -> None:
+    text, without, expected = ATTRIBUTES[name]
+    assert effect(folder, text, without, name.rpartition(".")[2]) == expected
+
+
+LIMITED = '<joint name="k" range="-1 1"/>'
+BASE = f"""<mujoco><asset>
+<mesh name="m" {VERTICES}/><hfield name="h" nrow="2" ncol="2" size="1 1 1 1"/>
+<texture name="x" builtin="flat" type="2d" width="4" height="4"/></asset>
+<worldbody><camera name="c"/><body name="b"><joint name="j"/><geom name="g" size="0.1"/>
+<site name="s"/><body name="b2">{LIMITED}<geom name="g2" size="0.2"/><site name="s2"/>@</body>
+</body></worldbody>
+<tendon><fixed name="t" range="-1 1"><joint joint="j" coef="1"/></fixed></tendon>
+<actuator><motor name="a" joint="j" ctrlrange="0 1"/></actuator>#</mujoco>"""
+"""A file with one of each that others refer to."""
+REFERENCES = {
+    "site": "s", "joint": "k", "tendon": "t", "actuator": "a", "body": "b", "camera": "c",
+    "objtype": "body", "objname": "b", "reftype": "body", "refname": "b2", "geom": "g",
+    "geom1": "g", "geom2": "g2", "mesh": "m",
+}  # fmt: skip
+SENSORS = {
+    "rangefinder": 'site="s"',
+    "contact": 'geom1="g"',
+    "user": 'dim="1"',
+    "plugin": 'plugin="mujoco.sensor.touch_grid" objtype="site" objname="s"',
+}
+ACTUATORS = {
+    "orientation": 'joint="n" kp="1"',
+    "adhesion": 'body="b" ctrlrange="0 1"',
+    "damper": 'joint="j" ctrlrange="0 1"',
+    "dcmotor": 'joint="j" motorconst="1" resistance="1"',
+    "muscle": 'joint="k"',
+    "plugin": 'joint="j" plugin="mujoco.pid"',
+}
+OF_DEFAULT = {
+    "texture": 'random="0.3"', "material": 'rgba="1 0 0 1"', "site": 'group="2"',
+    "camera": 'fovy="30"', "light": 'active="false"', "pair": 'condim="4"',
+    "equality": 'active="false"', "tendon": 'group="2"',
+    "damper": 'ctrlrange="0 1" group="2"', "adhesion": 'ctrlrange="0 1" group="2"',
+    "dcmotor": 'motorconst="3" resistance="1"',
+}  # fmt: skip
+INSIDE = {
+    "body.site": '<site name="n"/>',
+    "body.camera": '<camera name="n"/>',
+    "body.light": '<light name="n"/>',
+    "body.plugin": '<plugin plugin="mujoco.elasticity.cable"/>',
+    "body.geom.plugin": '<geom type="sdf" mesh="m"><plugin plugin="mujoco.sdf.torus"/></geom>',
+}
+FLEX = '<flexcomp name="n" type="grid" count="3 3 1" dim="2" mass="1" radius="0.01"/>'
+TRILINEAR = '<flexcomp name="n" type="grid" count="3 3 3" dim="3" mass="1" dof="trilinear"/>'
+BESIDE = {
+    "body.flexcomp": f"<worldbody>{FLEX}</worldbody>",
+    "option": '<option timestep="0.1"/>',
+    "size": '<size nuserdata="3"/>',
+    "statistic": '<statistic extent="3"/>',
+    "compiler.lengthrange": '<compiler><lengthrange accel="3"/></compiler>',
+    "visual.global": '<visual><global fovy="30"/></visual>',
+    "visual.quality": '<visual><quality shadowsize="8"/></visual>',
+    "visual.headlight": '<visual><headlight ambient="1 0 0"/></visual>',
+    "visual.map": '<visual><map force="3"/></visual>',
+    "visual.scale": '<visual><scale com="3"/></visual>',
+    "visual.rgba": '<visual><rgba com="1 0 0 1"/></visual>',
+    "extension.plugin": '<extension><plugin plugin="mujoco.pid"/></extension>',
+    "asset.mesh.plugin": (
+        '<asset><mesh name="n"><plugin plugin="mujoco.sdf.torus"/></mesh></asset>'
+    ),
+    "asset.hfield": '<asset><hfield name="n" nrow="2" ncol="2" size="1 1 1 1"/></asset>',
+    "asset.skin": (
+        '<asset><skin name="n" vertex="0 0 0 1 0 0 0 1 0" face="0 1 2"><bone body="b" '
+        'bindpos="0 0 0" bindquat="1 0 0 0" vertid="0 1 2" vertweight="1 1 1"/></skin></asset>'
+    ),
+    "asset.texture": (
+        '<asset><texture name="n" builtin="flat" type="2d" width="4" height="4"/></asset>'
+    ),
+    "asset.material": '<asset><material name="n"/></asset>',
+    "deformable.flex": (
+        '<deformable><flex name="n" dim="2" body="b b b2" vertex="0 0 0 1 0 0 0 1 0" '
+        'element="0 1 2"/></deformable>'
+    ),
+    "deformable.skin": (
+        '<deformable><skin name="n" vertex="0 0 0 1 0 0 0 1 0" face="0 1 2"><bone body="b" '
+        'bindpos="0 0 0" bindquat="1 0 0 0" vertid="0 1 2" vertweight="1 1 1"/></skin></deformable>'
+    ),
+    "contact.pair": '<contact><pair geom1="g" geom2="g2"/></contact>',
+    "contact.exclude": '<contact><exclude body1="b" body2="b2"/></contact>',
+    "tendon.spatial": (
+        '<tendon><spatial name="n"><site site="s"/><site site="s2"/></spatial></tendon>'
+    ),
+    "tendon.fixed": '<tendon><fixed name="n"><joint joint="j" coef="1"/></fixed></tendon>',
+    "equality.connect": '<equality><connect body1="b" body2="b2" anchor="0 0 0"/></equality>',
+    "equality.weld": '<equality><weld body1="b" body2="b2"/></equality>',
+    "equality.joint": '<equality><joint joint1="j"/></equality>',
+    "equality.tendon": '<equality><tendon tendon1="t"/></equality>',
+    "equality.flex": f'<worldbody>{FLEX}</worldbody><equality><flex flex="n"/></equality>',
+    "equality.flexstrain": (
+        f"<worldbody>{TRILINEAR}</worldbody>"
+        '<equality><flexstrain flex="n" cell="0 0 0"/></equality>'
+    ),
+    "custom.numeric": '<custom><numeric name="n" data="1"/></custom>',
+    "custom.text": '<custom><text name="n" data="1"/></custom>',
+    "custom.tuple": (
+        '<custom><tuple name="n"><element objtype="body" objname="b"/></tuple></custom>'
+    ),
+    "keyframe.key": '<keyframe><key name="n" time="1"/></keyframe>',
+}
+"""Elements of which nothing is read, in a file in which all else is read."""
+
+
+def whole_elements() -> dict[str, str]:
+    """Files, each with one element of which nothing is read."""
+    found = {name: BASE.replace("@", text).replace("#", "") for name, text in INSIDE.items()}
+    beside = dict(BESIDE)
+    for element, names in schema().items():
+        section, tag = (*element, "", "")[:2]
+        if len(element) != 2:
+            continue
+        refers = " ".join(f'{name}="{REFERENCES[name]}"' for name in names if name in REFERENCES)
+        if section == "sensor":
+            beside[f"sensor.{tag}"] = (
+                f'<sensor><{tag} name="n" {SENSORS.get(tag, refers)}/></sensor>'
+            )
+        if section == "actuator":
+            text = ACTUATORS.get(tag, 'joint="j"')
+            beside[f"actuator.{tag}"] = f'<actuator><{tag} name="n" {text}/></actuator>'
+        if section == "default" and tag not in ("mesh", "joint", "geom"):
+            text = OF_DEFAULT.get(tag, 'group="2"')
+            beside[f"default.{tag}"] = f"<default><{tag} {text}/></default>"
+    plain = BASE.replace("@", "")
+    found |= {name: plain.replace("#", text) for name, text in beside.items()}
+    for name in ("sensor.ballquat", "sensor.ballangvel", "actuator.orientation"):
+        ball = '<body><joint name="n" type="ball"/><geom size="0.1"/></body></worldbody>'
+        found[name] = found[name].replace("</worldbody>", ball).replace('"k"/>', '"n"/>')
+    return found
+
+
+WHOLE = whole_elements()
+NOT_ONE_BODY = (
+    "equality.", "body.flexcomp", "deformable.flex", "sensor.ball", "actuator.orientation",
+)  # fmt: skip
+"""Those that are refused here; plugins are refused by MuJoCo, which has none unless it is given."""
+
+
+@pytest.mark.parametrize("name", WHOLE)
+def test_an_element_of_which_nothing_is_read_is_listed_or_refused(folder: Path, name: str) -> None:
+    without = BASE.replace("@", "").replace("#", "")
+    assert isinstance(outcome(folder, without, "fixed"), tuple)
+    plugin = name.endswith("plugin") and name != "extension.plugin"
+    expected = REFUSED if plugin or name.startswith(NOT_ONE_BODY) else LISTED
+    assert effect(folder, WHOLE[name], without, name) == expected
+    if expected == REFUSED:
+        by_mujoco = "MuJoCo refuses it" in str(outcome(folder, WHOLE[name], "fixed"))
+        assert by_mujoco == plugin
+
+
+def test_nothing_that_mujoco_reads_is_left_out() -> None:
+    """The name of a model, like that of a robot, is no part of it: `inspect` says so always."""
+    assert any(line.startswith("names of robots") for line in ALWAYS)
+    names = {".".join((*e, a)) for e, attributes in schema().items() for a in attributes}
+    inside = [name for name in names if not any(name.startswith(f"{e}.") for e in WHOLE)]
+    assert sorted(set(inside) - set(ATTRIBUTES)) == ["model"]
+    assert set(ATTRIBUTES) <= names
+    elements = {".".join(element) for element in schema()}
+    assert set(WHOLE) <= elements
