@@ -56,13 +56,6 @@ def test_every_primitive_keeps_its_sizes(tmp_path: Path) -> None:
     assert others == [Sphere(1.5), Cylinder(0.2, 1.5), Capsule(0.2, 1.5)]
 
 
-def test_what_the_model_does_not_use_is_listed(tmp_path: Path) -> None:
-    visual = "<visual><geometry><sphere radius='1'/></geometry></visual>"
-    text = robot(link("a", visual), link("b"), joint("j", "a", "b"), "<gazebo/>")
-    ignored = loaded_urdf(written(tmp_path, text)).file.ignored
-    assert ignored == ("robot.gazebo", "link[a].visual", "joint[j].limit")
-
-
 def test_a_path_with_any_letters_is_read(tmp_path: Path) -> None:
     text = BOX.replace('name="r"', 'name="Кубик"').replace("<robot", "\ufeff<robot", 1)
     assert loaded_urdf(written(tmp_path, text, "ящик €.urdf")).links == ("box",)
