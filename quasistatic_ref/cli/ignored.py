@@ -16,6 +16,7 @@ WORDS = {
     "limit": "joint limits: position, effort and velocity",
     "joint.dynamics.damping": "joint damping",
     "joint.dynamics.friction": "joint friction",
+    "link.collision.friction": "friction of contacts: the scenario has it",
     "axis": "axes of fixed joints, which cannot move",
     "safety_controller": "safety controllers",
     "calibration": "joint calibration",
@@ -61,7 +62,7 @@ def ignored_lines(system: System, rubbed: Collection[str] = ()) -> list[str]:
 
 def _words(entry: str) -> str:
     """Which kind an entry is of: ``joint[hip].armature`` is <joint.armature>."""
-    kind = re.sub(r"\[.*\]|^robot\.", "", entry)
+    kind = re.sub(r"\[[^\]]*\]|^robot\.", "", entry)
     last = kind.rpartition(".")[2]
     return WORDS.get(kind) or WORDS.get(last) or f"<{kind}>"
 

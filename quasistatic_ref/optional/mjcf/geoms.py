@@ -53,6 +53,6 @@ def geom_support(model: Any, g: int, directions: Array) -> Array:
     if kind == "box":
         return np.asarray(np.abs(directions) @ model.geom_size[g])
     mesh = model.mesh(model.geom_dataid[g])
-    first = int(mesh.vertadr[0])
-    vertices = model.mesh_vert[first : first + int(mesh.vertnum[0])].astype(np.float64)
+    last = int(mesh.vertadr[0] + mesh.vertnum[0])
+    vertices = model.mesh_vert[int(mesh.vertadr[0]) : last].astype(np.float64)
     return np.asarray((directions @ vertices.T).max(axis=1))

@@ -5,7 +5,6 @@ replicas and abbreviations, and with the attributes alone that are not as they a
 of that is not read here is ignored, and listed: an attribute that nobody thought of is listed, too.
 """
 
-from collections.abc import Iterator
 from typing import Any
 from xml.etree import ElementTree
 
@@ -47,7 +46,7 @@ _COMPILER = (
 
 
 def ignored_of_spec(spec: Any) -> list[str]:
-    """What of a file is ignored: ``actuator.motor[hip]``, ``joint[knee].armature``, ``option``.
+    """What of a file is ignored: ``actuator.general[hip]``, ``joint[knee].armature``, ``option``.
 
     Parameters
     ----------
@@ -56,25 +55,31 @@ def ignored_of_spec(spec: Any) -> list[str]:
     """
     plain = type(spec)().compiler
     given = [name for name in _COMPILER if getattr(spec.compiler, name) != getattr(plain, name)]
+    spec.compiler.savecompiled = True  # else what the compiler has read would be written, too
     written = ElementTree.fromstring(spec.to_xml())
     # A scenario has h and gravity of its own, whatever the file says.
-    return ["option", *(f"compiler.{name}" for name in given), *_unread(written, "")]
+    return ["option", *(f"compiler.{name}" for name in given), *_unread(written)]
 
 
-def _unread(parent: ElementTree.Element, where: str) -> Iterator[str]:
-    for element in parent:
+def _unread(written: ElementTree.Element) -> list[str]:
+    """The elements of a canonical file that are not read, and the attributes of those that are."""
+    found = []
+    front = [(element, "") for element in written]
+    while front:
+        element, where = front.pop(0)
         tag = element.tag
         name = element.get("class" if tag == "default" else "name")
         called = ("" if tag == "default" else where) + (f"{tag}[{name}]" if name else tag)
         if tag not in _READ or (where and tag in _SECTIONS):
-            yield called
+            found.append(called)
             continue
         for attribute, value in element.attrib.items():
             bits = attribute in _MASKS and value not in ("0", "1")
             if attribute not in _READ[tag] or bits:
-                yield f"{called}.{attribute}"
+                found.append(f"{called}.{attribute}")
         inside = "" if tag in ("worldbody", "body", "frame") else f"{called}."
-        yield from _unread(element, inside)
+        front = [(child, inside) for child in element] + front
+    return found
 
 
 def ignored_of_free(model: Any, names: Names) -> list[str]:

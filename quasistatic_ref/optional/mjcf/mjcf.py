@@ -167,10 +167,8 @@ def _shape(model: Any, g: int) -> Element | None:
         return Element(kind, size=_text(2 * size))
     if kind == "mesh":
         mesh = model.mesh(model.geom_dataid[g])
-        first, count = int(mesh.vertadr[0]), int(mesh.vertnum[0])
-        vertices = model.mesh_vert[first : first + count]
-        first, count = int(mesh.faceadr[0]), int(mesh.facenum[0])
-        faces = model.mesh_face[first : first + count]
+        vertices = model.mesh_vert[mesh.vertadr[0] :][: mesh.vertnum[0]]
+        faces = model.mesh_face[mesh.faceadr[0] :][: mesh.facenum[0]]
         return Element(kind, vertex=_text(vertices), face=" ".join(map(str, faces.ravel())))
     return None
 

@@ -131,7 +131,8 @@ def test_a_mimic_may_be_met_before_its_leader() -> None:
     At z = 0.3 the follower is at 2 (0.3) + 0.1 about the axis z.
     """
     follows = mimic("z", 2.0, 0.1)
-    near = robot(*map(link, "abc"), joint("z", "a", "b"), joint("k", "a", "c", more=follows))
+    weld = joint("w", "a", "e", "fixed", more=mimic("no joint"))
+    near = robot(*map(link, "abce"), joint("z", "a", "b"), joint("k", "a", "c", more=follows), weld)
     far = robot(
         *map(link, "abcde"), joint("y", "a", "b"), joint("z", "b", "c"), joint("i", "a", "d"),
         joint("k", "d", "e", more=follows),
