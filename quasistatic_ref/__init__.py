@@ -43,13 +43,14 @@ _HOMES = {
     "certify.solution": "StepSolution",
     "solve.solve": "solve_step",
     "optional.coulomb.fixed_point": "coulomb_step",
+    "optional.coulomb.modes": "coulomb_solutions",
     "certify.certificate": "Certificate verify",
     "certify.compliance.forces": "contact_forces",
     "optional.derivatives.step.sensitivity": "sensitivity",
     # What can go wrong.
     "errors": "QuasistaticError InputError StepDataError ModelError ContactError ScenarioError "
     "BackendError StepNotSolved StepInfeasible StepIllPosed LimitExceeded NoFixedPoint "
-    "NotDifferentiable RunFailed",
+    "NoCoulombSolution NotDifferentiable RunFailed",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

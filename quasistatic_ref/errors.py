@@ -308,7 +308,7 @@ class LimitExceeded(StepNotSolved):
 
 
 class NoFixedPoint(StepNotSolved):
-    """The iteration for Coulomb's law found no solution of the step, of which nothing is claimed.
+    """No solution of the step under Coulomb's law was found, which does not say that none exists.
 
     Parameters
     ----------
@@ -331,8 +331,32 @@ class NoFixedPoint(StepNotSolved):
         self.iterations = iterations
         self.residual = residual
         self.args = (
-            f"no solution under Coulomb's law was found in {iterations} iterations: s is still off "
-            f'by {residual:.3g} m; take a smaller h, or law = "convex"',
+            f"no solution under Coulomb's law was found in {iterations} iterations, which does not "
+            f"say that there is none: s is still off by {residual:.3g} m; take a smaller h, or "
+            'law = "convex"',
+        )
+
+
+class NoCoulombSolution(StepNotSolved):
+    """A step has no solution under Coulomb's law: it is proved that none of its modes has one.
+
+    Parameters
+    ----------
+    step : StepData
+        The step in SI units, as given.
+
+    Examples
+    --------
+    >>> step = qr.load_scenario("sphere_spin", steps=1).run(progress=False).step_data(0)
+    >>> qr.NoCoulombSolution(step).status
+    'no solution'
+    """
+
+    def __init__(self, step: StepData) -> None:
+        super().__init__("coulomb", "no solution", step, 0.0)
+        self.args = (
+            "the step has no solution under Coulomb's law, and none in the convex model: its "
+            "contacts contradict each other, so check penetrations and targets at the start",
         )
 
 

@@ -187,6 +187,19 @@ COULOMB_RESIDUAL: Final = 1e-12
 """Largest difference of s from that of the next iterate, relative to the longest motion of a
 contact [-], at which s is its own: each iterate is exact, and s a sum of rounded products."""
 
+GAIN: Final = 0.01
+"""Residual of s over that of the iterate before [-] up to which an extrapolated iterate is kept.
+Kept at 0.5, extrapolation ended at local minima of the residual in 29 of 600 random planar steps of
+one to four contacts; at 0.01 in none of 500."""
+
+EXTRAPOLATED: Final = 1e-10
+"""Least singular value, relative to the largest [-], of the changes of residuals that s is
+extrapolated from: they are right to 1e-16 of s, and what is left of smaller ones is rounding."""
+
+FEASIBLE: Final = 1e-6
+"""Residual of the least-squares problem of a system of inequalities [-] above which float64 counts
+as having solved it. A solution of length z, in its natural scale, leaves 1 / sqrt(1 + z^2)."""
+
 BEARS: Final = 1e-9
 """Least normal force of a contact that bears load, over the largest normal force of its step [-]:
 solvers leave 1e-12 of the largest on contacts that do not touch."""

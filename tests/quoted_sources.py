@@ -225,6 +225,11 @@ def solvers():
     return {name: own["solver_over_mujoco"] for name, own in scenes.items()}
 
 
+def coulomb_modes():
+    """How many solutions planar steps have, by their contacts."""
+    return {row["contacts"]: row for row in table("coulomb_modes.md")}
+
+
 @cache
 def solids():
     return table("benchmarks/bench.md", "Scenes of solids")

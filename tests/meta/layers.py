@@ -87,6 +87,7 @@ WALLS = {
     "flint": (
         "certify",
         "model/angles.py",
+        "optional/coulomb",
         "optional/derivatives/step",
         "optional/ellipsoid",
         "optional/extensions",

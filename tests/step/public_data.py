@@ -8,6 +8,7 @@ import pytest
 from quasistatic_ref.errors import (
     InputError,
     LimitExceeded,
+    NoCoulombSolution,
     NoFixedPoint,
     NotDifferentiable,
     RunFailed,
@@ -17,6 +18,7 @@ from quasistatic_ref.errors import (
 )
 from quasistatic_ref.lab.scenes.piles import pile
 from quasistatic_ref.optional.coulomb.fixed_point import coulomb_step
+from quasistatic_ref.optional.coulomb.modes import coulomb_solutions
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.derivatives.smoothed import smoothed
 from quasistatic_ref.optional.derivatives.step.reason import Reason
@@ -71,6 +73,7 @@ def public_data(folder):
         "Extra": extra,
         "StepSolution": solution,
         "CoulombSolution": coulomb_step(step),
+        "CoulombSolutions": coulomb_solutions(random_step(np.random.default_rng(0), rows=(4,))),
         "Certificate": solution.certificate,
         "StepResult": result,
         "Derivatives": derivatives(simulator, system.q_start, scenario.targets(scenario.h)),
@@ -99,6 +102,7 @@ def public_data(folder):
         "StepInfeasible": infeasible,
         "LimitExceeded": LimitExceeded("is too deep", step),
         "NoFixedPoint": NoFixedPoint(step, 200, 1e-6),
+        "NoCoulombSolution": NoCoulombSolution(step),
         "NotDifferentiable": NotDifferentiable((Reason("a tie", ("c/0",), ("dq_dq",), "ties"),)),
         "RunFailed": RunFailed("step 3: is too deep", run, step),
     }

@@ -99,6 +99,7 @@ RESULTS = (
     to_file("environments"),
     to_file("forces_by_hand"),
     to_file("machines"),
+    to_file("coulomb_modes"),
     to_file("forces"),
     Result("mutations", "validation.tools.mutations --stale", ("validation/results/mutations.md",)),
     to_file("reality_identified", "json"),

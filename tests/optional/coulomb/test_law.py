@@ -1,6 +1,7 @@
 """``law = "coulomb"`` of scenarios and simulators: runs without a rise, and what is refused."""
 
 import json
+from functools import partial
 
 import cvxpy as cp
 import numpy as np
@@ -12,6 +13,8 @@ from quasistatic_ref.contact.pairs import ContactPair
 from quasistatic_ref.errors import InputError, RunFailed
 from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.system import System
+from quasistatic_ref.optional.coulomb import fixed_point
+from quasistatic_ref.optional.coulomb.modes import coulomb_solutions
 from quasistatic_ref.optional.derivatives.derivatives import derivatives
 from quasistatic_ref.optional.doctor.table import scene_findings
 from quasistatic_ref.scenario.scenario import load_scenario
@@ -121,17 +124,22 @@ def test_a_guide_is_named_as_undetermined_and_stays_locked():
     assert scene_findings(loose, loose.system.q_start) == []
     result = loose.step(loose.system.q_start, [], push)
     np.testing.assert_allclose(result.solution.delta_q[0], X, rtol=ROUNDING)
-    assert 10 <= result.solution.s_iterations <= 12
+    assert 10 <= result.solution.s_iterations <= 30
 
 
-def test_where_no_solution_is_found_a_run_ends_and_claims_nothing():
-    narrow = slot(1e-6)
+def test_a_narrow_guide_slides_freely_though_no_iterate_leads_there():
+    """Each iterate raises s by the clearance: 500 of them, where the modes are searched instead."""
     push = np.array([20.0, 0, 0, 0, 0, 0])
-    sentence = (
-        r"step 0: no solution under Coulomb's law was found in 200 iterations: s is still off by "
-        r"1e-06 m; take a smaller h, or law = \"convex\""
-    )
-    with pytest.raises(RunFailed, match=sentence) as failed:
+    narrow = slot(1e-6)
+    result = narrow.step(narrow.system.q_start, [], push)
+    np.testing.assert_allclose(result.solution.delta_q[0], H**2 * 20.0, rtol=ROUNDING)
+
+
+def test_where_no_solution_is_found_a_run_ends_and_claims_nothing(monkeypatch):
+    push = np.array([20.0, 0, 0, 0, 0, 0])
+    narrow = slot(1e-6)
+    monkeypatch.setattr(fixed_point, "coulomb_solutions", partial(coulomb_solutions, most=1))
+    with pytest.raises(RunFailed, match="step 0: no solution under Coulomb's law was") as failed:
         rollout(narrow, narrow.system.q_start, [], 3, force=lambda t, q: push, progress=False)
     assert failed.value.trajectory.steps == 0
     assert failed.value.step.contacts.phi == pytest.approx(1e-6)  # the step as it was posed
