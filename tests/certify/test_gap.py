@@ -1,6 +1,7 @@
 """The duality gap and the energies it is compared with, against plain fractions."""
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -16,11 +17,16 @@ from quasistatic_ref.certify.gap import (
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.lab.scenes.grasps import grasp_step
 from quasistatic_ref.optional.ellipsoid.gap import in_joules, negligible
+from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.tolerances import IMPULSES
 from tests.certify.test_rational import fraction
-from tests.oracles.random_steps import any_step
-from tests.oracles.rational_kkt import exact, solved
+from tests.oracles.random_steps import any_step, mixed_step
+from tests.oracles.rational_kkt import exact, proved, solved
 from tests.oracles.solution_truth import program
+
+
+INFEASIBLE = {11, 12}
+"""Seeds of mixed steps, of those below 40."""
 
 
 def steps():
@@ -54,6 +60,44 @@ def test_gap_and_energies_are_those_of_their_formulas(step, rng):
     at = fmpq(limit.numerator, limit.denominator)
     assert negligible(form, x, at)
     assert not negligible(form, x, at * (1 + fmpq(1, 10**30)))
+
+
+def optimum(step):
+    """The exact optimum, and multipliers of all rows."""
+    active = solve_step(step).certificate.active
+    working = [step.offsets[contact] + row for contact, row in active]
+    x, on_working, slack = proved(program(step), working)
+    lam = exact(np.zeros(len(slack)))
+    lam[working] = on_working
+    return x, lam
+
+
+@pytest.mark.parametrize("seed", sorted({*range(40)} - INFEASIBLE))
+def test_a_gap_bounds_the_error_of_any_displacement(seed):
+    """(R47): ||x - x*||_H^2 <= 2 (gap(x, lam) + lam*'v), where v covers what x violates.
+
+    The two sides are 2 gap(x*, lam) + 2 lam*'(A x - b + v) apart.
+    """
+    rng = np.random.default_rng(seed)
+    step = mixed_step(seed)
+    best = optimum(step)
+    H, g, A, b = program(step)
+
+    def gap(x, lam):
+        off = H @ x - g - lam @ A
+        return off @ solved(H, off) / 2 + lam @ (A @ x - b)
+
+    lam = exact(rng.random(len(b)) * (rng.random(len(b)) < 0.3) * step.h)
+    near = best[0] + exact(10.0 ** rng.uniform(-9, -3) * rng.normal(size=step.n_v))
+    pushed = replace(step, tau_a=rng.normal(size=step.n_a), tau_u=rng.normal(size=step.n_u))
+    feasible = optimum(pushed)[0]  # other loads, the same rows
+    for x in (near, feasible):
+        v = np.maximum(b - A @ x, 0)
+        assert x is near or not v.any()
+        error = (x - best[0]) @ H @ (x - best[0])
+        bound = 2 * (gap(x, lam) + best[1] @ v)
+        assert error <= bound
+        assert bound - error == 2 * (gap(best[0], lam) + best[1] @ (A @ x - b + v))
 
 
 @pytest.mark.parametrize("value", [0.0, 1.0, -1.0, 0.1, 5e-324])
