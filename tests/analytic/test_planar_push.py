@@ -12,13 +12,16 @@ from quasistatic_ref.solve.solve import solve_step
 from tests.tolerances import ROUNDING
 
 C = 0.025
-POINT = np.array([0.03, -0.02])
-MOVED = np.array([0.6, 0.8])
 
 
 @pytest.mark.parametrize("sticks", [True, False])
-def test_the_support_moves_along_the_normal_of_its_limit_surface(sticks):
-    of = push(POINT, MOVED, mu_v=0.4, c=C, Pi=0.8, lifted=0.5, sticks=sticks)
+@pytest.mark.parametrize("seed", range(8))
+def test_the_support_moves_along_the_normal_of_its_limit_surface(seed, sticks):
+    rng = np.random.default_rng(seed)
+    point = rng.uniform(0.01, 0.05, 2) * rng.choice([-1, 1], 2)
+    turn = rng.uniform(0, 2 * np.pi)
+    of = push(point, np.array([np.cos(turn), np.sin(turn)]), mu_v=0.4, c=C,
+              Pi=10 ** rng.uniform(-1, 0.5), lifted=rng.random(), sticks=sticks)  # fmt: skip
     answer = solve_step(push_step(of), "clarabel")
     assert answer.certificate.kind == "enclosure"
     f_1, f_2, N, tau = answer.wrench[0]

@@ -1,0 +1,118 @@
+"""(R16), (R39): the torque that points of one rigid body hold without mu_omega."""
+
+import numpy as np
+import pytest
+
+from quasistatic_ref.lab.scenes.rigid import rigid_step
+from quasistatic_ref.solve.solve import solve_step
+from tests.oracles.held_torque import held_torque
+
+HEIGHT = 0.02
+GRAVITY = 9.81
+STILL = 1e-12
+"""A turn below this [rad] is none."""
+NEAR = 1e-3
+"""How far beyond and below its limit a torque is tried, relative [-]."""
+SEEDS = range(30)
+
+
+def on_circle(angles, radius=1.0):
+    return radius * np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def across(points):
+    """Tangents along the slip."""
+    return np.column_stack([-points[:, 1], points[:, 0]]) / np.hypot(*points.T)[:, None]
+
+
+def world(points):
+    """Tangents along the world's axes."""
+    return np.tile([1.0, 0.0], (len(points), 1))
+
+
+def bound(points, d1):
+    """max_j r_j cos eps_j [m]: the slip of a point against the nearer of its tangents."""
+    along = across(points)
+    cross = along[:, 0] * d1[:, 1] - along[:, 1] * d1[:, 0]
+    cosine = np.maximum(np.abs((along * d1).sum(axis=1)), np.abs(cross))
+    return (np.hypot(*points.T) * cosine).max()
+
+
+def turn(rng, points, d1, held, cone="pyramid"):
+    """The turn [rad] of a body with such points under a torque, over mu times its weight [m]."""
+    mass = 10 ** rng.uniform(-1, 1)
+    mu_v = rng.uniform(0.1, 1)
+    n = len(points)
+    z = np.tile([0.0, 0.0, 1.0], (n, 1))
+    along = np.column_stack([d1, np.zeros(n)])
+    frames = np.stack([along, np.cross(z, along), z], axis=1)
+    below = np.column_stack([points, np.full(n, -HEIGHT)])
+    weight = mass * GRAVITY
+    wrench = (0, 0, -weight, 0, 0, held * mu_v * weight)
+    step = rigid_step(mass, mass * 4e-4, wrench, below, frames, mu_v=mu_v, h=0.01)
+    return abs(solve_step(step.replace(cone=cone), fast=True).delta_q[5])
+
+
+def check(rng, points, d1, held, cone="pyramid"):
+    assert turn(rng, points, d1, (1 - NEAR) * held, cone) < STILL
+    assert turn(rng, points, d1, (1 + NEAR) * held, cone) > STILL
+
+
+CASES = {
+    "apart": (1e-3 * np.array([[60.0, 0.0], [-30.0, 20.0], [-30.0, -20.0]]), across),
+    "tripod": (on_circle(0.3 + 2 * np.pi * np.arange(3) / 3), world),
+    "five": (on_circle(2 * np.pi * np.arange(5) / 5), world),
+}
+"""Points that hold less than the bound, and their tangents."""
+
+
+def patches():
+    """What these hold, and what the bound says, over mu times the weight [m]."""
+    return {
+        name: {"held": held_torque(points, of(points)), "bound": bound(points, of(points))}
+        for name, (points, of) in CASES.items()
+    }
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_points_that_are_not_opposite_hold_less_than_the_bound(name, rng):
+    points, of = CASES[name]
+    found = patches()[name]
+    assert found["held"] < 0.9 * found["bound"]
+    check(rng, points, of(points), found["held"])
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_any_patch_holds_what_statics_allows_and_never_more_than_the_bound(seed):
+    """Random points around the centre of mass, with random tangents."""
+    rng = np.random.default_rng(seed)
+    points = rng.normal(size=(rng.integers(3, 8), 2)) * 0.03
+    points -= rng.dirichlet(np.ones(len(points))) @ points
+    d1 = on_circle(rng.uniform(0, 2 * np.pi, len(points)))
+    held = held_torque(points, d1)
+    assert held <= bound(points, d1) * (1 + 1e-9)
+    check(rng, points, d1, held)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_outermost_points_around_the_centre_hold_the_bound_with_tangents_along_the_slip(seed):
+    rng = np.random.default_rng(seed)
+    rim = on_circle(rng.uniform(0, 2 * np.pi) + np.array([0, 2, 4]) + rng.uniform(0, 0.5, 3), 0.03)
+    within = on_circle(rng.uniform(0, 2 * np.pi, 4), 0.03 * rng.random())
+    points = np.vstack([rim, within])
+    assert held_torque(points, across(points)) == pytest.approx(0.03, rel=1e-9)
+    check(rng, points, across(points), 0.03)
+    any_d1 = on_circle(rng.uniform(0, 2 * np.pi, len(points)))
+    check(rng, points, any_d1, 0.03, "ellipsoid")
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_opposite_points_with_the_same_tangents_hold_the_bound(seed):
+    rng = np.random.default_rng(seed)
+    half = rng.normal(size=(rng.integers(1, 5), 2)) * 0.03
+    d1 = on_circle(rng.uniform(0, 2 * np.pi, len(half)))
+    points = np.vstack([half, -half])
+    d1 = np.vstack([d1, d1])
+    held = bound(points, d1)
+    assert held_torque(points, d1) == pytest.approx(held, rel=1e-9)
+    check(rng, points, d1, held)
