@@ -10,6 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from scipy.integrate import quad
 
 from quasistatic_ref import tolerances
 from quasistatic_ref.cli.measures import link_motion
@@ -18,12 +19,17 @@ from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.clouds.rows import rows as cloud_rows
 from quasistatic_ref.lab.examples import grasp_against_mu_omega
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
+from quasistatic_ref.lab.measures import exact
 from quasistatic_ref.lab.runs import grasp as run_of
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.lab.scenes.rigid import free_step, point_step
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.versions import RELEASE
 from quasistatic_ref.optional.fast.tracker import ball_tree, tracker_bound
 from quasistatic_ref.optional.fast.tracker import tracker as tracked
+from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import ILL_POSED, SLOW, UNSEEN
+from tests.analytic.test_flat_patches import patches  # noqa: F401 a source
 from tests.lab.study.test_known_issues import highs_solved
 from validation.make.challenges import ANSWERS
 
@@ -172,7 +178,6 @@ def package():
         "release": RELEASE,
         "challenges": ANSWERS,
         "top": TOP,
-        "limit": 1e3 * grasp_against_mu_omega.physical_limit(),
         "slow share": SLOW,
         "slow": 100 * SLOW,
         "ill-posed": math.log10(ILL_POSED),
@@ -194,6 +199,44 @@ def tracker():
 
 def highs():
     return highs_solved()
+
+
+# -- Closed forms ---------------------------------------------------------------------------------
+def pressures():
+    """mu_omega over mu a of a pressure (1 - (r / a)^k)^(1/k), by k."""
+
+    def moment(k, power):
+        return quad(lambda r: r**power * (1 - r**k) ** (1 / k), 0, 1)[0]
+
+    return {k: moment(k, 2) / moment(k, 1) for k in (2, 3, 4)}
+
+
+def finger():
+    """mu_omega of a patch as wide as a finger of the grasp [mm], and the radius for 3 mm [mm]."""
+    mu_v, width, wanted = 0.6, 12.0, 3.0
+    share = {"even": 2 / 3, "Hertz": pressures()[2]}
+    radius = {f"radius, {name}": wanted / (mu_v * own) for name, own in share.items()}
+    return {name: own * mu_v * width for name, own in share.items()} | radius
+
+
+def tight_rows():
+    """What the block of the quickstart bears under 3 N and 0.1 N m: the rows, and their loads."""
+    mass, inertia = 1.0, 1e-3
+    contact = contacts_of(0.0, np.eye(3), np.eye(4)[None], 0.5, 0.02, rows=6)
+    block = free_step(np.diag([mass] * 3 + [inertia]), [3.0, 0.0, -mass * G, 0.1], contact, H)
+    loads = dict(zip(cone("pyramid").row_names, exact(block).lam / H, strict=True))
+    first, second = (f"{name} bears {load:.3f} N" for name, load in loads.items() if load)
+    return f"{first}, and {second.replace(' bears', '')}"
+
+
+def below_the_limit():
+    """How far a point slides at 90 % of Coulomb's limit [um], from a gap of 0.25 mm to none."""
+    mu_v, phi, slid = 0.5, 0.25e-3, 0.0
+    while phi > 0:
+        dx, _, dz = exact(point_step(1.0, (0.9 * mu_v * G, 0.0, -G), mu_v, phi, H)).delta_q
+        slid += dx
+        phi = max(phi + dz, 0.0) if dx else 0.0
+    return 1e6 * slid
 
 
 # -- Committed results ----------------------------------------------------------------------------
@@ -283,12 +326,18 @@ def sizes():
 
 
 def clouds():
-    """How many of the 120 clouds of 992 points turn by at most a degree with torsional friction."""
+    """How many of the 120 clouds of 992 points turn by at most a degree with torsional friction.
+
+    And how far those without holes turn without it [deg].
+    """
     grasps = [row for row in cloud_rows() if row["count"] == 992 and row["change"] == "none"]
-    turned = [row["mu_omega"] for row in grasps if row["rotation"] <= 1]
+    turned = [row for row in grasps if row["rotation"] <= 1]
     assert len(grasps) == 240
-    assert 0.0 not in turned
-    return {"held": len(turned)}
+    assert 0.0 not in [row["mu_omega"] for row in turned]
+    whole = [row for row in grasps if row["sampling"] != "scan"]
+    angles = [row["rotation"] for row in whole if row["mu_omega"] == 0.0]
+    return {"held": len(turned), "whole": len(angles), "least": min(angles), "most": max(angles),
+            "whole and held": sum(row in whole for row in turned)}  # fmt: skip
 
 
 # -- Measured pushes ------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from quasistatic_ref import coulomb_step
 from quasistatic_ref.lab.claims.closed_forms.lift import MU_V, PAD, SQUEEZE, M, lifting_step
 from quasistatic_ref.lab.measures import exact
 from quasistatic_ref.lab.scenes.contacts import contacts_of
@@ -375,6 +376,20 @@ def test_r46_smallest_step_of_a_lift(rng, both):
             turns = np.abs(moved[7:]).max() > 1e-12
             both(turns)
             assert turns == (share > 1)
+
+
+def test_r38_coulombs_law_leaves_a_rigid_guide_open(rng, both):
+    """On a rail whose pressure nothing else fixes, every slip up to h^2 F / m is a solution."""
+    for m, h, mu, _ in instances(rng):
+        F = log(rng, 0.1, 1e3)
+        start = mu * h**2 * F / m * rng.choice([0.0, 0.3, 2.0])
+        rail = contacts_of(0.0, np.eye(3), [[[1.0], [0.0], [0.0], [0.0]]], mu)
+        answer = coulomb_step(free_step([[m]], [F], rail, h), start=[start])
+        slid = min(start / mu, h**2 * F / m)
+        both(slid > 0)
+        assert answer.found
+        near(answer.delta_q, [slid], h**2 * F / m)
+        near(answer.wrench[0, 0], -(F - m * slid / h**2), F)
 
 
 def test_r38_locked_guide(rng, both):

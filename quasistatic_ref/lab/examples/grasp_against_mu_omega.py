@@ -1,8 +1,8 @@
 """How far the bunny of Figure 1 turns in the grip, against mu_omega of the fingers.
 
 It is a threshold: from about 1.8 mm on the contacts stick, and more changes next to nothing. A
-finger can have at most 3 pi / 16 mu_v r, where r is half of its width: the mu_omega of a patch as
-wide as the finger under Hertz's pressure, (R15). The scene's value lies between the two.
+finger can have at most 2/3 mu_v r, where r is half of its width: the mu_omega of a patch as wide as
+the finger under an even pressure, (R15). The scene's value lies between the two.
 """
 
 from collections.abc import Sequence
@@ -50,12 +50,12 @@ def rotations(values: tuple[float, ...] = VALUES) -> tuple[Array, Array]:
 
 
 def physical_limit() -> float:
-    """Largest mu_omega of a finger [m], 3 pi / 16 mu_v r with r half of its width, (R15)."""
+    """Largest mu_omega of a finger [m], 2/3 mu_v r with r half of its width, (R15)."""
     scenario, run = grasp("with torsion")
     fingers = [x.shape for x in scenario.system.shapes if "finger" in x.name]
     half_width = min(float(box.half_extents[0]) for box in fingers if isinstance(box, Box))
     mu_v = float(run["mu_v"][run["rows"] == 6].max())
-    return 3 * np.pi / 16 * mu_v * half_width
+    return 2 / 3 * mu_v * half_width
 
 
 def needed(run: Trajectory) -> float:
@@ -78,7 +78,7 @@ def main() -> Numbers:
         f"rotation with mu_omega = {1e3 * ABOVE:g} mm [deg]": at[ABOVE],
         "least mu_omega that holds, by (R9) from the forces of a step [mm]": 1e3 * needed(run),
         "mu_omega of the scene [mm]": 1e3 * float(run["mu_omega"].max()),
-        "largest mu_omega of a finger, 3 pi / 16 mu_v r [mm]": 1e3 * physical_limit(),
+        "largest mu_omega of a finger, 2/3 mu_v r [mm]": 1e3 * physical_limit(),
     }
 
 
@@ -101,7 +101,7 @@ def figure(ax: Any = None, *, mu_omega: Sequence[float] = VALUES) -> Figure:
     for x, line, label in (
         (needed(run), ":", "begins to hold, (R9)"),
         (used, "-", "value of the scene"),
-        (limit, "--", r"$3\pi\,\mu_v r\,/\,16$ of a finger"),
+        (limit, "--", r"$2\mu_v r\,/\,3$ of a finger"),
     ):
         axes.axvline(1e3 * x, color="black", linestyle=line, linewidth=scaled(1), label=label)
     axes.set_ylim(-1, 60)

@@ -215,8 +215,8 @@ def test_the_bunny_is_held_from_the_mu_omega_on_that_its_forces_need():
     assert holds < 0.25 < 1 < slips
     # (R9): the forces of a step that sticks, between the runs with 1.75 and 1.80 mm.
     np.testing.assert_allclose(needed, 1.775, atol=0.025)
-    # (R15), Hertz: a patch as wide as the finger, of 24 mm, with mu_v = 0.6.
-    np.testing.assert_allclose(limit, 1e3 * 3 * np.pi / 16 * 0.6 * 0.012, rtol=ROUNDING)
+    # (R15), even pressure: a patch as wide as the finger, of 24 mm, with mu_v = 0.6.
+    np.testing.assert_allclose(limit, 1e3 * 2 / 3 * 0.6 * 0.012, rtol=ROUNDING)
     assert needed < used < limit
 
 
