@@ -95,9 +95,9 @@ def interpreter(machine: Machine, folder: Path) -> Path:
     home = folder / f"{Path(machine.python).name}{'-lowest' * machine.lowest}"
     if home.exists():
         return home / "bin" / "python"
-    wanted = ["-e", f"{ROOT}[test]", "pytest-random-order"]
+    wanted = ["-e", f"{ROOT}[test]"]
     if not machine.lowest:
-        return environment(home, *wanted, python=machine.python)
+        return environment(home, *wanted, "pytest-random-order", python=machine.python)
     own = environment(home, python=machine.python)
     uv = environment(folder / "uv", "uv").with_name("uv")
     subprocess.run([uv, "pip", "install", "-q", "--python", own, *LOWEST, *wanted], check=True)
@@ -120,8 +120,8 @@ def row(name: str, folder: Path) -> tuple[str, bool]:
         command, cwd=ROOT, env={**os.environ, **machine.settings}, text=True, stdout=subprocess.PIPE
     )
     minutes = (time.perf_counter() - start) / 60
-    last = done.stdout.strip().splitlines()[-1]
-    found = {word: int(number) for number, word in COUNT.findall(last)}
+    last = [line for line in done.stdout.splitlines() if COUNT.search(line)][-1:]
+    found = {word: int(number) for number, word in COUNT.findall("".join(last))}
     failed = found.get("failed", 0) + found.get("error", 0)
     if done.returncode:
         print(done.stdout, file=sys.stderr)
