@@ -22,9 +22,11 @@ def several(run: Run) -> Iterator[Said]:
     The search ends at the first step of which it is not known.
     """
     simulator = run.simulator
-    modes = part("coulomb.modes")
     posed = run.small and simulator.extension is None and cone(simulator.cone).polyhedral
-    if simulator.law != COULOMB or modes is None or not posed:
+    if simulator.law != COULOMB or not posed:
+        return
+    modes = part("coulomb.modes")
+    if modes is None:
         return
     steps = np.unique(np.linspace(0, run.steps - 1, LOOKED).round().astype(int)).tolist()
     found = []
