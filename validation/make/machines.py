@@ -100,7 +100,8 @@ def interpreter(machine: Machine, folder: Path) -> Path:
         return environment(home, *wanted, "pytest-random-order", python=machine.python)
     own = environment(home, python=machine.python)
     uv = environment(folder / "uv", "uv").with_name("uv")
-    subprocess.run([uv, "pip", "install", "-q", "--python", own, *LOWEST, *wanted], check=True)
+    command = [uv, "pip", "install", "-q", "--compile-bytecode", "--python", own]
+    subprocess.run([*command, *LOWEST, *wanted], check=True)
     return own
 
 

@@ -143,7 +143,9 @@ def faults(at: Environment, extra: str) -> list[str]:
         there = {path.name for path in at.folder.iterdir()}
         done = at.run(line)
         fault = f"status {done.returncode}\n{done.stdout}{done.stderr}" if done.returncode else ""
-        if unasked := {path.name for path in at.folder.iterdir()} - there - places(at, line):
+        made = {path.name for path in at.folder.iterdir()} - there
+        allowed = places(at, line)
+        if unasked := {name for name in made if not {name, Path(name).stem} & allowed}:
             fault += f"writes {sorted(unasked)}, which neither the line nor its help names"
         if not fault and line.startswith("quasistatic-ref run") and "--json" in line:
             report = json.loads(done.stdout)
@@ -163,12 +165,18 @@ def faults(at: Environment, extra: str) -> list[str]:
 
 
 def places(at: Environment, line: str) -> set[str]:
-    """The names in the empty folder that a command may make: those of its line and its help."""
+    """The names in the empty folder, with or without their suffix, that a command may make.
+
+    They are those of its line, of its help, and of the text of a script that the line runs.
+    """
     words = shlex.split(line)
     said = " ".join(words)
     if words[0] == "quasistatic-ref":
         action = [word for word in words[2:4] if word in ACTIONS]
-        said += at.run(shlex.join([*words[:2], *action, "--help"])).stdout
+        said += "\n" + at.run(shlex.join([*words[:2], *action, "--help"])).stdout
+    for script in {at.folder / word for word in words if word.endswith(".py")}:
+        if script.is_file():
+            said += "\n" + script.read_text("utf-8")
     return {part for word in re.findall(r"[\w./-]+", said) for part in Path(word).parts}
 
 
