@@ -53,9 +53,8 @@ def test_what_is_given_is_not_changed(path):
 
 
 @pytest.mark.parametrize("kind", [str, Path])
-def test_a_path_from_python_is_the_callers_own_and_may_lead_anywhere(path, tmp_path, kind):
-    elsewhere = tmp_path.parent / f"{tmp_path.name}_elsewhere"
-    elsewhere.mkdir()
+def test_a_path_from_python_is_the_callers_own_and_may_lead_anywhere(path, tmp_path_factory, kind):
+    elsewhere = tmp_path_factory.mktemp("elsewhere")
     urdf = written(elsewhere, BALL.replace('"0.3"', '"0.7"'))
     scenario = load_scenario(path, {"bodies.ball.urdf": kind(urdf)})
     assert scenario.system.mass("ball") == 0.7

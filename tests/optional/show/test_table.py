@@ -75,14 +75,20 @@ def test_the_tidy_tables_have_a_row_a_step_and_coordinate_or_contact(run):
         np.testing.assert_array_equal(by_pair.get_group(pair), run.wrench[:, i, 2])
 
 
-@pytest.mark.parametrize(("kind", "read"), [("csv", pandas.read_csv), ("parquet", None)])
+def exact_csv(path):
+    """A table as text: pandas before 3 is off by a last bit where it reads numbers itself."""
+    return pandas.read_csv(path, dtype=str)
+
+
+@pytest.mark.parametrize(("kind", "read"), [("csv", exact_csv), ("parquet", pandas.read_parquet)])
 def test_run_writes_the_wide_table(tmp_path, scene, capsys, kind, read):
     file = tmp_path / f"table.{kind}"
     assert main(["run", str(scene), "--fast", "--out", str(tmp_path), "--table", str(file)]) == 0
     assert f"and {file}" in capsys.readouterr().out
-    table = (read or pandas.read_parquet)(file)
+    table = read(file)
     run = trajectory_read(tmp_path / f"{scene.stem}.npz")
-    np.testing.assert_array_equal(table["ball.z [m]"], run.to_pandas()["ball.z [m]"])
+    found = table["ball.z [m]"].astype(float)
+    np.testing.assert_array_equal(found, run.to_pandas()["ball.z [m]"])
 
 
 def test_a_table_of_another_kind_is_refused_before_the_run(tmp_path, scene, capsys):
