@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.optimize import nnls
+from scipy.spatial.transform import Rotation
 
 from quasistatic_ref.certify.compliance import eliminated, face_guess, forces
 from quasistatic_ref.certify.compliance.face_guess import nonnegative_least_squares
@@ -10,7 +11,7 @@ from quasistatic_ref.certify.compliance.faces import face, nearest_face, rows_of
 from quasistatic_ref.certify.compliance.forces import contact_forces
 from quasistatic_ref.certify.rational import dyadic
 from quasistatic_ref.errors import InputError, StepInfeasible
-from quasistatic_ref.lab.scenes.contacts import X, repeated
+from quasistatic_ref.lab.scenes.contacts import X, Y, Z, repeated
 from quasistatic_ref.lab.scenes.rigid import rigid_step
 from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.solve.solve import solve_step
@@ -213,6 +214,51 @@ def test_a_doubled_contact_shares_its_load():
     # the opposite one.
     expected = M * G * np.array([1 / 7, 1 / 7, 3 / 14, 3 / 14, 2 / 7])
     np.testing.assert_allclose(f_n, expected, rtol=1e-5)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_r44_parallel_contacts_share_as_a_bed_of_springs(seed):
+    """f_j = max(0, a + b'r_j), of one gap for all, with or without friction that is not needed.
+
+    c f_j = max(0, -z_j), and z_j = phi + z + omega x r_j is linear in the places r_j.
+    """
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(3, 9))
+    places = rng.normal(size=(n, 2)) * 0.1
+    bent = np.cross([0.0, 0.0, -M * G], [*(rng.dirichlet(np.ones(n)) @ places), 0.0])
+    below = np.column_stack([places, np.full(n, -0.03)])
+    wrench = [0, 0, -M * G, *-bent]
+    step = rigid_step(M, 0.01, wrench, below, [np.eye(3)] * n, mu_v=MU_V, h=H)
+    for cone in ("frictionless", "pyramid"):
+        f = contact_forces(step.replace(cone=cone)).wrench[:, 2]
+        bears = f > 0
+        bed = np.column_stack([np.ones(n), places])
+        fit = np.linalg.lstsq(bed[bears], f[bears], rcond=None)[0]
+        np.testing.assert_allclose(f, np.maximum(0.0, bed @ fit), rtol=0, atol=1e-9 * M * G)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_r44_contacts_that_a_symmetry_exchanges_bear_equal_forces(seed):
+    """By whole parts of a turn about the vertical; a mirror x -> -x reverses f_d2 of d1 = y."""
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(2, 6))
+    tilt, twist = rng.uniform(0, 0.5), rng.uniform(0, 2 * np.pi)
+    start = Rotation.from_euler("zyx", [rng.uniform(0, 6), tilt, twist])
+    turns = [Rotation.from_euler("z", 2 * np.pi * k / n) for k in range(n)]
+    points = [turn.apply([0.05, 0.0, -0.03]) for turn in turns]
+    frames = [(turn * start).as_matrix().T for turn in turns]
+    wrench = [0, 0, -M * G, 0, 0, rng.normal() * 0.05]
+    step = rigid_step(M, (1e-2, 1e-2, 3e-2), wrench, points, frames, mu_v=MU_V, h=H)
+    for cone in ("pyramid", "ellipsoid"):
+        forces = contact_forces(step.replace(cone=cone)).wrench
+        np.testing.assert_allclose(forces, forces[[0] * n], rtol=0, atol=1e-9 * M * G)
+    n = np.sin(tilt) * np.array([[1.0], [-1.0]]) * X + np.cos(tilt) * Z
+    frames = np.stack([[Y, Y], np.cross(n, Y), n], axis=1)
+    step = rigid_step(M, 0.01, [0, 0, -M * G, 0, 0, 0], [-points[0], points[0]] * X, frames,
+                      mu_v=0.1, h=H)  # fmt: skip
+    one, other = contact_forces(step).wrench
+    np.testing.assert_allclose(one * [1, -1, 1, 1], other, rtol=0, atol=1e-9 * M * G)
+    assert abs(one[1]) > 1e-3
 
 
 @pytest.mark.parametrize("cone", CONES)

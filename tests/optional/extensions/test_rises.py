@@ -6,11 +6,16 @@ import pytest
 
 from docs.examples.joint_limits import joint_limits
 from quasistatic_ref.errors import InputError, StepDataError
+from quasistatic_ref.lab.measures import exact
+from quasistatic_ref.lab.scenes.contacts import contacts_of, no_contacts
+from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.extensions.rises import private_rises, with_rises
 from quasistatic_ref.scenario.scenario import Scenario, load_scenario
 from quasistatic_ref.simulate.trajectory import trajectory_read
 from quasistatic_ref.solve.solve import solve_step
+from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.extension import Extension, Rises
+from quasistatic_ref.tolerances import CLOSED_FORM
 from tests.helpers import random_step
 from tests.model.urdf.urdf_texts import (
     collision,
@@ -178,6 +183,52 @@ def test_a_support_holds_and_turns_as_a_sphere_does(tmp_path):
     angle = H**2 * (0.2 - mu_omega * m * G) / (inertia + 1e-6 * m * mu_omega**2)
     found = step(free, 0.0, 0.0, 0.2).delta_q
     np.testing.assert_allclose(found[:3], angle * turn, rtol=ROUNDING, atol=0.0)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_r40_random_loads_slide_what_is_not_held(seed):
+    """h^2 (F -+ f) / (m + m_r) beyond f, or with h^2 K_q in place of m; the same on the floor.
+
+    There N = m g + m_r r / h^2: along an axis h^2 (F -+ mu_v m g) / (m + m_r mu_v^2).
+    """
+    rng = np.random.default_rng(seed)
+    h, m, m_r, f, mu_v, mu_omega, K = 10 ** rng.uniform(
+        [-3, -2, -6, -2, -1, -3, 0], [-1, 2, 1, 2, 0, -1, 4]
+    )
+    inertia = 1e-3 * m
+    none = no_contacts(2)
+    for share in (0.999, 1.001, 3.0):
+        F = rng.choice([-1, 1]) * share * f
+        step = StepData(h, [[K]], [[m]], [0.4 * F], [F], [0.6 * F / K], none)
+        answer = exact(with_rises(step, Rises([f, f], [m_r, m_r], [0, 1])))
+        beyond = np.sign(F) * max(abs(F) - f, 0.0)
+        expected = h**2 * beyond / (np.array([h**2 * K, m]) + m_r)
+        np.testing.assert_allclose(
+            answer.delta_q,
+            [*expected, *abs(expected)],
+            rtol=0,
+            atol=CLOSED_FORM * h**2 * f / (min(m, h**2 * K) + m_r),
+        )
+        assert share > 1 or not answer.delta_q.any()
+    weight = m * G
+    for coefficient, own, i in ((mu_v, m, 0), (mu_v, m, 1), (mu_omega, inertia, 2)):
+        load = np.zeros(3)
+        load[i] = rng.choice([-1, 1]) * rng.choice([0.999, 1.001, 3.0]) * coefficient * weight
+        J = np.zeros((1, 4, 3))
+        J[0, [0, 1, 3], [0, 1, 2]] = 1.0
+        contact = contacts_of(0.0, np.eye(3), J, mu_v, mu_omega, rows=6)
+        step = free_step(np.diag([m, m, inertia]), load, contact, h)
+        for cone in ("pyramid", "product", "facets-8", "ellipsoid"):
+            rises = Rises([weight], [m_r], contacts=[0])
+            answer = exact(with_rises(step.replace(cone=cone), rises))
+            beyond = np.sign(load[i]) * max(abs(load[i]) - coefficient * weight, 0.0)
+            slid = h**2 * beyond / (own + m_r * coefficient**2)
+            expected = np.zeros(4)
+            expected[[i, 3]] = slid, coefficient * abs(slid)
+            near = CLOSED_FORM * h**2 * coefficient * weight / (own + m_r * coefficient**2)
+            np.testing.assert_allclose(answer.delta_q, expected, rtol=0, atol=near)
+            N = weight + m_r * expected[3] / h**2
+            np.testing.assert_allclose(answer.wrench[0, 2], N, rtol=CLOSED_FORM, atol=0.0)
 
 
 def test_a_step_without_rises_is_itself_and_wrong_ones_are_refused(tmp_path):

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from flint import fmpq, fmpz_mat
+from flint import fmpq, fmpq_mat, fmpz_mat
 
 from quasistatic_ref.certify.active_set import Farkas, dual_active_set
 from quasistatic_ref.certify.certificate import exact_certificate
@@ -18,7 +18,7 @@ from quasistatic_ref.certify.exact import step_optimum
 from quasistatic_ref.certify.rational import ExactForm, exact_form
 from quasistatic_ref.errors import InputError, StepNotSolved
 from quasistatic_ref.lab.scenes.contacts import repeated
-from quasistatic_ref.optional.derivatives.step.sensitivity import sensitivity
+from quasistatic_ref.optional.derivatives.step.sensitivity import _active, sensitivity
 from quasistatic_ref.optional.derivatives.step.strictly_active import strictly_active
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.step.data import Extra
@@ -35,6 +35,7 @@ from tests.tolerances import EXACT, ROUNDING
 
 TINY = F(1, 2**80)
 OF_CONTACTS = ("phi", "mu_v", "mu_omega")
+INSTANCES = 40
 CONES = ("pyramid", "pyramid", "product", "frictionless")
 
 
@@ -138,6 +139,79 @@ def test_derivatives_agree_with_central_differences_on_50_random_steps():
             compared += 1
     assert compared > 50
     assert refused > 0
+
+
+def degenerate_step(rng):
+    """Of small whole numbers, so that rows depend on each other and touch without load."""
+    n_a, n_u, n_c = (int(v) for v in rng.integers(0, 4, 3))
+    step = any_step(rng, n_a, n_u + (n_a + n_u == 0), n_c + 1)
+    c = step.contacts
+    phi = rng.choice([0, 0, 1 / 64], c.n_c)
+    contacts = changed(c, J=np.round(c.J), phi=phi, mu_v=rng.choice([0.0, 0.5, 1.0], c.n_c))
+    contacts = repeated(contacts, [*range(c.n_c), 0])
+    loads = {name: rng.integers(-2, 3, len(getattr(step, name))) for name in ("tau_a", "tau_u")}
+    return step.replace(
+        contacts=contacts, K_q=np.eye(step.n_a), M_u=np.eye(step.n_u),
+        delta_q_bar_a=np.zeros(step.n_a), cone=CONES[rng.integers(4)], **loads,
+    )  # fmt: skip
+
+
+def rank(step, key, rows, more=0):
+    """The rank of [A b] of some rows where a number is that much larger."""
+    _, _, A, b = program(changed_by(step, key, more))
+    equations = [[fmpq(v.numerator, v.denominator) for v in (*A[i], b[i])] for i in rows]
+    return fmpq_mat(equations).rref()[1] if rows else 0
+
+
+def test_r26_r27_verdicts_on_random_degenerate_steps(rng):
+    """A derivative where none is refused; where one is, both sides differ, of H and g always.
+
+    The rank of the rows of S grows at all other coefficients or at none, and that of all rows
+    without slack does not grow where there is a derivative.
+    """
+    seen = set()
+    grown = set()
+    for _ in range(INSTANCES):
+        step = degenerate_step(rng)
+        try:
+            best = step_optimum(step)
+        except StepNotSolved:
+            continue
+        certificate = exact_certificate(step, best)
+        found = sensitivity(step, certificate)
+        active = _active(exact_form(step), best.working_set)
+        refused = [key for key in keys(step) if said(step, key) in found.why_not]
+        given = [key for key in keys(step) if said(step, key) not in found.why_not]
+        for key in keys(step):
+            if key[0] in ("mu_v", "mu_omega") and number(step, key):
+                here = rank(step, key, active.strict)
+                others = (s * number(step, key) for s in (F(-2, 3), 1))
+                grows = {rank(step, key, active.strict, more) > here for more in others}
+                assert len(grows) == 1
+                grown |= grows
+        for key in (*refused[:2], *(given[i] for i in rng.permutation(len(given))[:2])):
+            of_contact = key[0] in OF_CONTACTS
+            (below, at, above), little = moved(step, key, best.working_set)
+            if None in (below, above):
+                assert key in refused
+                continue
+            sides = np.array(
+                [[float((v - u) / little) for u, v in zip(*pair, strict=True)]
+                 for pair in ((below, at), (at, above))]
+            )  # fmt: skip
+            size = np.abs(sides).max()
+            kinked = np.ptp(sides, axis=0).max() > ROUNDING * size
+            if key in given:
+                expected = np.broadcast_to(column(found, key), (2, step.n_v))
+                np.testing.assert_allclose(sides, expected, rtol=0, atol=ROUNDING * size)
+                tight = (*active.strict, *active.idle)
+                assert not of_contact or rank(step, key, tight, 1) <= rank(step, key, tight)
+            elif not of_contact:
+                assert kinked
+            seen.add((of_contact, key in refused, kinked))
+    assert grown == {True, False}
+    assert seen >= {(True, False, False), (True, True, True),
+                    (False, False, False), (False, True, True)}  # fmt: skip
 
 
 def found_at(step):
