@@ -1,11 +1,34 @@
-"""Closest points that slide along a common straight line: where derivatives exist all the same."""
+"""How closest points and tangents change; points that slide along a common straight line."""
+
+from itertools import combinations_with_replacement
 
 import numpy as np
 import pytest
 
+from quasistatic_ref.contact.distance import closest_points
+from quasistatic_ref.contact.jacobian import tangents
+from quasistatic_ref.lab.scenes.contacts import contacts_of
+from quasistatic_ref.model.body import Body
+from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.contact.closest_point_rates import closest_point_rates
+from quasistatic_ref.optional.derivatives.contact.contact_rates import (
+    contact_rates,
+    tangent_rates,
+)
+from quasistatic_ref.optional.derivatives.contact.couples import couples
 from quasistatic_ref.optional.derivatives.contact.features import Feature
-from tests.tolerances import ROUNDING
+from quasistatic_ref.optional.derivatives.model.motion_rates import MotionRates
+from quasistatic_ref.shapes.placed_shape import (
+    Box,
+    Capsule,
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    Sphere,
+)
+from tests.contact.still import pair, placed
+from tests.oracles.differences import rate, unit
+from tests.tolerances import DIFFERENCE_OF_STEPS, ROUNDING
 
 X, Y, N = np.eye(3)
 ACROSS = np.stack([X, Y])
@@ -52,3 +75,53 @@ def test_each_of_several_pairs_slides_along_its_own_line():
     )
     assert rates.unique.all()
     np.testing.assert_allclose(rates.n, 0.0, rtol=0, atol=ROUNDING)  # the faces do not turn
+
+
+SHAPES = (
+    Sphere(0.05), Capsule(0.03, 0.05), Box(np.array([0.03, 0.05, 0.04])), Cylinder(0.04, 0.06),
+    Cone(0.04, 0.06), Ellipsoid(np.array([0.03, 0.05, 0.04])),
+)  # fmt: skip
+PAIRS = list(combinations_with_replacement(SHAPES, 2))
+
+
+@pytest.mark.parametrize(
+    "shapes", PAIRS, ids=["-".join(type(s).__name__ for s in two) for two in PAIRS]
+)
+def test_r29_random_pairs_change_as_differences_say(shapes, rng):
+    """Both bodies move; where there are such derivatives, nothing is at a kink by chance."""
+    bodies = [
+        Body.of_shape(name, Sphere(0.05), 0.3, xyz=xyz, rpy=rng.uniform(-3, 3, 3))
+        for name, xyz in (("a", np.zeros(3)), ("b", 0.16 * unit(rng, 3)))
+    ]
+    system = System(bodies)
+    one = pair(*(placed(s, system.link(b.name)) for s, b in zip(shapes, bodies, strict=True)))
+    where = system.kinematics(system.q_start)
+    points = closest_points([one], where)
+    kept = couples([one], points, where.R, where.t)
+    rates = contact_rates(kept, MotionRates(where, system.column_map).J)
+    assert rates.unique.all()
+    e = rng.normal(size=12)
+
+    def moved(t):
+        there = closest_points([one], system.kinematics(system.integrate(system.q_start, t * e)))
+        return np.concatenate([there.phi, *there.n, *there.alpha, *there.beta])
+
+    found = np.concatenate([rates.phi[0, None], rates.n[0], rates.alpha[0], rates.beta[0]]) @ e
+    expected = rate(moved)
+    size = np.abs(expected).max()
+    np.testing.assert_allclose(found, expected, rtol=0, atol=DIFFERENCE_OF_STEPS * size)
+
+
+def test_r34_tangents_change_as_written(rng):
+    """d(d1) = tau d2 - (d1 . dn) n, d(d2) = -tau d1 - (d2 . dn) n, tau = -(c / s) d2 . dn."""
+    n = rng.normal(size=(200, 3))
+    n /= np.linalg.norm(n, axis=1)[:, None]
+    d_n = np.cross(rng.normal(size=(200, 3)), n)
+    contacts = contacts_of(0.0, np.stack([*tangents(n), n], axis=1), np.zeros((200, 4, 0)), 0.5)
+
+    def turned(t):
+        moved = n + t * d_n
+        return np.array(tangents(moved / np.linalg.norm(moved, axis=1)[:, None]))
+
+    found = np.array(tangent_rates(contacts, d_n[:, :, None]))[..., 0]
+    np.testing.assert_allclose(found, rate(turned), rtol=0, atol=DIFFERENCE_OF_STEPS * 10)

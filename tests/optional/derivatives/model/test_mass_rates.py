@@ -14,8 +14,9 @@ GRAVITY = np.array([1.0, -2.0, -9.81])
 
 
 @pytest.mark.parametrize("base", ["floating", "planar"])
-def test_inertial_and_gravity_forces_change_as_differences_say(base):
-    rng = np.random.default_rng(4)
+@pytest.mark.parametrize("seed", [4, 5, 6])
+def test_r31_r32_forces_and_twists_change_as_differences_say(seed, base):
+    rng = np.random.default_rng(seed)
     tree = random_tree(rng, 6, base, masses=True)
     for body in tree["bodies"]:
         body["actuated"] = False
@@ -23,15 +24,30 @@ def test_inertial_and_gravity_forces_change_as_differences_say(base):
     system = own.system
     q = system.integrate(own.model_q(random_q(rng, tree)), np.zeros(system.n_v))
     kinematics = system.kinematics(q)
-    rates = MassRates(system, kinematics, MotionRates(kinematics, system.column_map))
+    motion = MotionRates(kinematics, system.column_map)
+    rates = MassRates(system, kinematics, motion)
     x = rng.normal(size=system.n_v)
+    W = rng.normal(size=(len(motion.J), 6))
 
-    def forces(delta_q):
+    def changing(delta_q):
         moved = system.integrate(q, delta_q)
-        return np.stack([system.M_u(moved) @ x, system.gravity_force(moved, GRAVITY)], axis=1)
+        J = MotionRates(system.kinematics(moved), system.column_map).J
+        force = np.einsum("lai,la->i", J, W)
+        gravity = system.gravity_force(moved, GRAVITY)
+        return np.concatenate([system.M_u(moved) @ x, gravity, force, (J @ x).ravel()])
 
-    found = np.stack([rates.inertial_force_rates(x), rates.gravity_rates(GRAVITY)], axis=1)
+    found = np.concatenate([
+        rates.inertial_force_rates(x), rates.gravity_rates(GRAVITY),
+        motion.force_rates(W, 0 * motion.J), motion.twist_rates(x).reshape(-1, system.n_v),
+    ])  # fmt: skip
     for k, e in enumerate(np.eye(system.n_v)):
-        expected = rate(lambda t, e=e: forces(t * e))
+        expected = rate(lambda t, e=e: changing(t * e))
         size = np.abs(expected).max(initial=1.0)
-        np.testing.assert_allclose(found[:, :, k], expected, rtol=0, atol=DIFFERENCE * size)
+        np.testing.assert_allclose(found[:, k], expected, rtol=0, atol=DIFFERENCE * size)
+    # By masses both forces are linear, the inertia about the centre staying as it is.
+    turns = motion.J[:, 3:]
+    R = kinematics.R
+    kept = np.einsum("lai,lab,lbj->ij", turns, R @ system.inertias @ R.swapaxes(1, 2), turns)
+    of_masses = [rates.by_masses(rates.moved @ x), rates.by_masses(GRAVITY)] @ system.masses
+    expected = [(system.M_u(q) - kept) @ x, system.gravity_force(q, GRAVITY)]
+    np.testing.assert_allclose(of_masses, expected, rtol=0, atol=1e-12 * np.abs(expected).max())

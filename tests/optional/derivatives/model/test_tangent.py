@@ -1,19 +1,26 @@
 """Derivatives of (+) and (-): small turns and half turns."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from quasistatic_ref.model.body import Body
 from quasistatic_ref.model.coordinates import Joint
+from quasistatic_ref.model.system import System
 from quasistatic_ref.optional.derivatives.model.tangent import (
     adjoint,
+    difference_rates,
     entry_rates,
     half_turns,
     right_jacobian,
+    sum_rates,
 )
-from tests.tolerances import FOUR_ULP, ROUNDING
+from quasistatic_ref.shapes.placed_shape import Sphere
+from quasistatic_ref.step.arrays import Array
+from tests.tolerances import DIFFERENCE, FOUR_ULP, ROUNDING
 
 FLOATING = Joint("box/base", "floating", False, slice(0, 7), slice(0, 6))
 PLANAR = Joint("puck/base", "planar", False, slice(0, 4), slice(0, 3))
@@ -36,6 +43,32 @@ def test_the_series_of_a_turn_is_summed_to_its_last_digits(angle: float) -> None
     turn = np.array([[along, across, 0], [-across, along, 0], [0, 0, 1]])
     found = right_jacobian(adjoint(np.array([0, 0, 0, 0, 0, angle])))
     np.testing.assert_allclose(found, np.kron(np.eye(2), turn), rtol=0, atol=FOUR_ULP)
+
+
+@pytest.mark.parametrize("base", ["floating", "planar"])
+@pytest.mark.parametrize("seed", range(5))
+def test_r30_sums_and_differences_change_as_written(seed: int, base: str) -> None:
+    """By differences of the screws themselves, turns being below pi."""
+    rng = np.random.default_rng(seed)
+    system = System([Body.of_shape("b", Sphere(0.1), 1.0, base=base)])
+    n = system.n_v
+    q, other = (system.integrate(system.neutral(), rng.normal(size=n)) for _ in range(2))
+    x, e = rng.normal(size=(2, n))
+    e *= 1e-6
+    by_q, by_x = sum_rates(system.joints, x)
+    end = system.integrate(q, x)
+    apart = system.difference(q, other)
+    by_start, by_end = difference_rates(system.joints, apart)
+
+    def rate(function: Callable[[Array], Array]) -> Array:
+        return (function(e) - function(-e)) / 2e-6
+
+    moved = rate(lambda t: system.difference(end, system.integrate(system.integrate(q, t), x)))
+    changed = rate(lambda t: system.difference(end, system.integrate(q, x + t)))
+    first = rate(lambda t: system.difference(system.integrate(q, t), other))
+    last = rate(lambda t: system.difference(q, system.integrate(other, t)))
+    rates = np.stack([by_q, by_x, by_start, by_end]) @ (e / 1e-6)
+    np.testing.assert_allclose(rates, [moved, changed, first, last], rtol=0, atol=DIFFERENCE)
 
 
 HALF = [

@@ -6,7 +6,9 @@ import pytest
 from quasistatic_ref.errors import StepNotSolved
 from quasistatic_ref.optional.derivatives.step import barrier
 from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
+from quasistatic_ref.step.standard_form import standard_form
 from tests.helpers import changed, point_on_floor, random_step
+from tests.oracles.differences import rate
 from tests.tolerances import ACTIVE_SET, CLOSED_FORM
 
 H_OF_POINT = 0.01
@@ -62,3 +64,37 @@ def test_rows_that_are_far_push_as_little_as_kappa_says(rng):
     step = random_step(rng)
     found = barrier_step(step.replace(contacts=changed(step.contacts, phi=[1.0, 2.0, 3.0])), 1e-30)
     np.testing.assert_allclose(found.lam, 1e-30 / found.slack, rtol=CLOSED_FORM)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_r36_random_smoothed_steps_change_as_written(seed):
+    """(H + A'SA) dx = d(g - Hx) + dA'lam - A'S (dA x - db), by forces, gaps and stiffness."""
+    rng = np.random.default_rng(seed)
+    step = random_step(rng)
+    step = step.replace(contacts=changed(step.contacts, phi=rng.uniform(1e-3, 1e-2, 3)))
+    kappa = 10 ** rng.uniform(-7, -4)
+    found = barrier_step(step, kappa)
+    H, g, A, b = standard_form(step)
+    x = found.x
+    np.testing.assert_allclose(found.lam * (A @ x - b), kappa, rtol=CLOSED_FORM)
+    balance = H @ x - g - A.T @ found.lam
+    assert np.abs(balance).max() < 1e-12 * (np.abs(H) @ np.abs(x) + np.abs(g)).max()
+    tau_u, phi, mu_v, K = (rng.normal(size=n) for n in (step.n_u, 3, 3, step.n_a))
+
+    def moved(t):
+        c = step.contacts
+        contacts = changed(c, phi=c.phi + t * phi, mu_v=c.mu_v + t * mu_v)
+        data = {"tau_u": step.tau_u + t * tau_u, "K_q": step.K_q + t * np.diag(K)}
+        return step.replace(contacts=contacts, **data)
+
+    little = 1e-6
+    ahead, behind = (moved(t) for t in (little, -little))
+    dH, dg, dA, db = (
+        (u - v) / (2 * little)
+        for u, v in zip(standard_form(ahead), standard_form(behind), strict=True)
+    )
+    S = np.diag(found.lam / found.slack)
+    right = dg - dH @ x + dA.T @ found.lam - A.T @ S @ (dA @ x - db)
+    dx = np.linalg.solve(H + A.T @ S @ A, right)
+    expected = rate(lambda t: barrier_step(moved(t), kappa).x, little)
+    np.testing.assert_allclose(dx, expected, rtol=0, atol=1e-6 * np.abs(expected).max())
