@@ -4,7 +4,7 @@ Of two convex solids it is the pair's, the direction n of the largest gap s(n): 
 that faces n has this face's normal, and a corner on the edge or vertex that is farthest along n
 has n. A cloud need not be convex: its points have their own faces, and of faces that are as near
 within rounding the one along which the whole cloud is farthest out. docs/conventions.md states the
-rule, (R37) says why no other candidate of a pair can bear.
+rule, (R37) says why bodies that touch bear along no other normal.
 """
 
 from typing import NamedTuple

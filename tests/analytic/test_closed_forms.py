@@ -23,10 +23,12 @@ from quasistatic_ref.lab.scenes.rigid import (
     rigid_step,
     sphere_step,
 )
+from quasistatic_ref.shapes.placed_shape import Box
 from quasistatic_ref.step.data import StepData
 from quasistatic_ref.step.friction import friction_rows
 from quasistatic_ref.step.standard_form import standard_form
 from quasistatic_ref.tolerances import CLOSED_FORM
+from tests.contact.still import found_for, placed, standing
 from tests.oracles.random_steps import mixed_step
 
 G = 9.81
@@ -403,6 +405,14 @@ def test_r37_contacts_of_convex_bodies_share_a_normal(rng, both):
             np.testing.assert_allclose(met, 0.0, atol=1e-7)
         # No point is deeper than the pair is along its normal.
         assert m @ p - (A @ m).max() >= (B @ m).min() - (A @ m).max()
+
+
+def test_bodies_that_are_apart_may_come_to_touch_along_another_normal():
+    """A box that moves from diagonally above an edge of another onto its top, without a turn."""
+    large, small = (placed(Box(np.full(3, half)), link) for half, link in ((0.1, 1), (0.01, 2)))
+    for xyz, n in (([0.12, 0, 0.12], [np.sqrt(0.5), 0, np.sqrt(0.5)]), ([0, 0, 0.11], [0, 0, 1])):
+        where = standing((np.eye(3), np.zeros(3)), (np.eye(3), np.array(xyz)))
+        near(found_for(large, small, where).n, [n], 1.0)
 
 
 def test_r19_the_gap_of_a_loaded_contact(rng, both):

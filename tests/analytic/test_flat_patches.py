@@ -83,7 +83,7 @@ def test_points_that_are_not_opposite_hold_less_than_the_bound(name, rng):
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_any_patch_holds_what_statics_allows_and_never_more_than_the_bound(seed):
+def test_r16_any_patch_holds_what_statics_allows_and_never_more_than_the_bound(seed):
     """Random points around the centre of mass, with random tangents."""
     rng = np.random.default_rng(seed)
     points = rng.normal(size=(rng.integers(3, 8), 2)) * 0.03

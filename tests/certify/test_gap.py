@@ -72,7 +72,7 @@ def optimum(step):
 
 
 @pytest.mark.parametrize("seed", sorted({*range(25)} - INFEASIBLE))
-def test_a_gap_bounds_the_error_of_any_displacement(seed):
+def test_r47_a_gap_bounds_the_error_of_any_displacement(seed):
     """(R47): ||x - x*||_H^2 <= 2 (gap(x, lam) + lam*'v), where v covers what x violates.
 
     The two sides are 2 gap(x*, lam) + 2 lam*'(A x - b + v) apart.

@@ -1,7 +1,7 @@
-"""A sample of validation/make/derivatives.py."""
+"""A sample of validation/make/derivatives.py: random scenes, by all that a step is made of."""
 
 from validation.make.derivatives import challenged
 
 
-def test_the_package_s_derivatives_pass_a_few_new_cases():
+def test_r35_the_package_s_derivatives_pass_a_few_new_cases():
     assert challenged(6).verdicts == {("derivative", "passed"): 6}

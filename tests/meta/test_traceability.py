@@ -1,6 +1,7 @@
-"""The equations cited in the code are those labelled in the docs and those covered by tests.
+"""Equations and results that code and docs cite have one definition and a test.
 
-They are the paper's, 1 to 13; the tests are in tests/equations.
+The equations are the paper's, 1 to 13, with tests in tests/equations. Our own results are (R1),
+(R2), ...; that of (R7) by random instances is called test_r7_...
 """
 
 import ast
@@ -14,6 +15,12 @@ PAPER = set(range(1, 14))
 NUMBER = r"(?:\(|:eq:`eq-)(\d+)[)`]"
 LABEL = re.compile(r"^\$\$.*\$\$ \(eq-(\d+)\)$", re.MULTILINE)
 CITATION = re.compile(rf"\bEqs?\.\s+{NUMBER}(?:(?:-|,\s+and\s+|,\s+|\s+and\s+){NUMBER})*")
+RESULT = re.compile(r"\(R(\d+)\)")
+DEFINED = re.compile(r"\*\*\(R(\d+)\)")
+RANDOM = re.compile(r"^def (test(?:_r\d+)+)_\w+\(.*?(?=^def |^@|\Z)", re.MULTILINE | re.DOTALL)
+"""A test of a result, to the next function."""
+ELSEWHERE = {42, 43}
+"""Results without such a test yet."""
 UNDER_TEST = re.compile(r"Under test: ([\w.]+)\.(\w+)\.")
 
 
@@ -52,3 +59,24 @@ def test_under_each_equation_stand_its_code_and_its_test():
         assert f"quasistatic_ref/{module.replace('.', '/')}.py" in shown, number
         assert re.search(rf":pyobject: {name}\b", shown), number
         assert f"`tests/equations/{path.name}`" in shown, number
+
+
+def test_every_result_is_derived_once_and_cited_ones_are():
+    pages = [path.read_text("utf-8") for path in (ROOT / "docs").rglob("*.md")]
+    code = [
+        path.read_text("utf-8") for path in (*PACKAGE.rglob("*.py"), *ROOT.glob("tests/**/*.py"))
+    ]
+    numbers = sorted(int(n) for page in pages for n in DEFINED.findall(page))
+    assert numbers == list(range(1, max(numbers) + 1))
+    assert {int(n) for text in (*pages, *code) for n in RESULT.findall(text)} == set(numbers)
+
+
+def test_every_result_has_a_test_by_random_instances():
+    tested = set()
+    for path in sorted((ROOT / "tests").rglob("test_*.py")):
+        for found in RANDOM.finditer(path.read_text("utf-8")):
+            assert re.search(r"\b(rng|seed|challenged)\b", found.group()), (path, found.group(1))
+            tested |= {int(n) for n in re.findall(r"_r(\d+)", found.group(1))}
+    pages = (path.read_text("utf-8") for path in (ROOT / "docs").rglob("*.md"))
+    results = {int(n) for page in pages for n in DEFINED.findall(page)}
+    assert tested | ELSEWHERE == results

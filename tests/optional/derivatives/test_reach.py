@@ -115,7 +115,7 @@ PAIRS = [case.id.partition("/")[2] for case in cases("derivative") if "/pair/" i
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_the_rows_that_are_named_change_where_a_random_force_has_grown_so_far(seed):
+def test_r41_the_rows_that_are_named_change_where_a_random_force_has_grown_so_far(seed):
     """Of a block on its corners, and of a pair of the vectors: steps linear piece by piece."""
     rng = np.random.default_rng(seed)
     block = free(BOX, (0, 0, 0.05), (FLOOR, (0, 0, 0)), k=4, mu=(0.4, 0.01))

@@ -111,7 +111,7 @@ def said(step, key):
     return {"h": "h", "K_q": f"K_q[{i}, {i}]"}.get(name, f"{name}[{i}]")
 
 
-def test_derivatives_agree_with_central_differences_on_50_random_steps():
+def test_r25_derivatives_agree_with_central_differences_on_50_random_steps():
     compared = refused = 0
     for seed in range(50):
         rng = np.random.default_rng(seed)
