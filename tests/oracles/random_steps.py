@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from quasistatic_ref.lab.scenes.at_random import random_frames, spread_matrix
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.grasps import grasp_step
-from quasistatic_ref.step.data import StepData
+from quasistatic_ref.step.data import Extra, StepData
 
 
 def any_step(
@@ -75,3 +77,44 @@ def mixed_step(seed: int) -> StepData:
     n_u = int(rng.integers(0, 7))
     n_u += n_a + n_u == 0
     return any_step(rng, n_a, n_u, int(rng.integers(0, 8)), rng.choice([1.0, 1e4, 1e9]))
+
+
+def equal_groups(rng: np.random.Generator) -> StepData:
+    """Copies of one body with contacts, each with its own gaps, friction, loads, rows and names.
+
+    H and the numbers of contacts are equal, so that `fast` shares what it keeps of the groups. Some
+    copies have no gap at all: loads that press them onto their contacts, or no load, make ties.
+
+    Parameters
+    ----------
+    rng : numpy.random.Generator
+
+    Returns
+    -------
+    StepData
+        Infeasible in some cases.
+    """
+    copies = int(rng.integers(2, 5))
+    of_body = any_step(rng, 0, int(rng.integers(1, 4)), int(rng.integers(0, 4)))
+    contacts = of_body.contacts
+    n = of_body.n_v
+    n_c = contacts.n_c
+    place = np.eye(copies)
+    phi = rng.choice([0.0, 1e-4, -1e-5], (copies, n_c)) * rng.choice([0.0, 1.0], (copies, 1))
+    mu = rng.choice([0.0, 0.3, 0.5], (2, copies * n_c))
+    frames = np.stack([contacts.n, contacts.d1, contacts.d2], axis=1)
+    J = np.einsum("bk,ciy->bciky", place, contacts.J).reshape(copies * n_c, 4, copies * n)
+    touching = contacts_of(
+        phi.ravel(), np.tile(frames, (copies, 1, 1)), J, mu[0], 0.02 * mu[1],
+        np.tile(contacts.rows, copies),
+    )  # fmt: skip
+    touching = replace(touching, name=tuple(f"{rng.integers(99)}/{j}" for j in range(touching.n_c)))
+    own = rng.integers(0, 3, copies)
+    A = np.vstack([np.kron(place[b], rng.integers(-1, 2, (own[b], n))) for b in range(copies)])
+    names = tuple(f"own {i}" for i in range(len(A)))
+    return StepData(
+        h=of_body.h, K_q=np.zeros((0, 0)), M_u=np.kron(place, of_body.M_u), tau_a=np.zeros(0),
+        tau_u=rng.choice([0.0, -1.0], copies * n) * rng.random(copies * n),
+        delta_q_bar_a=np.zeros(0), contacts=touching,
+        extra=Extra(names, A, rng.choice([0.0, -1e-4, 1e-5], len(A))),
+    )  # fmt: skip

@@ -67,7 +67,7 @@ class Kept:
         self.hessian: BallHessian | None = None
         self.hessian_in_both_units: HessianInBothUnits | None = None
         self._alone: Any = None
-        self._of_alone: HessianInBothUnits | None = None
+        self._of_alone: tuple[HessianInBothUnits, str, bytes, int] | None = None
 
     def hessian_of(self, step: StepData) -> BallHessian:
         """H of a step in balls: the one that is kept, if it is the same.
@@ -92,8 +92,10 @@ class Kept:
         in_c = compiled("certificate")
         if in_c is None:
             return None
-        if self._of_alone is not both.hessian:
-            self._of_alone = both.hessian
+        step = both.si_step
+        of = both.hessian, step.cone, step.counts.tobytes(), len(step.extra.names)
+        if self._of_alone != of:
+            self._of_alone = of
             self._alone = in_c.undivided(both)
         self._alone.optimum(both, lam, slack)
         return self._alone.proofs[0]
@@ -358,7 +360,7 @@ def _coupling(step: StepData) -> Coupling:
         moving = J.any(axis=1).tobytes()
     A = step.extra.A
     own = (A != 0).tobytes() if A.size else b""
-    return [step.h, step.K_q, vars(step)["M_u"], moving, own, step.row_layout.counts]
+    return [step.h, step.cone, step.K_q, vars(step)["M_u"], moving, own, step.row_layout.counts]
 
 
 def _same(one: list[Any], two: list[Any]) -> bool:
@@ -375,7 +377,7 @@ def _parts(step: StepData, near: Mask | None, before: list[KeptGroup]) -> list[K
     if len(found) == 1 and near is None:
         kept = before[0].kept if len(before) == 1 else Kept()
         return [KeptGroup(found[0], None, kept)]
-    known = {_key(part.constant): part for part in before if part.constant is not None}
+    known = {_key(part.constant, part.group): part for part in before if part.constant is not None}
     parts = []
     for group in found:
         a, u = split(step, group)
@@ -383,11 +385,13 @@ def _parts(step: StepData, near: Mask | None, before: list[KeptGroup]) -> list[K
         M_u = step.inertia(u)
         rows = step.contacts.rows[group.contacts]
         constant = constants(step.h, K_q, len(a), M_u, rows, step.cone)
-        alike = known.setdefault(_key(constant), KeptGroup(group, constant, Kept()))
+        alike = known.setdefault(_key(constant, group), KeptGroup(group, constant, Kept()))
         parts.append(KeptGroup(group, alike.constant, alike.kept))
     return parts
 
 
-def _key(constant: Constants) -> tuple[Any, ...]:
+def _key(constant: Constants, group: Group) -> tuple[Any, ...]:
+    """All that shapes what is kept for a group: its constants and its number of rows."""
     numbers = constant.K_q.tobytes(), constant.M_u.tobytes(), constant.row_layout.counts.tobytes()
-    return constant.h, constant.cone, len(constant.K_q), numbers
+    sizes = len(constant.K_q), len(group.extra_rows)
+    return constant.h, constant.cone, *sizes, *numbers

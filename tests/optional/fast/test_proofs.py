@@ -4,21 +4,27 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from quasistatic_ref.certify.exact import form_optimum, step_optimum
 from quasistatic_ref.certify.rational import exact_form
 from quasistatic_ref.errors import StepIllPosed, StepInfeasible, StepNotSolved
+from quasistatic_ref.formats.plain import bits
 from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.piles import SIDE, pile
 from quasistatic_ref.lab.scenes.rigid import free_step
 from quasistatic_ref.optional.fast import proofs
+from quasistatic_ref.optional.fast.compiled.structure import Structure
 from quasistatic_ref.optional.large.blocks import Blocks
 from quasistatic_ref.optional.large.sparse_contacts import SparseContacts
+from quasistatic_ref.solve.backends import NONE
 from quasistatic_ref.solve.solve import solve_step
 from quasistatic_ref.solve.solver import solver_for
+from quasistatic_ref.step.data import Extra
 from quasistatic_ref.tolerances import ACCURACY
 from tests.helpers import changed
-from tests.oracles.random_steps import mixed_step
+from tests.oracles.random_steps import equal_groups, mixed_step
 from validation.make.grouped_proofs import unlike
 
 
@@ -71,6 +77,57 @@ def test_groups_are_kept_while_h_and_what_couples_them_stay():
         before = solver.proofs.parts
         solve_step(other, solver)
         assert solver.proofs.parts is before
+
+
+def numbered(counts, rng):
+    """Equal free coordinates of which coordinate i has counts[i] rows of a user's own."""
+    n = len(counts)
+    A = np.repeat(np.eye(n), counts, axis=0)
+    own = Extra(tuple(f"own {i}" for i in range(len(A))), A, rng.choice([-0.5, 0.25, 1.0], len(A)))
+    nothing = contacts_of(np.zeros(0), np.zeros((0, 3, 3)), np.zeros((0, 4, n)), 0.5)
+    return free_step(np.eye(n), np.ones(n), nothing, 0.01).replace(extra=own)
+
+
+@pytest.mark.parametrize("counts", [(1, 2), (2, 1), (0, 1), (1, 1, 2), (0, 2, 1), (1, 0, 1, 2)])
+def test_equal_groups_have_any_numbers_of_own_rows(counts):
+    """A smaller number than that of the group before must not broadcast either."""
+    step = numbered(counts, np.random.default_rng(1))
+    solver = solver_for(step, "daqp", fast=True)
+    assert bits(solve_step(step, solver).delta_q) == bits(solve_step(step, NONE).delta_q)
+    kept = {}
+    for part in solver.proofs.parts:
+        kept.setdefault(id(part.kept), set()).add(len(part.group.extra_rows))
+    assert all(len(numbers) == 1 for numbers in kept.values())
+
+
+@settings(max_examples=60)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_equal_groups_that_differ_in_all_else_have_the_exact_optimum(seed):
+    """One solver solves three steps of one kind after the other, as in a run."""
+    rng = np.random.default_rng(seed)
+    step = equal_groups(rng)
+    solver = solver_for(step, "daqp", fast=True)
+    for factor in (1.0, 0.5, -1.0):
+        step = step.replace(tau_u=factor * step.tau_u)
+        plain = outcome(step, NONE)
+        assert outcome(step, solver) == plain
+
+
+def outcome(step, solver):
+    """Of a step that is solved, what its optimum determines; of another one, why it is refused."""
+    try:
+        found = solve_step(step, solver)
+    except (StepInfeasible, StepIllPosed) as refused:
+        return type(refused)
+    optimum = found.certificate
+    return bits((found.delta_q, found.net_impulse)), optimum.multipliers_unique
+
+
+def test_what_is_kept_for_a_step_refuses_numbers_of_another_shape():
+    kept = Structure("groups.c", "Step")
+    kept.put({"b": np.zeros(2)})
+    with pytest.raises(ValueError, match=r"^b has shape \(1,\) in place of \(2,\)$"):
+        kept.fill("b", np.ones(1))
 
 
 def test_one_solver_is_given_contacts_in_blocks_of_other_bodies():

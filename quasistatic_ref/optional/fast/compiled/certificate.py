@@ -216,19 +216,16 @@ class Prover:
         step = both.si_step
         contacts = step.contacts
         form = both.si_form
+        for name, value in {
+            "delta_q_bar_a": step.delta_q_bar_a, "phi": contacts.phi, "J": contacts.J,
+            "g": form.g, "A": form.A, "b": form.b, "pressure": lam, "gap": slack,
+        }.items():  # fmt: skip
+            s.fill(name, value)
         s["tau"][: step.n_a] = step.tau_a
         s["tau"][step.n_a :] = step.tau_u
-        s["delta_q_bar_a"][:] = step.delta_q_bar_a
-        s["phi"][:] = contacts.phi
-        s["J"][:] = contacts.J
         s["mu"][:, 1:] = contacts.mu
         for i, axes in enumerate((contacts.n, contacts.d1, contacts.d2)):
             s["frame"][:, i, :3] = axes
-        s["g"][:] = form.g
-        s["A"][:] = form.A
-        s["b"][:] = form.b
-        s["pressure"][:] = lam
-        s["gap"][:] = slack
         idle = self._prove(s.address)
         for proof, code in zip(self.proofs, s["code"].tolist(), strict=True):
             if proof is not None:

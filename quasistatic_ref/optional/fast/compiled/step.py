@@ -162,7 +162,7 @@ class CompiledStep:
             return
         points = simulator.closest_points(self.poses.kinematics())
         for name in WRITTEN:
-            scene[name][:] = getattr(points, name)
+            scene.fill(name, getattr(points, name))
 
     def step_data(
         self, simulator: FastSimulator, q: Array, q_bar_a: Array, force: Array | float

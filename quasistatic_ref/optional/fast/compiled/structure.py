@@ -36,6 +36,13 @@ class Structure:
         """One of its integers."""
         return int(getattr(self._fields, name))
 
+    def fill(self, name: str, value: NDArray[Any]) -> None:
+        """Copy numbers into one of its arrays, which must have their shape: nothing broadcasts."""
+        array = self._arrays[name]
+        if array.shape != value.shape:
+            raise ValueError(f"{name} has shape {value.shape} in place of {array.shape}")
+        array[...] = value
+
     def put(self, values: Mapping[str, Any]) -> None:
         """Set some fields: integers, and arrays of float64 or int64, copied if not contiguous."""
         for name, value in values.items():
