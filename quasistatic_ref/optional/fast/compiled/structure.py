@@ -37,7 +37,19 @@ class Structure:
         return int(getattr(self._fields, name))
 
     def fill(self, name: str, value: NDArray[Any]) -> None:
-        """Copy numbers into one of its arrays, which must have their shape: nothing broadcasts."""
+        """Copy numbers into one of its arrays: nothing broadcasts.
+
+        Parameters
+        ----------
+        name : str
+        value : ndarray
+            Of the array's shape.
+
+        Raises
+        ------
+        ValueError
+            If it has another one.
+        """
         array = self._arrays[name]
         if array.shape != value.shape:
             raise ValueError(f"{name} has shape {value.shape} in place of {array.shape}")
