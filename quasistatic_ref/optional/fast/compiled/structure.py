@@ -43,7 +43,7 @@ class Structure:
         ----------
         name : str
         value : ndarray
-            Of the array's shape.
+            Of the array's shape [in its unit].
 
         Raises
         ------
