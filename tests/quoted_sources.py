@@ -8,6 +8,7 @@ import math
 import re
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 from scipy.integrate import quad
@@ -16,6 +17,8 @@ from quasistatic_ref import tolerances
 from quasistatic_ref.cli.measures import link_motion
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.registry import BY_NAME
+from quasistatic_ref.lab.clouds import mug
+from quasistatic_ref.lab.clouds import rows as clouds_table
 from quasistatic_ref.lab.clouds.rows import rows as cloud_rows
 from quasistatic_ref.lab.examples import grasp_against_mu_omega
 from quasistatic_ref.lab.grasp import CASES, TOP, grasp_report
@@ -32,6 +35,7 @@ from quasistatic_ref.tolerances import ILL_POSED, SLOW, UNSEEN
 from tests.analytic.test_flat_patches import patches  # noqa: F401 a source
 from tests.lab.study.test_known_issues import highs_solved
 from validation.make.challenges import ANSWERS
+from validation.programs.engines.second_order_page import chosen as second_order
 
 ROOT = Path(__file__).parents[1]
 RESULTS = ROOT / "validation" / "results"
@@ -148,10 +152,12 @@ def grasp():
 def drag():
     """Halfway through the lift [N], and its shares [%]; the run's largest share."""
     _, run = run_of("with torsion")
+    fingers = run["wrench"][:, run["rows"] == 6, 2].sum(axis=1)
     force = MASS * SPEED / H
     friction = run["mu_v"] @ run["wrench"][150, :, 2]
     return {"force": force, "weight": MASS * G, "of weight": 100 * force / (MASS * G),
             "of friction": 100 * force / friction,
+            "touched": run["t"][np.flatnonzero(fingers)[0]],
             "largest share": run.header["largest_drag_share"]}  # fmt: skip
 
 
@@ -338,6 +344,100 @@ def clouds():
     angles = [row["rotation"] for row in whole if row["mu_omega"] == 0.0]
     return {"held": len(turned), "whole": len(angles), "least": min(angles), "most": max(angles),
             "whole and held": sum(row in whole for row in turned)}  # fmt: skip
+
+
+def turns_of_clouds():
+    """What the page says of rotations at 100,000 points without torsion, and of the prediction."""
+    dense = [row for row in cloud_rows() if row["count"] == 100_000 and row["mu_omega"] == 0.0]
+    whole = np.sort([row["rotation"] for row in dense if row["sampling"] != "scan"])
+    scans = [row["rotation"] for row in dense if row["sampling"] == "scan"]
+    grips = [row for row in cloud_rows() if clouds_table.with_torsion(row)]
+    margins = np.array([clouds_table.margin(row) for row in grips])
+    held = np.array([clouds_table.held(row) for row in grips])
+    soft = np.array([(row["change"], row["value"]) == ("arm", 0.1) for row in grips])
+    fails = ~held & (margins >= 1)
+    return {
+        "many": (whole > 55).sum(), "whole": len(whole), "least": whole[0],
+        "low": np.quantile(whole, 0.1), "high": np.quantile(whole, 0.9),
+        "scans": [min(scans), max(scans)], "grips": len(grips),
+        "right": ((margins >= 1) == held).sum(), "fail": fails.sum(),
+        "soft": (fails & soft).sum(), "firm": (~held & (margins >= 1.5)).sum(),
+        "load": MASS * (G + SPEED / H), "sagitta": 1e6 * mug.rise(20),
+        "points": len(mug.handle_cloud(2e-3, np.random.default_rng(0))),
+    }  # fmt: skip
+
+
+class Compared(dict):
+    """Runs against second-order simulators, by scene, speed [mm/s], engine and step [ms].
+
+    In mm, mm/s, degrees, and ms for a simulated second; "largest": the largest step [ms] with a
+    verdict, of the best setting.
+    """
+
+    OURS = ("quasistatic_ref", "uncertified")
+    ENGINES = MappingProxyType({
+        "ours": OURS, "ellipsoid": (OURS[0], "ellipsoid, uncertified"),
+        "sap": ("drake", "point, sap"),
+        "lagged": ("drake", "point, lagged, stiction tolerance 0.01 mm/s"),
+        "impratio": ("mujoco", "implicitfast, elliptic, impratio 100"),
+        "MuJoCo": ("mujoco", "implicitfast, elliptic, impratio 100, solref 5 ms"),
+    })  # fmt: skip
+
+    def __missing__(self, name):
+        scene, speed, engine, h = name.split(", ")
+        engine, setting = self.ENGINES[engine]
+        of = {"scene": scene, "speed": float(speed) / 1e3, "engine": engine}
+        if h in ("holds", "right", "least"):
+            own = {} if engine == "mujoco" else {"setting": setting}
+            every = second_order(**of, **own)
+            verdict = "holds" if h == "least" else h
+            steps = [1e3 * row["h"] for row in every if row[verdict]]
+            return min(steps) if h == "least" else max(steps)
+        (row,) = second_order(**of, setting=setting, h=float(h) / 1e3)
+        return {key: row[key] for key in ("turn", "cost")} | {
+            key: 1e3 * row[key] for key in ("way", "end_way", "depth", "creep")
+        }
+
+
+def compared():
+    return Compared()
+
+
+def lifting():
+    """The least step by (R46), h = m v / (4 N - m g) [ms], by the speed [mm/s]."""
+    return {v: MASS * v / (4 - MASS * G) for v in (10, 30, 100, 300)}
+
+
+def sweep():
+    """Largest rotations of the sweep bunny_torsion [deg], and the deepest penetration [mm]."""
+    tables = {}
+    for heading in ("mu_omega and h", "stiffness of the grip", "closest points", "cone"):
+        rows = list(table("../studies/bunny_torsion/report.md", heading))
+        tables[heading] = [{plain(column): cell for column, cell in row.items()} for row in rows]
+    angle = "largest rotation, deg"
+
+    def angles(heading, keeps):
+        return [float(row[angle]) for row in tables[heading] if keeps(row)]
+
+    cones = angles("cone", lambda row: True)
+    points = tables["closest points"]
+    return {
+        "none": angles("mu_omega and h", lambda row: float(row["mu_omega, m"]) == 0),
+        "1 mm": angles("mu_omega and h", lambda row: float(row["mu_omega, m"]) == 0.001),
+        "more": max(angles("mu_omega and h", lambda row: float(row["mu_omega, m"]) >= 0.002)),
+        "soft": min(angles("stiffness of the grip", lambda row: float(row["K_width, N/m"]) <= 500)),
+        "many points": angles("closest points", lambda row: float(row["k, -"]) >= 5),
+        "deepest": max(float(row["deepest penetration, um"]) for row in points) / 1e3,
+        "cones": max(cones) - min(cones),
+    }
+
+
+def dials():
+    """Median digits of contact-qp-2 with default settings, in the families that its page names."""
+    families = table("../studies/default/report.md", "By problem family")
+    piqp = [float(row["native:piqp"]) for row in families]
+    daqp = {name: families[name]["cvxpy:daqp"] for name in ("near_copies", "copies")}
+    return daqp | {"least": min(piqp), "most": max(piqp)}
 
 
 # -- Measured pushes ------------------------------------------------------------------------------
