@@ -88,18 +88,26 @@ def main(arguments: Sequence[str] | None = None) -> int:
     int
         Exit status.
     """
-    given = sys.argv[1:] if arguments is None else list(arguments)
+    return status(parsed(sys.argv[1:] if arguments is None else list(arguments)))
+
+
+def parsed(arguments: list[str]) -> argparse.Namespace:
+    """The options of the command that is named, whose module is imported for them."""
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed, as by >&-: what is printed goes nowhere
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 open until the process ends
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # what a terminal cannot show is escaped
             stream.reconfigure(errors="backslashreplace")
-    named = next((argument for argument in given if not argument.startswith("-")), None)
+    named = next((argument for argument in arguments if not argument.startswith("-")), None)
     # Only the command that is used declares its options: their modules may be heavy.
-    options = command_parser([named]).parse_args(given)
+    return command_parser([named]).parse_args(arguments)
+
+
+def status(options: argparse.Namespace) -> int:
+    """Run the command; its exit status."""
     try:
-        return _status(options)
+        return _run(options)
     except InputError as error:
         return _failed(error, 2)
     except QuasistaticError as error:
@@ -172,11 +180,11 @@ def _module(command: str) -> Any:
     return import_module(f"{LAB if command in LABS else CORE}.{command}")
 
 
-def _status(options: argparse.Namespace) -> int:
+def _run(options: argparse.Namespace) -> int:
     many = getattr(options, "sweeps", None)
-    status = int(_module(SWEEP if many else options.command).run(options))
+    ended = int(_module(SWEEP if many else options.command).run(options))
     sys.stdout.flush()  # here, where a full device can still be reported
-    return status
+    return ended
 
 
 def _discard_output() -> None:
@@ -189,7 +197,3 @@ def _discard_output() -> None:
 def _failed(error: object, status: int) -> int:
     print(f"quasistatic-ref: {error}", file=sys.stderr)
     return status
-
-
-if __name__ == "__main__":
-    sys.exit(main())

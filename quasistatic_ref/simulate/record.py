@@ -45,6 +45,9 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
     InputError
     """
     _check_present(arrays, ("t", "q", "delta_q", *CONSTANT))
+    for name, array in arrays.items():
+        if array.ndim == 0:
+            raise InputError("must have an entry a step, not a single number", field=name)
     steps = top.integer("steps", least=0)
     record = top.text("record", choices=RECORDS)
     full = record == "full"
@@ -81,7 +84,7 @@ def check_arrays(top: TableReader, arrays: Mapping[str, NDArray[Any]]) -> None:
         if array.dtype.kind == "f" and not np.isfinite(numbers).all():
             raise InputError("must contain finite numbers only", field=name)
     for name, length in {**dict.fromkeys(needed, steps), "q": steps + 1}.items():
-        if arrays[name].ndim == 0 or len(arrays[name]) != length:
+        if len(arrays[name]) != length:
             problem = f"must have {length} entries, as the header says"
             raise InputError(problem, field=name, value=arrays[name].shape)
     contacts = top.sequence("contacts")

@@ -243,7 +243,11 @@ class BackendSolver(Solver):
         if self.unsafe and isinstance(both, DenseStepInBothUnits) and not both.row_ratio <= ALIKE:
             status = f"not called: its rows differ by {both.row_ratio:.0e} in natural units"
             raise StepNotSolved(self.name, status, both.si_step, accuracy)
-        out_of_reach = self.write(both)
+        try:
+            out_of_reach = self.write(both)
+        except ValueError as error:  # of CVXPY's own checks, which may overflow
+            status = f"not called: {error}"
+            raise StepNotSolved(self.name, status, both.si_step, accuracy) from error
         cause: Exception | None = None
         for option_set in self.option_sets(accuracy):
             tried = option_set.accuracy

@@ -90,6 +90,25 @@ def test_help_does_not_pay_for_heavy_imports(arguments):
     assert done.stdout
 
 
+@pytest.mark.parametrize("package", ["numpy", "datetime", "quasistatic_ref.cli.verify"])
+def test_ctrl_c_while_packages_are_imported_is_one_sentence(package):
+    """NumPy's C code imports datetime, and makes an ImportError of any exception in it."""
+    code = (
+        "import os, signal, sys\n"
+        "class Interrupter:\n"
+        "    def find_spec(self, name, *_):\n"
+        f"        if name == {package!r}:\n"
+        "            os.kill(os.getpid(), signal.SIGINT)\n"
+        "sys.modules.pop('datetime', None)\n"
+        "sys.meta_path.insert(0, Interrupter())\n"
+        "import runpy\n"
+        "sys.argv = ['quasistatic-ref', 'verify', 'no.json', 'no.json']\n"
+        "runpy.run_module('quasistatic_ref', run_name='__main__')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (130, "quasistatic-ref: interrupted\n")
+
+
 @pytest.mark.parametrize(
     "words",
     [[name] for name in COMMANDS if name not in ("study", "vectors")]

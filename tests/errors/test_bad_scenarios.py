@@ -4,6 +4,7 @@ import pytest
 
 from quasistatic_ref.errors import QuasistaticError
 from quasistatic_ref.scenario.scenario import load_scenario
+from quasistatic_ref.simulate.trajectory import certified
 from tests.errors.scene import SCENE, changed, dotted, numeric_fields, scene_written
 from tests.oracles.records import toml_text
 
@@ -176,6 +177,12 @@ def test_numbers_at_the_ends_of_the_range_run_or_are_refused_in_a_sentence(tmp_p
         except QuasistaticError as error:
             sentence = str(error)
             assert sentence.isprintable()
+
+
+def test_a_time_step_whose_step_no_backend_takes_is_proved_without_one():
+    """1 / h is near the largest float64, and CVXPY's check of K_q in natural units overflows."""
+    run = load_scenario("block_push", ["h=1e-308", "steps=1"]).run(progress=False)
+    assert certified(run) == "1 of 1 steps exact"
 
 
 def test_a_time_step_that_overflows_is_named(tmp_path, refused):

@@ -108,6 +108,9 @@ CAUSES = {
     "an unknown array": (
         lambda run: rewritten(run, {"ph": npy(ZEROS)}), "ph: is unknown; did you mean 'phi'?",
     ),
+    "a position without an axis": (
+        lambda run: rewritten(run, {"q": npy(np.array(1.0))}), "q: must have an entry a step, not",
+    ),
     "NaN in phi": (
         lambda run: rewritten(run, {"phi": npy(np.full((3, 2), np.nan))}), "phi: must contain fin",
     ),

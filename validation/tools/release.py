@@ -18,7 +18,7 @@ from pathlib import Path
 
 from validation.tools.scripts import ROOT, asked
 
-CLI = "quasistatic_ref.cli.main"
+CLI = "quasistatic_ref"
 FIGURES = (
     "grasp cone_surfaces pinch_threshold gradient_of_a_push where_no_gradient_is "
     "what_smoothing_does plan_a_push both_laws solver_digits"

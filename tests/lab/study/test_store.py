@@ -7,6 +7,7 @@ import pytest
 
 from quasistatic_ref.errors import InputError
 from quasistatic_ref.lab.study.store import store as stores
+from quasistatic_ref.lab.study.store.pack import packed
 from quasistatic_ref.lab.study.store.rows import flat, key_of, nested
 from quasistatic_ref.lab.study.store.store import PACKED, STORE, Store, contents, packed_tables
 from tests.lab.study import made_store
@@ -121,6 +122,23 @@ def test_a_run_without_its_measures_is_refused(tmp_path, measures):
     changed(tmp_path / "sweep", f"UPDATE runs SET measures = '{measures}' WHERE outcome = 'done'")
     with pytest.raises(InputError, match="holds what no study has written"):
         contents(tmp_path / "sweep")
+
+
+@pytest.mark.parametrize(
+    "number",
+    ["residuals_gap = 9e999", "seconds_call = 9e999", "residuals_primal = -9e999"],
+)
+def test_an_infinite_number_is_refused(folder, tmp_path, number):
+    """A study writes none in the place of a number that is not finite."""
+    changed(folder, f"UPDATE rows SET {number}")
+    with pytest.raises(InputError, match="written: a number that is not finite"):
+        packed(folder, tmp_path / "out")
+
+
+def test_an_infinite_number_in_json_is_refused(folder):
+    changed(folder, "UPDATE machines SET facts = '{\"cores\": 9e999}'")
+    with pytest.raises(InputError, match="written: a number that is not finite"):
+        contents(folder)
 
 
 @pytest.mark.parametrize("content", [b"", b"[]", bytes(5000), b"SQLite format 3\0" + bytes(90)])

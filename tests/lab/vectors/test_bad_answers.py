@@ -80,6 +80,24 @@ def test_a_case_that_is_missing_unknown_or_answered_twice_is_named(folder):
     assert "twice" in by_layer(check_answers(folder, VECTORS))["rows"].trouble
 
 
+def test_a_name_of_several_lines_is_said_on_one(folder):
+    name = next(one.id for one in cases("qp") if "infeasible" in one.id)
+    answer_file(folder, "qp", {name: {**right_answers("qp")[name], "a\nb": 0}})
+    report = by_layer(check_answers(folder, VECTORS, only=[name]))
+    assert report["qp"].verdicts[0].reason == r"a\nb is no field of a case without solution"
+
+
+def test_contacts_that_differ_in_their_fields_are_a_failure(folder):
+    answers = right_answers("step")
+    name = next(n for n, output in answers.items() if len(output.get("contacts", ())) > 1)
+    first, second, *rest = answers[name]["contacts"]
+    second = {key: value for key, value in second.items() if key != "beta"}
+    contacts = [first, second, *rest]
+    answer_file(folder, "step", {name: {**answers[name], "contacts": contacts}})
+    report = by_layer(check_answers(folder, VECTORS, only=[name]))
+    assert report["step"].verdicts[0].reason == "contacts[1].beta is missing"
+
+
 def test_the_json_report_says_all_of_it(folder, capsys):
     answers = right_answers("rows")
     name = next(name for name, output in answers.items() if output["b"])

@@ -1,6 +1,7 @@
 """A row: what one measurement says about itself; as tables in Python, and as columns of a store."""
 
 import json
+import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -54,14 +55,29 @@ def flat(record: Mapping[str, Any]) -> Row:
 
 
 def nested(columns: Mapping[str, Any]) -> Row:
-    """The record of some columns."""
+    """The record of some columns.
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite: a study writes none in its place.
+    """
     record: Row = {}
     for name, value in columns.items():
+        if isinstance(value, float):
+            _finite(value)
         table, _, inner = name.partition("_")
         if inner in TABLES.get(table, ()):
             record.setdefault(table, {})[inner] = value
         elif name in FLAGS and value is not None:
             record[name] = bool(value)
         else:
-            record[name] = json.loads(value) if name in JSON else value
+            record[name] = json.loads(value, parse_float=_finite) if name in JSON else value
     return record
+
+
+def _finite(number: str | float) -> float:
+    value = float(number)
+    if not math.isfinite(value):
+        raise ValueError("a number that is not finite")
+    return value

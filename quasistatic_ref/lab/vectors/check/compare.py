@@ -98,14 +98,16 @@ def leaves(value: Json, path: str = "") -> Iterator[tuple[str, Any]]:
 
 
 def parts(output: Json) -> dict[str, Json]:
-    """The fields of an output; a list of objects as one field for each of their names.
+    """The fields of an output; a list of objects of the same names as one field for each name.
 
     The contacts of a step become ``contacts.phi``, ``contacts.n``, ...; in the order of ORDER.
     """
     found: dict[str, Json] = {}
     for name, value in output.items():
-        if isinstance(value, list) and value and all(isinstance(v, dict) for v in value):
-            for inner in value[0]:
+        first = value[0] if isinstance(value, list) and value else None
+        names = first.keys() if isinstance(first, dict) else ()
+        if names and all(isinstance(v, dict) and v.keys() == names for v in value):
+            for inner in names:
                 found[f"{name}.{inner}"] = [entry[inner] for entry in value]
         else:
             found[name] = value

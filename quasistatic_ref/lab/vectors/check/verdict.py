@@ -4,6 +4,7 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
+from quasistatic_ref.formats.quoting import one_line
 from quasistatic_ref.lab.vectors.expected import Json
 
 PASSED = "passed"
@@ -94,8 +95,11 @@ class Verdict:
 
 
 def failure(field: str, reason: str, digits: float | None = None) -> Verdict:
-    """A verdict that something is wrong, still without the id of its case."""
-    return Verdict("", FAILED, reason, field, digits)
+    """A verdict that something is wrong, still without the id of its case.
+
+    Names that it repeats are the answer's, and may hold any characters.
+    """
+    return Verdict("", FAILED, one_line(reason), one_line(field), digits)
 
 
 def acceptable(reason: str, digits: float | None = None) -> Verdict:
