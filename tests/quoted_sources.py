@@ -15,6 +15,7 @@ from scipy.integrate import quad
 
 from quasistatic_ref import tolerances
 from quasistatic_ref.cli.measures import link_motion
+from quasistatic_ref.cli.time_step import time_step_record
 from quasistatic_ref.formats.resources import scenario_names
 from quasistatic_ref.lab.claims.registry import BY_NAME
 from quasistatic_ref.lab.clouds import mug
@@ -28,11 +29,14 @@ from quasistatic_ref.lab.scenes.contacts import contacts_of
 from quasistatic_ref.lab.scenes.rigid import free_step, point_step
 from quasistatic_ref.lab.vectors.layers import LAYERS
 from quasistatic_ref.lab.vectors.versions import RELEASE
+from quasistatic_ref.optional.derivatives.step.barrier import barrier_step
 from quasistatic_ref.optional.fast.tracker import ball_tree, tracker_bound
 from quasistatic_ref.optional.fast.tracker import tracker as tracked
+from quasistatic_ref.scenario.scenario import load_scenario
 from quasistatic_ref.step.cones import cone
 from quasistatic_ref.tolerances import ILL_POSED, SLOW, UNSEEN
 from tests.analytic.test_flat_patches import patches  # noqa: F401 a source
+from tests.helpers import error, pinch
 from tests.lab.study.test_known_issues import highs_solved
 from validation.make.challenges import ANSWERS
 from validation.programs.engines.second_order_page import chosen as second_order
@@ -45,6 +49,8 @@ LIFTING = 137
 """The step of the grasp that the exercises take."""
 PAPERS = 90
 """The paper's bound of its average step [us]."""
+WEIGHTS = ("1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-12")
+"""Of barriers [N m s]."""
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 
 
@@ -158,7 +164,8 @@ def drag():
     return {"force": force, "weight": MASS * G, "of weight": 100 * force / (MASS * G),
             "of friction": 100 * force / friction,
             "touched": run["t"][np.flatnonzero(fingers)[0]],
-            "largest share": run.header["largest_drag_share"]}  # fmt: skip
+            "largest share": run.header["largest_drag_share"],
+            "largest, %": 100 * run.header["largest_drag_share"]}  # fmt: skip
 
 
 def demo_lines():
@@ -401,6 +408,20 @@ class Compared(dict):
 
 def compared():
     return Compared()
+
+
+def needed_step():
+    """The time step of the rule of thumb for the grasp [ms]."""
+    return 1e3 * time_step_record(load_scenario("bunny_grasp"))["small_drag_from"]
+
+
+def smoothed():
+    """The error of a smoothed pinch, by the weight [N m s], relative to the free step."""
+    step = pinch(grip=5.0, offset=0.02)
+    hard = exact(step).delta_q
+    errors = {w: error(step, barrier_step(step, float(w)).x, hard) for w in WEIGHTS}
+    digits = zip(errors.values(), (1, 1, 2, 3, 4, 4, 4), strict=True)
+    return " | ".join(f"{e:.{n}e}".replace("e-0", "e-") for e, n in digits)
 
 
 def lifting():
